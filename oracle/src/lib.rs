@@ -1,0 +1,2 @@
+//! The program `mufasa`: answers the records of `spec/5-interfaces.md`, and checks drives with
+//! the model and the implementation side by side.
