@@ -1,1 +1,4 @@
-//! Filled next.
+//! What the model and the implementation have to agree on: the only conversion between their
+//! types, the rule of conformance, and generators that aim at the thresholds.
+
+pub mod conformance;
