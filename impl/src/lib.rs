@@ -1,2 +1,3 @@
 //! placeholder
 #![no_std]
+pub mod configuration;
