@@ -1,3 +1,21 @@
-//! placeholder
+//! MUFASA's five validation stages as specified in `spec/`: no heap, no panic, no clock; plain
+//! IEEE 754 arithmetic with proven error bounds, so that rounding never accepts what the exact
+//! model rejects (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 #![no_std]
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::indexing_slicing,
+    clippy::panic,
+    clippy::arithmetic_side_effects
+)]
+
+pub mod composition;
 pub mod configuration;
+pub mod cycle;
+pub mod parameters;
+pub mod schedule;
+pub mod scratch;
+pub mod verdict;
+pub mod qos;
+pub mod service;
