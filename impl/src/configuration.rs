@@ -95,6 +95,7 @@ impl Groups {
     }
 
     /// The set with `group` added.
+    #[must_use]
     pub const fn with(self, group: Group) -> Self {
         match group {
             Group::Mot => Self { mot: true, ..self },
@@ -103,6 +104,7 @@ impl Groups {
     }
 
     /// The set with `group` taken away.
+    #[must_use]
     pub const fn without(self, group: Group) -> Self {
         match group {
             Group::Mot => Self { mot: false, ..self },
