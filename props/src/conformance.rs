@@ -8,6 +8,9 @@ use mufasa_model::verdict::{FailedStage, InvalidInput, Report, Stage};
 /// invalid local input.
 pub type Answer = Result<Report, InvalidInput>;
 
+/// Where input is invalid: field and index, the normative part of a problem.
+pub type Place = (String, Option<usize>);
+
 /// A breach of conformance. A failed stage of `None` is the verdict safe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Disagreement {
@@ -32,10 +35,10 @@ pub enum Disagreement {
     },
     /// One of the two reports invalid input and the other none, or another field or index.
     WrongInput {
-        /// The exact model's problem.
-        exact: Option<InvalidInput>,
-        /// The implementation's problem.
-        implementation: Option<InvalidInput>,
+        /// The exact model's field and index.
+        exact: Option<Place>,
+        /// The implementation's field and index.
+        implementation: Option<Place>,
     },
     /// The strict model fails later than the exact one, or differs in errors: a fault of the
     /// model, not of the implementation.
@@ -88,8 +91,8 @@ pub fn conforms(
         || place(problem(exact)) != place(problem(implementation))
     {
         return Err(Disagreement::WrongInput {
-            exact: problem(exact).cloned(),
-            implementation: problem(implementation).cloned(),
+            exact: owned(exact),
+            implementation: owned(implementation),
         });
     }
     match (exact, strict, implementation) {
@@ -165,6 +168,11 @@ fn problem(answer: &Answer) -> Option<&InvalidInput> {
 /// Field and index, the part of a problem that is normative.
 fn place(problem: Option<&InvalidInput>) -> Option<(&str, Option<usize>)> {
     problem.map(|problem| (problem.field.as_str(), problem.index))
+}
+
+/// The place for a report.
+fn owned(answer: &Answer) -> Option<Place> {
+    place(problem(answer)).map(|(field, index)| (field.to_owned(), index))
 }
 
 #[cfg(test)]

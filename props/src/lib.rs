@@ -1,4 +1,6 @@
 //! What the model and the implementation have to agree on: the only conversion between their
 //! types, the rule of conformance, and generators that aim at the thresholds.
 
+pub mod bridge;
 pub mod conformance;
+pub mod strategy;

@@ -1,0 +1,217 @@
+//! Cycles from the model's owned types to the implementation's borrowed ones.
+
+use mufasa::cycle as twin;
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa_model::parameters::Parameters;
+
+/// The lists of a cycle in the implementation's types; `borrow` makes the cycle of them.
+#[derive(Clone, Debug)]
+pub struct Owned {
+    profile: twin::Profile,
+    parameters: mufasa::parameters::Parameters,
+    now_ns: i64,
+    configuration: mufasa::configuration::Configuration,
+    ego: twin::Ego,
+    trajectory: Option<(i64, Vec<twin::TrajectoryPoint>)>,
+    tracks: Option<(i64, Vec<twin::Track>)>,
+    detections: Option<(i64, Vec<twin::Detection>)>,
+    lead: Option<twin::Lead>,
+    closed: bool,
+    stations: Vec<twin::Station>,
+    grid: Option<Grid>,
+    previous_tracks: Option<(i64, Vec<twin::Track>)>,
+}
+
+/// A cycle in the implementation's types.
+pub fn to_impl(cycle: &Cycle) -> Owned {
+    let Cycle {
+        profile,
+        parameters,
+        now_ns,
+        configuration,
+        ego,
+        trajectory,
+        tracks,
+        detections,
+        lead,
+        route,
+        grid,
+        previous_tracks,
+    } = cycle;
+    let Route { closed, stations } = route;
+    Owned {
+        profile: profile_to_impl(*profile),
+        parameters: cycle_parameters(parameters),
+        now_ns: *now_ns,
+        configuration: configuration_to_impl(*configuration),
+        ego: ego_to_impl(ego),
+        trajectory: trajectory.as_ref().map(|Trajectory { stamp_ns, points }| {
+            (*stamp_ns, points.iter().map(point_to_impl).collect())
+        }),
+        tracks: tracks.as_ref().map(tracks_to_impl),
+        detections: detections.as_ref().map(|DetectionList { stamp_ns, items }| {
+            (*stamp_ns, items.iter().map(detection_to_impl).collect())
+        }),
+        lead: lead.as_ref().map(lead_to_impl),
+        closed: *closed,
+        stations: stations.iter().map(station_to_impl).collect(),
+        grid: grid.clone(),
+        previous_tracks: previous_tracks.as_ref().map(tracks_to_impl),
+    }
+}
+
+impl Owned {
+    /// The cycle that the implementation takes.
+    pub fn borrow(&self) -> twin::Cycle<'_> {
+        twin::Cycle {
+            profile: self.profile,
+            parameters: self.parameters,
+            now_ns: self.now_ns,
+            configuration: self.configuration,
+            ego: self.ego,
+            trajectory: self
+                .trajectory
+                .as_ref()
+                .map(|(stamp_ns, points)| twin::Trajectory { stamp_ns: *stamp_ns, points }),
+            tracks: self.tracks.as_ref().map(borrow_tracks),
+            detections: self
+                .detections
+                .as_ref()
+                .map(|(stamp_ns, items)| twin::DetectionList { stamp_ns: *stamp_ns, items }),
+            lead: self.lead,
+            route: twin::Route { closed: self.closed, stations: &self.stations },
+            grid: self.grid.as_ref().map(borrow_grid),
+            previous_tracks: self.previous_tracks.as_ref().map(borrow_tracks),
+        }
+    }
+}
+
+/// The parameters of the stages in the implementation's type.
+pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Parameters {
+    let Parameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    } = *parameters;
+    mufasa::parameters::Parameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    }
+}
+
+/// The profile in the implementation's type.
+pub(super) fn profile_to_impl(profile: Profile) -> twin::Profile {
+    match profile {
+        Profile::Paper => twin::Profile::Paper,
+        Profile::Hardened => twin::Profile::Hardened,
+    }
+}
+
+fn configuration_to_impl(configuration: Configuration) -> mufasa::configuration::Configuration {
+    match configuration {
+        Configuration::Local => mufasa::configuration::Configuration::Local,
+        Configuration::MotRemote => mufasa::configuration::Configuration::MotRemote,
+        Configuration::AllRemote => mufasa::configuration::Configuration::AllRemote,
+        Configuration::PlanRemote => mufasa::configuration::Configuration::PlanRemote,
+    }
+}
+
+fn ego_to_impl(ego: &Ego) -> twin::Ego {
+    let Ego { x, y, cos, sin, speed, length, width, center_offset } = *ego;
+    twin::Ego { x, y, cos, sin, speed, length, width, center_offset }
+}
+
+fn point_to_impl(point: &TrajectoryPoint) -> twin::TrajectoryPoint {
+    let TrajectoryPoint { t_ns, x, y, cos, sin } = *point;
+    twin::TrajectoryPoint { t_ns, x, y, cos, sin }
+}
+
+fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
+    let TrackList { stamp_ns, items } = list;
+    (*stamp_ns, items.iter().map(track_to_impl).collect())
+}
+
+fn track_to_impl(track: &Track) -> twin::Track {
+    let Track { id, x, y, cos, sin, vx, vy, length, width } = *track;
+    twin::Track { id, x, y, cos, sin, vx, vy, length, width }
+}
+
+fn detection_to_impl(detection: &Detection) -> twin::Detection {
+    let Detection { x, y, cos, sin, length, width } = *detection;
+    twin::Detection { x, y, cos, sin, length, width }
+}
+
+fn lead_to_impl(lead: &Lead) -> twin::Lead {
+    let Lead { stamp_ns, gap, speed } = *lead;
+    twin::Lead { stamp_ns, gap, speed }
+}
+
+fn station_to_impl(station: &Station) -> twin::Station {
+    let Station { x, y, left, right } = *station;
+    twin::Station { x, y, left, right }
+}
+
+fn borrow_tracks((stamp_ns, items): &(i64, Vec<twin::Track>)) -> twin::TrackList<'_> {
+    twin::TrackList { stamp_ns: *stamp_ns, items }
+}
+
+fn borrow_grid(grid: &Grid) -> twin::Grid<'_> {
+    let Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown } = grid;
+    twin::Grid {
+        stamp_ns: *stamp_ns,
+        x: *x,
+        y: *y,
+        cos: *cos,
+        sin: *sin,
+        resolution: *resolution,
+        width: *width,
+        height: *height,
+        occupied,
+        unknown: unknown.as_deref(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_of_both_crates_are_the_same_doubles() {
+        let model = cycle_parameters(&Parameters::default());
+        let implementation = mufasa::parameters::Parameters::default();
+        assert_eq!(model, implementation);
+        // `==` would let -0.0 pass for 0.0; the text of a double does not.
+        assert_eq!(format!("{model:?}"), format!("{implementation:?}"));
+    }
+}

@@ -1,0 +1,154 @@
+//! A cycle that every stage accepts with room to spare; generators move one thing of it to a
+//! threshold.
+
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPoint};
+use mufasa_model::parameters::Parameters;
+
+use super::draw::Draw;
+
+/// A frame in the world: the road's, the CAV's or an object's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Origin, m.
+    pub x: f64,
+    /// Origin, m.
+    pub y: f64,
+    /// Direction.
+    pub cos: f64,
+    /// Direction.
+    pub sin: f64,
+}
+
+impl Frame {
+    /// The point (a, b) of the frame in the world, m.
+    pub fn at(&self, a: f64, b: f64) -> (f64, f64) {
+        (self.x + a * self.cos - b * self.sin, self.y + a * self.sin + b * self.cos)
+    }
+
+    /// A direction of the frame in the world.
+    pub fn turn(&self, (cos, sin): (f64, f64)) -> (f64, f64) {
+        (cos * self.cos - sin * self.sin, cos * self.sin + sin * self.cos)
+    }
+}
+
+/// A road frame: at the origin, at UTM coordinates, or at the border of the domain; the
+/// direction as in `Draw::direction`.
+pub fn frame(draw: &mut Draw<'_>) -> Frame {
+    const BORDER: f64 = 16_777_216.0;
+    let (x, y) = match draw.below(8) {
+        0..=3 => (0.0, 0.0),
+        4 => (draw.range(-100.0, 100.0), draw.range(-100.0, 100.0)),
+        5 => (573_412.25, 5_362_801.5),
+        6 => (draw.range(5.6e5, 5.8e5), draw.range(5.35e6, 5.37e6)),
+        _ => (BORDER - 300.0, 300.0 - BORDER),
+    };
+    let (cos, sin) = draw.direction();
+    Frame { x, y, cos, sin }
+}
+
+/// A cycle without objects on a straight road in `frame`: a trajectory at constant speed along
+/// the reference path until the CAV could stand, a corridor of half width 3 m.
+pub fn cycle(
+    draw: &mut Draw<'_>,
+    frame: Frame,
+    profile: Profile,
+    configuration: Configuration,
+) -> Cycle {
+    let parameters = parameters(draw);
+    let (length, width) = draw.pick(&[(4.8, 1.9), (4.0, 2.0), (12.0, 2.55), (2.0, 1.0)]);
+    let ego = Ego {
+        x: frame.x,
+        y: frame.y,
+        cos: frame.cos,
+        sin: frame.sin,
+        speed: draw.pick(&[2.0, 0.0, 5.0, 8.0, 0.3, 10.0, 13.9]),
+        length,
+        width,
+        center_offset: draw.pick(&[0.0, 1.4, 1.5, -0.25]),
+    };
+    let now_ns = draw.pick(&[1_000_000_000, 0, -7, i64::MAX - 50_000_000_000, 77_000_000_123]);
+    let trajectory = Some(straight(&ego, frame, now_ns, &parameters));
+    Cycle {
+        profile,
+        parameters,
+        now_ns,
+        configuration,
+        ego,
+        trajectory,
+        tracks: None,
+        detections: None,
+        lead: None,
+        route: road(frame, 3.0),
+        grid: None,
+        previous_tracks: None,
+    }
+}
+
+/// The defaults, at times other values of the domain and other margins.
+fn parameters(draw: &mut Draw<'_>) -> Parameters {
+    let mut parameters = Parameters::default();
+    if draw.one_in(5) {
+        parameters.theta_tr = draw.pick(&[0.25, 0.5, 1.0, 1e-3]);
+        parameters.theta_map = draw.pick(&[0.5, 0.25, 1.0]);
+        parameters.theta_obj = draw.pick(&[4.0, 8.0, 1.0]);
+        parameters.a_b = draw.pick(&[8.0, 4.0, 6.5]);
+        parameters.safety_time = draw.pick(&[1.5, 1.0, 2.0, 0.0]);
+        parameters.tau = draw.pick(&[0.125, 0.0, 0.5]);
+        parameters.a_max = draw.pick(&[2.0, 1.0, 4.0]);
+        parameters.theta_track_max = draw.pick(&[0.5, 2.0, 0.3]);
+        parameters.start_tolerance = draw.pick(&[1.0, 0.5, 3.0]);
+        parameters.miss_budget = draw.pick(&[1, 2, 64]);
+    }
+    if draw.one_in(6) {
+        parameters.delta = draw.pick(&[1e-8, 1e-7, 1e-5, 1e-4, 1e-2]);
+    }
+    parameters
+}
+
+/// Constant speed along the frame's axis until `v_now` / `a_b`, in steps that H-11 accepts.
+pub fn straight(ego: &Ego, frame: Frame, now_ns: i64, parameters: &Parameters) -> Trajectory {
+    let step_s = if ego.speed > 0.0 { (0.9 * ego.length / ego.speed).min(0.2) } else { 0.2 };
+    let dt_ns = to_ns(step_s) / 1_000_000 * 1_000_000;
+    let step_s = seconds(dt_ns);
+    let mut points = Vec::new();
+    let mut t_ns = now_ns;
+    for i in 0..2 + count(ego.speed / parameters.a_b / step_s + 0.5) {
+        let (x, y) = frame.at(ego.speed * step_s * i as f64, 0.0);
+        points.push(TrajectoryPoint { t_ns, x, y, cos: frame.cos, sin: frame.sin });
+        t_ns += dt_ns;
+    }
+    Trajectory { stamp_ns: now_ns, points }
+}
+
+/// A straight road from 40 m behind to 120 m ahead of the frame.
+pub fn road(frame: Frame, half_width: f64) -> Route {
+    let stations = [-40.0, 0.0, 40.0, 120.0];
+    let stations = stations.map(|a| station(frame, a, 0.0, half_width));
+    Route { closed: false, stations: stations.to_vec() }
+}
+
+/// A station at (a, b) of the frame with boundaries `half_width` to both sides.
+pub fn station(frame: Frame, a: f64, b: f64, half_width: f64) -> Station {
+    let (x, y) = frame.at(a, b);
+    let (left, right) = (frame.at(a, b + half_width), frame.at(a, b - half_width));
+    Station { x, y, left: [left.0, left.1], right: [right.0, right.1] }
+}
+
+/// Seconds of a time in ns.
+#[expect(clippy::cast_precision_loss, reason = "a generator may round")]
+pub fn seconds(ns: i64) -> f64 {
+    ns as f64 / 1e9
+}
+
+/// Nanoseconds, rounded.
+#[expect(clippy::cast_possible_truncation, reason = "a generator may round")]
+pub fn to_ns(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}
+
+/// The next whole number above, at most 1000; 0 for what is negative or not a number.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
+pub fn count(value: f64) -> usize {
+    value.ceil().clamp(0.0, 1000.0) as usize
+}

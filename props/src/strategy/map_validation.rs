@@ -1,0 +1,332 @@
+//! Stage ii at its thresholds: distance to the reference path, edges of the corridor, H-07, H-11
+//! and H-12 (`spec/3-stages.md#stage-ii-trajectory-to-map`).
+
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{
+    Cycle, DetectionList, Profile, Route, Station, Trajectory, TrajectoryPoint,
+};
+
+use super::base::{self, Frame, seconds, station};
+use super::draw::Draw;
+
+/// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
+pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let frame = base::frame(draw);
+    let configuration =
+        draw.pick(&[Configuration::PlanRemote, Configuration::AllRemote, Configuration::MotRemote]);
+    let mut cycle = base::cycle(draw, frame, profile, configuration);
+    cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
+    match (profile, draw.below(10)) {
+        (_, 0 | 1) => reference_distance(draw, frame, &mut cycle),
+        (_, 2 | 3) => corridor_edge(draw, frame, &mut cycle),
+        (_, 4) => crooked_road(draw, frame, &mut cycle),
+        (Profile::Paper, _) => anywhere(draw, frame, &mut cycle),
+        (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
+        (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
+        (Profile::Hardened, 7 | 8) => step(draw, frame, &mut cycle),
+        (Profile::Hardened, _) => arc_length(draw, frame, &mut cycle),
+    }
+    cycle
+}
+
+/// Points near `theta_map` from the reference path of a corridor that does not reach so far,
+/// beside a segment, beside a station, or behind the end.
+fn reference_distance(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let theta_map = cycle.parameters.theta_map;
+    let half_width = draw.pick(&[0.5 * theta_map, theta_map, 0.01]);
+    cycle.route = base::road(frame, half_width);
+    let side = draw.pick(&[1.0, -1.0]);
+    let distance = draw.near(theta_map);
+    let behind = draw.one_in(4);
+    let Some(trajectory) = &mut cycle.trajectory else { return };
+    let last = trajectory.points.len() - 1;
+    let index = draw.below(last + 1);
+    let along = draw.pick(&[0.0, 0.25, 40.0, 12.5]);
+    let place = if behind {
+        let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.8, -0.6)]);
+        (120.0 + distance * cos, distance * sin)
+    } else {
+        (along, side * distance)
+    };
+    (trajectory.points[index].x, trajectory.points[index].y) = frame.at(place.0, place.1);
+}
+
+/// The whole trajectory along an edge of the corridor: outer edges, and the diagonals that two
+/// triangles share.
+fn corridor_edge(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let half_width = draw.pick(&[1.0, 0.75, 3.0]);
+    let stations = [-40.0, -8.0, draw.pick(&[0.0, 1.0, 4.0]), 40.0, 120.0];
+    let stations = stations.map(|a| station(frame, a, 0.0, half_width));
+    cycle.route = Route { closed: false, stations: stations.to_vec() };
+    if draw.one_in(3) {
+        // A left boundary that comes in: the edge of the corridor is no longer parallel.
+        let (x, y) = frame.at(0.0, 0.4 * half_width);
+        cycle.route.stations[2].left = [x, y];
+    }
+    let side = draw.pick(&[1.0, -1.0]);
+    let offset = side * draw.near(half_width);
+    let diagonal = draw.one_in(3);
+    let shift = draw.offset();
+    if let Some(trajectory) = &mut cycle.trajectory {
+        let first = (trajectory.points[0].x, trajectory.points[0].y);
+        for point in &mut trajectory.points {
+            let along = (point.x - first.0).hypot(point.y - first.1);
+            let place = if diagonal {
+                let [r, l] = [cycle.route.stations[2].right, cycle.route.stations[3].left];
+                let part = (along / 40.0).min(1.0);
+                let slope = (l[0] - r[0], l[1] - r[1]);
+                (r[0] + part * slope.0 - shift * frame.sin, r[1] + part * slope.1)
+            } else {
+                frame.at(along, offset)
+            };
+            (point.x, point.y) = place;
+        }
+    }
+    follow(cycle);
+    if diagonal {
+        cut_corridor(cycle);
+    }
+}
+
+/// Takes away the triangle (left, right, right) of every pair by laying both left points of the
+/// first station on its right one: the diagonal becomes an outer edge.
+fn cut_corridor(cycle: &mut Cycle) {
+    if let Some(station) = cycle.route.stations.get_mut(2) {
+        station.left = station.right;
+    }
+}
+
+/// Moves the CAV to the first point of its trajectory, so that H-07's start holds.
+fn follow(cycle: &mut Cycle) {
+    if let Some(first) = cycle.trajectory.as_ref().and_then(|list| list.points.first()) {
+        (cycle.ego.x, cycle.ego.y) = (first.x, first.y);
+    }
+}
+
+/// Roads with corners, loops and boundaries that cross, and a trajectory of a few points near
+/// stations, boundaries and midpoints.
+fn crooked_road(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    const CORNERS: [(f64, f64); 6] =
+        [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0), (-6.0, 4.0), (4.0, -6.0)];
+    let n = draw.between(2, 6);
+    let mut stations: Vec<Station> = Vec::new();
+    for &(a, b) in CORNERS.iter().take(n) {
+        let half = draw.pick(&[1.0, 0.5, 2.0]);
+        stations.push(station(frame, a, b, half));
+    }
+    let closed = draw.one_in(2);
+    if closed && draw.one_in(3) {
+        stations.push(stations[0].clone());
+    }
+    if draw.one_in(4) {
+        let station = &mut stations[1];
+        std::mem::swap(&mut station.left, &mut station.right);
+    }
+    cycle.route = Route { closed, stations };
+    for index in 0..draw.between(1, 3) {
+        let place = road_place(draw, cycle);
+        if let Some(point) = point_at(cycle, index) {
+            (point.x, point.y) = place;
+        }
+    }
+    follow(cycle);
+}
+
+/// A place near an edge of the corridor, a corner of it, or `theta_map` beside the path.
+fn road_place(draw: &mut Draw<'_>, cycle: &Cycle) -> (f64, f64) {
+    let stations = &cycle.route.stations;
+    let from = draw.below(stations.len());
+    let (here, next) = (&stations[from], &stations[(from + 1) % stations.len()]);
+    let edge = draw.below(5);
+    let (a, b) = match edge {
+        0 => (here.left, next.left),
+        1 => (here.right, next.right),
+        2 => (here.left, here.right),
+        3 => (here.left, next.right),
+        _ => ([here.x, here.y], [next.x, next.y]),
+    };
+    let part = draw.pick(&[0.5, 0.0, 1.0, 0.25]);
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let length = along[0].hypot(along[1]).max(1e-3);
+    let aside = if edge == 4 { draw.near(cycle.parameters.theta_map) } else { draw.offset() };
+    (
+        a[0] + part * along[0] - aside * along[1] / length,
+        a[1] + part * along[1] + aside * along[0] / length,
+    )
+}
+
+/// Paper: any points of a trajectory near the path's limits, times and headings at will.
+fn anywhere(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let half_width = draw.pick(&[2.0, 0.1]);
+    cycle.route = base::road(frame, half_width);
+    for index in 0..draw.between(1, 4) {
+        let place = road_place(draw, cycle);
+        let heading = draw.direction();
+        if let Some(point) = point_at(cycle, index) {
+            (point.x, point.y) = place;
+            (point.cos, point.sin) = heading;
+        }
+    }
+}
+
+/// H-07: the first point late or early by about `max_age`, or too far from the CAV.
+fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let parameters = cycle.parameters.clone();
+    let late = match draw.below(4) {
+        0 => draw.near_ns(parameters.max_age_ns),
+        1 => -draw.near_ns(parameters.max_age_ns),
+        _ => draw.pick(&[0, 20_000_000, -20_000_000, 100_000_000]),
+    };
+    let limit = parameters.start_tolerance + cycle.ego.speed * seconds(late).max(0.0);
+    let distance = if draw.one_in(4) { 0.0 } else { draw.near(limit) };
+    let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.0, 1.0), (0.8, -0.6), (-1.0, 0.0), (0.6, 0.8)]);
+    let (x, y) = frame.at(distance * cos, distance * sin);
+    (cycle.ego.x, cycle.ego.y) = (x, y);
+    if let Some(trajectory) = &mut cycle.trajectory {
+        for point in &mut trajectory.points {
+            point.t_ns -= late;
+        }
+    }
+}
+
+/// H-07: headings nearly across the nearest segment, at corners where several are nearest.
+fn direction(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let (a, b) = draw.pick(&[(3.0, 4.0), (4.0, 3.0), (0.0, 5.0), (-3.0, 4.0), (-4.0, -3.0)]);
+    let side = draw.pick(&[1.0, -1.0]);
+    let ends = [station(frame, -5.0, 0.0, 8.0), station(frame, 0.0, 0.0, 8.0)];
+    let mut stations = ends.to_vec();
+    stations.push(station(frame, a, side * b, 8.0));
+    cycle.route = Route { closed: false, stations };
+    cycle.ego.speed = 0.0;
+    // Straight up, away from the turn: the corner is nearest, or both segments are.
+    let up = -side * draw.pick(&[0.5, 1.0, 0.0, 2.0]);
+    let along = draw.pick(&[0.0, -0.5, 0.25]) + draw.offset();
+    let (x, y) = frame.at(along, up);
+    let tilt = draw.near(0.0);
+    let heading = match draw.below(4) {
+        0 => (tilt, side),
+        1 => (tilt, -side),
+        2 => (-side * b / 5.0 + tilt, a / 5.0),
+        _ => (side * b / 5.0, -a / 5.0 + tilt),
+    };
+    let (cos, sin) = frame.turn(unit(heading));
+    (cycle.ego.x, cycle.ego.y) = (x, y);
+    let t_ns = cycle.now_ns;
+    let point = TrajectoryPoint { t_ns, x, y, cos, sin };
+    cycle.trajectory = Some(Trajectory { stamp_ns: t_ns, points: vec![point] });
+}
+
+/// H-11: one step at a limit of time, length, speed, direction, width or turn.
+fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[8.0, 2.0, 5.0]);
+    cycle.parameters.start_tolerance = 20.0;
+    let (length, width) = (cycle.ego.length, cycle.ego.width);
+    let mut dt_ns = 200_000_000;
+    let (mut along, mut aside) = (0.1, 0.0);
+    let (mut first, mut second) = ((1.0, 0.0), (1.0, 0.0));
+    match draw.below(6) {
+        0 => dt_ns = draw.near_ns(cycle.parameters.step_max_ns),
+        1 => {
+            let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.96, 0.28)]);
+            let u = draw.near(length);
+            let lateral_fits = u * sin <= 0.5 * width;
+            (along, aside) = if lateral_fits { (u * cos, u * sin) } else { (u, 0.0) };
+        }
+        2 => {
+            cycle.parameters.v_max = draw.pick(&[4.0, 2.5, 5.0]);
+            along = draw.near(cycle.parameters.v_max * 0.2);
+        }
+        3 => {
+            along = draw.pick(&[1.0, -1.0]) * draw.near(0.0);
+            aside = draw.pick(&[0.0, 0.25, -0.25]);
+        }
+        4 => {
+            along = 1.0;
+            aside = draw.pick(&[1.0, -1.0]) * draw.near(0.5 * width);
+        }
+        _ => {
+            along = 0.5;
+            let turn = draw.near(0.866).acos();
+            (first, second) = ((1.0, 0.0), (turn.cos(), draw.pick(&[1.0, -1.0]) * turn.sin()));
+        }
+    }
+    let (first, second) = (frame.turn(first), frame.turn(second));
+    let (t_ns, at) = (cycle.now_ns, frame.at(along, aside));
+    let stop = stop_time_ns(cycle);
+    let mut points =
+        vec![TrajectoryPoint { t_ns, x: frame.x, y: frame.y, cos: first.0, sin: first.1 }];
+    let mut t_ns = t_ns + dt_ns;
+    loop {
+        points.push(TrajectoryPoint { t_ns, x: at.0, y: at.1, cos: second.0, sin: second.1 });
+        if t_ns - cycle.now_ns >= stop {
+            break;
+        }
+        t_ns += 200_000_000;
+    }
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// H-12: the arc length of the last points near what braking or accelerating covers, or a last
+/// point near the end of braking.
+fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let p = cycle.parameters.clone();
+    let late_ns = draw.pick(&[0, 20_000_000, -20_000_000]);
+    let (d, v) = (seconds(late_ns).abs(), cycle.ego.speed);
+    let (v_lo, v_hi) = ((v - p.a_max * d).max(0.0), v + p.a_b * d);
+    let aim = draw.below(3);
+    let wobble = draw.near(0.0);
+    let Some(trajectory) = &mut cycle.trajectory else { return };
+    let first_ns = cycle.now_ns - late_ns;
+    let dt_ns = trajectory.points.get(1).map_or(200_000_000, |next| next.t_ns - cycle.now_ns);
+    if aim == 2 {
+        let end_ns = base::to_ns((v_lo / p.a_b).min(50.0));
+        trajectory.points.truncate(1);
+        let steps = end_ns / dt_ns + 1;
+        let end_ns = draw.near_ns(end_ns).max(1);
+        for i in 1..=steps {
+            let t_ns = if i == steps { end_ns } else { end_ns * i / steps };
+            let (x, y) = frame.at(v * seconds(t_ns), 0.0);
+            let (cos, sin) = (frame.cos, frame.sin);
+            let late = first_ns + t_ns.max(i);
+            trajectory.points.push(TrajectoryPoint { t_ns: late, x, y, cos, sin });
+        }
+        trajectory.points[0].t_ns = first_ns;
+        return;
+    }
+    let from = draw.between(1, 3);
+    for (i, point) in trajectory.points.iter_mut().enumerate() {
+        let t_ns = dt_ns * i64::try_from(i).unwrap_or(0);
+        let t = seconds(t_ns);
+        let braking = if t < v_lo / p.a_b {
+            v_lo * t - p.a_b * t * t / 2.0
+        } else {
+            v_lo * v_lo / (2.0 * p.a_b)
+        };
+        let least = (braking - p.start_tolerance).max(0.0);
+        let most = v_hi * t + p.a_max * t * t / 2.0 + p.start_tolerance;
+        let along = match aim {
+            _ if i == 0 => 0.0,
+            0 => least + wobble.max(-least),
+            _ if i < from => v_hi * t,
+            _ => most + wobble,
+        };
+        point.t_ns = first_ns + t_ns;
+        (point.x, point.y) = frame.at(along, 0.0);
+    }
+}
+
+/// Time from now until the CAV could stand, ns, rounded up.
+fn stop_time_ns(cycle: &Cycle) -> i64 {
+    base::to_ns(cycle.ego.speed / cycle.parameters.a_b) + 1
+}
+
+/// The trajectory point of this index, if there is one.
+fn point_at(cycle: &mut Cycle, index: usize) -> Option<&mut TrajectoryPoint> {
+    cycle.trajectory.as_mut().and_then(|list| list.points.get_mut(index))
+}
+
+/// The direction of a vector that is not null.
+fn unit((a, b): (f64, f64)) -> (f64, f64) {
+    let length = a.hypot(b);
+    (a / length, b / length)
+}

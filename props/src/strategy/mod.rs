@@ -1,0 +1,14 @@
+//! Generators of cycles, of which at least half lie within 1e-5 of a decision.
+//!
+//! Every generator is a plain function of a tape of choices (`draw`), so that proptest, a fuzzer
+//! and a hand-made case can use it.
+#![expect(clippy::cast_precision_loss, reason = "counts are small and generators may round")]
+
+pub mod base;
+pub mod detections;
+pub mod draw;
+pub mod grid;
+pub mod map_validation;
+pub mod obstacle;
+pub mod track_validation;
+pub mod tracks;

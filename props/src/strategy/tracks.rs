@@ -1,0 +1,83 @@
+//! Stage iii at its thresholds (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
+
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
+
+use super::base::{self, seconds};
+use super::draw::Draw;
+use super::obstacle::{self, Obstacle};
+use super::track_validation::track;
+
+/// A cycle that stage iii decides.
+pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let frame = base::frame(draw);
+    let configuration = draw.pick(&[
+        Configuration::PlanRemote,
+        Configuration::PlanRemote,
+        Configuration::AllRemote,
+    ]);
+    let mut cycle = base::cycle(draw, frame, profile, configuration);
+    obstacle::widen(&mut cycle, frame);
+    let horizon = obstacle::horizon_of_tracks(&cycle);
+    let found = obstacle::decisive(draw, &mut cycle, horizon);
+    let age = draw.pick(&[0, 30_000_000, 100_000_000]);
+    let stamp_ns = cycle.now_ns - age;
+    let mut items = Vec::new();
+    if draw.one_in(4) {
+        items.push(track(frame, (-30.0, 2.0), 4));
+    }
+    items.push(moving(draw, &cycle, found, stamp_ns));
+    if draw.one_in(8) {
+        items.push(track(frame, (70.0, -8.0), 12));
+    }
+    cycle.tracks = Some(TrackList { stamp_ns, items });
+    if configuration == Configuration::AllRemote && profile == Profile::Hardened {
+        if draw.one_in(2) {
+            hold(draw, &mut cycle);
+        }
+        if draw.one_in(4) {
+            // Stage i cannot pass without a detection at every track; without any it does not
+            // run (H-02).
+            let empty = DetectionList { stamp_ns: cycle.now_ns - 200_000_000, items: Vec::new() };
+            cycle.detections = Some(empty);
+        }
+    }
+    cycle
+}
+
+/// The obstacle as a track that is in its place when the CAV is at its trajectory point; it
+/// stands, or moves off, or moves anyhow.
+fn moving(draw: &mut Draw<'_>, cycle: &Cycle, found: Obstacle, stamp_ns: i64) -> Track {
+    let t_ns = cycle
+        .trajectory
+        .as_ref()
+        .and_then(|list| list.points.get(found.point))
+        .map_or(stamp_ns, |point| point.t_ns);
+    let dt = seconds(t_ns - stamp_ns);
+    let (vx, vy) = match draw.below(4) {
+        0 | 1 => (0.0, 0.0),
+        2 => {
+            let speed = draw.pick(&[8.0, 1.5, 20.0]);
+            (speed * found.away.0, speed * found.away.1)
+        }
+        _ => (draw.range(-15.0, 15.0), draw.range(-15.0, 15.0)),
+    };
+    let (x, y) = (found.frame.x - vx * dt, found.frame.y - vy * dt);
+    let (length, width) = found.size;
+    Track { id: 7, x, y, cos: found.frame.cos, sin: found.frame.sin, vx, vy, length, width }
+}
+
+/// H-09: a previous list that holds the track, or one that does not.
+fn hold(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let Some(list) = &cycle.tracks else { return };
+    let mut previous = list.clone();
+    previous.stamp_ns -= 100_000_000;
+    for track in &mut previous.items {
+        track.x -= 0.1 * track.vx;
+        track.y -= 0.1 * track.vy;
+    }
+    if draw.one_in(2) {
+        previous.items.pop();
+    }
+    cycle.previous_tracks = Some(previous);
+}
