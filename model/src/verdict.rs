@@ -1,6 +1,8 @@
 //! What a cycle reports: verdict, outcome of every stage, witness
 //! (`spec/3-stages.md#schedule`, `spec/5-interfaces.md#cycle`).
 
+use crate::real::Real;
+
 /// Which of the three models decides (`spec/4-arithmetic.md#strict-and-lax`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Reading {
@@ -155,6 +157,22 @@ pub struct Witness {
     pub cell: Option<(i64, i64)>,
     /// The two numbers that were compared.
     pub compared: [f64; 2],
+}
+
+impl Witness {
+    /// The witness of a rule with the nearest doubles of the two numbers, and no place yet.
+    pub fn new(rule: Rule, left: &Real, right: &Real) -> Self {
+        Self {
+            rule,
+            point: None,
+            track: None,
+            detection: None,
+            segment: None,
+            disk: None,
+            cell: None,
+            compared: [left.to_f64(), right.to_f64()],
+        }
+    }
 }
 
 /// A value that breaks the rules for input: the dotted path of the field without indices, the

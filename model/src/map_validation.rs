@@ -1,0 +1,135 @@
+//! Stage ii: trajectory to map (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07).
+
+use crate::cycle::Profile;
+use crate::polygon::{Triangle, contains_point, square, union_contains, union_meets};
+use crate::real::Real;
+use crate::scene::{Corridor, Point, Scene};
+use crate::trajectory_rules::{end_failure, start_failure, step_failure};
+use crate::vector::Vector;
+use crate::verdict::{Reading, Rule, Witness};
+
+/// Compares the whole trajectory with the route; `None` passes.
+pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let corridor = corridor(&scene.route);
+    let places: Vec<Place> =
+        trajectory.iter().map(|point| Place::of(scene, &corridor, point)).collect();
+    let at = |rule: Rule, failure: &dyn Fn(&Place) -> Option<(Real, Real)>| {
+        places.iter().enumerate().find_map(|(i, place)| {
+            failure(place).map(|(left, right)| Witness {
+                point: Some(i),
+                segment: Some(place.nearest_segment()),
+                ..Witness::new(rule, &left, &right)
+            })
+        })
+    };
+    let theta_map = &scene.parameters.theta_map;
+    let too_far = at(Rule::ThetaMap, &|place| {
+        let fails = place.distance > theta_map - &scene.m && !place.inside;
+        fails.then(|| (place.distance.clone(), theta_map.clone()))
+    });
+    if scene.profile == Profile::Paper || too_far.is_some() {
+        return too_far;
+    }
+    start_failure(scene, trajectory)
+        .or_else(|| {
+            at(Rule::Corridor, &|place| {
+                (!place.inside).then(|| (place.distance.clone(), Real::zero()))
+            })
+        })
+        .or_else(|| at(Rule::Direction, &|place| place.heading_failure(scene)))
+        .or_else(|| step_failure(scene, trajectory))
+        .or_else(|| end_failure(scene, trajectory))
+}
+
+/// A segment of the reference polyline; a closed route has one from its last to its first station.
+fn segments(route: &Corridor) -> Vec<[&[Vector; 3]; 2]> {
+    let stations = &route.stations;
+    let mut segments: Vec<_> = stations.windows(2).map(|pair| [&pair[0], &pair[1]]).collect();
+    if route.closed {
+        segments.push([&stations[stations.len() - 1], &stations[0]]);
+    }
+    segments
+}
+
+/// The union of (left_i, right_i, right_i+1) and (left_i, right_i+1, left_i+1).
+fn corridor(route: &Corridor) -> Vec<Triangle> {
+    let quads = segments(route).into_iter();
+    quads
+        .flat_map(|[[_, left, right], [_, next_left, next_right]]| {
+            [
+                [left.clone(), right.clone(), next_right.clone()],
+                [left.clone(), next_right.clone(), next_left.clone()],
+            ]
+        })
+        .collect()
+}
+
+/// Where a trajectory point lies on the route.
+struct Place<'a> {
+    heading: &'a Vector,
+    /// Distance to each segment of the reference path with the segment's direction.
+    segments: Vec<(Real, Vector)>,
+    /// Distance to the reference path.
+    distance: Real,
+    /// In the corridor, strictly or laxly in those readings.
+    inside: bool,
+}
+
+impl<'a> Place<'a> {
+    fn of(scene: &Scene, corridor: &[Triangle], point: &'a Point) -> Self {
+        let position = &point.pose.origin;
+        let segments: Vec<_> = segments(&scene.route)
+            .into_iter()
+            .map(|[a, b]| (distance_to_segment(position, &a[0], &b[0]), &b[0] - &a[0]))
+            .collect();
+        let distance = segments.iter().map(|(distance, _)| distance.clone()).min();
+        let half_side = &scene.parameters.delta;
+        Self {
+            heading: &point.pose.direction,
+            distance: distance.unwrap_or_else(Real::zero),
+            segments,
+            inside: match scene.reading {
+                Reading::Exact => corridor.iter().any(|t| contains_point(t, position)),
+                Reading::Strict => union_contains(corridor, &square(position, half_side)),
+                Reading::Lax => union_meets(corridor, &square(position, half_side)),
+            },
+        }
+    }
+
+    fn nearest_segment(&self) -> usize {
+        self.segments.iter().position(|(distance, _)| *distance == self.distance).unwrap_or(0)
+    }
+
+    /// H-07: heading . segment >= 0 for at least one nearest segment. A closing segment of length 0
+    /// has no direction and is not asked.
+    fn heading_failure(&self, scene: &Scene) -> Option<(Real, Real)> {
+        let reach = match scene.reading {
+            Reading::Exact => self.distance.clone(),
+            Reading::Strict | Reading::Lax => &self.distance + &scene.parameters.delta,
+        };
+        let along: Vec<Real> = (self.segments.iter())
+            .filter(|(distance, segment)| *distance <= reach && segment.squared() > Real::zero())
+            .map(|(_, segment)| self.heading.dot(segment))
+            .collect();
+        let forward = |along: &Real| *along >= scene.m;
+        let passes = match scene.reading {
+            Reading::Exact | Reading::Lax => along.iter().any(forward),
+            Reading::Strict => along.iter().all(forward),
+        };
+        (!passes).then(|| (along[0].clone(), Real::zero()))
+    }
+}
+
+/// Distance of a point to the closed segment from a to b.
+fn distance_to_segment(point: &Vector, a: &Vector, b: &Vector) -> Real {
+    let (segment, offset) = (b - a, point - a);
+    let along = segment.dot(&offset);
+    let squared = segment.squared();
+    if along <= Real::zero() {
+        offset.length()
+    } else if along >= squared {
+        (point - b).length()
+    } else {
+        (segment.cross(&offset).square() / squared).sqrt()
+    }
+}

@@ -1,0 +1,79 @@
+use super::{Real, unfiltered};
+use std::cmp::Ordering;
+
+fn number(value: f64) -> Real {
+    Real::from_double(value)
+}
+
+/// A small linear congruential generator: the tests need no more than reproducible variety.
+fn draws(seed: u64) -> impl FnMut(u64) -> u64 {
+    let mut state = seed;
+    move |bound| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % bound
+    }
+}
+
+#[test]
+fn equal_sums_of_roots_are_equal() {
+    let sum = number(2.0).sqrt() + number(8.0).sqrt() - number(18.0).sqrt();
+    assert_eq!(sum, Real::zero());
+    assert_eq!(number(0.25).sqrt() + number(0.5), number(1.0));
+    assert_eq!(number(2.0).sqrt() * number(8.0).sqrt(), number(4.0));
+}
+
+#[test]
+fn sums_of_roots_closer_than_doubles_are_ordered() {
+    // sqrt(2) + sqrt(5) against sqrt(2 + tiny) + sqrt(5).
+    let near = Real::from_double(2.0) + number(2f64.powi(-300));
+    let (a, b) = (number(2.0).sqrt() + number(5.0).sqrt(), near.sqrt() + number(5.0).sqrt());
+    assert_eq!(a.cmp(&b), Ordering::Less);
+    assert_eq!(b.cmp(&a), Ordering::Greater);
+}
+
+#[test]
+fn decimals_are_the_nearest_doubles() {
+    assert_ne!(number(0.1) + number(0.2), number(0.3));
+    assert_eq!((number(0.1) + number(0.2)).to_f64().to_bits(), (0.1f64 + 0.2).to_bits());
+    assert_eq!(number(2.0).sqrt().to_f64().to_bits(), 2f64.sqrt().to_bits());
+}
+
+#[test]
+fn floor_is_exact_at_integers() {
+    let third = number(1.0) / number(3.0);
+    assert_eq!((&third + &third + &third).floor(), 1);
+    assert_eq!((&third + &third + &third - number(2f64.powi(-200))).floor(), 0);
+    assert_eq!(number(-0.5).floor(), -1);
+}
+
+/// A random expression of a few operations on numbers that often coincide.
+fn expression(draw: &mut impl FnMut(u64) -> u64, depth: u64) -> Real {
+    #[expect(clippy::cast_precision_loss, reason = "small integers")]
+    let leaf = |n: u64| number(n as f64 / 8.0);
+    if depth == 0 {
+        let n = draw(9);
+        return if draw(2) == 0 { leaf(n).sqrt() } else { leaf(n) };
+    }
+    let (a, b) = (expression(draw, depth - 1), expression(draw, depth - 1));
+    match draw(4) {
+        0 => a + b,
+        1 => a - b,
+        2 => a * b,
+        _ => a / (leaf(draw(9)) + number(1.0)),
+    }
+}
+
+#[test]
+fn filter_changes_no_comparison() {
+    let mut draw = draws(7);
+    let mut seen = [0; 3];
+    for _ in 0..20_000 {
+        let depth = draw(3);
+        let (a, b) = (expression(&mut draw, depth), expression(&mut draw, depth));
+        let filtered = a.cmp(&b);
+        assert_eq!(filtered, unfiltered(|| a.cmp(&b)), "{a:?} {b:?}");
+        seen[(filtered as i8 + 1).unsigned_abs() as usize] += 1;
+    }
+    assert!(seen.iter().all(|&n| n > 400), "less, equal and greater all occur: {seen:?}");
+}
