@@ -1,0 +1,199 @@
+//! Cycles from a recording: the CAV's states, the objects around it, and a route.
+//!
+//! Every cycle is one time step. Its data have the ages of a real system, and the values they
+//! had then: the scan, and the track list made from that scan, are 30 ms old; the trajectory was
+//! made 20 ms ago and starts now; lead and grid are 10 ms old. Tracks and detections belong to
+//! the same scan because stage i compares their positions as they are: 20 ms between them are
+//! 0.6 m at 30 m/s, three times `theta_tr`.
+
+use mufasa_model::cycle::{Cycle, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint};
+
+use super::geometry::{direction, mix, mix_angle};
+use super::lead::{Cav, lead};
+use super::object::{Object, Seen, State, state_before};
+use super::options::{Options, Tail};
+use super::route::in_corridor;
+use super::sensor::{grid, scan};
+use super::{Drive, DriveCycle};
+
+/// The first cycle's time, ns.
+const START_NS: i64 = 1_000_000_000;
+/// Ages of the data, ns.
+const SCAN_AGE_NS: i64 = 30_000_000;
+const TRAJECTORY_AGE_NS: i64 = 20_000_000;
+const GRID_AGE_NS: i64 = 10_000_000;
+/// Longest time between points of a trajectory, ns; longer steps are divided evenly.
+const POINT_NS: i64 = 100_000_000;
+/// Points of a trajectory; the domain's limit.
+const POINTS_MAX: usize = 1024;
+
+/// What happened, before anything is decided about services, sensors and ages.
+pub(super) struct Recording {
+    pub name: String,
+    pub source: String,
+    pub dt_ns: i64,
+    /// The CAV, one state for every step; positions are the centre of its rectangle.
+    pub ego: Vec<State>,
+    /// Its length and width, m.
+    pub size: [f64; 2],
+    /// Everything else.
+    pub objects: Vec<Object>,
+    pub route: Route,
+    pub notes: Vec<String>,
+}
+
+/// The drive of a recording. `every`: a cycle at every so many steps only.
+pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Drive {
+    let maker = Maker { recording: &recording, options };
+    let mut cycles: Vec<DriveCycle> = Vec::new();
+    let mut short = 0;
+    let steps = (0..recording.ego.len()).step_by(every.max(1));
+    for i in steps {
+        if options.tail == Tail::Stop && maker.rest_is_short(i) {
+            short += 1;
+            continue;
+        }
+        let previous = cycles.last().and_then(|c| c.cycle.tracks.clone());
+        let id = format!("{}#{}", recording.name, recording.ego[i].step);
+        cycles.push(DriveCycle { id, cycle: maker.cycle(i, previous) });
+    }
+    let mut notes = recording.notes.clone();
+    notes.push(format!("{} cycles from {} states", cycles.len(), recording.ego.len()));
+    if short > 0 {
+        notes.push(format!(
+            "no cycle for {short} states at the end: less is recorded after them than braking \
+             takes (v / a_b), so that there is no plan to judge"
+        ));
+    }
+    let outside = recording.ego.iter().filter(|s| !in_corridor(&recording.route, s.position));
+    let outside = outside.count();
+    if outside > 0 {
+        notes.push(format!(
+            "{outside} of {} positions of the CAV are outside the corridor of its route",
+            recording.ego.len()
+        ));
+    }
+    let Recording { name, source, .. } = recording;
+    Drive { name, source, cycles, notes }
+}
+
+struct Maker<'a> {
+    recording: &'a Recording,
+    options: &'a Options,
+}
+
+impl Maker<'_> {
+    #[expect(clippy::cast_precision_loss, reason = "at most 10 s")]
+    fn dt_s(&self) -> f64 {
+        self.recording.dt_ns as f64 / 1e9
+    }
+
+    /// Whether the recording ends before the CAV could stop, or with this step.
+    fn rest_is_short(&self, i: usize) -> bool {
+        let steps = self.recording.ego.len() - 1 - i;
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 steps")]
+        let rest = steps as f64 * self.dt_s();
+        steps == 0 || rest < self.recording.ego[i].speed.abs() / self.options.parameters.a_b
+    }
+
+    fn cycle(&self, i: usize, previous_tracks: Option<TrackList>) -> Cycle {
+        let Recording { ego, size, dt_ns, route, .. } = self.recording;
+        let state = ego[i];
+        let now_ns = START_NS + i64::try_from(i).unwrap_or(0).saturating_mul(*dt_ns);
+        let options = self.options;
+        let [x, y] = state.position;
+        let [cos, sin] = direction(state.heading);
+        let scanned = self.objects(state.step, SCAN_AGE_NS);
+        let recent = self.objects(state.step, GRID_AGE_NS);
+        let measured = state_before(ego, state.step, self.back(GRID_AGE_NS), self.dt_s());
+        let cav = Cav {
+            position: measured.map_or(state.position, |s| s.position),
+            length: size[0],
+            width: size[1],
+        };
+        let stream = u64::try_from(state.step).unwrap_or(0);
+        let scan_ns = now_ns - SCAN_AGE_NS;
+        let grid_ns = now_ns - GRID_AGE_NS;
+        Cycle {
+            profile: options.profile,
+            parameters: options.parameters.clone(),
+            now_ns,
+            configuration: options.configuration,
+            ego: Ego {
+                x,
+                y,
+                cos,
+                sin,
+                speed: state.speed.abs(),
+                length: size[0],
+                width: size[1],
+                center_offset: 0.0,
+            },
+            trajectory: Some(Trajectory {
+                stamp_ns: now_ns - TRAJECTORY_AGE_NS,
+                points: self.plan(i, now_ns),
+            }),
+            tracks: Some(TrackList {
+                stamp_ns: scan_ns,
+                items: scanned.iter().map(track).collect(),
+            }),
+            detections: Some(scan(&options.sensor, stream, scan_ns, state.position, &scanned)),
+            lead: lead(route, grid_ns, &cav, &recent, options.sensor.range_m),
+            route: route.clone(),
+            grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
+            previous_tracks,
+        }
+    }
+
+    /// An age in time steps; older data than the last step are taken from there.
+    #[expect(clippy::cast_precision_loss, reason = "at most 10 s")]
+    fn back(&self, age_ns: i64) -> f64 {
+        (age_ns as f64 / self.recording.dt_ns as f64).min(1.0)
+    }
+
+    fn objects(&self, step: i64, age_ns: i64) -> Vec<Seen> {
+        let back = self.back(age_ns);
+        self.recording.objects.iter().flat_map(|o| o.seen(step, back, self.dt_s())).collect()
+    }
+
+    /// The rest of the recording, up to the horizon, from now on.
+    fn plan(&self, i: usize, now_ns: i64) -> Vec<TrajectoryPoint> {
+        let Recording { ego, dt_ns, .. } = self.recording;
+        let parts = (dt_ns + POINT_NS - 1) / POINT_NS;
+        let steps = (self.options.horizon_s / self.dt_s() + 1e-6).floor();
+        let mut points = vec![point(&ego[i], now_ns)];
+        for (k, pair) in (1_i64..).zip(ego[i..].windows(2)) {
+            #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 steps")]
+            if k as f64 > steps {
+                break;
+            }
+            for part in 1..=parts {
+                #[expect(clippy::cast_precision_loss, reason = "at most 100 parts")]
+                let w = part as f64 / parts as f64;
+                let between = State {
+                    position: mix(pair[0].position, pair[1].position, w),
+                    heading: mix_angle(pair[0].heading, pair[1].heading, w),
+                    ..pair[1]
+                };
+                let t_ns = now_ns + (k - 1) * dt_ns + dt_ns * part / parts;
+                points.push(point(&between, t_ns));
+            }
+        }
+        points.truncate(POINTS_MAX);
+        points
+    }
+}
+
+fn point(state: &State, t_ns: i64) -> TrajectoryPoint {
+    let [x, y] = state.position;
+    let [cos, sin] = direction(state.heading);
+    TrajectoryPoint { t_ns, x, y, cos, sin }
+}
+
+fn track(seen: &Seen) -> Track {
+    let [x, y] = seen.shape.center;
+    let [cos, sin] = direction(seen.shape.heading);
+    let [vx, vy] = seen.velocity;
+    let (length, width) = (seen.shape.length, seen.shape.width);
+    Track { id: seen.id, x, y, cos, sin, vx, vy, length, width }
+}

@@ -1,0 +1,75 @@
+//! Readers: small files of our own, broken files, and the shared recordings where they are.
+
+use std::path::{Path, PathBuf};
+
+use mufasa_oracle::drive::{Drive, Options, ReadError, read};
+
+/// The folder of shared data: `MUFASA_DATA`, or `shared/data` beside the workspace.
+fn data() -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let folder = std::env::var_os("MUFASA_DATA").map_or(beside, PathBuf::from);
+    folder.is_dir().then_some(folder)
+}
+
+/// Scenarios of a folder, each with its solutions, in the order of their names.
+fn scenarios(folder: &Path) -> Vec<(PathBuf, Vec<PathBuf>)> {
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
+        .expect("the folder can be listed")
+        .map(|entry| entry.expect("an entry of the folder").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "xml"))
+        .collect();
+    files.sort();
+    let stem = |p: &Path| p.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let (solutions, scenarios): (Vec<_>, Vec<_>) =
+        files.into_iter().partition(|p| stem(p).contains(".solution"));
+    scenarios
+        .into_iter()
+        .map(|scenario| {
+            let prefix = format!("{}.", stem(&scenario));
+            let own = solutions.iter().filter(|s| stem(s).starts_with(&prefix)).cloned().collect();
+            (scenario, own)
+        })
+        .collect()
+}
+
+#[test]
+fn every_shared_scenario_and_solution_gives_a_drive() {
+    let Some(folder) = data() else {
+        eprintln!("NOT RUN: no shared data; set MUFASA_DATA to the folder that holds commonroad/");
+        return;
+    };
+    let mut refused: Vec<ReadError> = Vec::new();
+    for (scenario, solutions) in scenarios(&folder.join("commonroad")) {
+        let mut runs = vec![vec![scenario.clone()]];
+        runs.extend(solutions.iter().map(|s| vec![scenario.clone(), s.clone()]));
+        for paths in runs {
+            for drive in read(&paths, &Options::default()) {
+                match drive {
+                    Ok(drive) => summary(&drive),
+                    Err(e) => {
+                        println!("REFUSED {e}");
+                        refused.push(e);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn summary(d: &Drive) {
+    println!("{} {} cycles", d.name, d.cycles.len());
+    for n in &d.notes {
+        println!("    {n}");
+    }
+    if let Some(c) = d.cycles.first() {
+        let c = &c.cycle;
+        println!(
+            "    {} stations, {} tracks, {} detections, lead {:?} v {}",
+            c.route.stations.len(),
+            c.tracks.as_ref().unwrap().items.len(),
+            c.detections.as_ref().unwrap().items.len(),
+            c.lead.as_ref().map(|l| (l.gap, l.speed)),
+            c.ego.speed
+        );
+    }
+}
