@@ -165,11 +165,11 @@ fn station(value: Value<'_, '_>) -> Result<Station, InvalidInput> {
     Ok(Station { x: x.float()?, y: y.float()?, left: pair(left)?, right: pair(right)? })
 }
 
+/// A point; its errors have the index of the station, as those of the model.
 fn pair(value: Value<'_, '_>) -> Result<[f64; 2], InvalidInput> {
-    let numbers = value.list(|number| number.float())?;
-    <[f64; 2]>::try_from(numbers).map_err(|numbers| {
-        value.problem(format_args!("must be a list of two numbers, not of {}", numbers.len()))
-    })
+    let wrong = || value.problem("must be a list of two numbers");
+    let numbers = value.list(|number| number.float().map_err(|_| wrong()))?;
+    <[f64; 2]>::try_from(numbers).map_err(|_| wrong())
 }
 
 fn grid(value: Value<'_, '_>) -> Result<Grid, InvalidInput> {

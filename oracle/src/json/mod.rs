@@ -14,13 +14,15 @@ mod parameters;
 mod walk;
 
 use mufasa_model::cycle::Cycle;
-use mufasa_model::orchestrator::{self, Task};
+use mufasa_model::orchestrator::{self, Task, TaskError};
+use mufasa_model::service::ServiceSet;
 use mufasa_model::verdict::InvalidInput;
 use serde_json::value::RawValue;
 
 pub use answer::Answer;
 pub use error::LineError;
 pub use offloading::Trace;
+pub use walk::excerpt as shown;
 pub use write::cycle_to_line;
 
 use answer::CycleAnswer;
@@ -83,11 +85,20 @@ pub fn decide(record: Record) -> Result<Answer, (String, InvalidInput)> {
         Record::Offloading { id, trace } => {
             Ok(Answer::Offloading(OffloadingAnswer::run(id, &trace)))
         }
-        Record::Composition { id, task } => match orchestrator::compose(&task) {
-            Ok(answer) => Ok(Answer::Composition(CompositionAnswer::new(id, answer))),
-            Err(error) => Err((id, composition::problem(&error))),
+        Record::Composition { id, task } => match compose(&task) {
+            Ok((_, answer)) => Ok(Answer::Composition(CompositionAnswer::new(id, answer))),
+            Err(problem) => Err((id, problem)),
         },
     }
+}
+
+/// Composes a task; also gives its services as a set. Errors: the rules of a service set, a goal
+/// that is no service, too many choices.
+pub fn compose(task: &Task) -> Result<(ServiceSet, orchestrator::Answer), InvalidInput> {
+    let services = ServiceSet::new(task.services.clone())
+        .map_err(|error| composition::problem(&TaskError::Services(error)))?;
+    let answer = orchestrator::compose(task).map_err(|error| composition::problem(&error))?;
+    Ok((services, answer))
 }
 
 /// The answer to line number `number` (from 1), given without its newline.

@@ -186,7 +186,7 @@ impl<'l> Value<'l, '_> {
 pub fn excerpt(text: &str) -> String {
     let mut chars = text.chars();
     let mut shown: String =
-        chars.by_ref().take(EXCERPT_CHARS).flat_map(char::escape_default).collect();
+        chars.by_ref().take(EXCERPT_CHARS).flat_map(char::escape_debug).collect();
     if chars.next().is_some() {
         shown.push_str("...");
     }

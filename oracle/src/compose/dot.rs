@@ -1,0 +1,40 @@
+//! The graph in the language of Graphviz.
+
+use super::graph::Graph;
+use super::svg::colour;
+
+/// The goal at the top, arrows from provider to consumer, device switches dashed.
+pub fn draw(graph: &Graph) -> String {
+    let mut lines = vec![
+        String::from("digraph services {"),
+        String::from("  rankdir=BT;"),
+        String::from("  node [shape=box, style=\"rounded,filled\", fontname=\"sans-serif\"];"),
+    ];
+    for (index, node) in graph.nodes.iter().enumerate() {
+        lines.push(format!(
+            "  n{index} [label={}, fillcolor=\"{}\"];",
+            quoted(&node.id),
+            colour(node.station)
+        ));
+    }
+    for edge in &graph.edges {
+        let style = if edge.switch { ", style=dashed" } else { "" };
+        let label = quoted(&edge.interfaces.join(", "));
+        lines.push(format!("  n{} -> n{} [label={label}{style}];", edge.provider, edge.consumer));
+    }
+    lines.push(String::from("}\n"));
+    lines.join("\n")
+}
+
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for character in text.chars() {
+        match character {
+            '"' | '\\' => quoted.extend(['\\', character]),
+            control if control.is_control() => quoted.push('\u{fffd}'),
+            other => quoted.push(other),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
