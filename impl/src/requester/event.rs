@@ -5,6 +5,7 @@ use core::ops::Deref;
 
 use super::per_group::PerGroup;
 use crate::configuration::{Group, Groups};
+use crate::verdict::{InvalidInput, Report};
 
 /// Something that happens at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -81,10 +82,14 @@ pub enum EventKind {
 }
 
 impl EventKind {
-    /// The end of a cycle as an event: `outcome` is whether the cycle was safe, or the error in
-    /// which it ended, which counts as unsafe. Source: `spec/2-offloading.md#fallback`.
-    pub const fn of_cycle<E>(outcome: &Result<bool, E>, groups: Groups) -> Self {
-        Self::Verdict { safe: matches!(outcome, Ok(true)), groups }
+    /// The end of a cycle as an event. `answer`: what `schedule::check` said; an error counts as
+    /// unsafe. `groups`: those whose data the cycle used. Source: `spec/2-offloading.md#fallback`.
+    pub const fn of_cycle(answer: &Result<Report, InvalidInput>, groups: Groups) -> Self {
+        let safe = match answer {
+            Ok(report) => report.failed_stage.is_none(),
+            Err(_) => false,
+        };
+        Self::Verdict { safe, groups }
     }
 
     /// The station that the event names, if it is of a kind that names one.
