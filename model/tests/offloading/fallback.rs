@@ -1,0 +1,217 @@
+//! `spec/2-offloading.md#fallback`. Default: `t_wait` 10 s.
+
+use mufasa_model::requester::Action::{Activate, Deactivate, Drop};
+use mufasa_model::requester::Group::{Mot, Plan};
+use mufasa_model::requester::GroupState::Local;
+use mufasa_model::requester::{EventKind, Groups, Parameters};
+use mufasa_model::verdict::{FailedStage, InvalidInput, Outcome, Report, Stage};
+
+use crate::{
+    Cav, MOT, PLAN, PROFILES, Profile, TICK, UNSAFE, confirm, data, offer, on, release, request,
+    safe,
+};
+
+const T_WAIT_NS: i64 = 10_000_000_000;
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn a_safety_issue_returns_every_remote_or_requested_group_in_the_same_step() {
+    let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
+    cav.at(1, confirm(1, Plan, 2));
+    let fallen_back = [release(1, Mot, 1), release(1, Plan, 2), Activate(Plan)];
+    assert_eq!(cav.at(2, UNSAFE), fallen_back);
+    assert_eq!(cav.states(), (Local, Local));
+}
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn a_fallback_sends_one_release_per_group_to_its_station() {
+    let mut cav = Cav::paper();
+    cav.at(0, offer(2, MOT));
+    cav.at(0, offer(1, PLAN));
+    cav.at(0, TICK);
+    cav.at(0, confirm(2, Mot, 1));
+    cav.at(0, confirm(1, Plan, 2));
+    let fallen_back = [release(2, Mot, 1), release(1, Plan, 2), Activate(Mot), Activate(Plan)];
+    assert_eq!(cav.at(1, UNSAFE), fallen_back);
+}
+
+/// `spec/2-offloading.md#fallback`: the groups that an unsafe verdict names do not matter (I-10).
+#[test]
+fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used() {
+    for groups in [Groups::NONE, MOT, PLAN, Groups::ALL] {
+        for profile in PROFILES {
+            let mut cav = Cav::remote(profile, Groups::ALL);
+            cav.at(1, EventKind::Verdict { safe: false, groups });
+            assert_eq!(cav.states(), (Local, Local));
+            assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS));
+        }
+    }
+}
+
+/// `spec/2-offloading.md#fallback`: what arrives late from the cycle's sessions is dropped.
+#[test]
+fn after_a_safety_issue_data_of_the_ended_sessions_are_dropped() {
+    for profile in PROFILES {
+        let mut cav = Cav::remote(profile, Groups::ALL);
+        assert_eq!(cav.at(1, data(1, Mot, 1, 1)), []);
+        cav.at(2, UNSAFE);
+        assert_eq!(cav.at(2, data(1, Mot, 1, 2)), [Drop(Mot)]);
+        assert_eq!(cav.at(2, data(1, Plan, 2, 2)), [Drop(Plan)]);
+    }
+}
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() {
+    let mut cav = Cav::paper();
+    assert_eq!(cav.0.hold_until_ns(), None);
+    for (t_ns, until_ns) in [(5, 5), (9, 9), (7, 9), (-20_000_000_000, 9), (10, 10)] {
+        assert_eq!(cav.at(t_ns, UNSAFE), [], "also when every group is local already");
+        assert_eq!(cav.0.hold_until_ns(), Some(until_ns + T_WAIT_NS));
+    }
+}
+
+/// `spec/2-offloading.md#fallback` (I-08)
+#[test]
+fn offloading_is_possible_again_at_hold_until_and_not_before() {
+    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
+    cav.at(1, UNSAFE);
+    cav.ignores(T_WAIT_NS, TICK);
+    assert_eq!(cav.at(1 + T_WAIT_NS, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
+    assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS), "the last value stays");
+}
+
+/// `spec/2-offloading.md#fallback` (I-09): late data and silence, with and without the switch.
+#[test]
+fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
+    for qos_hold in [false, true] {
+        for (t_ns, kind) in [(1, data(1, Mot, 1, 2)), (100_000_001, TICK)] {
+            let parameters = Parameters { qos_hold, ..Parameters::default() };
+            let mut cav = Cav::new(Profile::Paper, parameters);
+            cav.at(0, offer(1, MOT));
+            cav.at(0, TICK);
+            cav.at(0, confirm(1, Mot, 1));
+            cav.at(t_ns, kind);
+            assert_eq!(cav.0.state(Mot), Local);
+            let until_ns = t_ns + T_WAIT_NS;
+            assert_eq!(cav.0.hold_until_ns(), qos_hold.then_some(until_ns));
+            assert_eq!(cav.at(until_ns - 1, TICK).is_empty(), qos_hold);
+        }
+    }
+}
+
+/// `spec/2-offloading.md#fallback`: a hold that a silent session starts at a tick forbids the
+/// requests of that tick, because requests are decided last.
+#[test]
+fn a_hold_of_silence_forbids_the_requests_of_the_same_tick() {
+    for qos_hold in [false, true] {
+        let parameters = Parameters { qos_hold, ..Parameters::default() };
+        let mut cav = Cav::new(Profile::Paper, parameters);
+        cav.at(0, offer(1, PLAN));
+        cav.at(0, TICK);
+        cav.at(0, confirm(1, Plan, 1));
+        cav.at(1, offer(1, Groups::ALL));
+        let mut actions = vec![release(1, Plan, 1), Activate(Plan)];
+        if !qos_hold {
+            actions.push(request(1, Mot, 2));
+        }
+        assert_eq!(cav.at(100_000_001, TICK), actions);
+    }
+}
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
+    let mut cav = Cav::paper();
+    cav.at(0, offer(1, Groups::ALL));
+    cav.at(100, UNSAFE);
+    for t_ns in [100, 100, 50, -1, i64::MIN, 100, 99 + T_WAIT_NS] {
+        assert_eq!(cav.at(t_ns, TICK), []);
+        assert_eq!(cav.0.hold_until_ns(), Some(100 + T_WAIT_NS));
+    }
+    cav.at(i64::MIN, UNSAFE);
+    assert_eq!(cav.0.hold_until_ns(), Some(100 + T_WAIT_NS));
+}
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn hold_until_saturates_at_the_limits_of_64_bits() {
+    let parameters = Parameters { t_wait_ns: i64::MAX, ..Parameters::default() };
+    let mut cav = Cav::new(Profile::Paper, parameters);
+    cav.at(0, offer(1, MOT));
+    cav.at(1, UNSAFE);
+    assert_eq!(cav.0.hold_until_ns(), Some(i64::MAX));
+    assert_eq!(cav.at(i64::MAX - 1, TICK), []);
+    assert_eq!(cav.at(i64::MAX, TICK), [request(1, Mot, 1)]);
+    let mut cav = Cav::new(Profile::Paper, parameters);
+    cav.at(i64::MIN, UNSAFE);
+    assert_eq!(cav.0.hold_until_ns(), Some(-1));
+}
+
+/// `spec/2-offloading.md#fallback`
+#[test]
+fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
+    let stages = [const { Outcome::NotScheduled }; 5];
+    let report = |failed_stage| Report { failed_stage, stages: stages.clone(), input: None };
+    let problem =
+        InvalidInput { field: "ego.x".to_owned(), index: None, message: "is NaN".to_owned() };
+    for (result, safe) in [
+        (Ok(report(None)), true),
+        (Ok(report(Some(FailedStage::Stage(Stage::Ii)))), false),
+        (Ok(report(Some(FailedStage::Input))), false),
+        (Ok(report(Some(FailedStage::NoObstacleCheck))), false),
+        (Err(problem), false),
+    ] {
+        let kind = EventKind::of_cycle(&result, MOT);
+        assert_eq!(kind, EventKind::Verdict { safe, groups: MOT });
+    }
+}
+
+/// `spec/2-offloading.md#fallback`: PLAN is overdue, MOT silent, and the order is by kind first.
+#[test]
+fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_plan_within_each() {
+    let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
+    cav.at(0, confirm(1, Mot, 1));
+    let tick = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot)];
+    assert_eq!(cav.at(500_000_000, TICK), tick);
+
+    let mut cav = Cav::remote(Profile::Hardened, Groups::ALL);
+    cav.at(1, data(1, Plan, 2, 1));
+    cav.at(1, data(1, Mot, 1, 1));
+    assert_eq!(cav.at(2, safe(Groups::ALL)), [Deactivate(Mot), Deactivate(Plan)]);
+    let all = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot), Activate(Plan)];
+    assert_eq!(cav.at(3, UNSAFE), all);
+
+    let mut cav = Cav::remote(Profile::Paper, MOT);
+    cav.at(1, offer(1, Groups::ALL));
+    let tick = [release(1, Mot, 1), Activate(Mot), request(1, Plan, 2)];
+    assert_eq!(cav.at(100_000_001, TICK), tick);
+}
+
+/// `spec/2-offloading.md#properties-of-the-whole-protocol` (H-08)
+#[test]
+fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
+    let mut cav = Cav::remote(Profile::Hardened, MOT);
+    assert_eq!(cav.at(1, safe(MOT)), [], "no result");
+    cav.at(2, data(1, Mot, 9, 2));
+    assert_eq!(cav.at(2, safe(MOT)), [], "no result of the running session");
+    cav.at(3, data(1, Mot, 1, 3));
+    assert_eq!(cav.at(3, safe(PLAN)), [], "the cycle did not use it");
+    cav.at(4, offer(1, Groups::NONE));
+    cav.at(4, offer(1, MOT));
+    cav.at(4, TICK);
+    cav.at(4, confirm(1, Mot, 2));
+    assert_eq!(cav.0.state(Mot), on(1, 2));
+    assert_eq!(cav.at(5, safe(MOT)), [], "the used result was of an earlier session");
+    cav.at(6, data(1, Mot, 2, 6));
+    assert_eq!(cav.at(6, safe(MOT)), [Deactivate(Mot)]);
+}
+
+/// `spec/5-interfaces.md#offloading-trace`: `safe` matters only for H-08.
+#[test]
+fn a_safe_verdict_changes_nothing_in_the_paper_profile() {
+    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
+    cav.at(1, data(1, Mot, 1, 1));
+    cav.ignores(2, safe(Groups::ALL));
+}

@@ -1,0 +1,115 @@
+//! One test per requirement of `spec/2-offloading.md`, named after its sentence.
+
+mod deadlines;
+mod fallback;
+mod protocol;
+mod provider;
+mod quality_of_service;
+mod requester;
+mod stations;
+
+use mufasa_model::cycle::Profile;
+use mufasa_model::requester::Group::{Mot, Plan};
+use mufasa_model::requester::{
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+};
+
+const MOT: Groups = Groups { mot: true, plan: false };
+const PLAN: Groups = Groups { mot: false, plan: true };
+const TICK: EventKind = EventKind::Tick;
+const UNSAFE: EventKind = EventKind::Verdict { safe: false, groups: Groups::NONE };
+const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
+
+/// A requester that is checked after every step.
+struct Cav(Requester);
+
+impl Cav {
+    fn new(profile: Profile, parameters: Parameters) -> Self {
+        Self(Requester::new(profile, parameters))
+    }
+
+    /// Paper profile, default parameters.
+    fn paper() -> Self {
+        Self::new(Profile::Paper, Parameters::default())
+    }
+
+    /// With these groups requested from station 1 at 0 ns, sessions from 1 on.
+    fn requested(profile: Profile, groups: Groups) -> Self {
+        let mut cav = Self::new(profile, Parameters::default());
+        cav.at(0, offer(1, groups));
+        cav.at(0, TICK);
+        cav
+    }
+
+    /// With these groups on station 1 since 0 ns, sessions from 1 on.
+    fn remote(profile: Profile, groups: Groups) -> Self {
+        let mut cav = Self::requested(profile, groups);
+        for group in Group::ALL {
+            if let GroupState::Requested { session, .. } = cav.0.state(group) {
+                cav.at(0, confirm(1, group, session));
+            }
+        }
+        cav
+    }
+
+    fn at(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
+        let actions = self.0.step(&Event { t_ns, kind });
+        assert!(self.0.is_valid(), "after {kind:?} at {t_ns}: {:?}", self.0);
+        actions
+    }
+
+    fn states(&self) -> (GroupState, GroupState) {
+        (self.0.state(Mot), self.0.state(Plan))
+    }
+
+    /// Asserts that the event does nothing and changes nothing.
+    fn ignores(&mut self, t_ns: i64, kind: EventKind) {
+        let before = self.0.clone();
+        assert_eq!(self.at(t_ns, kind), []);
+        assert_eq!(self.0, before);
+    }
+}
+
+fn offer(station: i64, groups: Groups) -> EventKind {
+    EventKind::Offer { station, groups }
+}
+
+fn withdraw(station: i64) -> EventKind {
+    EventKind::Withdraw { station }
+}
+
+fn lost(station: i64) -> EventKind {
+    EventKind::Lost { station }
+}
+
+fn area(groups: Groups) -> EventKind {
+    EventKind::Area { groups }
+}
+
+fn confirm(station: i64, group: Group, session: i64) -> EventKind {
+    EventKind::Confirm { station, group, session }
+}
+
+fn reject(station: i64, group: Group, session: i64) -> EventKind {
+    EventKind::Reject { station, group, session }
+}
+
+fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKind {
+    EventKind::Data { station, group, session, generated_ns }
+}
+
+fn safe(groups: Groups) -> EventKind {
+    EventKind::Verdict { safe: true, groups }
+}
+
+fn request(station: i64, group: Group, session: i64) -> Action {
+    Action::Request { station, group, session }
+}
+
+fn release(station: i64, group: Group, session: i64) -> Action {
+    Action::Release { station, group, session }
+}
+
+fn on(station: i64, session: i64) -> GroupState {
+    GroupState::Remote { station, session }
+}
