@@ -1,14 +1,204 @@
 //! Which stages run, in which order, and what the cycle reports (`spec/3-stages.md#schedule`).
 
-use crate::cycle::Cycle;
+use crate::configuration::Configuration;
+use crate::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList, Trajectory};
+use crate::detections::{detections, gap};
+use crate::grid::grid;
+use crate::input::{Fault, Usable, elapsed_ns, validate};
+use crate::map_validation::map_validation;
 use crate::scratch::Scratch;
-use crate::verdict::{FailedStage, InvalidInput, Outcome, Report};
+use crate::track_validation::{previous_in_use, track_validation};
+use crate::tracks::tracks;
+use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
-    scratch.fits(cycle)?;
-    // No stage is written yet, so no trajectory was compared with anything.
-    let stages = [Outcome::NotScheduled; 5];
-    Ok(Report { failed_stage: Some(FailedStage::NoObstacleCheck), stages, input: None })
+    match validate(cycle) {
+        Err(Fault::Local(problem)) => Err(problem),
+        Err(Fault::Remote(problem)) => {
+            let stages = Stage::ALL.map(|stage| match duty(cycle, stage) {
+                Duty::Never => Outcome::NotScheduled,
+                Duty::Always | Duty::Conditional => Outcome::Skipped(Reason::AfterFailure),
+            });
+            Ok(Report { failed_stage: Some(FailedStage::Input), stages, input: Some(problem) })
+        }
+        Ok(usable) => {
+            scratch.fits(cycle)?;
+            Ok(run(cycle, usable, scratch))
+        }
+    }
+}
+
+/// How a stage stands in the table of `spec/3-stages.md#schedule`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Duty {
+    Always,
+    Conditional,
+    Never,
+}
+
+/// The table; H-05 makes stage v conditional in `PlanRemote`.
+fn duty(cycle: &Cycle<'_>, stage: Stage) -> Duty {
+    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    match (stage, cycle.configuration) {
+        (_, Local) | (Stage::I, PlanRemote) | (Stage::Iii, MotRemote) => Duty::Never,
+        (Stage::I, MotRemote | AllRemote)
+        | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
+        | (Stage::Iii, PlanRemote)
+        | (Stage::V, MotRemote) => Duty::Always,
+        (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
+            Duty::Conditional
+        }
+        (Stage::V, PlanRemote) => match cycle.profile {
+            Profile::Paper => Duty::Never,
+            Profile::Hardened => Duty::Conditional,
+        },
+    }
+}
+
+/// The inputs that are current.
+struct Current<'c, 'a> {
+    trajectory: Option<&'c Trajectory<'a>>,
+    tracks: Option<&'c TrackList<'a>>,
+    detections: Option<&'c DetectionList<'a>>,
+    lead: Option<&'c Lead>,
+    grid: Option<&'c Grid<'a>>,
+}
+
+impl<'c, 'a> Current<'c, 'a> {
+    fn new(cycle: &'c Cycle<'a>, usable: Usable) -> Self {
+        let current = |stamp_ns: i64| {
+            let age_ns = elapsed_ns(stamp_ns, cycle.now_ns);
+            0 <= age_ns && age_ns <= cycle.parameters.max_age_ns
+        };
+        let trajectory = cycle.trajectory.as_ref().filter(|list| current(list.stamp_ns));
+        Self {
+            trajectory: trajectory.filter(|_| usable.trajectory),
+            tracks: cycle.tracks.as_ref().filter(|list| current(list.stamp_ns)),
+            detections: cycle.detections.as_ref().filter(|list| current(list.stamp_ns)),
+            lead: cycle.lead.as_ref().filter(|lead| current(lead.stamp_ns)),
+            grid: cycle.grid.as_ref().filter(|grid| current(grid.stamp_ns)),
+        }
+    }
+}
+
+/// What is known of the cycle so far.
+struct Progress {
+    failed: Option<FailedStage>,
+    stages: [Outcome; 5],
+}
+
+impl Progress {
+    /// Settles one stage. `blocked`: another stage made a conditional one unnecessary; `missing`:
+    /// the first input that it lacks; `run` gives the witness of a failure. Whether it ran.
+    fn settle(
+        &mut self,
+        (stage, duty): (Stage, Duty),
+        blocked: bool,
+        missing: Option<Input>,
+        run: impl FnOnce() -> Option<Witness>,
+    ) -> bool {
+        let skipped = match (duty, missing) {
+            (Duty::Never, _) => Some(Outcome::NotScheduled),
+            _ if self.failed.is_some() => Some(Outcome::Skipped(Reason::AfterFailure)),
+            (Duty::Conditional, _) if blocked => Some(Outcome::Skipped(Reason::OtherStageRan)),
+            (Duty::Conditional, Some(input)) => Some(Outcome::Skipped(Reason::NoCurrent(input))),
+            (Duty::Always, Some(input)) => Some(Outcome::NotApplicable(input)),
+            (Duty::Always | Duty::Conditional, None) => None,
+        };
+        let outcome = skipped.unwrap_or_else(|| run().map_or(Outcome::Passed, Outcome::Failed));
+        self.report(stage, outcome);
+        skipped.is_none()
+    }
+
+    fn report(&mut self, stage: Stage, outcome: Outcome) {
+        if matches!(outcome, Outcome::Failed(_)) {
+            self.failed = Some(FailedStage::Stage(stage));
+        }
+        for (slot, _) in self.stages.iter_mut().zip(Stage::ALL).filter(|&(_, at)| at == stage) {
+            *slot = outcome;
+        }
+    }
+}
+
+/// Runs the stages on valid input.
+fn run(cycle: &Cycle<'_>, usable: Usable, scratch: &mut Scratch<'_>) -> Report {
+    let hardened = cycle.profile == Profile::Hardened;
+    let all_remote = cycle.configuration == Configuration::AllRemote;
+    let current = Current::new(cycle, usable);
+    let scheduled = |stage| (stage, duty(cycle, stage));
+    let mut progress = Progress { failed: None, stages: [Outcome::NotScheduled; 5] };
+
+    let received = cycle.tracks.as_ref().zip(current.detections);
+    let previous =
+        cycle.tracks.as_ref().and_then(|list| previous_in_use(cycle, list, usable.previous_tracks));
+    let missing = lacks(&[
+        (Input::Tracks, cycle.tracks.is_some()),
+        (Input::Detections, current.detections.is_some()),
+    ]);
+    let ran_i = progress.settle(scheduled(Stage::I), false, missing, || {
+        let (tracks, detections) = received?;
+        track_validation(cycle, tracks, detections, previous, scratch)
+    });
+
+    let with_trajectory = (Input::Trajectory, current.trajectory.is_some());
+    progress.settle(scheduled(Stage::Ii), false, lacks(&[with_trajectory]), || {
+        map_validation(cycle, current.trajectory?)
+    });
+
+    let missing = lacks(&[with_trajectory, (Input::Tracks, current.tracks.is_some())]);
+    let ran_iii = progress.settle(scheduled(Stage::Iii), false, missing, || {
+        tracks(cycle, current.trajectory?, current.tracks?, previous.filter(|_| ran_i))
+    });
+
+    // H-10: in AllRemote what stage iii did keeps neither iv nor v from running.
+    let iii_counts = ran_iii && !(hardened && all_remote);
+    let missing = lacks(&[with_trajectory, (Input::Detections, current.detections.is_some())]);
+    let ran_iv = stage_iv(cycle, &current, &mut progress, iii_counts, missing);
+
+    let missing = lacks(&[with_trajectory, (Input::Grid, current.grid.is_some())]);
+    let ran_v = progress.settle(scheduled(Stage::V), iii_counts || ran_iv, missing, || {
+        grid(cycle, current.trajectory?, current.grid?, ran_iv)
+    });
+
+    // H-02: tracks that stage i could not check are no obstacle check.
+    let checked_iii = ran_iii && (!all_remote || current.detections.is_some());
+    let checked = checked_iii || ran_iv || ran_v;
+    let local = cycle.configuration == Configuration::Local;
+    if hardened && !local && progress.failed.is_none() && with_trajectory.1 && !checked {
+        progress.failed = Some(FailedStage::NoObstacleCheck);
+    }
+    Report { failed_stage: progress.failed, stages: progress.stages, input: None }
+}
+
+/// Stage iv, and H-04: the gap is compared at its place even when it does not run. Whether it ran.
+fn stage_iv(
+    cycle: &Cycle<'_>,
+    current: &Current<'_, '_>,
+    progress: &mut Progress,
+    blocked: bool,
+    missing: Option<Input>,
+) -> bool {
+    let scheduled = (Stage::Iv, duty(cycle, Stage::Iv));
+    let too_close = || current.lead.and_then(|lead| gap(cycle, lead));
+    let ran = progress.settle(scheduled, blocked, missing, || {
+        too_close()
+            .or_else(|| detections(cycle, current.trajectory?, current.detections?, current.lead))
+    });
+    let compared = cycle.profile == Profile::Hardened
+        && scheduled.1 != Duty::Never
+        && progress.failed.is_none()
+        && current.trajectory.is_some();
+    if compared && !ran {
+        if let Some(witness) = too_close() {
+            progress.report(Stage::Iv, Outcome::Failed(witness));
+        }
+    }
+    ran
+}
+
+/// The first of the inputs that is not there.
+fn lacks(inputs: &[(Input, bool)]) -> Option<Input> {
+    inputs.iter().find(|(_, present)| !present).map(|&(input, _)| input)
 }

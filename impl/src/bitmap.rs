@@ -1,0 +1,56 @@
+//! The cells of a grid as bits (`spec/5-interfaces.md#cycle`).
+
+/// Bit row * width + column, least significant bit of each byte first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bitmap<'a> {
+    pub(crate) bits: &'a [u8],
+    pub(crate) width: i64,
+    pub(crate) height: i64,
+}
+
+impl Bitmap<'_> {
+    /// The first set cell of the row with from <= column <= to; columns outside the array are not
+    /// set.
+    pub(crate) fn first_in_row(&self, row: i64, from: i64, to: i64) -> Option<i64> {
+        let (from, to) = (from.max(0), to.min(self.width.saturating_sub(1)));
+        if row < 0 || row >= self.height || from > to {
+            return None;
+        }
+        let start = row.saturating_mul(self.width);
+        let last = start.saturating_add(to);
+        let mut bit = start.saturating_add(from);
+        while bit <= last {
+            let byte = *self.bits.get(usize::try_from(bit >> 3).ok()?)?;
+            let rest = byte >> (bit & 7);
+            if rest != 0 {
+                let found = bit.saturating_add(i64::from(rest.trailing_zeros()));
+                return (found <= last).then(|| found.saturating_sub(start));
+            }
+            bit = (bit | 7).saturating_add(1);
+        }
+        None
+    }
+
+    /// The squared distance, in cells, from a cell to the first set cell (by row, then column) whose
+    /// centre is at most the root of `most` cells away.
+    pub(crate) fn within(&self, column: i64, row: i64, most: i64) -> Option<i64> {
+        let reach = root(most);
+        let rows = row.saturating_sub(reach).max(0)..=row.saturating_add(reach);
+        rows.take_while(|&k| k < self.height).find_map(|k| {
+            let up = square(k.saturating_sub(row));
+            let across = root(most.saturating_sub(up));
+            let from = column.saturating_sub(across);
+            let found = self.first_in_row(k, from, column.saturating_add(across))?;
+            Some(up.saturating_add(square(found.saturating_sub(column))))
+        })
+    }
+}
+
+fn square(value: i64) -> i64 {
+    value.saturating_mul(value)
+}
+
+/// The largest integer whose square is at most `value`; 0 for negative values.
+fn root(value: i64) -> i64 {
+    i64::try_from(u64::try_from(value).unwrap_or(0).isqrt()).unwrap_or(i64::MAX)
+}

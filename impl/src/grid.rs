@@ -1,0 +1,207 @@
+//! Stage v: trajectory with grid map (`spec/3-stages.md#stage-v-trajectory-with-grid-map`), with
+//! H-06.
+
+use crate::bitmap::Bitmap;
+use crate::collision::examined;
+use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
+use crate::distance::s_b;
+use crate::plane::Vector;
+use crate::rounding::Real;
+use crate::verdict::{Rule, Witness};
+
+/// Why stage v fails, if it does. `unknown_is_free`: stage iv ran in this cycle (H-06).
+pub(crate) fn grid(
+    cycle: &Cycle<'_>,
+    trajectory: &Trajectory<'_>,
+    grid: &Grid<'_>,
+    unknown_is_free: bool,
+) -> Option<Witness> {
+    let s = s_b(&cycle.parameters, Real::new(cycle.ego.speed));
+    let count = examined(cycle, trajectory.points, s);
+    let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
+    let map = Map::new(cycle, grid);
+    let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
+    let search = |rule, hit: &dyn Fn(&Disk) -> Option<Hit>| first(cycle, &map, points, rule, hit);
+    if cycle.profile == Profile::Paper {
+        let steps = map.dilation();
+        return search(Rule::Occupied, &|disk| map.marked(disk, &occupied, steps));
+    }
+    let found = search(Rule::Occupied, &|disk| map.touched(disk, &occupied));
+    if unknown_is_free {
+        return found;
+    }
+    let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
+    found
+        .or_else(|| {
+            unknown.and_then(|unknown| search(Rule::Unknown, &|disk| map.touched(disk, &unknown)))
+        })
+        .or_else(|| search(Rule::Outside, &|disk| map.outside(disk)))
+}
+
+/// A disk centre in the grid's frame, m.
+struct Disk {
+    column: Real,
+    row: Real,
+}
+
+/// A cell, and its distance as the stage means it, m.
+struct Hit {
+    cell: (i64, i64),
+    distance: f64,
+}
+
+/// The first hit in the order of points, then disks.
+fn first(
+    cycle: &Cycle<'_>,
+    map: &Map,
+    points: &[TrajectoryPoint],
+    rule: Rule,
+    hit: &dyn Fn(&Disk) -> Option<Hit>,
+) -> Option<Witness> {
+    points.iter().enumerate().find_map(|(index, point)| {
+        (0..cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
+            let Hit { cell, distance } = hit(&map.disk(cycle, point, i))?;
+            let witness = Witness::of(rule, [distance, map.radius.value()]).at_point(index);
+            Some(Witness { disk: Some(number), cell: Some(cell), ..witness })
+        })
+    })
+}
+
+/// The frame and the cells of a grid, and the disks' radius.
+struct Map {
+    origin: Vector,
+    direction: Vector,
+    norm_squared: Real,
+    resolution: Real,
+    width: i64,
+    height: i64,
+    radius: Real,
+    radius_squared: Real,
+}
+
+impl Map {
+    fn new(cycle: &Cycle<'_>, grid: &Grid<'_>) -> Self {
+        let direction = Vector::new(grid.cos, grid.sin);
+        let part = Real::new(cycle.ego.length).over(Real::integer(cycle.parameters.n));
+        let diagonal_squared = part.squared() + Real::new(cycle.ego.width).squared();
+        let radius_squared = diagonal_squared * Real::new(0.25);
+        Self {
+            origin: Vector::new(grid.x, grid.y),
+            direction,
+            norm_squared: direction.dot(direction),
+            resolution: Real::new(grid.resolution),
+            width: grid.width,
+            height: grid.height,
+            radius: radius_squared.sqrt(),
+            radius_squared,
+        }
+    }
+
+    /// Disk `i` of the footprint at a point: (2i+1) L/(2n) - L/2 from the rectangle's centre.
+    fn disk(&self, cycle: &Cycle<'_>, point: &TrajectoryPoint, i: i64) -> Disk {
+        let n = cycle.parameters.n;
+        let odd = Real::integer(i) + Real::integer(i) + Real::ONE;
+        let share = odd.over(Real::integer(n) + Real::integer(n)) - Real::new(0.5);
+        let shift = Real::new(cycle.ego.length) * share + Real::new(cycle.ego.center_offset);
+        let centre = Vector::new(point.x, point.y) + Vector::new(point.cos, point.sin).times(shift);
+        let relative = centre - self.origin;
+        Disk {
+            column: relative.dot(self.direction).over(self.norm_squared),
+            row: self.direction.cross(relative).over(self.norm_squared),
+        }
+    }
+
+    /// The largest number of squared cell widths that may be <= r^2.
+    fn dilation(&self) -> i64 {
+        let ratio = self.radius_squared.over(self.resolution.squared());
+        let most = floor(ratio).saturating_add(1);
+        let fits = |&steps: &i64| Real::integer(steps).possibly_at_most(ratio);
+        [most, most.saturating_sub(1)].into_iter().find(fits).unwrap_or(most.saturating_sub(2))
+    }
+
+    /// Paper: the first marked cell of the array in which the disk centre may lie.
+    fn marked(&self, disk: &Disk, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
+        let column = disk.column.over(self.resolution);
+        let row = disk.row.over(self.resolution);
+        cells_around(row, self.height).find_map(|k| {
+            cells_around(column, self.width).find_map(|i| {
+                let squared = occupied.within(i, k, steps)?;
+                let distance = Real::integer(squared).sqrt() * self.resolution;
+                Some(Hit { cell: (i, k), distance: distance.value() })
+            })
+        })
+    }
+
+    /// H-06: the first cell of the bitmap whose closed square may be at distance <= r.
+    fn touched(&self, disk: &Disk, cells: &Bitmap<'_>) -> Option<Hit> {
+        let (first, last) = self.reach(disk.row);
+        (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
+            let up = self.gap(disk.row, k);
+            let (from, to) = self.reach(disk.column);
+            let mut next = cells.first_in_row(k, from, to);
+            while let Some(i) = next {
+                let apart = self.gap(disk.column, i).squared() + up.squared();
+                if apart.possibly_at_most(self.radius_squared) {
+                    return Some(Hit { cell: (i, k), distance: apart.sqrt().value() });
+                }
+                next = cells.first_in_row(k, i.saturating_add(1), to);
+            }
+            None
+        })
+    }
+
+    /// H-06: the first place outside the array that may be at distance <= r, as the cell there.
+    fn outside(&self, disk: &Disk) -> Option<Hit> {
+        let cells = |count: i64| Real::integer(count) * self.resolution;
+        let borders =
+            [disk.column, disk.row, cells(self.width) - disk.column, cells(self.height) - disk.row];
+        let nearest = borders.into_iter().fold(self.radius + Real::ONE, Real::min);
+        if !nearest.possibly_at_most(self.radius) {
+            return None;
+        }
+        let (first, last) = self.reach(disk.row);
+        let (from, to) = self.reach(disk.column);
+        let touched = |i: i64, k: i64| {
+            let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
+            let touches = apart.possibly_at_most(self.radius_squared);
+            touches.then(|| Hit { cell: (i, k), distance: apart.sqrt().value() })
+        };
+        let beyond = |i: i64, k: i64| i < 0 || k < 0 || i >= self.width || k >= self.height;
+        let place = (first..=last)
+            .find_map(|k| (from..=to).filter(|&i| beyond(i, k)).find_map(|i| touched(i, k)));
+        let nearest = nearest.max(Real::ZERO).value();
+        place.or(Some(Hit { cell: (from, first), distance: nearest }))
+    }
+
+    /// The first and the last column (or row) that the disk may touch; at most one too many on
+    /// either side.
+    fn reach(&self, centre: Real) -> (i64, i64) {
+        let first = floor((centre - self.radius).over(self.resolution));
+        let last = floor((centre + self.radius).over(self.resolution));
+        (first.saturating_sub(1), last.saturating_add(1))
+    }
+
+    /// How far the coordinate is from the closed interval of a column (or row), m.
+    fn gap(&self, centre: Real, index: i64) -> Real {
+        let from = Real::integer(index) * self.resolution;
+        let to = Real::integer(index.saturating_add(1)) * self.resolution;
+        (from - centre).max(centre - to).max(Real::ZERO)
+    }
+}
+
+/// The columns (or rows) of the array in whose closed interval the coordinate, in cells, may be.
+fn cells_around(coordinate: Real, count: i64) -> impl Iterator<Item = i64> {
+    let middle = floor(coordinate);
+    (middle.saturating_sub(1)..=middle.saturating_add(1)).filter(move |&index| {
+        0 <= index
+            && index < count
+            && Real::integer(index).possibly_at_most(coordinate)
+            && coordinate.possibly_at_most(Real::integer(index.saturating_add(1)))
+    })
+}
+
+/// An integer at most 1 from the floor of the number.
+#[allow(clippy::cast_possible_truncation, reason = "coordinates in cells stay below 2^40")]
+fn floor(value: Real) -> i64 {
+    libm::floor(value.value()) as i64
+}

@@ -1,0 +1,43 @@
+//! Closed rectangles and whether two of them share a point
+//! (`spec/3-stages.md#low-level-collision-check-llcc`).
+
+use crate::plane::Vector;
+use crate::rounding::Real;
+
+/// The points centre + a direction + b turned direction, abs(a) <= L/2, abs(b) <= W/2.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rectangle {
+    /// Centre, m.
+    pub(crate) centre: Vector,
+    /// (cos, sin) as given, not normalised.
+    pub(crate) direction: Vector,
+    /// Length L, m.
+    pub(crate) length: f64,
+    /// Width W, m.
+    pub(crate) width: f64,
+}
+
+impl Rectangle {
+    /// H-03: half the diagonal times (1 + 1e-6), m.
+    pub(crate) fn circumradius(&self) -> Real {
+        let (length, width) = (Real::new(self.length), Real::new(self.width));
+        let diagonal = (length.squared() + width.squared()).sqrt();
+        diagonal * Real::new(0.5) * (Real::ONE + Real::new(1e-6))
+    }
+
+    /// Half of the rectangle's extent along `axis`, times the length of `axis`.
+    fn extent(&self, axis: Vector) -> Real {
+        let along = self.direction.dot(axis).abs() * Real::new(0.5 * self.length);
+        along + self.direction.turned().dot(axis).abs() * Real::new(0.5 * self.width)
+    }
+}
+
+/// Whether the two rectangles may share a point: unless the extents along a side of one of them
+/// certainly leave a gap (separating axes of two convex sets whose sides are orthogonal).
+pub(crate) fn possibly_touch(a: &Rectangle, b: &Rectangle) -> bool {
+    let apart = b.centre - a.centre;
+    let axes = [a.direction, a.direction.turned(), b.direction, b.direction.turned()];
+    !axes
+        .iter()
+        .any(|&axis| (a.extent(axis) + b.extent(axis)).certainly_below(apart.dot(axis).abs()))
+}

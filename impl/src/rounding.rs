@@ -1,0 +1,226 @@
+//! Real numbers with a proven error bound (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+//!
+//! A `Real` stands for one unknown real number x and knows abs(x - (hi + lo)) <= err. The centre
+//! is a double-double (relative error of an operation below 16 u^2, u = 2^-53; Joldes, Muller,
+//! Popescu 2017), so that the bound stays below 1e-15 m for every quantity of the stages, far
+//! below the least margin delta = 1e-8 m. Only + - * / and the correctly rounded square root are
+//! used, never a fused operation. Comparisons answer "certainly" or "possibly"; a NaN is never
+//! certain.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+/// Bound on the relative rounding error of one operation: 256 u^2, at least 16 times what is
+/// proven for the algorithms used.
+const OPERATION: f64 = f64::from_bits((1023 - 98) << 52);
+/// Bound on what one operation loses to underflow; each of at most ten partial results loses less
+/// than 2^-1073.
+const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+/// Bounds are sums and products of at most 16 non-negative doubles; this covers their rounding.
+const BOUND_UP: f64 = 1.0 + f64::from_bits((1023 - 45) << 52);
+/// `hi` times this is below the size of `hi + lo`, also after rounding.
+const CENTRE_DOWN: f64 = 1.0 - f64::from_bits((1023 - 45) << 52);
+
+/// A real number known up to a bound. Sums and differences of doubles are exact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Real {
+    hi: f64,
+    lo: f64,
+    err: f64,
+}
+
+impl Real {
+    pub(crate) const ZERO: Self = Self { hi: 0.0, lo: 0.0, err: 0.0 };
+    pub(crate) const ONE: Self = Self { hi: 1.0, lo: 0.0, err: 0.0 };
+
+    /// The number that the double denotes, exactly.
+    pub(crate) const fn new(value: f64) -> Self {
+        Self { hi: value, lo: 0.0, err: 0.0 }
+    }
+
+    /// a - b, exactly.
+    pub(crate) fn difference(a: f64, b: f64) -> Self {
+        let (hi, lo) = two_sum(a, -b);
+        Self { hi, lo, err: 0.0 }
+    }
+
+    /// A time in ns as seconds; exact up to the division.
+    pub(crate) fn seconds(time_ns: i64) -> Self {
+        Self::integer(time_ns).over(Self::new(1e9))
+    }
+
+    /// An integer, exactly.
+    pub(crate) fn integer(value: i64) -> Self {
+        let high = i32::try_from(value >> 32).unwrap_or(i32::MAX);
+        let low = u32::try_from(value & 0xffff_ffff).unwrap_or(u32::MAX);
+        let (hi, lo) = two_sum(f64::from(high) * 4_294_967_296.0, f64::from(low));
+        Self { hi, lo, err: 0.0 }
+    }
+
+    /// The nearest double of the centre.
+    pub(crate) const fn value(self) -> f64 {
+        self.hi
+    }
+
+    /// The same centre, known only up to `by` more (by >= 0).
+    pub(crate) fn widened(self, by: f64) -> Self {
+        Self { err: (self.err + by) * BOUND_UP, ..self }
+    }
+
+    /// A number that is certainly one of the two, one knows not which.
+    pub(crate) fn either(self, other: Self) -> Self {
+        let gap = self - other;
+        self.widened(gap.magnitude() + other.err)
+    }
+
+    /// self * self.
+    pub(crate) fn squared(self) -> Self {
+        self * self
+    }
+
+    /// abs is 1-Lipschitz: the bound stays.
+    pub(crate) fn abs(self) -> Self {
+        if self.hi < 0.0 { -self } else { self }
+    }
+
+    /// max is 1-Lipschitz in the maximum norm: the larger bound holds.
+    pub(crate) fn max(self, other: Self) -> Self {
+        let err = if self.err > other.err { self.err } else { other.err };
+        let larger = if (self - other).hi > 0.0 { self } else { other };
+        Self { err, ..larger }
+    }
+
+    /// As `max`.
+    pub(crate) fn min(self, other: Self) -> Self {
+        -(-self).max(-other)
+    }
+
+    /// self / other. The bound comes from the quotient itself: abs(a/b - q) = abs(a - b q) / abs(b).
+    /// A divisor that may be 0 gives an infinite bound.
+    pub(crate) fn over(self, other: Self) -> Self {
+        let first = self.hi / other.hi;
+        let second = (self - other * Self::new(first)).hi / other.hi;
+        let (hi, lo) = two_sum(first, second);
+        let quotient = Self { hi, lo, err: 0.0 };
+        let least = abs(other.hi) * CENTRE_DOWN - other.err * BOUND_UP;
+        if least > 0.0 {
+            let residue = (self - other * quotient).magnitude();
+            Self { err: (residue / least + UNDERFLOW) * BOUND_UP, ..quotient }
+        } else {
+            Self { hi: 0.0, lo: 0.0, err: f64::INFINITY }
+        }
+    }
+
+    /// The square root of a number that is known to be >= 0. The bound comes from the root itself:
+    /// abs(sqrt(a) - s) = abs(a - s^2) / (sqrt(a) + s), unless a may be almost 0.
+    pub(crate) fn sqrt(self) -> Self {
+        if self.hi <= 4.0 * self.err || self.hi <= UNDERFLOW {
+            let top = if self.hi > 0.0 { self.hi } else { 0.0 };
+            let root = libm::sqrt((top * BOUND_UP + self.err) * BOUND_UP);
+            return Self { hi: 0.0, lo: 0.0, err: root * BOUND_UP };
+        }
+        let first = libm::sqrt(self.hi);
+        let second = (self - Self::new(first).squared()).hi / (2.0 * first);
+        let (hi, lo) = two_sum(first, second);
+        let root = Self { hi, lo, err: 0.0 };
+        let residue = (self - root.squared()).magnitude();
+        Self { err: (residue / (root.hi * CENTRE_DOWN) + UNDERFLOW) * BOUND_UP, ..root }
+    }
+
+    /// self < other for every pair of numbers that the two may stand for.
+    pub(crate) fn certainly_below(self, other: Self) -> bool {
+        let gap = other - self;
+        gap.hi * CENTRE_DOWN > gap.err
+    }
+
+    /// self <= other for every pair of numbers that the two may stand for.
+    pub(crate) fn certainly_at_most(self, other: Self) -> bool {
+        let gap = other - self;
+        gap.hi * CENTRE_DOWN >= gap.err
+    }
+
+    /// self < other for some pair of numbers that the two may stand for.
+    pub(crate) fn possibly_below(self, other: Self) -> bool {
+        !other.certainly_at_most(self)
+    }
+
+    /// self <= other for some pair of numbers that the two may stand for.
+    pub(crate) fn possibly_at_most(self, other: Self) -> bool {
+        !other.certainly_below(self)
+    }
+
+    /// Upper bound on the absolute value of the number.
+    pub(crate) fn magnitude(self) -> f64 {
+        (abs(self.hi) * BOUND_UP + self.err) * BOUND_UP
+    }
+}
+
+impl Neg for Real {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo, err: self.err }
+    }
+}
+
+impl Add for Real {
+    type Output = Self;
+
+    /// Joldes et al., algorithm 6; sums do not underflow.
+    fn add(self, other: Self) -> Self {
+        let (s, e) = two_sum(self.hi, other.hi);
+        let (t, f) = two_sum(self.lo, other.lo);
+        let (s, e) = two_sum(s, e + t);
+        let (hi, lo) = two_sum(s, e + f);
+        let err = (self.err + other.err + abs(hi) * OPERATION) * BOUND_UP;
+        Self { hi, lo, err }
+    }
+}
+
+impl Sub for Real {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Real {
+    type Output = Self;
+
+    /// Joldes et al., algorithm 10, with an exact product that needs no fused operation.
+    fn mul(self, other: Self) -> Self {
+        let (p, e) = two_product(self.hi, other.hi);
+        let (hi, lo) = two_sum(p, e + (self.hi * other.lo + self.lo * other.hi));
+        let (a, b) = (abs(self.hi) * BOUND_UP, abs(other.hi) * BOUND_UP);
+        let inherited = a * other.err + b * self.err + self.err * other.err;
+        let err = (inherited + abs(hi) * OPERATION + UNDERFLOW) * BOUND_UP;
+        Self { hi, lo, err }
+    }
+}
+
+/// The rounded sum and its error, exactly (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// The rounded product and its error, exactly unless it underflows (Dekker). The factors stay far
+/// below 2^996, where the splitting would overflow.
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let product = a * b;
+    let (a1, a2) = split(a);
+    let (b1, b2) = split(b);
+    (product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
+}
+
+/// Two halves of at most 26 bits each that add up to `a` (Veltkamp).
+fn split(a: f64) -> (f64, f64) {
+    let shifted = 134_217_729.0 * a;
+    let high = shifted - (shifted - a);
+    (high, a - high)
+}
+
+fn abs(value: f64) -> f64 {
+    if value < 0.0 { -value } else { value }
+}

@@ -1,0 +1,182 @@
+//! Stage ii: what a trajectory has to be like to be driven (H-11, H-12 of
+//! `spec/3-stages.md#hardened-profile`).
+
+use core::cmp::Ordering;
+
+use crate::cycle::{Cycle, TrajectoryPoint};
+use crate::distance::s_b;
+use crate::exact::{Product, compare};
+use crate::input::elapsed_ns;
+use crate::plane::{Vector, distance, same_point};
+use crate::rounding::Real;
+use crate::verdict::{Rule, Witness};
+
+/// H-11: the first rule that some step breaks, and the first step that breaks it.
+pub(crate) fn step_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let rules: [(Rule, StepRule); 6] = [
+        (Rule::StepTime, step_time),
+        (Rule::StepLength, step_length),
+        (Rule::StepSpeed, step_speed),
+        (Rule::StepForward, step_forward),
+        (Rule::StepLateral, step_lateral),
+        (Rule::StepTurn, step_turn),
+    ];
+    rules.iter().find_map(|&(rule, broken)| {
+        let steps = points.iter().zip(points.iter().skip(1)).zip(1_usize..);
+        steps.into_iter().find_map(|((from, to), index)| {
+            let u = Vector::between([from.x, from.y], [to.x, to.y]);
+            let compared = broken(cycle, &Step { from, to, u })?;
+            Some(Witness::of(rule, compared).at_point(index))
+        })
+    })
+}
+
+/// H-12: arc length and end of the trajectory.
+pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let (first, last) = (points.first()?, points.last()?);
+    let bounds = Bounds::new(cycle, first);
+    let tolerance = Real::new(cycle.parameters.start_tolerance);
+    let too_short = arcs(points).find_map(|(index, t_ns, arc)| {
+        let least = bounds.braking(Real::seconds(t_ns)) - tolerance;
+        let witness = Witness::of(Rule::ArcTooShort, [arc.value(), least.value()]);
+        (!least.certainly_at_most(arc)).then(|| witness.at_point(index))
+    });
+    let too_long = || {
+        arcs(points).find_map(|(index, t_ns, arc)| {
+            let most = bounds.accelerating(Real::seconds(t_ns)) + tolerance;
+            let witness = Witness::of(Rule::ArcTooLong, [arc.value(), most.value()]);
+            (!arc.certainly_at_most(most)).then(|| witness.at_point(index))
+        })
+    };
+    too_short.or_else(too_long).or_else(|| {
+        let end_ns = elapsed_ns(first.t_ns, last.t_ns);
+        let stopped = stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
+        let needed = bounds.v_lo.over(Real::new(cycle.parameters.a_b)).min(Real::new(50.0));
+        let compared = [Real::seconds(end_ns).value(), needed.value()];
+        let index = points.len().saturating_sub(1);
+        (!stopped).then(|| Witness::of(Rule::EndsTooSoon, compared).at_point(index))
+    })
+}
+
+/// 50 s: no trajectory has to be longer.
+const LONGEST_NS: i64 = 50_000_000_000;
+
+/// Two consecutive points and the displacement between them.
+struct Step<'a> {
+    from: &'a TrajectoryPoint,
+    to: &'a TrajectoryPoint,
+    u: Vector,
+}
+
+impl Step<'_> {
+    fn dt_ns(&self) -> i64 {
+        elapsed_ns(self.from.t_ns, self.to.t_ns)
+    }
+
+    fn headings(&self) -> [Vector; 2] {
+        let Self { from, to, .. } = self;
+        [Vector::new(from.cos, from.sin), Vector::new(to.cos, to.sin)]
+    }
+
+    /// The two points are the same; differences of doubles are exact.
+    fn is_empty(&self) -> bool {
+        same_point([self.from.x, self.from.y], [self.to.x, self.to.y])
+    }
+}
+
+/// The two compared numbers when the rule is not certainly kept.
+type StepRule = fn(&Cycle<'_>, &Step<'_>) -> Option<[f64; 2]>;
+
+fn step_time(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    let (dt_ns, most_ns) = (step.dt_ns(), cycle.parameters.step_max_ns);
+    let compared = [Real::integer(dt_ns).value(), Real::integer(most_ns).value()];
+    (dt_ns > most_ns).then_some(compared)
+}
+
+fn step_length(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    exceeds(step.u.norm(), Real::new(cycle.ego.length))
+}
+
+fn step_speed(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    exceeds(step.u.norm(), Real::new(cycle.parameters.v_max) * Real::seconds(step.dt_ns()))
+}
+
+fn step_forward(_: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    if step.is_empty() {
+        return None;
+    }
+    step.headings().iter().find_map(|&heading| falls_short(step.u.dot(heading), Real::ZERO))
+}
+
+fn step_lateral(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    let half_width = Real::new(0.5 * cycle.ego.width);
+    step.headings().iter().find_map(|&heading| exceeds(step.u.cross(heading).abs(), half_width))
+}
+
+fn step_turn(_: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+    let [from, to] = step.headings();
+    falls_short(from.dot(to), Real::new(0.866))
+}
+
+fn exceeds(value: Real, most: Real) -> Option<[f64; 2]> {
+    (!value.certainly_at_most(most)).then(|| [value.value(), most.value()])
+}
+
+fn falls_short(value: Real, least: Real) -> Option<[f64; 2]> {
+    (!least.certainly_at_most(value)).then(|| [value.value(), least.value()])
+}
+
+/// Index, time after the first point in ns, and arc length of every point.
+fn arcs(points: &[TrajectoryPoint]) -> impl Iterator<Item = (usize, i64, Real)> + '_ {
+    let first_ns = points.first().map_or(0, |first| first.t_ns);
+    let steps = points.iter().zip(points.iter().skip(1)).zip(1_usize..);
+    let later = steps.scan(Real::ZERO, move |arc, ((a, b), index)| {
+        *arc = *arc + distance([a.x, a.y], [b.x, b.y]);
+        Some((index, elapsed_ns(first_ns, b.t_ns), *arc))
+    });
+    core::iter::once((0, 0, Real::ZERO)).chain(later)
+}
+
+/// H-12: how far the CAV gets at least and at most.
+struct Bounds {
+    v_lo: Real,
+    v_hi: Real,
+    a_b: Real,
+    a_max: Real,
+    stopping: Real,
+}
+
+impl Bounds {
+    fn new(cycle: &Cycle<'_>, first: &TrajectoryPoint) -> Self {
+        let parameters = &cycle.parameters;
+        let (a_b, a_max) = (Real::new(parameters.a_b), Real::new(parameters.a_max));
+        let d = Real::seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
+        let v_now = Real::new(cycle.ego.speed);
+        let v_lo = (v_now - a_max * d).max(Real::ZERO);
+        Self { v_lo, v_hi: v_now + a_b * d, a_b, a_max, stopping: s_b(parameters, v_lo) }
+    }
+
+    /// b(t): with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both branches of H-12 are
+    /// `s_b(v_lo)` - w^2 / (2 `a_b`).
+    fn braking(&self, t: Real) -> Real {
+        let left = (self.v_lo - self.a_b * t).max(Real::ZERO);
+        self.stopping - left.squared().over(self.a_b + self.a_b)
+    }
+
+    /// `v_hi` t + `a_max` t^2/2.
+    fn accelerating(&self, t: Real) -> Real {
+        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5)
+    }
+}
+
+/// Whether t >= `v_lo` / `a_b` at that time; exact, since no margin applies to times:
+/// `a_b` t + `a_max` d >= `v_now` in units of 1e-9 m/s. (When `v_lo` is 0, every t >= 0 is enough,
+/// and the inequality holds.)
+fn stands_at(cycle: &Cycle<'_>, first: &TrajectoryPoint, t_ns: i64) -> bool {
+    let parameters = &cycle.parameters;
+    let d_ns = elapsed_ns(first.t_ns, cycle.now_ns).saturating_abs();
+    let (t, d) = (Real::integer(t_ns).value(), Real::integer(d_ns).value());
+    let gained =
+        [Product([t, 0.0], [parameters.a_b, 0.0]), Product([d, 0.0], [parameters.a_max, 0.0])];
+    compare(&gained, &[Product([1e9, 0.0], [cycle.ego.speed, 0.0])]) != Ordering::Less
+}
