@@ -1,0 +1,335 @@
+//! `spec/4-arithmetic.md`: exactness, the strict and the lax reading, margin by margin.
+
+use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
+use mufasa_model::cycle::{Cycle, Profile, Station, Track, TrackList, Trajectory};
+use mufasa_model::parameters::Parameters;
+use mufasa_model::real::unfiltered;
+use mufasa_model::schedule::check;
+use mufasa_model::verdict::Reading;
+
+use crate::base::*;
+
+/// Safe in the readings strict, exact, lax.
+fn safe(cycle: &Cycle) -> [bool; 3] {
+    [Reading::Strict, Reading::Exact, Reading::Lax]
+        .map(|reading| check(cycle, reading).expect("valid").failed_stage.is_none())
+}
+
+const YES: [bool; 3] = [true; 3];
+const NO: [bool; 3] = [false; 3];
+/// Within the margin on the safe side.
+const NEAR_SAFE: [bool; 3] = [false, true, true];
+/// Within the margin on the unsafe side.
+const NEAR_UNSAFE: [bool; 3] = [false, false, true];
+
+/// spec/4-arithmetic.md#domain.1, I-12: defaults are the doubles nearest to the decimals of spec/.
+#[test]
+fn defaults_are_the_nearest_doubles() {
+    let parameters = Parameters::default();
+    let text = include_str!("../../../spec/3-stages.md");
+    let after = |name: &str| {
+        let rest = &text[text.find(&format!("{name} = ")).expect(name) + name.len() + 3..];
+        let end = rest.find(|c: char| c != '.' && !c.is_ascii_digit()).expect("a number ends");
+        rest[..end].trim_end_matches('.').parse::<f64>().expect("a number")
+    };
+    for (name, value) in [
+        ("theta_tr", parameters.theta_tr),
+        ("theta_map", parameters.theta_map),
+        ("theta_obj", parameters.theta_obj),
+        ("a_b", parameters.a_b),
+        ("safety_time", parameters.safety_time),
+        ("theta_track_max", parameters.theta_track_max),
+        ("tau", parameters.tau),
+        ("a_max", parameters.a_max),
+        ("start_tolerance", parameters.start_tolerance),
+        ("v_max", parameters.v_max),
+        ("theta_velocity", parameters.theta_velocity),
+    ] {
+        assert_eq!(after(name).to_bits(), value.to_bits(), "{name}");
+    }
+    let millis = |ns: i64| ns / 1_000_000;
+    assert_eq!(after("max_age").to_bits(), 100.0f64.to_bits());
+    assert_eq!((millis(parameters.max_age_ns), millis(parameters.step_max_ns)), (100, 200));
+    assert_eq!(after("step_max").to_bits(), 200.0f64.to_bits());
+    assert_eq!(after("miss_budget").to_bits(), 0.0f64.to_bits());
+    assert_eq!((parameters.miss_budget, parameters.n), (0, 4));
+    assert!(text.contains("n = 4 disks"));
+    assert_eq!(parameters.delta.to_bits(), 1e-6f64.to_bits());
+}
+
+/// spec/4-arithmetic.md#domain.2: directions are used as given, not normalised.
+#[test]
+fn directions_are_used_as_given() {
+    let with = |cos: f64| {
+        let mut cycle = base(Profile::Paper, PlanRemote);
+        cycle.ego.speed = 0.0;
+        cycle.trajectory.as_mut().expect("there is one").points[0].cos = cos;
+        cycle.tracks = tracks(vec![track(1, 4.0 + 5e-7, 0.0)]);
+        cycle
+    };
+    assert!(check(&with(1.0), Reading::Exact).expect("valid").failed_stage.is_none());
+    assert!(check(&with(1.000_000_4), Reading::Exact).expect("valid").failed_stage.is_some());
+}
+
+/// spec/4-arithmetic.md#the-model-is-exact.1, spec/4-arithmetic.md#the-model-is-exact.2,
+/// spec/4-arithmetic.md#the-model-is-exact.3: far from the origin, where doubles are 2^-29 m apart,
+/// a difference of one of them decides.
+#[test]
+fn the_last_bit_decides_far_away() {
+    let east = 16_777_000.0;
+    let with = |y: f64| {
+        let mut cycle = base(Profile::Paper, MotRemote);
+        cycle.parameters.theta_tr = 0.25;
+        cycle.ego.x += east;
+        cycle.trajectory = None;
+        cycle.tracks = tracks(vec![track(1, east + 60.0, 0.0)]);
+        cycle.detections = detections(vec![detection(east + 60.0, y)]);
+        cycle
+    };
+    assert_eq!(safe(&with(0.25)), NEAR_UNSAFE);
+    assert_eq!(safe(&with(0.25f64.next_down())), NEAR_SAFE);
+}
+
+/// Cases near a threshold: `(configuration, profile, offset -> cycle)`, positive offsets unsafe.
+type Near = (&'static str, Configuration, Profile, fn(&mut Cycle, f64));
+
+const NEAR: &[Near] = &[
+    ("mean < theta_tr - m", MotRemote, Profile::Paper, |c, e| {
+        list(c).items[0].y = 0.2 + e;
+    }),
+    ("matched distance < theta_track_max - m", MotRemote, Profile::Hardened, |c, e| {
+        c.parameters.theta_tr = 100.0;
+        list(c).items[0].y = 1.0 + e;
+    }),
+    ("distance to the reference path > theta_map - m", PlanRemote, Profile::Paper, |c, e| {
+        narrow(c, 0.125);
+        c.parameters.theta_map = 0.25;
+        points(c)[9].y = 0.25 + e;
+    }),
+    ("square in the corridor", PlanRemote, Profile::Hardened, |c, e| {
+        narrow(c, 0.5);
+        points(c)[9].y = 0.5 + e;
+    }),
+    ("arc length <= s + m", PlanRemote, Profile::Paper, |c, e| {
+        // s_CAV = 18 m; the point that is about there touches the car, the one before does not.
+        points(c)[18].x = 18.0 - e;
+        c.tracks = tracks(vec![track(1, 21.999, 0.0)]);
+    }),
+    ("gap <= s_follow + m", MotRemote, Profile::Paper, |c, e| {
+        c.parameters.safety_time = 1.5;
+        c.lead = lead(15.0 - e, 10.0);
+    }),
+    ("half length of the CAV + m", PlanRemote, Profile::Paper, |c, e| {
+        c.ego.speed = 0.0;
+        c.tracks = tracks(vec![track(1, 4.0 - e, 0.0)]);
+    }),
+    ("half width of the CAV + m", PlanRemote, Profile::Paper, |c, e| {
+        c.ego.speed = 0.0;
+        c.tracks = tracks(vec![track(1, 0.0, 2.0 - e)]);
+    }),
+    ("centre distance < theta_obj + m", PlanRemote, Profile::Paper, |c, e| {
+        c.ego.speed = 0.0;
+        c.tracks = tracks(vec![Track { length: 12.0, ..track(1, 5.0 - e, 0.0) }]);
+    }),
+    ("disk radius r + m, hardened", MotRemote, Profile::Hardened, |c, e| {
+        (c.ego.length, c.ego.width) = (24.0, 8.0);
+        mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 5.5);
+        c.grid.as_mut().expect("there is a grid").y -= e;
+    }),
+    ("disk centre in a marked cell", MotRemote, Profile::Paper, |c, e| {
+        mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
+        for point in points(c) {
+            point.y = e;
+        }
+    }),
+    ("start <= limit - m", PlanRemote, Profile::Hardened, |c, e| c.ego.x = 2.0 + e),
+    ("step <= L - m", PlanRemote, Profile::Hardened, |c, e| two_points(c, 100, [4.0 + e, 0.0])),
+    ("step <= v_max dt - m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 20, [3.0 + e, 0.0]);
+    }),
+    ("lateral step <= W/2 - m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 100, [0.5, 1.0 + e]);
+    }),
+    ("heading . step >= m", PlanRemote, Profile::Hardened, |c, e| two_points(c, 100, [-e, 0.5])),
+    ("dot product of headings >= 0.866 + m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 100, [0.5, 0.0]);
+        let cos = 0.866 - e;
+        (points(c)[1].cos, points(c)[1].sin) = (cos, (1.0 - cos * cos).sqrt());
+    }),
+    ("heading . route segment >= m", PlanRemote, Profile::Hardened, |c, e| {
+        c.route.stations =
+            [-0.5, 0.5].map(|x| Station { x, y: 0.0, left: [x, 9.0], right: [x, -9.0] }).into();
+        c.ego.speed = 0.0;
+        c.trajectory = Some(Trajectory { stamp_ns: NOW, points: vec![at_time(0, 0.0, 0.0)] });
+        (points(c)[0].cos, points(c)[0].sin) = (-e, 1.0);
+    }),
+    ("arc length >= b - start_tolerance + m", PlanRemote, Profile::Hardened, |c, e| {
+        arc(c, 2.0 - e);
+    }),
+    ("arc length <= ... + start_tolerance - m", PlanRemote, Profile::Hardened, |c, e| {
+        arc(c, 5.875 + e);
+    }),
+    ("velocity error <= theta_velocity dt - m", MotRemote, Profile::Hardened, |c, e| {
+        let items = vec![track(1, 60.0, 1.0 + e)];
+        c.previous_tracks = Some(TrackList { stamp_ns: NOW - 500_000_000, items });
+    }),
+];
+
+fn list(cycle: &mut Cycle) -> &mut mufasa_model::cycle::DetectionList {
+    // A second detection keeps the track in view.
+    cycle.detections = detections(vec![detection(60.0, 0.0), detection(-90.0, 0.0)]);
+    cycle.detections.as_mut().expect("set")
+}
+
+fn points(cycle: &mut Cycle) -> &mut Vec<mufasa_model::cycle::TrajectoryPoint> {
+    &mut cycle.trajectory.as_mut().expect("there is one").points
+}
+
+fn narrow(cycle: &mut Cycle, half_width: f64) {
+    for station in &mut cycle.route.stations {
+        (station.left[1], station.right[1]) = (half_width, -half_width);
+    }
+}
+
+fn two_points(cycle: &mut Cycle, millis: i64, [x, y]: [f64; 2]) {
+    cycle.ego.speed = 0.0;
+    cycle.parameters.start_tolerance = 100.0;
+    let points = vec![at_time(0, 0.0, 0.0), at_time(millis * 1_000_000, x, y)];
+    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+    cycle.tracks = tracks(vec![]);
+}
+
+fn arc(cycle: &mut Cycle, x: f64) {
+    two_points(cycle, 500, [x, 0.0]);
+    cycle.parameters.step_max_ns = 1_000_000_000;
+    cycle.parameters.start_tolerance = 0.5;
+    cycle.parameters.a_b = 20.0;
+    cycle.ego.length = 20.0;
+    cycle.ego.speed = 10.0;
+}
+
+/// Strict and lax move each comparison by the margin, towards rejection and towards acceptance,
+/// and by no more than the margin.
+#[test]
+fn margins_move_each_comparison() {
+    for (name, configuration, profile, with) in NEAR {
+        let at = |offset: f64| {
+            let mut cycle = base(*profile, *configuration);
+            with(&mut cycle, offset);
+            safe(&cycle)
+        };
+        assert_eq!(at(-3e-6), YES, "{name}: safe by three margins");
+        assert_eq!(at(-0.5e-6), NEAR_SAFE, "{name}: safe by half a margin");
+        assert_eq!(at(0.5e-6), NEAR_UNSAFE, "{name}: unsafe by half a margin");
+        assert_eq!(at(3e-6), NO, "{name}: unsafe by three margins");
+    }
+}
+
+/// A larger delta moves them farther.
+#[test]
+fn delta_is_the_margin() {
+    for (name, configuration, profile, with) in NEAR {
+        let mut cycle = base(*profile, *configuration);
+        with(&mut cycle, -3e-6);
+        cycle.parameters.delta = 1e-5;
+        assert_eq!(safe(&cycle), NEAR_SAFE, "{name}");
+        with(&mut cycle, 3e-6);
+        assert_eq!(safe(&cycle), NEAR_UNSAFE, "{name}");
+    }
+}
+
+/// spec/4-arithmetic.md#strict-and-lax.1: a track on the edge of the field of view counts both
+/// ways; with more than six of them strict rejects and lax accepts.
+#[test]
+fn tracks_on_the_edge_count_both_ways() {
+    let with = |offset: f64, ghosts: i64| {
+        let mut cycle = base(Profile::Paper, MotRemote);
+        // r = 90 m; the ghosts are as far, and nowhere near a detection.
+        cycle.detections = detections(vec![detection(60.0, 0.0), detection(-90.0, 0.0)]);
+        let ghost = |i: i64| {
+            let angle = f64::from(i32::try_from(i).expect("small")) / 10.0;
+            track(100 + i, (90.0 + offset) * angle.cos(), (90.0 + offset) * angle.sin())
+        };
+        cycle.tracks = tracks((1..=ghosts).map(ghost).collect());
+        cycle
+    };
+    assert_eq!(safe(&with(3e-6, 1)), YES);
+    assert_eq!(safe(&with(0.5e-6, 1)), NEAR_SAFE);
+    assert_eq!(safe(&with(-0.5e-6, 1)), NEAR_UNSAFE);
+    assert_eq!(safe(&with(-3e-6, 1)), NO);
+    assert_eq!(safe(&with(-0.5e-6, 6)), NEAR_UNSAFE);
+    assert_eq!(safe(&with(-0.5e-6, 7)), NEAR_UNSAFE);
+    // Seven that would all be matched: no choice fails, but strict does not try.
+    let mut seven = with(0.0, 7);
+    let items = seven.tracks.as_ref().expect("set").items.clone();
+    let seen = |track: &Track| detection(track.x, track.y);
+    seven.detections.as_mut().expect("set").items.extend(items.iter().map(seen));
+    assert_eq!(safe(&seven), NEAR_SAFE);
+    let mut six = seven;
+    six.tracks.as_mut().expect("set").items.pop();
+    assert_eq!(safe(&six), YES);
+}
+
+/// Strict asks every segment that may be the nearest, lax some.
+#[test]
+fn nearest_segments_within_delta_are_asked() {
+    let with = |y: f64| {
+        let mut cycle = base(Profile::Hardened, PlanRemote);
+        // Two parallel ways, 2 m apart, the second against the first.
+        let station = |x: f64, y: f64| Station { x, y, left: [x, 90.0], right: [x, -90.0] };
+        cycle.route.stations = vec![
+            station(-300.0, -1.0),
+            station(300.0, -1.0),
+            station(300.0, 1.0),
+            station(-300.0, 1.0),
+        ];
+        for point in points(&mut cycle) {
+            point.y = y;
+        }
+        safe(&cycle)
+    };
+    assert_eq!(with(-1e-6), YES);
+    assert_eq!(with(-0.25e-6), NEAR_SAFE);
+    assert_eq!(with(0.0), NEAR_SAFE);
+    assert_eq!(with(0.25e-6), NEAR_UNSAFE);
+    assert_eq!(with(1e-6), NO);
+}
+
+/// "a step of length 0 passes in every model"
+#[test]
+fn a_step_of_length_zero_passes_in_every_reading() {
+    let mut cycle = base(Profile::Hardened, PlanRemote);
+    two_points(&mut cycle, 100, [0.0, 0.0]);
+    assert_eq!(safe(&cycle), YES);
+}
+
+/// Counts, ages and times never move.
+#[test]
+fn ages_never_move() {
+    let mut cycle = base(Profile::Hardened, AllRemote);
+    for point in points(&mut cycle) {
+        point.t_ns += 100_000_000;
+    }
+    assert_eq!(safe(&cycle), YES);
+    for point in points(&mut cycle) {
+        point.t_ns += 1;
+    }
+    assert_eq!(safe(&cycle), NO);
+}
+
+/// The interval filter in front of the exact arithmetic changes no report.
+#[test]
+fn the_filter_changes_no_report() {
+    for (_, configuration, profile, with) in NEAR {
+        for offset in [-1e-6, 0.0, 1e-6] {
+            let mut cycle = base(*profile, *configuration);
+            with(&mut cycle, offset);
+            // Exact arithmetic alone takes its time: a short trajectory will do.
+            points(&mut cycle).truncate(20);
+            for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
+                let plain = unfiltered(|| check(&cycle, reading));
+                assert_eq!(check(&cycle, reading), plain);
+            }
+        }
+    }
+}

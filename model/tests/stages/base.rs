@@ -1,0 +1,155 @@
+//! A cycle that is safe in every configuration of both profiles, for tests to change one thing.
+#![expect(clippy::unnecessary_wraps, reason = "the fields of a cycle are optional")]
+
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa_model::parameters::Parameters;
+use mufasa_model::schedule::check;
+use mufasa_model::verdict::{FailedStage, Outcome, Reading, Report, Rule, Stage, Witness};
+
+pub const NOW: i64 = 1_000_000_000;
+/// Speed of the CAV in the base cycle, m/s.
+pub const V_NOW: f64 = 10.0;
+pub const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
+pub const REMOTE: [Configuration; 3] =
+    [Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote];
+
+/// Straight road along x, corridor 3 m to each side; CAV of 4 m by 2 m at the origin; 51 points
+/// 0.1 s and 1 m apart; a car 60 m ahead, tracked and detected; an empty grid of 1 m cells.
+pub fn base(profile: Profile, configuration: Configuration) -> Cycle {
+    Cycle {
+        profile,
+        parameters: Parameters::default(),
+        now_ns: NOW,
+        configuration,
+        ego: Ego {
+            x: 0.0,
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            speed: V_NOW,
+            length: 4.0,
+            width: 2.0,
+            center_offset: 0.0,
+        },
+        trajectory: Some(straight(51, 1.0)),
+        tracks: Some(TrackList { stamp_ns: NOW, items: vec![track(1, 60.0, 0.0)] }),
+        detections: Some(DetectionList { stamp_ns: NOW, items: vec![detection(60.0, 0.0)] }),
+        lead: None,
+        route: straight_route(-100.0, 200.0),
+        grid: Some(free_grid()),
+        previous_tracks: None,
+    }
+}
+
+/// Points along x from 0, `step` m and 0.1 s apart.
+pub fn straight(count: u32, step: f64) -> Trajectory {
+    let point = |i: u32| at_time(i64::from(i) * 100_000_000, f64::from(i) * step, 0.0);
+    Trajectory { stamp_ns: NOW, points: (0..count).map(point).collect() }
+}
+
+/// A point that looks along x, `after_ns` after now.
+pub fn at_time(after_ns: i64, x: f64, y: f64) -> TrajectoryPoint {
+    TrajectoryPoint { t_ns: NOW + after_ns, x, y, cos: 1.0, sin: 0.0 }
+}
+
+pub fn straight_route(from: f64, to: f64) -> Route {
+    let station = |x: f64| Station { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] };
+    Route { closed: false, stations: vec![station(from), station(to)] }
+}
+
+/// A standing car of 4 m by 2 m that looks along x.
+pub fn track(id: i64, x: f64, y: f64) -> Track {
+    Track { id, x, y, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.0, width: 2.0 }
+}
+
+pub fn detection(x: f64, y: f64) -> Detection {
+    Detection { x, y, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 }
+}
+
+pub fn tracks(items: Vec<Track>) -> Option<TrackList> {
+    Some(TrackList { stamp_ns: NOW, items })
+}
+
+pub fn detections(items: Vec<Detection>) -> Option<DetectionList> {
+    Some(DetectionList { stamp_ns: NOW, items })
+}
+
+pub fn lead(gap: f64, speed: f64) -> Option<Lead> {
+    Some(Lead { stamp_ns: NOW, gap, speed })
+}
+
+/// 200 x 100 cells of 1 m with the corner at (-50, -50), all free.
+pub fn free_grid() -> Grid {
+    Grid {
+        stamp_ns: NOW,
+        x: -50.0,
+        y: -50.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 1.0,
+        width: 200,
+        height: 100,
+        occupied: vec![0; 200 * 100 / 8],
+        unknown: None,
+    }
+}
+
+/// Marks the cell of the free grid that holds the point.
+pub fn mark(bitmap: &mut [u8], x: f64, y: f64) {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "small and positive"
+    )]
+    let bit = (y + 50.0).floor() as usize * 200 + (x + 50.0).floor() as usize;
+    bitmap[bit / 8] |= 1 << (bit % 8);
+}
+
+pub fn report(cycle: &Cycle) -> Report {
+    check(cycle, Reading::Exact).expect("local input is valid")
+}
+
+pub fn failed(cycle: &Cycle) -> Option<FailedStage> {
+    report(cycle).failed_stage
+}
+
+pub fn outcome(cycle: &Cycle, stage: Stage) -> Outcome {
+    report(cycle).stages[stage as usize].clone()
+}
+
+pub fn passes(cycle: &Cycle, stage: Stage) -> bool {
+    outcome(cycle, stage) == Outcome::Passed
+}
+
+/// The witness of a stage that failed.
+pub fn witness(cycle: &Cycle, stage: Stage) -> Witness {
+    match outcome(cycle, stage) {
+        Outcome::Failed(witness) => witness,
+        other => panic!("stage {stage:?} did not fail: {other:?}"),
+    }
+}
+
+/// The rule by which a stage failed, if it did.
+pub fn rule(cycle: &Cycle, stage: Stage) -> Option<Rule> {
+    match outcome(cycle, stage) {
+        Outcome::Failed(witness) => Some(witness.rule),
+        _ => None,
+    }
+}
+
+#[test]
+fn base_cycle_is_safe_everywhere() {
+    for profile in PROFILES {
+        for configuration in REMOTE {
+            assert_eq!(
+                failed(&base(profile, configuration)),
+                None,
+                "{profile:?} {configuration:?}"
+            );
+        }
+    }
+}
