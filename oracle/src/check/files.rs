@@ -1,0 +1,60 @@
+//! Files that are complete or not there: written under another name, then renamed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Creates the folder and makes sure that a file can be written there.
+pub fn prepare(folder: &Path) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let probe = folder.join(".mufasa.svg.tmp");
+    fs::write(&probe, [])?;
+    fs::remove_file(&probe)
+}
+
+/// Writes a file at once.
+pub fn write(file: &Path, content: &str) -> io::Result<()> {
+    let mut name = file.as_os_str().to_owned();
+    name.push(".tmp");
+    let temporary = PathBuf::from(name);
+    let written = fs::write(&temporary, content).and_then(|()| fs::rename(&temporary, file));
+    if written.is_err() {
+        // What is left of it must not stay; that it cannot be removed is no news.
+        let _ = fs::remove_file(&temporary);
+    }
+    written
+}
+
+/// A name for a file from any text: letters, digits, `-`, `_` and `.` stay.
+pub fn name(text: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+    let name: String = text.chars().take(100).map(plain).collect();
+    if name.trim_start_matches('.').is_empty() { "drive".to_owned() } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_plain() {
+        assert_eq!(name("USA_US101-3_3.xml#4"), "USA_US101-3_3.xml_4");
+        assert_eq!(name("../../etc/x y"), ".._.._etc_x_y");
+        assert_eq!(name(""), "drive");
+        assert_eq!(name(".."), "drive");
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_written_leaves_nothing_behind() {
+        let folder = std::env::temp_dir().join(format!("mufasa-files-{}", std::process::id()));
+        prepare(&folder).unwrap();
+        write(&folder.join("a.svg"), "<svg/>").unwrap();
+        fs::create_dir(folder.join("b.svg")).unwrap();
+        write(&folder.join("b.svg"), "<svg/>").unwrap_err();
+        let mut names: Vec<_> =
+            fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["a.svg", "b.svg"]);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,40 @@
+//! A picture of every cycle that the model finds unsafe.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::course::Checked;
+use super::{files, words};
+use crate::json::names;
+use crate::svg::{Scene, picture};
+
+/// Writes the pictures of a drive into a folder that exists; returns their paths. An error names
+/// the file.
+pub fn write(folder: &Path, checked: &Checked<'_>) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+    let mut written = Vec::new();
+    for (index, judged) in checked.judged.iter().enumerate() {
+        let (Some(report), Some(found)) = (judged.unsafe_report(), checked.drive.cycles.get(index))
+        else {
+            continue;
+        };
+        let cycle = &found.cycle;
+        let setting = format!(
+            "{}, {}",
+            names::configuration(cycle.configuration),
+            names::profile(cycle.profile)
+        );
+        let at = checked.seconds(index);
+        let scene = Scene {
+            title: format!("{} at {at:.2} s ({setting})", checked.drive.name),
+            subtitle: words::answer(&judged.model),
+            cycle,
+            report,
+        };
+        let stage = report.failed_stage.map_or("", names::failed_stage);
+        let name = files::name(&format!("{}-{index:04}-{stage}", checked.drive.name));
+        let file = folder.join(format!("{name}.svg"));
+        files::write(&file, &picture(&scene)).map_err(|error| (file.clone(), error))?;
+        written.push(file);
+    }
+    Ok(written)
+}

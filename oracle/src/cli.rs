@@ -1,0 +1,283 @@
+//! The command line: arguments, exit codes, and quiet ends when nobody reads on.
+
+use std::fs;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::str::FromStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::Profile;
+
+use crate::check::{self, Format, Settings, complain, files};
+use crate::compose;
+use crate::drive::{self, GridSize, Options, Sensor, Tail};
+use crate::json::names;
+use crate::oracle;
+use crate::parameters_file;
+
+/// Bad input or arguments.
+const BAD_INPUT: u8 = 2;
+/// As a shell says that a program was ended by a closed pipe.
+const CLOSED_PIPE: u8 = 141;
+
+/// MUFASA's five validation stages, as an exact model and as an implementation, side by side.
+#[derive(Parser)]
+#[command(name = "mufasa", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Check drives: every cycle by the model and by the implementation.
+    Check(CheckArguments),
+    /// Answer the JSON Lines of standard input on standard output.
+    Oracle,
+    /// Find all compositions of a service set.
+    Compose(ComposeArguments),
+}
+
+/// Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are still checked),
+/// 3 model and implementation disagree.
+#[derive(Args)]
+struct CheckArguments {
+    /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
+    /// as .npy; recognised by their content.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+    /// Profile of recorded drives; records name their own.
+    #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
+    profile: Profile,
+    /// Parameters as lines `name = value` (TOML); records name their own of the stages.
+    #[arg(long, value_name = "FILE")]
+    parameters: Option<PathBuf>,
+    /// Which groups of a recorded drive are remote.
+    #[arg(long, default_value = "AllRemote", value_parser = configuration(), ignore_case = true)]
+    configuration: Configuration,
+    #[command(flatten)]
+    recording: RecordingArguments,
+    /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
+    #[arg(long, conflicts_with = "summary")]
+    json: bool,
+    /// Write the table over all drives only.
+    #[arg(long)]
+    summary: bool,
+    /// Draw every unsafe cycle into this folder.
+    #[arg(long, value_name = "DIR")]
+    svg: Option<PathBuf>,
+}
+
+/// What a recording does not say.
+#[derive(Args)]
+#[command(next_help_heading = "Recorded drives")]
+struct RecordingArguments {
+    /// Recorded vehicle that is the CAV; by default one is picked.
+    #[arg(long, value_name = "ID")]
+    ego: Option<i64>,
+    /// Length of the planned trajectories, s.
+    #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.1, 60.0))]
+    horizon: f64,
+    /// Keep the last cycles, whose trajectories end before the CAV could stand (H-12 rejects them).
+    #[arg(long)]
+    keep_tail: bool,
+    /// Range of the local detectors, m.
+    #[arg(long, value_name = "M", default_value = "80", value_parser = number(0.0, 1e4))]
+    sensor_range: f64,
+    /// Standard deviation of detected positions per axis, m.
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = number(0.0, 100.0))]
+    sensor_sigma: f64,
+    /// Probability that an object in range is detected.
+    #[arg(long, value_name = "P", default_value = "1", value_parser = number(0.0, 1.0))]
+    sensor_probability: f64,
+    /// Mean number of clutter detections in a scan.
+    #[arg(long, value_name = "N", default_value = "0.5", value_parser = number(0.0, 100.0))]
+    sensor_clutter: f64,
+    /// Seed of noise and clutter.
+    #[arg(long, value_name = "N", default_value = "1")]
+    seed: u64,
+    /// Side of a cell of the grid map, m.
+    #[arg(long, value_name = "M", default_value = "0.2", value_parser = number(0.01, 10.0))]
+    grid_resolution: f64,
+    /// Cells of the grid map along the CAV.
+    #[arg(long, value_name = "N", default_value = "500", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    grid_width: u32,
+    /// Cells of the grid map across.
+    #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    grid_height: u32,
+}
+
+#[derive(Args)]
+struct ComposeArguments {
+    /// A composition record (JSON).
+    file: PathBuf,
+    /// Write the graph in the language of Graphviz.
+    #[arg(long, conflicts_with = "svg")]
+    dot: bool,
+    /// Draw the graph into this file.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help asked for is no error; whether anybody reads it is not our business.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { BAD_INPUT } else { 0 });
+        }
+    };
+    let mut out = BufWriter::new(io::stdout().lock());
+    let result = match cli.command {
+        Command::Check(arguments) => check(&arguments, &mut out),
+        Command::Oracle => oracle::run(io::stdin().lock(), &mut out).map(|()| 0),
+        Command::Compose(arguments) => compose(&arguments, &mut out),
+    };
+    let code = match result.and_then(|code| out.flush().map(|()| code)) {
+        Ok(code) => code,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => CLOSED_PIPE,
+        Err(error) => refused(&format!("standard input or output: {error}")),
+    };
+    // What could not be written is not tried again when the buffer is dropped.
+    let _ = out.into_parts();
+    ExitCode::from(code)
+}
+
+fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
+    let parameters = match arguments.parameters.as_deref().map(parameters_file::read).transpose() {
+        Ok(parameters) => parameters.unwrap_or_default(),
+        Err(error) => return Ok(refused(&error.to_string())),
+    };
+    if let Some(folder) = &arguments.svg
+        && let Err(error) = files::prepare(folder)
+    {
+        return Ok(refused(&format!("{}: cannot be written to: {error}", folder.display())));
+    }
+    let mut options = options(arguments);
+    options.parameters = parameters.stages;
+    let settings = Settings {
+        requester: parameters.requester,
+        format: match (arguments.json, arguments.summary) {
+            (true, _) => Format::Json,
+            (false, true) => Format::Summary,
+            (false, false) => Format::Text,
+        },
+        pictures: arguments.svg.clone(),
+    };
+    let drives = drive::read(&arguments.files, &options);
+    let findings = check::run(&drives, &settings, out, &mut io::stderr())?;
+    Ok(findings.exit_code())
+}
+
+fn options(arguments: &CheckArguments) -> Options {
+    let recording = &arguments.recording;
+    Options {
+        profile: arguments.profile,
+        configuration: arguments.configuration,
+        ego: recording.ego,
+        horizon_s: recording.horizon,
+        tail: if recording.keep_tail { Tail::Keep } else { Tail::Stop },
+        sensor: Sensor {
+            range_m: recording.sensor_range,
+            sigma_m: recording.sensor_sigma,
+            probability: recording.sensor_probability,
+            clutter: recording.sensor_clutter,
+            seed: recording.seed,
+        },
+        grid: GridSize {
+            resolution_m: recording.grid_resolution,
+            width: recording.grid_width,
+            height: recording.grid_height,
+        },
+        ..Options::default()
+    }
+}
+
+/// Exit code 0 with a composition, 1 without, 2 for bad input.
+fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> io::Result<u8> {
+    let file = arguments.file.display();
+    let text = match fs::read_to_string(&arguments.file) {
+        Ok(text) => text,
+        Err(error) => return Ok(refused(&format!("{file}: cannot be read: {error}"))),
+    };
+    let composed = match compose::compose(&text) {
+        Ok(composed) => composed,
+        Err(error) => return Ok(refused(&format!("{file}: {error}"))),
+    };
+    if arguments.dot {
+        write!(out, "{}", composed.dot())?;
+    } else {
+        write!(out, "{}", composed.table())?;
+    }
+    if let Some(picture) = &arguments.svg
+        && let Err(error) = files::write(picture, &composed.svg())
+    {
+        return Ok(refused(&format!("{}: cannot be written: {error}", picture.display())));
+    }
+    Ok(u8::from(composed.answer().compositions.is_empty()))
+}
+
+fn refused(message: &str) -> u8 {
+    complain(&mut io::stderr(), message);
+    BAD_INPUT
+}
+
+fn profile() -> impl TypedValueParser<Value = Profile> {
+    one_of([Profile::Paper, Profile::Hardened], names::profile)
+}
+
+fn configuration() -> impl TypedValueParser<Value = Configuration> {
+    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    one_of([Local, MotRemote, AllRemote, PlanRemote], names::configuration)
+}
+
+/// One of these values by its name in the records.
+fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(values.map(name)).try_map(move |given| {
+        let same = |value: &T| name(*value).eq_ignore_ascii_case(&given);
+        values.into_iter().find(same).ok_or("unknown name")
+    })
+}
+
+/// A number within limits; NaN is in none.
+fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
+    move |text| match f64::from_str(text) {
+        Ok(number) if (low..=high).contains(&number) => Ok(number),
+        Ok(_) | Err(_) => Err(format!("must be a number from {low} to {high}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn defaults_of_the_command_line_are_those_of_the_readers() {
+        let cli = Cli::try_parse_from(["mufasa", "check", "x"]).unwrap();
+        let Command::Check(arguments) = cli.command else { panic!("not check") };
+        assert_eq!(options(&arguments), Options::default());
+    }
+
+    #[test]
+    fn numbers_outside_their_limits_are_refused() {
+        for text in ["nan", "inf", "-1", "2", "", "x", "1e999"] {
+            assert!(number(0.0, 1.0)(text).is_err(), "{text}");
+        }
+        assert_eq!(number(0.0, 1.0)("0.5"), Ok(0.5));
+    }
+}
