@@ -127,9 +127,10 @@ impl At<'_> {
     /// abs(cos^2 + sin^2 - 1) <= 1e-6, decided exactly.
     fn direction(self, cos: f64, sin: f64) -> Result<(), InvalidInput> {
         use crate::real::Real;
-        let unit = -2.0..=2.0;
-        self.number("cos", cos, &unit)?;
-        self.number("sin", sin, &unit)?;
+        // The domain is one of the pair: a single number can only fail to be finite.
+        let finite = f64::MIN..=f64::MAX;
+        self.number("cos", cos, &finite)?;
+        self.number("sin", sin, &finite)?;
         let norm = Real::from_double(cos).square() + Real::from_double(sin).square();
         if (norm - Real::from_integer(1)).abs() <= Real::from_double(1e-6) {
             return Ok(());
