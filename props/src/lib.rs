@@ -3,4 +3,5 @@
 
 pub mod bridge;
 pub mod conformance;
+pub mod differential;
 pub mod strategy;

@@ -67,7 +67,7 @@ pub fn cycle(
         width,
         center_offset: draw.pick(&[0.0, 1.4, 1.5, -0.25]),
     };
-    let now_ns = draw.pick(&[1_000_000_000, 0, -7, i64::MAX - 50_000_000_000, 77_000_000_123]);
+    let now_ns = draw.pick(&[1_000_000_000, 0, -7, i64::MAX - 70_000_000_000, 77_000_000_123]);
     let trajectory = Some(straight(&ego, frame, now_ns, &parameters));
     Cycle {
         profile,

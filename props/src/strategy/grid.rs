@@ -195,53 +195,38 @@ fn border(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     cycle.grid = Some(grid);
 }
 
-/// An occupied cell that only one trajectory point at the horizon reaches.
+/// An occupied cell that only one trajectory point at the horizon reaches, in a grid that holds
+/// the whole way, as outside counts as occupied in the hardened profile.
 fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    const SIDE: f64 = 0.5;
     cycle.ego.speed = draw.pick(&[5.0, 8.0, 3.0]);
     let reach = obstacle::horizon_of_grid(cycle);
     let found = obstacle::at_horizon(draw, cycle, reach);
-    let resolution = 0.05;
     let (ego, r) = (&cycle.ego, radius(cycle));
-    let n = cycle.parameters.n as f64;
-    // The front disk is ahead of the rectangle's centre by less than half the length: put the
-    // near side of the cell where the front disk ends at the hit, less half a step.
     let Some(points) = cycle.trajectory.as_ref().map(|list| &list.points) else { return };
     let (hit, before) = (&points[found.point], &points[found.point - 1]);
     let advance = (hit.x - before.x).hypot(hit.y - before.y);
+    let n = cycle.parameters.n as f64;
     let front = ego.center_offset + 0.5 * ego.length - ego.length / (2.0 * n);
-    let ahead = front + r - 0.5 * advance;
-    let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
-    let (x, y) = road.at(ahead, -0.5 * resolution);
-    let (cos, sin) = (ego.cos, ego.sin);
-    let mut grid = Grid {
-        stamp_ns: cycle.now_ns,
-        x,
-        y,
-        cos,
-        sin,
-        resolution,
-        width: 1,
-        height: 1,
-        occupied: vec![1],
-        unknown: None,
+    // Half a step behind the front disk at the hit begins what that disk must not touch: the
+    // first marked column (paper), what is within r of the occupied cell (hardened).
+    let to_cell = match cycle.profile {
+        Profile::Paper => SIDE * (r / SIDE).floor(),
+        Profile::Hardened => r,
     };
-    if cycle.profile == Profile::Hardened {
-        // Outside counts as occupied: make it coarse and large, and mark the column that begins
-        // at the same place.
-        let side = 0.5;
-        let columns = base::count((reach + ego.length + r + 4.0) / side);
-        let rows = base::count((2.0 * r + 1.0) / side) + 1;
-        let half = 0.5 * rows as f64 * side;
-        (grid.x, grid.y) = road.at(ahead - columns as f64 * side, -half);
-        grid.resolution = side;
-        grid.width = i64::try_from(columns + 30).unwrap_or(1);
-        grid.height = i64::try_from(rows).unwrap_or(1);
-        let size = (columns + 30, rows);
-        let plan = Plan { cell: (0, 0), size, within: (0.0, 0.0), resolution: side };
-        grid.occupied = vec![0; (size.0 * size.1).div_ceil(8)];
-        let middle = i64::try_from(rows / 2).unwrap_or(0);
-        mark(&mut grid.occupied, &plan, (i64::try_from(columns).unwrap_or(0), middle));
-    }
+    let ahead = front - 0.5 * advance + to_cell;
+    let columns = base::count((reach + ego.length + r + 4.0) / SIDE);
+    let rows = 2 * base::count((r + 0.5) / SIDE) + 1;
+    let plan = Plan {
+        cell: (columns, rows / 2),
+        size: (columns + 30, rows),
+        within: (0.0, 0.5),
+        resolution: SIDE,
+    };
+    let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
+    let (x, y) = road.at(ahead - columns as f64 * SIDE, -0.5 * rows as f64 * SIDE);
+    let mut grid = Grid { x, y, cos: ego.cos, sin: ego.sin, ..lay(draw, cycle, &plan) };
+    put(draw, &mut grid, &plan, (0, 0));
     cycle.grid = Some(grid);
 }
 

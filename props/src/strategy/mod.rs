@@ -4,11 +4,15 @@
 //! and a hand-made case can use it.
 #![expect(clippy::cast_precision_loss, reason = "counts are small and generators may round")]
 
+pub mod attack;
 pub mod base;
 pub mod detections;
 pub mod draw;
 pub mod grid;
+pub mod input;
 pub mod map_validation;
 pub mod obstacle;
+pub mod schedule;
 pub mod track_validation;
 pub mod tracks;
+pub mod whole;

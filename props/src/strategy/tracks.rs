@@ -26,7 +26,8 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     if draw.one_in(4) {
         items.push(track(frame, (-30.0, 2.0), 4));
     }
-    items.push(moving(draw, &cycle, found, stamp_ns));
+    let standing = configuration == Configuration::AllRemote && draw.one_in(3);
+    items.push(if standing { fleeing(found) } else { moving(draw, &cycle, found, stamp_ns) });
     if draw.one_in(8) {
         items.push(track(frame, (70.0, -8.0), 12));
     }
@@ -65,6 +66,15 @@ fn moving(draw: &mut Draw<'_>, cycle: &Cycle, found: Obstacle, stamp_ns: i64) ->
     let (x, y) = (found.frame.x - vx * dt, found.frame.y - vy * dt);
     let (length, width) = found.size;
     Track { id: 7, x, y, cos: found.frame.cos, sin: found.frame.sin, vx, vy, length, width }
+}
+
+/// The obstacle as a track that is said to move off fast: only as standing still it is in the way
+/// (H-09).
+fn fleeing(found: Obstacle) -> Track {
+    let base::Frame { x, y, cos, sin } = found.frame;
+    let (length, width) = found.size;
+    let (vx, vy) = (60.0 * found.away.0, 60.0 * found.away.1);
+    Track { id: 7, x, y, cos, sin, vx, vy, length, width }
 }
 
 /// H-09: a previous list that holds the track, or one that does not.

@@ -1,0 +1,18 @@
+//! Stage iv of the implementation against the exact model
+//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-03, H-04).
+
+use mufasa_model::cycle::Profile;
+use mufasa_props::differential::{agree, near_threshold};
+use mufasa_props::strategy::detections;
+
+#[test]
+fn paper() {
+    agree("stage iv", Profile::Paper, detections::cycle, near_threshold)
+        .assert_aimed(&["iv", "safe"]);
+}
+
+#[test]
+fn hardened() {
+    agree("stage iv", Profile::Hardened, detections::cycle, near_threshold)
+        .assert_aimed(&["iv", "safe"]);
+}

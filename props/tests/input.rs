@@ -1,0 +1,18 @@
+//! Invalid input: the implementation names the same field and index as the model, and neither
+//! panics (`spec/3-stages.md#invalid-input`).
+
+use mufasa_model::cycle::Profile;
+use mufasa_props::differential::agree;
+use mufasa_props::strategy::input;
+
+#[test]
+fn paper() {
+    agree("input", Profile::Paper, input::cycle, input::is_near)
+        .assert_aimed(&["error", "input", "safe"]);
+}
+
+#[test]
+fn hardened() {
+    agree("input", Profile::Hardened, input::cycle, input::is_near)
+        .assert_aimed(&["error", "input", "safe"]);
+}

@@ -1,0 +1,18 @@
+//! Stage ii of the implementation against the exact model
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12).
+
+use mufasa_model::cycle::Profile;
+use mufasa_props::differential::{agree, near_threshold};
+use mufasa_props::strategy::map_validation;
+
+#[test]
+fn paper() {
+    agree("stage ii", Profile::Paper, map_validation::cycle, near_threshold)
+        .assert_aimed(&["ii", "safe"]);
+}
+
+#[test]
+fn hardened() {
+    agree("stage ii", Profile::Hardened, map_validation::cycle, near_threshold)
+        .assert_aimed(&["ii", "safe"]);
+}

@@ -1,0 +1,18 @@
+//! The first witness in the order of the rules: the implementation's is the model's
+//! (`spec/3-stages.md#schedule`).
+
+use mufasa_model::cycle::Profile;
+use mufasa_props::differential::{hold, near_threshold, same_witness};
+use mufasa_props::strategy::whole;
+
+#[test]
+fn paper() {
+    hold("witness", Profile::Paper, whole::cycle, near_threshold, same_witness)
+        .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
+}
+
+#[test]
+fn hardened() {
+    hold("witness", Profile::Hardened, whole::cycle, near_threshold, same_witness)
+        .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
+}
