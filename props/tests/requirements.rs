@@ -2,12 +2,19 @@
 //!
 //! A requirement is a line of `spec/` with a MUST in it. Its name is the file, the anchor of its
 //! heading and its place among the requirements under that heading, such as
-//! `spec/3-stages.md#distances.2`. A test names it in its doc comment or in a comment beside it.
+//! `spec/3-stages.md#distances.2`. The rules H-nn and the interpretations I-nn have names of their
+//! own. A test names them in its doc comment or in a comment beside it.
 //! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Requirements without a test, each with the reason.
+const OPEN: &[(&str, &str)] = &[
+    ("spec/5-interfaces.md#programs-under-test.2", "`mufasa conform` is not built yet"),
+    ("spec/5-interfaces.md#vectors.1", "vectors and their schemas are not built yet"),
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -32,6 +39,9 @@ fn requirements() -> Vec<(String, String)> {
             {
                 (anchor, count) = (slug(heading), 0);
             }
+            if let Some(rule) = rule_of_row(line) {
+                found.push((rule.to_string(), line.chars().take(90).collect()));
+            }
             if line.contains("MUST") {
                 count += 1;
                 let words = line.trim_start_matches(['*', ' ']).chars().take(90).collect();
@@ -40,6 +50,17 @@ fn requirements() -> Vec<(String, String)> {
         }
     }
     found
+}
+
+/// `| H-04 | ...` is the row of a rule, `| I-02 | ...` of an interpretation.
+fn rule_of_row(line: &str) -> Option<&str> {
+    let name = line.strip_prefix("| ")?.split(' ').next()?;
+    is_rule(name).then_some(name)
+}
+
+fn is_rule(name: &str) -> bool {
+    let digits = name.strip_prefix("H-").or_else(|| name.strip_prefix("I-"));
+    digits.is_some_and(|digits| digits.len() == 2 && digits.chars().all(|c| c.is_ascii_digit()))
 }
 
 /// The anchor of a heading as the usual Markdown viewers make it.
@@ -64,8 +85,14 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Requirement names in a text: `spec/<file>#<anchor>.<number>`.
+/// Names in a text: `spec/<file>#<anchor>.<number>`, `H-<number>`, `I-<number>`.
 fn names_in(text: &str) -> impl Iterator<Item = String> {
+    let rules = ["H-", "I-"].into_iter().flat_map(|kind| text.match_indices(kind));
+    let rules = rules.filter_map(|(start, _)| text.get(start..start + 4).filter(|n| is_rule(n)));
+    rules.map(String::from).chain(places_in(text))
+}
+
+fn places_in(text: &str) -> impl Iterator<Item = String> {
     text.match_indices("spec/").filter_map(|(start, _)| {
         let rest = &text[start..];
         let end = rest
@@ -96,10 +123,14 @@ fn every_must_is_named_by_a_test() {
         }
     }
     let mut open = Vec::new();
+    for (name, why) in OPEN {
+        assert!(known.contains(name), "{name} is no requirement");
+        assert!(!named.contains_key(*name), "{name} has a test and is no longer open: {why}");
+    }
     for (name, words) in &requirements {
         let files = named.get(name).map(Vec::as_slice).unwrap_or_default();
         println!("{name}\n    {words}\n    {}", files.join(" "));
-        if files.is_empty() {
+        if files.is_empty() && !OPEN.iter().any(|(open, _)| open == name) {
             open.push(format!("{name}: {words}"));
         }
     }
