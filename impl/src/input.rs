@@ -133,11 +133,11 @@ fn check_ego(ego: &Ego) -> Check {
     at.number("ego.y", ego.y, POSITION)?;
     at.number("ego.cos", ego.cos, ANY)?;
     at.number("ego.sin", ego.sin, ANY)?;
+    at.direction("ego.cos", ego.cos, ego.sin)?;
     at.number("ego.speed", ego.speed, SPEED)?;
     at.number("ego.length", ego.length, SIZE)?;
     at.number("ego.width", ego.width, SIZE)?;
-    at.number("ego.center_offset", ego.center_offset, [-100.0, 100.0])?;
-    at.direction("ego.cos", ego.cos, ego.sin)
+    at.number("ego.center_offset", ego.center_offset, [-100.0, 100.0])
 }
 
 fn check_lead(lead: &Lead, now_ns: i64) -> Check {
@@ -202,9 +202,9 @@ fn check_detections(list: &DetectionList<'_>, now_ns: i64) -> Check {
         at.number("detections.items.y", y, POSITION)?;
         at.number("detections.items.cos", cos, ANY)?;
         at.number("detections.items.sin", sin, ANY)?;
+        at.direction("detections.items.cos", cos, sin)?;
         at.number("detections.items.length", length, SIZE)?;
         at.number("detections.items.width", width, SIZE)?;
-        at.direction("detections.items.cos", cos, sin)?;
     }
     Ok(())
 }
@@ -277,11 +277,11 @@ fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
     at.number(fields.y, track.y, POSITION)?;
     at.number(fields.cos, track.cos, ANY)?;
     at.number(fields.sin, track.sin, ANY)?;
+    at.direction(fields.cos, track.cos, track.sin)?;
     at.number(fields.vx, track.vx, VELOCITY)?;
     at.number(fields.vy, track.vy, VELOCITY)?;
     at.number(fields.length, track.length, SIZE)?;
-    at.number(fields.width, track.width, SIZE)?;
-    at.direction(fields.cos, track.cos, track.sin)
+    at.number(fields.width, track.width, SIZE)
 }
 
 /// Whether stamp and points are within 60 s of now, or there is no trajectory.
