@@ -17,13 +17,16 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
     match (profile, draw.below(10)) {
-        (_, 0 | 1) => reference_distance(draw, frame, &mut cycle),
+        // Hardened: what is outside the corridor fails however near the path is.
+        (Profile::Paper, 0 | 1) | (Profile::Hardened, 0) => {
+            reference_distance(draw, frame, &mut cycle)
+        }
         (_, 2 | 3) => corridor_edge(draw, frame, &mut cycle),
         (_, 4) => crooked_road(draw, frame, &mut cycle),
         (Profile::Paper, _) => anywhere(draw, frame, &mut cycle),
         (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
-        (Profile::Hardened, 7 | 8) => step(draw, frame, &mut cycle),
+        (Profile::Hardened, 1 | 7 | 8) => step(draw, frame, &mut cycle),
         (Profile::Hardened, _) => arc_length(draw, frame, &mut cycle),
     }
     cycle
