@@ -8,8 +8,9 @@ use super::graph::Graph;
 const GAP: f64 = 22.0;
 /// Room for an arrow that passes through a layer, px.
 const LANE: f64 = 10.0;
-/// Sweeps over all layers, for the order and for the places.
-const SWEEPS: usize = 24;
+/// Sweeps over all layers for the order, and for the places, which converge slowly.
+const ORDER_SWEEPS: usize = 24;
+const PLACE_SWEEPS: usize = 120;
 
 /// Places in px; x grows to the right from 0.
 pub struct Layout {
@@ -140,7 +141,7 @@ impl Sheet {
     /// with the fewest crossings.
     fn sort(&mut self) {
         let mut best = (self.crossings(), self.layers.clone());
-        for sweep in 0..SWEEPS {
+        for sweep in 0..ORDER_SWEEPS {
             let downwards = sweep % 2 == 0;
             for step in 0..self.layers.len() {
                 let place = self.rank();
@@ -190,7 +191,7 @@ impl Sheet {
         for layer in 0..self.layers.len() {
             self.settle(layer, |sheet, item| sheet.x[item]);
         }
-        for sweep in 0..SWEEPS {
+        for sweep in 0..PLACE_SWEEPS {
             for step in 0..self.layers.len() {
                 let layer = if sweep % 2 == 0 { step } else { self.layers.len() - 1 - step };
                 self.settle(layer, |sheet, item| {

@@ -1,7 +1,7 @@
 //! The graph as a picture (paper Fig. 2): the goal at the top, boxes coloured by station, arrows
 //! from provider to consumer, device switches dashed.
 
-use super::graph::{Graph, station_name};
+use super::graph::{Edge, Graph, station_name};
 use super::layout::{Layout, lay_out};
 
 /// px
@@ -10,6 +10,8 @@ const LAYER_STEP: f64 = 96.0;
 const BORDER: f64 = 28.0;
 const TITLE_HEIGHT: f64 = 44.0;
 const LEGEND_HEIGHT: f64 = 54.0;
+/// How far the control points of a detour lie beside the boxes.
+const REACH: f64 = 48.0;
 const FONT_SIZE: f64 = 14.0;
 /// Longest label, characters; the whole id is in the tooltip.
 const LABEL_CHARS: usize = 32;
@@ -35,10 +37,10 @@ pub fn draw(graph: &Graph, title: &str) -> String {
     let widths: Vec<f64> = labels.iter().map(|label| text_width(label) + 28.0).collect();
     let layout = lay_out(graph, &widths);
     let legend = Legend::of(graph);
-    let inner = layout.width.max(legend.width).max(text_width(title) * 1.15);
+    let inner = (layout.width + 2.0 * REACH).max(legend.width).max(text_width(title) * 1.15);
     let page = Page { left: BORDER + (inner - layout.width) / 2.0, layout, widths };
     let width = inner + 2.0 * BORDER;
-    let legend_top = page.top(page.layout.layers.saturating_sub(1)) + BOX_HEIGHT + BORDER;
+    let legend_top = top(page.layout.layers.saturating_sub(1)) + BOX_HEIGHT + BORDER;
     let height = legend_top + LEGEND_HEIGHT;
 
     let mut out = head(width, height, title);
@@ -56,7 +58,7 @@ pub fn draw(graph: &Graph, title: &str) -> String {
         ));
     }
     for (index, node) in graph.nodes.iter().enumerate() {
-        let (x, y) = (page.x(index), page.top(page.layout.layer[index]));
+        let (x, y) = (page.x(index), top(page.layout.layer[index]));
         out.push(format!(
             "<g><title>{}</title>{}<text class=\"label\" x=\"{x:.1}\" y=\"{:.1}\">{}</text></g>",
             escape(&format!("{}, {}", node.id, station_name(node.station))),
@@ -82,31 +84,48 @@ impl Page {
         self.left + self.layout.x[node]
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "a page has less than 2^52 layers")]
-    fn top(&self, layer: usize) -> f64 {
-        TITLE_HEIGHT + BORDER + layer as f64 * LAYER_STEP
-    }
-
     /// From the top of the provider, straight up through its lanes, to the bottom of the consumer.
     fn path(&self, graph: &Graph, index: usize) -> String {
         let edge = &graph.edges[index];
-        let upwards = |e: &&super::graph::Edge| e.provider == edge.provider;
-        let downwards = |e: &&super::graph::Edge| e.consumer == edge.consumer;
+        if !self.rises(edge) {
+            return self.detour(edge);
+        }
+        let upwards = |e: &&Edge| e.provider == edge.provider && self.rises(e);
+        let downwards = |e: &&Edge| e.consumer == edge.consumer && self.rises(e);
         let leaves = self.port(graph, edge.provider, index, upwards);
         let arrives = self.port(graph, edge.consumer, index, downwards);
         let (from, to) = (self.layout.layer[edge.provider], self.layout.layer[edge.consumer]);
-        let mut y = self.top(from);
-        let mut path = format!("M {leaves:.1} {y:.1}");
+        let mut y = top(from);
+        let mut path = vec![format!("M {leaves:.1} {y:.1}")];
         let mut x = leaves;
         for (lane, layer) in self.layout.lanes[index].iter().rev().zip((to + 1..from).rev()) {
-            let (next, bottom) = (self.left + lane, self.top(layer) + BOX_HEIGHT);
-            path.push_str(&curve([x, y], [next, bottom]));
-            y = self.top(layer);
-            path.push_str(&format!(" V {y:.1}"));
+            let (next, bottom) = (self.left + lane, top(layer) + BOX_HEIGHT);
+            path.push(curve([x, y], [next, bottom]));
+            y = top(layer);
+            path.push(format!("V {y:.1}"));
             x = next;
         }
-        path.push_str(&curve([x, y], [arrives, self.top(to) + BOX_HEIGHT + 1.0]));
-        path
+        path.push(curve([x, y], [arrives, top(to) + BOX_HEIGHT + 1.0]));
+        path.join(" ")
+    }
+
+    /// Whether the consumer lies above the provider, which is so unless the edge closes a cycle.
+    fn rises(&self, edge: &Edge) -> bool {
+        self.layout.layer[edge.consumer] < self.layout.layer[edge.provider]
+    }
+
+    /// From the right side of the provider round to the right side of the consumer.
+    fn detour(&self, edge: &Edge) -> String {
+        let side = |node: usize, y: f64| {
+            let right = self.x(node) + self.widths[node] / 2.0;
+            (right, top(self.layout.layer[node]) + BOX_HEIGHT * y)
+        };
+        let ((x, y), (to_x, to_y)) = (side(edge.provider, 0.25), side(edge.consumer, 0.75));
+        let reach = x.max(to_x) + REACH;
+        format!(
+            "M {x:.1} {y:.1} C {reach:.1} {y:.1} {reach:.1} {to_y:.1} {:.1} {to_y:.1}",
+            to_x + 1.0
+        )
     }
 
     /// Where an edge meets the side of a node: the edges there share it from left to right.
@@ -115,7 +134,7 @@ impl Page {
         graph: &Graph,
         node: usize,
         index: usize,
-        meets: impl Fn(&&super::graph::Edge) -> bool,
+        meets: impl Fn(&&Edge) -> bool,
     ) -> f64 {
         let mut here: Vec<(f64, usize)> = graph
             .edges
@@ -138,10 +157,16 @@ impl Page {
     }
 }
 
+/// Upper side of the boxes of a layer.
+#[expect(clippy::cast_precision_loss, reason = "a page has less than 2^52 layers")]
+fn top(layer: usize) -> f64 {
+    TITLE_HEIGHT + BORDER + layer as f64 * LAYER_STEP
+}
+
 /// Vertical at both ends.
 fn curve([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> String {
     let middle = f64::midpoint(y, to_y);
-    format!(" C {x:.1} {middle:.1} {to_x:.1} {middle:.1} {to_x:.1} {to_y:.1}")
+    format!("C {x:.1} {middle:.1} {to_x:.1} {middle:.1} {to_x:.1} {to_y:.1}")
 }
 
 /// Swatches with names side by side.

@@ -1,0 +1,310 @@
+//! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
+
+use mufasa_oracle::compose::{Composed, compose};
+use mufasa_oracle::json::{Answer, answer};
+
+const FIG_2: &str = include_str!("../data/fig2.json");
+
+fn fig_2() -> Composed {
+    compose(FIG_2).expect("the example composes")
+}
+
+/// Composes services given as (id, requires, guarantees, station).
+fn composed(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Composed {
+    let services: Vec<String> = services
+        .iter()
+        .map(|(id, requires, guarantees, station)| {
+            format!(
+                "{{\"id\": {id:?}, \"requires\": {requires:?}, \"guarantees\": {guarantees:?}, \
+                 \"station\": {station}}}"
+            )
+        })
+        .collect();
+    let services = services.join(",\n");
+    compose(&format!(
+        "{{\"kind\": \"composition\", \"id\": \"s\", \"goal\": {goal:?}, \"services\": [{services}]}}"
+    ))
+    .expect("the services compose")
+}
+
+/// The attribute of an element as a number.
+fn number(element: roxmltree::Node<'_, '_>, name: &str) -> f64 {
+    element.attribute(name).and_then(|text| text.parse().ok()).expect("a number")
+}
+
+/// Boxes (left, right, top, bottom) and labels of a picture, which must be well-formed XML.
+fn boxes(svg: &str) -> Vec<([f64; 4], String)> {
+    let document = roxmltree::Document::parse(svg).expect("a picture is XML");
+    document
+        .descendants()
+        .filter(|node| node.has_tag_name("g"))
+        .map(|group| {
+            let find = |name: &str| group.children().find(|node| node.has_tag_name(name));
+            let rect = find("rect").expect("a box");
+            let [x, y, width, height] =
+                ["x", "y", "width", "height"].map(|name| number(rect, name));
+            let label = find("text").and_then(|text| text.text()).unwrap_or_default();
+            ([x, x + width, y, y + height], label.to_owned())
+        })
+        .collect()
+}
+
+fn assert_no_overlap(svg: &str) {
+    let boxes = boxes(svg);
+    for (i, (a, name_a)) in boxes.iter().enumerate() {
+        for (b, name_b) in &boxes[..i] {
+            let apart = a[1] + 8.0 < b[0] || b[1] + 8.0 < a[0] || a[3] < b[2] || b[3] < a[2];
+            assert!(apart, "{name_a} {a:?} and {name_b} {b:?}");
+        }
+    }
+}
+
+/// The arrows of Fig. 2, in the order of the figure's source.
+const ARROWS: [(&str, &str); 17] = [
+    ("control", "actuation"),
+    ("cav-tpl", "control"),
+    ("mec-tpl", "control"),
+    ("cav-env", "cav-tpl"),
+    ("mec-env", "mec-tpl"),
+    ("cav-ego-motion", "cav-env"),
+    ("cav-ego-motion", "mec-env"),
+    ("cav-map", "cav-env"),
+    ("mec-map", "mec-env"),
+    ("cav-tracking", "cav-env"),
+    ("mec-tracking", "cav-env"),
+    ("mec-tracking", "mec-env"),
+    ("cav-tracking", "mec-env"),
+    ("cav-detection", "cav-tracking"),
+    ("mec-detection", "cav-tracking"),
+    ("mec-detection", "mec-tracking"),
+    ("cav-detection", "mec-tracking"),
+];
+
+#[test]
+fn the_graph_of_fig_2_has_exactly_the_arrows_of_the_figure() {
+    let graph = fig_2().graph();
+    assert_eq!(graph.nodes.len(), 13);
+    assert_eq!(graph.nodes[0].id, "actuation");
+    let id = |node: usize| graph.nodes[node].id.as_str();
+    let mut drawn: Vec<_> = graph.edges.iter().map(|e| (id(e.provider), id(e.consumer))).collect();
+    let mut figure = ARROWS.to_vec();
+    drawn.sort_unstable();
+    figure.sort_unstable();
+    assert_eq!(drawn, figure);
+    for edge in &graph.edges {
+        let [from, to] = [edge.provider, edge.consumer].map(|node| graph.nodes[node].station);
+        assert_eq!(edge.switch, from != to);
+    }
+}
+
+/// Two environment models, two trackings, two detections: 8, of which one is local.
+#[test]
+fn fig_2_has_8_compositions_of_which_7_are_distributed() {
+    let answer = fig_2().answer();
+    assert_eq!(answer.compositions.len(), 8);
+    assert_eq!(answer.compositions.iter().filter(|it| it.distributed).count(), 7);
+    for composition in &answer.compositions {
+        let has = |id: &str| composition.members.iter().any(|member| member == id);
+        assert!(has("actuation") && has("control") && has("cav-ego-motion"));
+        // ENV and TPL share memory, and each uses the map of its own station.
+        assert_eq!(has("cav-env"), has("cav-tpl"));
+        assert_eq!(has("mec-env"), has("mec-tpl"));
+        assert_eq!(has("cav-env"), has("cav-map"));
+        assert_ne!(has("cav-env"), has("mec-env"));
+    }
+}
+
+/// Without the rule of shared memory the environment model of one station feeds the planning of
+/// the other.
+#[test]
+fn same_station_is_what_keeps_env_and_tpl_of_fig_2_together() {
+    let free = FIG_2.replace("[[\"cav-env\", \"cav-tpl\", \"mec-env\", \"mec-tpl\"]]", "[]");
+    assert_ne!(free, FIG_2);
+    assert_eq!(compose(&free).expect("it composes").answer().compositions.len(), 16);
+}
+
+#[test]
+fn the_table_has_one_row_per_composition() {
+    let table = fig_2().table();
+    assert!(table.starts_with("8 compositions for actuation, 7 distributed\n"), "{table}");
+    assert!(table.contains("in every one: actuation, cav-ego-motion, control\n"), "{table}");
+    for row in 1..=8 {
+        assert!(table.contains(&format!("\u{2502} {row} \u{2506}")), "{table}");
+    }
+    assert!(!table.contains("\u{2502} 9 "), "{table}");
+    assert!(table.contains("mec-tpl \u{2192} control"), "{table}");
+}
+
+#[test]
+fn the_table_says_what_is_chosen_when_the_members_do_not() {
+    // Both serve `top` and `left` in turn, so that two compositions have the same members.
+    let all = composed(
+        "top",
+        &[
+            ("top", &["a", "b"], &[], 0),
+            ("left", &[], &["a", "b"], 0),
+            ("right", &[], &["a", "b"], 0),
+            ("spare", &[], &["c"], 0),
+        ],
+    );
+    let table = all.table();
+    assert!(table.starts_with("4 compositions for top, 0 distributed\n"), "{table}");
+    for chosen in ["a of top: left", "a of top: right", "b of top: left", "b of top: right"] {
+        assert_eq!(table.matches(chosen).count(), 2, "{table}");
+    }
+    assert!(table.contains("in none: spare\n"), "{table}");
+}
+
+#[test]
+fn without_a_composition_the_table_says_why() {
+    let nobody = composed("top", &[("top", &["a"], &[], 0)]);
+    assert_eq!(nobody.table(), "no composition for top: nobody guarantees a, which top requires\n");
+    let round = composed("top", &[("top", &["a"], &["a"], 0)]);
+    assert_eq!(round.table(), "no composition for top: the rule acyclic stands in the way\n");
+    assert_eq!(round.graph().edges.len(), 1);
+}
+
+#[test]
+fn the_picture_of_fig_2_shows_every_service_once_and_none_over_another() {
+    let svg = fig_2().svg();
+    assert_no_overlap(&svg);
+    let boxes = boxes(&svg);
+    let mut labels: Vec<_> = boxes.iter().map(|(_, label)| label.as_str()).collect();
+    labels.sort_unstable();
+    let graph = fig_2().graph();
+    let mut ids: Vec<_> = graph.nodes.iter().map(|node| node.id.as_str()).collect();
+    ids.sort_unstable();
+    assert_eq!(labels, ids);
+    // The goal at the top, every provider below its consumers.
+    let top = |id: &str| boxes.iter().find(|(_, label)| label == id).expect("drawn").0[2];
+    for (provider, consumer) in ARROWS {
+        assert!(top(provider) > top(consumer), "{provider} {consumer}");
+    }
+    let switches = ARROWS.iter().filter(|(a, b)| a.starts_with("mec") != b.starts_with("mec"));
+    // One more in the legend.
+    assert_eq!(svg.matches("<path class=\"switch\"").count(), switches.count() + 1);
+    for word in ["station 0 (CAV)", "station 1 (MEC)", "device switch", "provides for"] {
+        assert!(svg.contains(&format!(">{word}<")), "{word}");
+    }
+}
+
+/// An arrow over several layers passes between the boxes, not through them.
+#[test]
+fn no_arrow_of_a_picture_crosses_a_box() {
+    let long = composed(
+        "goal",
+        &[
+            ("goal", &["a", "b", "c", "d"], &[], 0),
+            ("first", &["b", "d"], &["a"], 1),
+            ("second", &["c", "d"], &["b"], 2),
+            ("third", &["d"], &["c"], 3),
+            ("the source of everything, with a long name", &[], &["d"], 4),
+        ],
+    );
+    let svg = long.svg();
+    assert_no_overlap(&svg);
+    let boxes = boxes(&svg);
+    let document = roxmltree::Document::parse(&svg).expect("XML");
+    let mut lanes = 0;
+    for path in document.descendants().filter(|node| node.attribute("class") == Some("switch")) {
+        // Where a path runs straight up it passes through a layer; the curves stay between layers.
+        let words: Vec<&str> = path.attribute("d").expect("a path").split(' ').collect();
+        for (i, _) in words.iter().enumerate().filter(|(_, word)| **word == "V") {
+            lanes += 1;
+            let [x, bottom, top] = [words[i - 2], words[i - 1], words[i + 1]]
+                .map(|word| word.parse::<f64>().expect("a number"));
+            assert!(top < bottom);
+            for ([left, right, box_top, box_bottom], name) in &boxes {
+                let beside = x < *left || *right < x;
+                let elsewhere = bottom < *box_top || *box_bottom < top;
+                assert!(beside || elsewhere, "{name} is crossed at {x}");
+            }
+        }
+    }
+    // Links over two, three and four layers: goal-b, goal-c, goal-d, first-d, second-d.
+    assert_eq!(lanes, 1 + 2 + 3 + 2 + 1);
+}
+
+/// Two compositions may need a service above and below another: the union has a cycle.
+#[test]
+fn compositions_that_form_a_cycle_together_can_be_drawn() {
+    let both = composed(
+        "goal",
+        &[
+            ("goal", &["x", "y"], &[], 0),
+            ("a", &["u"], &["x", "v"], 0),
+            ("b", &["v"], &["y", "u"], 1),
+            ("sensor", &[], &["u", "v"], 0),
+        ],
+    );
+    assert!(both.answer().compositions.len() > 1);
+    let graph = both.graph();
+    let id = |node: usize| graph.nodes[node].id.as_str();
+    let has = |from: &str, to: &str| {
+        graph.edges.iter().any(|edge| (id(edge.provider), id(edge.consumer)) == (from, to))
+    };
+    assert!(has("a", "b") && has("b", "a"));
+    // The link that goes down leaves and arrives at the side.
+    let down = "<title>a to b: v</title>";
+    let svg = both.svg();
+    let path = svg.lines().find(|line| line.contains(down)).expect("drawn");
+    assert_eq!(path.matches(" C ").count(), 1, "{path}");
+    assert_no_overlap(&both.svg());
+}
+
+#[test]
+fn names_that_a_picture_cannot_hold_are_escaped() {
+    let odd = composed(
+        "<goal> & \"co\"",
+        &[("<goal> & \"co\"", &["a\\b"], &[], 0), ("tab\tand \u{e9}\u{1f697}", &[], &["a\\b"], 9)],
+    );
+    let labels: Vec<String> = boxes(&odd.svg()).into_iter().map(|(_, label)| label).collect();
+    assert_eq!(labels, ["<goal> & \"co\"", "tab\u{fffd}and \u{e9}\u{1f697}"]);
+    let dot = odd.dot();
+    assert!(dot.contains(r#"label="<goal> & \"co\"""#), "{dot}");
+    assert!(dot.contains(r#"n1 -> n0 [label="a\\b", style=dashed];"#), "{dot}");
+}
+
+#[test]
+fn the_dot_file_has_every_service_and_every_link() {
+    let dot = fig_2().dot();
+    assert!(dot.starts_with("digraph services {\n  rankdir=BT;\n") && dot.ends_with("}\n"));
+    assert_eq!(dot.matches("fillcolor").count(), 13);
+    assert_eq!(dot.matches(" -> ").count(), ARROWS.len());
+    assert_eq!(dot.matches("style=dashed").count(), 6);
+}
+
+#[test]
+fn a_composition_is_answered_as_the_line_protocol_answers_it() {
+    let line = FIG_2.replace('\n', " ");
+    assert_eq!(answer(line.as_bytes(), 1), Answer::Composition(fig_2().answer()));
+}
+
+#[test]
+fn a_file_that_is_no_composition_is_an_error_with_its_line() {
+    let broken = FIG_2.replace("\"goal\": \"actuation\",", "\"goal\": actuation,");
+    let error = compose(&broken).err().expect("no JSON");
+    let line = FIG_2.lines().position(|line| line.contains("\"goal\"")).expect("there") + 1;
+    assert_eq!((error.line, error.field.as_str()), (line, ""));
+    let trace = r#"{"kind": "offloading", "id": "o", "events": []}"#;
+    assert_eq!(compose(trace).err().expect("a trace").field, "kind");
+    let goal = FIG_2.replace("\"goal\": \"actuation\"", "\"goal\": \"brake\"");
+    let error = compose(&goal).err().expect("no such service");
+    assert_eq!((error.field.as_str(), error.id.as_deref()), ("goal", Some("paper-fig-2")));
+    assert!(error.to_string().contains("brake"));
+}
+
+/// Every service in a layer of its own.
+#[test]
+fn a_long_chain_can_be_drawn() {
+    let names: Vec<String> = (0..400).map(|i| format!("s{i}")).collect();
+    let interfaces: Vec<String> = (0..400).map(|i| format!("i{i}")).collect();
+    let requires: Vec<Vec<&str>> =
+        (0..400).map(|i| interfaces.get(i + 1).map(String::as_str).into_iter().collect()).collect();
+    let guarantees: Vec<[&str; 1]> = interfaces.iter().map(|name| [name.as_str()]).collect();
+    let services: Vec<(&str, &[&str], &[&str], i64)> =
+        (0..400).map(|i| (names[i].as_str(), &requires[i][..], &guarantees[i][..], 0)).collect();
+    let chain = composed("s0", &services);
+    assert_no_overlap(&chain.svg());
+    assert_eq!(chain.graph().edges.len(), 399);
+}

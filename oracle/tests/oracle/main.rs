@@ -1,0 +1,9 @@
+//! The line protocol and the records of `spec/5-interfaces.md`.
+
+mod common;
+mod examples;
+mod noise;
+mod protocol;
+mod round_trip;
+mod schema;
+mod schema_cycle;
