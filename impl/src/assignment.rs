@@ -2,7 +2,7 @@
 //! method; paper Sec. IV-B), in O(rows^2 columns) evaluations of the cost and no matrix.
 //!
 //! Costs are integers, so that potentials never round: the assignment is minimal for the costs as
-//! given. With at most 1024 rows and costs of at most 2^52 no path or potential reaches 2^63: a
+//! given. With at most 1024 rows and costs of at most 2^52 + 1 no path or potential reaches 2^63: a
 //! column that no row has taken has potential 0, so that a path is at most as long as one edge to
 //! it (or, where edges are missing, as 1024 edges of at most 2^42), and potentials add up paths.
 

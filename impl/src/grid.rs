@@ -134,15 +134,14 @@ impl Map {
 
     /// H-06: the first cell of the bitmap whose closed square may be at distance <= r.
     fn touched(&self, disk: &Disk, cells: &Bitmap<'_>) -> Option<Hit> {
-        let (first, last) = self.reach(disk.row);
+        let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
-            let up = self.gap(disk.row, k);
-            let (from, to) = self.reach(disk.column);
+            let (from, to) = self.reach_in_row(disk, k);
             let mut next = cells.first_in_row(k, from, to);
             while let Some(i) = next {
-                let apart = self.gap(disk.column, i).squared() + up.squared();
-                if apart.possibly_at_most(self.radius_squared) {
-                    return Some(Hit { cell: (i, k), distance: apart.sqrt().value() });
+                let hit = self.hit(disk, i, k);
+                if hit.is_some() {
+                    return hit;
                 }
                 next = cells.first_in_row(k, i.saturating_add(1), to);
             }
@@ -153,31 +152,45 @@ impl Map {
     /// H-06: the first place outside the array that may be at distance <= r, as the cell there.
     fn outside(&self, disk: &Disk) -> Option<Hit> {
         let cells = |count: i64| Real::integer(count) * self.resolution;
-        let borders =
-            [disk.column, disk.row, cells(self.width) - disk.column, cells(self.height) - disk.row];
-        let nearest = borders.into_iter().fold(self.radius + Real::ONE, Real::min);
-        if !nearest.possibly_at_most(self.radius) {
+        let borders = [disk.column, disk.row];
+        let opposite = [cells(self.width) - disk.column, cells(self.height) - disk.row];
+        let within = borders.into_iter().chain(opposite).fold(self.radius + Real::ONE, Real::min);
+        if !within.possibly_at_most(self.radius) {
             return None;
         }
-        let (first, last) = self.reach(disk.row);
-        let (from, to) = self.reach(disk.column);
-        let touched = |i: i64, k: i64| {
-            let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
-            let touches = apart.possibly_at_most(self.radius_squared);
-            touches.then(|| Hit { cell: (i, k), distance: apart.sqrt().value() })
-        };
-        let beyond = |i: i64, k: i64| i < 0 || k < 0 || i >= self.width || k >= self.height;
-        let place = (first..=last)
-            .find_map(|k| (from..=to).filter(|&i| beyond(i, k)).find_map(|i| touched(i, k)));
-        let nearest = nearest.max(Real::ZERO).value();
-        place.or(Some(Hit { cell: (from, first), distance: nearest }))
+        let (first, last) = self.reach(disk.row, self.radius);
+        let place = (first..=last).find_map(|k| {
+            let (from, to) = self.reach_in_row(disk, k);
+            if k < 0 || k >= self.height {
+                return (from..=to).find_map(|i| self.hit(disk, i, k));
+            }
+            let left = from..=to.min(-1);
+            let right = from.max(self.width)..=to;
+            left.chain(right).find_map(|i| self.hit(disk, i, k))
+        });
+        // Rounding may leave a border within reach and no cell beyond it.
+        let distance = within.max(Real::ZERO).value();
+        place.or(Some(Hit { cell: (-1, -1), distance }))
     }
 
-    /// The first and the last column (or row) that the disk may touch; at most one too many on
-    /// either side.
-    fn reach(&self, centre: Real) -> (i64, i64) {
-        let first = floor((centre - self.radius).over(self.resolution));
-        let last = floor((centre + self.radius).over(self.resolution));
+    /// The cell, if its closed square may be at distance <= r.
+    fn hit(&self, disk: &Disk, i: i64, k: i64) -> Option<Hit> {
+        let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
+        let touches = apart.possibly_at_most(self.radius_squared);
+        touches.then(|| Hit { cell: (i, k), distance: apart.sqrt().value() })
+    }
+
+    /// The first and the last column that the disk may touch in row `k`.
+    fn reach_in_row(&self, disk: &Disk, k: i64) -> (i64, i64) {
+        let chord_squared = self.radius_squared - self.gap(disk.row, k).squared();
+        self.reach(disk.column, chord_squared.max(Real::ZERO).sqrt())
+    }
+
+    /// The first and the last column (or row) that may be as near; at most two too many on either
+    /// side.
+    fn reach(&self, centre: Real, distance: Real) -> (i64, i64) {
+        let first = floor((centre - distance).over(self.resolution));
+        let last = floor((centre + distance).over(self.resolution));
         (first.saturating_sub(1), last.saturating_add(1))
     }
 

@@ -134,6 +134,7 @@ fn check_ego(ego: &Ego) -> Check {
     at.number("ego.cos", ego.cos, ANY)?;
     at.number("ego.sin", ego.sin, ANY)?;
     at.direction("ego.cos", ego.cos, ego.sin)?;
+    at.direction("ego.cos", ego.cos, ego.sin)?;
     at.number("ego.speed", ego.speed, SPEED)?;
     at.number("ego.length", ego.length, SIZE)?;
     at.number("ego.width", ego.width, SIZE)?;

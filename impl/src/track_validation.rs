@@ -90,8 +90,8 @@ fn mean_cost(
 }
 
 /// H-01: k' = gated tracks less the budget. The budget is spare columns that cost nothing, so that
-/// a minimal assignment of all gated tracks is a minimal choice of k' pairs; pairs beyond k', which
-/// must be free of cost, can only make the sum larger.
+/// a minimal assignment of all gated tracks is a minimal choice of k' pairs; pairs beyond k' are of
+/// coinciding points and add nothing to the sum.
 fn matched_cost(
     cycle: &Cycle<'_>,
     tracks: &TrackList<'_>,
@@ -180,18 +180,20 @@ impl Pair<'_> {
 
 /// Fails unless the sum is certainly below k `theta_tr`. That makes every acceptance right; that
 /// nothing is rejected without need follows from the costs: those of the assignment found add up
-/// to at most the least possible sum plus k * 2^-31 and 2^-50 of it.
+/// to at most the least possible sum plus k * 2^-32 m and 2^-49 of it.
 fn compare_mean(cycle: &Cycle<'_>, sum: Real, k: usize) -> Option<Witness> {
     let (k, theta_tr) = (Real::new(count(k)), cycle.parameters.theta_tr);
     let passes = sum.certainly_below(k * Real::new(theta_tr));
     (!passes).then(|| Witness::of(Rule::MeanCost, [sum.over(k).value(), theta_tr]))
 }
 
-/// A distance in units of 2^-32 m. 2^20 m stand for everything farther: no mean below
-/// `theta_tr` <= 1000 m of at most 1024 pairs has a distance above 1,024,000 m.
+/// A distance in units of 2^-32 m, rounded up so that only coinciding points cost nothing. 2^20 m
+/// stand for everything farther: no mean below `theta_tr` <= 1000 m of at most 1024 pairs has a
+/// distance above 1,024,000 m.
 #[allow(clippy::cast_possible_truncation, reason = "the argument is within 0 and 2^52")]
 fn units(metres: f64) -> i64 {
-    (metres.min(1_048_576.0) * 4_294_967_296.0) as i64
+    let whole = (metres.min(1_048_576.0) * 4_294_967_296.0) as i64;
+    whole.saturating_add(i64::from(metres > 0.0))
 }
 
 /// The bound covers the error of `Pair::metres`; limits are at least 1e-3 m.
