@@ -72,4 +72,37 @@ fn summary(d: &Drive) {
             c.ego.speed
         );
     }
+    use mufasa_model::{cycle::Profile, schedule::check, verdict::*};
+    let t = std::time::Instant::now();
+    for profile in [Profile::Paper, Profile::Hardened] {
+        let mut count: std::collections::BTreeMap<String, (usize, String)> = Default::default();
+        for c in &d.cycles {
+            let mut cycle = c.cycle.clone();
+            cycle.profile = profile;
+            let text = match check(&cycle, Reading::Exact) {
+                Err(e) => format!("ERROR {e:?}"),
+                Ok(r) => {
+                    let w = r.stages.iter().find_map(|s| match s {
+                        Outcome::Failed(w) => Some(w),
+                        _ => None,
+                    });
+                    match (r.failed_stage, w) {
+                        (None, _) => "safe".into(),
+                        (Some(f), Some(w)) => format!("{f:?} {:?}", w.rule),
+                        (Some(f), None) => format!("{f:?}"),
+                    }
+                }
+            };
+            let e = count.entry(text).or_insert((0, c.id.clone()));
+            e.0 += 1;
+        }
+        println!(
+            "    {profile:?}: {:?}",
+            count
+                .iter()
+                .map(|(k, v)| format!("{k}: {} ({})", v.0, v.1.rsplit('#').next().unwrap()))
+                .collect::<Vec<_>>()
+        );
+    }
+    println!("    {:?}", t.elapsed());
 }

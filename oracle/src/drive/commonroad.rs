@@ -18,6 +18,8 @@ use super::solution::Solution;
 const VEHICLES: [&str; 6] = ["car", "truck", "bus", "taxi", "priorityVehicle", "motorcycle"];
 /// Share of its states that a vehicle must be on lanelets to be picked.
 const ON_LANELETS: f64 = 0.95;
+/// A vehicle that goes less far than this hardly moves, m.
+const TRAVEL: f64 = 10.0;
 
 /// The drive of a solution in its scenario.
 pub(super) fn solved(
@@ -149,25 +151,33 @@ fn named<'a>(scenario: &'a Scenario, id: i64, file: &Path) -> Result<&'a Object,
     object.ok_or_else(|| no_vehicle(file, id, "is not in this scenario"))
 }
 
-/// The vehicle with the longest recording of those that stay on the lanelets; of several the one
-/// that goes farthest, then the smallest id.
+/// Of the vehicles that stay on the lanelets: those that go `TRAVEL` before those that hardly
+/// move, then the one with the longest recording, the farthest way, the smallest id.
 fn picked<'a>(scenario: &'a Scenario, file: &Path) -> Result<&'a Object, ReadError> {
-    let mut best: Option<(usize, f64, &Object)> = None;
+    let mut best: Option<((bool, usize, f64), &Object)> = None;
     for object in scenario.objects.iter().filter(|o| VEHICLES.contains(&o.kind.as_str())) {
         let Motion::Moving(states) = &object.motion else { continue };
         if states.len() < 2 || !on_lanelets(&scenario.network, states) {
             continue;
         }
-        let key = (states.len(), travelled(states));
-        let better = best.is_none_or(|(n, far, o)| {
-            key.0.cmp(&n).then(key.1.total_cmp(&far)).then(o.id.cmp(&object.id)).is_gt()
+        let far = travelled(states);
+        let key = (far >= TRAVEL, states.len(), far);
+        let better = best.is_none_or(|((moves, n, most), o)| {
+            let order = key.0.cmp(&moves).then(key.1.cmp(&n)).then(key.2.total_cmp(&most));
+            order.then(o.id.cmp(&object.id)).is_gt()
         });
         if better {
-            best = Some((key.0, key.1, object));
+            best = Some((key, object));
         }
     }
-    best.map(|(_, _, object)| object).ok_or_else(|| {
-        let message = "no recorded vehicle stays on the lanelets; name one, or give a solution";
+    best.map(|(_, object)| object).ok_or_else(|| {
+        let sets = scenario.objects.iter().any(|o| matches!(o.motion, Motion::Occupied { .. }));
+        let message = if sets {
+            "the obstacles are sets of occupied places, and none is a vehicle with a trajectory \
+             that could be the CAV; give a solution"
+        } else {
+            "no recorded vehicle stays on the lanelets; name one, or give a solution"
+        };
         ReadError::file(file, message).at("commonRoad", "dynamicObstacle")
     })
 }

@@ -9,7 +9,7 @@ pub struct ReadError {
     /// The file.
     pub file: PathBuf,
     /// Line of the file, from 1; `None` for binary files and for errors of the whole file.
-    pub line: Option<usize>,
+    pub line: Option<u32>,
     /// The element, as a path of tag names with ids, such as `commonRoad/lanelet[12]/leftBound`.
     pub element: String,
     /// The field within the element, empty when the element itself is meant.
@@ -50,7 +50,7 @@ impl ReadError {
 
     /// The same error on a line of the file.
     #[must_use]
-    pub fn line(mut self, line: usize) -> Self {
+    pub fn line(mut self, line: u32) -> Self {
         self.line = Some(line);
         self
     }

@@ -4,11 +4,14 @@
 //! are remote, what the sensors saw, how old the data are) comes from [`Options`] and is written
 //! down in [`Drive::notes`].
 
+mod attack;
 mod commonroad;
 mod error;
 mod geometry;
 mod lanes;
 mod lead;
+mod map;
+mod npy;
 mod object;
 mod options;
 mod route;
@@ -18,6 +21,7 @@ mod sensor;
 mod solution;
 mod xml;
 
+pub use attack::{Attack, Injection, inject};
 pub use error::ReadError;
 pub use options::{GridSize, Options, Sensor, Tail};
 
@@ -49,12 +53,14 @@ pub struct DriveCycle {
     pub cycle: Cycle,
 }
 
-/// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b, 2020a;
-/// XML), or a solution of the scenario before it.
+/// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
+/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines
+/// (`spec/5-interfaces.md#cycle`; the options do not touch them).
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
 /// one drive of a recorded vehicle. The results are in the order of the files; an error names
-/// file, place and value, and does not stop the others.
+/// file, place and value, and does not stop the others. Every line of JSON that is no cycle is an
+/// error of its own.
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
@@ -75,8 +81,10 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
                     solution::read(path, &text)
                         .and_then(|s| commonroad::solved(scenario, &s, [file, path], options))
                 }
-                None => Err(ReadError::file(path, "a solution needs its scenario named before it")),
+                None => Err(ReadError::file(path, "no scenario that can be read is before it")),
             }),
+            Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
+            Ok(Content::Lines(text)) => drives.extend(lines(path, &text)),
             Err(error) => drives.push(Err(error)),
         }
     }
@@ -98,16 +106,23 @@ fn unsolved(
 enum Content {
     Scenario(String),
     Solution(String),
+    Map(Vec<u8>),
+    Lines(String),
 }
 
 fn load(path: &Path) -> Result<Content, ReadError> {
     let bytes = std::fs::read(path).map_err(|e| ReadError::file(path, e.to_string()))?;
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(Content::Map(bytes));
+    }
     let text = String::from_utf8(bytes)
-        .map_err(|e| ReadError::file(path, format!("neither text nor a known binary form: {e}")))?;
+        .map_err(|e| ReadError::file(path, format!("neither text nor a map: {e}")))?;
     // A byte order mark is no content.
     let text = text.trim_start_matches('\u{feff}').to_owned();
-    if !text.trim_start().starts_with('<') {
-        return Err(ReadError::file(path, "not recognised: no XML"));
+    match text.trim_start().chars().next() {
+        Some('{') => return Ok(Content::Lines(text)),
+        Some('<') => {}
+        _ => return Err(ReadError::file(path, "neither XML, nor JSON Lines, nor a map")),
     }
     match xml::with_root(path, &text, |root| Ok(root.name().to_owned()))?.as_str() {
         "commonRoad" => Ok(Content::Scenario(text)),
@@ -117,4 +132,29 @@ fn load(path: &Path) -> Result<Content, ReadError> {
             Err(ReadError::file(path, message))
         }
     }
+}
+
+/// The cycles of JSON Lines as one drive, after the errors of those that are none.
+fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
+    let mut results = Vec::new();
+    let mut cycles = Vec::new();
+    for line in crate::json::cycles_from_lines(text) {
+        match line {
+            Ok((id, cycle)) => cycles.push(DriveCycle { id, cycle }),
+            Err(error) => {
+                let element = error.id.map_or_else(String::new, |id| format!("cycle {id}"));
+                let read = ReadError::file(path, error.message)
+                    .line(u32::try_from(error.line).unwrap_or(u32::MAX));
+                let mut read = read.at(element, error.field);
+                read.index = error.index;
+                results.push(Err(read));
+            }
+        }
+    }
+    if !cycles.is_empty() {
+        let notes = vec![format!("{} cycles as recorded", cycles.len())];
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        results.push(Ok(Drive { name, source: path.display().to_string(), cycles, notes }));
+    }
+    results
 }

@@ -133,6 +133,7 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
 struct Reader {
     intervals: usize,
     sets: usize,
+    slivers: usize,
     left_out: usize,
 }
 
@@ -152,6 +153,9 @@ impl Reader {
                 self.sets
             ));
         }
+        if self.slivers > 0 {
+            notes.push(format!("{} occupied places widened to 0.01 m", self.slivers));
+        }
         if self.left_out > 0 {
             notes.push(format!("{} environment and phantom obstacles left out", self.left_out));
         }
@@ -170,24 +174,31 @@ impl Reader {
         let motion = if is_static {
             Motion::Standing(initial)
         } else if let Some(trajectory) = element.find("trajectory") {
-            let mut states = vec![initial];
-            for (i, state) in trajectory.all("state").enumerate() {
-                let state = self.state(state, false).map_err(|e| e.index(i))?;
-                if states.last().is_some_and(|last| state.step <= last.step) {
-                    let error = trajectory.error("state", "time does not increase");
-                    return Err(error.index(i));
-                }
-                states.push(state);
-            }
-            Motion::Moving(states)
+            Motion::Moving(self.states(initial, trajectory)?)
         } else if let Some(set) = element.find("occupancySet") {
             self.sets += 1;
-            Motion::Occupied { initial, places: occupancies(set)? }
+            Motion::Occupied { initial, places: self.occupancies(set)? }
         } else {
             Motion::Moving(vec![initial])
         };
         let kind = element.find("type").map_or("", Element::text).to_owned();
         Ok(Object { id, kind, footprint, motion })
+    }
+
+    /// The initial state and those of the trajectory; some files repeat the initial one there.
+    fn states(&mut self, initial: State, trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
+        let mut states = vec![initial];
+        for (i, element) in trajectory.all("state").enumerate() {
+            let state = self.state(element, false).map_err(|e| e.index(i))?;
+            if i == 0 && state == initial {
+                continue;
+            }
+            if states.last().is_some_and(|last| state.step <= last.step) {
+                return Err(element.error("time", "time does not increase").index(i));
+            }
+            states.push(state);
+        }
+        Ok(states)
     }
 
     fn state(&mut self, element: Element<'_>, is_static: bool) -> Result<State, ReadError> {
@@ -208,6 +219,44 @@ impl Reader {
         // A state counts once, however many of its values are intervals.
         self.intervals = self.intervals.min(before + 1);
         Ok(State { step, position, heading, speed, slip })
+    }
+
+    /// The occupied places of a set-based prediction, step by step. Slivers are widened to the
+    /// least width in the domain.
+    fn occupancies(
+        &mut self,
+        set: Element<'_>,
+    ) -> Result<BTreeMap<i64, Vec<Rectangle>>, ReadError> {
+        let mut places: BTreeMap<i64, Vec<Rectangle>> = BTreeMap::new();
+        for (i, occupancy) in set.all("occupancy").enumerate() {
+            let time = occupancy.get("time")?;
+            let (first, last) = match time.find("exact") {
+                Some(exact) => (exact.step()?, exact.step()?),
+                None => (time.get("intervalStart")?.step()?, time.get("intervalEnd")?.step()?),
+            };
+            if last - first > 10_000 {
+                return Err(occupancy.error("time", "longer than 10000 steps").index(i));
+            }
+            for shape in occupancy.get("shape")?.children() {
+                let mut rectangle = match outline(shape)? {
+                    (_, Some(f)) => f.at([0.0, 0.0], 0.0),
+                    (points, None) => Rectangle::smallest_around(&points)
+                        .ok_or_else(|| shape.error("point", "no extent").index(i))?,
+                };
+                if rectangle.length > 100.0 || rectangle.width > 100.0 {
+                    return Err(shape.error("point", "larger than 100 m").index(i));
+                }
+                if rectangle.length < 0.01 || rectangle.width < 0.01 {
+                    self.slivers += 1;
+                    rectangle.length = rectangle.length.max(0.01);
+                    rectangle.width = rectangle.width.max(0.01);
+                }
+                for step in first..=last {
+                    places.entry(step).or_default().push(rectangle);
+                }
+            }
+        }
+        Ok(places)
     }
 
     /// A value that is exact, or the middle of an interval.
@@ -283,36 +332,4 @@ fn outline(shape: Element<'_>) -> Result<(Vec<Point>, Option<Footprint>), ReadEr
         "polygon" => Ok((shape.points()?, None)),
         other => Err(shape.error("", format!("shape `{other}` is not read"))),
     }
-}
-
-/// The occupied places of a set-based prediction, step by step.
-fn occupancies(set: Element<'_>) -> Result<BTreeMap<i64, Vec<Rectangle>>, ReadError> {
-    let mut places: BTreeMap<i64, Vec<Rectangle>> = BTreeMap::new();
-    for (i, occupancy) in set.all("occupancy").enumerate() {
-        let time = occupancy.get("time")?;
-        let (first, last) = match time.find("exact") {
-            Some(exact) => (exact.step()?, exact.step()?),
-            None => (time.get("intervalStart")?.step()?, time.get("intervalEnd")?.step()?),
-        };
-        if last - first > 10_000 {
-            return Err(occupancy.error("time", "longer than 10000 steps").index(i));
-        }
-        for shape in occupancy.get("shape")?.children() {
-            let rectangle = match outline(shape)? {
-                (_, Some(f)) => f.at([0.0, 0.0], 0.0),
-                (points, None) => Rectangle::smallest_around(&points)
-                    .ok_or_else(|| shape.error("point", "no area").index(i))?,
-            };
-            if !(0.01..=100.0).contains(&rectangle.width)
-                || !(0.01..=100.0).contains(&rectangle.length)
-            {
-                let message = "the smallest rectangle around it is not within 0.01 and 100 m";
-                return Err(shape.error("", message).index(i));
-            }
-            for step in first..=last {
-                places.entry(step).or_default().push(rectangle);
-            }
-        }
-    }
-    Ok(places)
 }

@@ -24,8 +24,7 @@ pub(super) fn with_root<T>(
         return Err(ReadError::file(file, message));
     }
     let document = Document::parse(text).map_err(|e| {
-        let line = usize::try_from(e.pos().row).unwrap_or(usize::MAX);
-        ReadError::file(file, format!("not well-formed XML: {e}")).line(line)
+        ReadError::file(file, format!("not well-formed XML: {e}")).line(e.pos().row)
     })?;
     read(Element { file, node: document.root_element() })
 }
@@ -98,9 +97,7 @@ impl<'a> Element<'a> {
     /// An error at this element.
     pub(super) fn error(self, field: &str, message: impl Into<String>) -> ReadError {
         let position = self.node.document().text_pos_at(self.node.range().start);
-        ReadError::file(self.file, message)
-            .line(usize::try_from(position.row).unwrap_or(usize::MAX))
-            .at(self.path(), field)
+        ReadError::file(self.file, message).line(position.row).at(self.path(), field)
     }
 
     fn path(self) -> String {
@@ -141,10 +138,6 @@ impl<'a> Element<'a> {
     pub(super) fn attribute(self, name: &str) -> Result<&'a str, ReadError> {
         let value = self.node.attribute(name);
         value.ok_or_else(|| self.error(name, "this attribute is missing"))
-    }
-
-    pub(super) fn find_attribute(self, name: &str) -> Option<&'a str> {
-        self.node.attribute(name)
     }
 
     /// An attribute that is an integer, such as `id` or `ref`.
