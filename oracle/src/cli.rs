@@ -13,7 +13,7 @@ use mufasa_model::cycle::Profile;
 
 use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
-use crate::drive::{self, GridSize, Options, Sensor, Tail};
+use crate::drive::{self, GridSize, Injection, Options, Sensor, Tail, inject};
 use crate::json::names;
 use crate::oracle;
 use crate::parameters_file;
@@ -58,6 +58,11 @@ struct CheckArguments {
     /// Which groups of a recorded drive are remote.
     #[arg(long, default_value = "AllRemote", value_parser = configuration(), ignore_case = true)]
     configuration: Configuration,
+    /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
+    /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
+    /// frozen, late, too-fast.
+    #[arg(long, value_name = "ATTACK")]
+    inject: Vec<Injection>,
     #[command(flatten)]
     recording: RecordingArguments,
     /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
@@ -169,7 +174,9 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
         },
         pictures: arguments.svg.clone(),
     };
+    let attacked = |drive| arguments.inject.iter().fold(drive, |drive, it| inject(&drive, it));
     let drives = drive::read(&arguments.files, &options);
+    let drives: Vec<_> = drives.into_iter().map(|drive| drive.map(attacked)).collect();
     let findings = check::run(&drives, &settings, out, &mut io::stderr())?;
     Ok(findings.exit_code())
 }

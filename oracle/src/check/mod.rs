@@ -77,6 +77,14 @@ impl Findings {
         }
     }
 
+    /// Adds what was found on a drive.
+    pub fn add(&mut self, checked: &Checked<'_>) {
+        self.drives += 1;
+        self.tally.merge(&checked.tallies()[0]);
+        self.disagreements += checked.disagreements();
+        self.fallbacks += checked.courses[0].fallbacks();
+    }
+
     /// One sentence over the run.
     pub fn summary(&self) -> String {
         let Self { drives, unreadable, tally, disagreements, fallbacks, pictures } = self;
@@ -154,10 +162,7 @@ fn check<'a>(
 ) -> Checked<'a> {
     let readings = settings.format == Format::Json;
     let checked = Checked::new(drive, &settings.requester, readings, || progress.inc(1));
-    findings.drives += 1;
-    findings.tally.merge(&checked.tallies()[0]);
-    findings.disagreements += checked.disagreements();
-    findings.fallbacks += checked.courses[0].fallbacks();
+    findings.add(&checked);
     let errors = checked.judged.iter().zip(&drive.cycles).filter_map(|(judged, cycle)| {
         judged.model.as_ref().err().map(|problem| (problem, &cycle.id))
     });
@@ -165,7 +170,7 @@ fn check<'a>(
         complain(err, &format!("{}: cycle {id}: {}", drive.source, words::invalid(problem)));
     }
     if let Some(folder) = &settings.pictures {
-        match pictures::write(folder, &checked) {
+        match pictures::write(folder, &checked, |_| true) {
             Ok(written) => findings.pictures.extend(written),
             Err((file, error)) => {
                 findings.unreadable += 1;
@@ -205,7 +210,8 @@ fn progress(drives: &[Result<Drive, ReadError>]) -> ProgressBar {
     }
 }
 
-fn counted(count: usize, what: &str) -> String {
+/// `1 drive`, `2 drives`; of several words the first takes the s.
+pub fn counted(count: usize, what: &str) -> String {
     match what.split_once(' ') {
         _ if count == 1 => format!("1 {what}"),
         Some((first, rest)) => format!("{count} {first}s {rest}"),

@@ -8,11 +8,15 @@ use super::{files, words};
 use crate::json::names;
 use crate::svg::{Scene, picture};
 
-/// Writes the pictures of a drive into a folder that exists; returns their paths. An error names
-/// the file.
-pub fn write(folder: &Path, checked: &Checked<'_>) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+/// Writes the pictures of the cycles that are wanted, by their index in the drive, into a folder
+/// that exists; returns their paths. An error names the file.
+pub fn write(
+    folder: &Path,
+    checked: &Checked<'_>,
+    wanted: impl Fn(usize) -> bool,
+) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
     let mut written = Vec::new();
-    for (index, judged) in checked.judged.iter().enumerate() {
+    for (index, judged) in checked.judged.iter().enumerate().filter(|(index, _)| wanted(*index)) {
         let (Some(report), Some(found)) = (judged.unsafe_report(), checked.drive.cycles.get(index))
         else {
             continue;

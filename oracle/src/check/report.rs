@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use mufasa_model::verdict::FailedStage;
 use mufasa_props::conformance::{Answer, name};
 
+use super::counted;
 use super::course::Checked;
 use super::fallback::{Course, Hold, UnsafeCycle};
 use super::words;
@@ -21,12 +22,15 @@ pub fn write(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()> {
     for note in &checked.drive.notes {
         writeln!(out, "  note: {note}")?;
     }
-    let errors =
-        if model.errors > 0 { format!(", {} errors", model.errors) } else { String::new() };
+    let errors = if model.errors > 0 {
+        format!(", {}", counted(model.errors, "error"))
+    } else {
+        String::new()
+    };
     writeln!(
         out,
-        "{} cycles, {}: {} safe, {} unsafe{errors}",
-        model.cycles,
+        "{}, {}: {} safe, {} unsafe{errors}",
+        counted(model.cycles, "cycle"),
         checked.setting(),
         model.safe,
         model.unsafe_cycles()
@@ -100,7 +104,7 @@ fn write_course(
         } else {
             format!("{at:.1} s to {last:.1} s")
         };
-        let stages = counted(run, |cycle| answer(&checked.judged[cycle.index]));
+        let stages = by_stage(run, |cycle| answer(&checked.judged[cycle.index]));
         writeln!(out, "  {span}: {} more unsafe {why} ({stages})", run.len())?;
         rest = after;
     }
@@ -108,7 +112,7 @@ fn write_course(
 }
 
 /// How many of these cycles failed where: `ii 3, iii 20`.
-fn counted<'a>(run: &[UnsafeCycle], answer: impl Fn(&UnsafeCycle) -> &'a Answer) -> String {
+fn by_stage<'a>(run: &[UnsafeCycle], answer: impl Fn(&UnsafeCycle) -> &'a Answer) -> String {
     let mut counts: BTreeMap<(u8, &str), usize> = BTreeMap::new();
     for cycle in run {
         let key = match answer(cycle) {

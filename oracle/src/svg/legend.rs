@@ -7,7 +7,7 @@ use super::layers::Layer;
 /// Height of the strip below the map, px.
 pub const LEGEND_HEIGHT: f64 = 76.0;
 /// Width of a character of the legend, px.
-const CHARACTER: f64 = 7.0;
+const CHARACTER: f64 = 6.5;
 /// Room for the scale bar and the arrow on the right, px.
 const RIGHT: f64 = 250.0;
 

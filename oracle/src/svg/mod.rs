@@ -24,7 +24,7 @@ stroke-opacity:.75;paint-order:stroke}\
 .corridor{fill:#e9eef3;stroke:#e9eef3;stroke-width:.6}\
 .boundary{fill:none;stroke:#9aa8b6;stroke-width:1.5}\
 .reference{fill:none;stroke:#8694a3;stroke-width:1.2;stroke-dasharray:8 5}\
-.occupied{fill:#5b4a3c;fill-opacity:.55}.unknown{fill:#c9bfae;fill-opacity:.45}\
+.occupied{fill:#5b4a3c;fill-opacity:.4}.unknown{fill:#c9bfae;fill-opacity:.45}\
 .detection{fill:none;stroke:#e08600;stroke-width:2;stroke-dasharray:5 3}\
 .track{fill:#3b6fb6;fill-opacity:.32;stroke:#2a4f85;stroke-width:1.5}\
 .prediction{fill:#3b6fb6;fill-opacity:.05;stroke:#2a4f85;stroke-opacity:.28;stroke-width:1}\

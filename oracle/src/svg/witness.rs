@@ -51,7 +51,7 @@ pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, report: &Report) 
     for line in &marks.lines {
         canvas.polyline(&line.map(|place| frame.at(place)), "witness-line");
     }
-    if marks.shapes.is_empty() && marks.circles.is_empty() {
+    if marks.shapes.is_empty() && marks.circles.is_empty() && marks.lines.is_empty() {
         canvas.circle(frame.at(marks.anchor), 16.0, "witness");
     }
     label(canvas, frame, cycle, &marks, &label_text(report));
