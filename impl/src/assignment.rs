@@ -112,3 +112,6 @@ fn reach(
     }
     nearest.map(|(distance, _, index)| (distance, index))
 }
+
+#[cfg(test)]
+mod tests;

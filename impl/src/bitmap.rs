@@ -54,3 +54,6 @@ fn square(value: i64) -> i64 {
 fn root(value: i64) -> i64 {
     i64::try_from(u64::try_from(value).unwrap_or(0).isqrt()).unwrap_or(i64::MAX)
 }
+
+#[cfg(test)]
+mod tests;

@@ -151,3 +151,6 @@ fn add<const N: usize>(total: &mut [u64; N], summand: &[u64; N], negative: bool)
 fn halves(full: u128) -> (u64, u64) {
     (full as u64, (full >> 64) as u64)
 }
+
+#[cfg(test)]
+mod tests;

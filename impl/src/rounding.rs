@@ -224,3 +224,6 @@ fn split(a: f64) -> (f64, f64) {
 fn abs(value: f64) -> f64 {
     if value < 0.0 { -value } else { value }
 }
+
+#[cfg(test)]
+mod tests;

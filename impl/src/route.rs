@@ -94,3 +94,6 @@ fn in_range(corners: [[f64; 2]; 3], q: [f64; 2], axis: usize) -> bool {
     corners.iter().any(|&corner| value(corner) <= value(q))
         && corners.iter().any(|&corner| value(corner) >= value(q))
 }
+
+#[cfg(test)]
+mod tests;

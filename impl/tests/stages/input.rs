@@ -1,0 +1,110 @@
+//! Invalid input is refused in the order of `spec/3-stages.md#invalid-input`.
+
+use crate::scene::{NOW_NS, scene, track};
+use mufasa::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use mufasa::cycle::{Cycle, Profile::Hardened};
+use mufasa::schedule;
+use mufasa::scratch::Scratch;
+use mufasa::verdict::{FailedStage, InvalidInput, Outcome, Problem, Reason};
+
+fn invalid(field: &'static str, index: Option<usize>, problem: Problem) -> InvalidInput {
+    InvalidInput { field, index, problem }
+}
+
+#[test]
+fn local_problems_are_errors() {
+    type Change = fn(&mut Cycle<'_>);
+    let cases: [(Change, InvalidInput); 7] = [
+        (
+            |cycle| cycle.parameters.theta_tr = 0.0,
+            invalid("parameters.theta_tr", None, Problem::OutOfDomain),
+        ),
+        (|cycle| cycle.ego.x = f64::NAN, invalid("ego.x", None, Problem::NotFinite)),
+        (|cycle| cycle.ego.sin = 0.0011, invalid("ego.cos", None, Problem::NotADirection)),
+        (|cycle| cycle.ego.speed = -1e-300, invalid("ego.speed", None, Problem::OutOfDomain)),
+        (|cycle| cycle.route.stations = &[], invalid("route.stations", None, Problem::TooFew)),
+        (
+            |cycle| cycle.grid.as_mut().expect("a grid").width = 201,
+            invalid("grid.occupied", None, Problem::BitmapLength),
+        ),
+        (
+            |cycle| cycle.detections.as_mut().expect("a list").stamp_ns = NOW_NS + 60_000_000_001,
+            invalid("detections.stamp_ns", None, Problem::TimeOutOfRange),
+        ),
+    ];
+    for (change, problem) in cases {
+        let mut scene = scene(Hardened, AllRemote, [0.0, 0.0]);
+        scene.change = change;
+        assert_eq!(scene.check(), Err(problem));
+    }
+}
+
+#[test]
+fn remote_problems_make_the_cycle_unsafe() {
+    let mut scene = scene(Hardened, AllRemote, [0.0, 0.0]);
+    scene.tracks = Some(vec![track(1, 0.0, 30.0), track(2, 0.0, 40.0), track(1, 0.0, 50.0)]);
+    let report = scene.report();
+    let problem = invalid("tracks.items.id", Some(2), Problem::DuplicateId);
+    assert_eq!((report.failed_stage, report.input), (Some(FailedStage::Input), Some(problem)));
+    assert_eq!(report.stages, [Outcome::Skipped(Reason::AfterFailure); 5]);
+    // The same list is local in PlanRemote, and any local problem goes first.
+    scene.configuration = PlanRemote;
+    assert_eq!(scene.check(), Err(problem));
+    scene.configuration = MotRemote;
+    scene.points[4].t_ns = scene.points[3].t_ns;
+    let problem = invalid("trajectory.points.t_ns", Some(4), Problem::TimeNotIncreasing);
+    assert_eq!(scene.check(), Err(problem));
+}
+
+#[test]
+fn stamps_beyond_60_s_are_missing_or_invalid() {
+    let old = |configuration| {
+        let mut scene = scene(Hardened, configuration, [0.0, 0.0]);
+        scene.change = |cycle| {
+            cycle.trajectory.as_mut().expect("a trajectory").stamp_ns = NOW_NS - 60_000_000_001;
+        };
+        scene.report().failed_stage
+    };
+    assert_eq!(old(MotRemote), None);
+    assert_eq!(old(AllRemote), Some(FailedStage::Input));
+    // The extremes of 64 bits are stamps like others.
+    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    scene.change = |cycle| {
+        cycle.now_ns = i64::MAX;
+        for stamp_ns in [
+            &mut cycle.trajectory.as_mut().expect("a trajectory").stamp_ns,
+            &mut cycle.detections.as_mut().expect("detections").stamp_ns,
+            &mut cycle.grid.as_mut().expect("a grid").stamp_ns,
+        ] {
+            *stamp_ns = i64::MIN;
+        }
+        cycle.tracks = None;
+    };
+    assert_eq!(scene.report().failed_stage, None);
+}
+
+/// The check of the norm is exact: the nearest doubles on both sides of 1 + 1e-6.
+#[test]
+fn the_norm_has_no_margin() {
+    let last = (1.0_f64 + 1e-6).sqrt();
+    let accepted = |cos: f64| {
+        let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+        scene.ego.cos = cos;
+        scene.check().is_ok()
+    };
+    let next = |value: f64, ulps: u64| f64::from_bits(value.to_bits() + ulps);
+    assert!(accepted(next(last, 0) - 1e-15) && !accepted(next(last, 0) + 1e-15));
+    let changes =
+        (0..8).filter(|&i| accepted(next(last - 8e-16, i)) != accepted(next(last - 8e-16, i + 1)));
+    assert_eq!(changes.count(), 1);
+}
+
+#[test]
+fn scratch_that_is_too_small_is_an_error() {
+    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    scene.change = |cycle| {
+        let small = schedule::check(cycle, &mut Scratch::new(&mut [], &mut []));
+        assert_eq!(small, Err(invalid("scratch", None, Problem::ScratchTooSmall)));
+    };
+    assert!(scene.check().is_ok());
+}

@@ -1,0 +1,131 @@
+//! A cycle in which everything is in order, and how to check it.
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa::parameters::Parameters;
+use mufasa::schedule;
+use mufasa::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::verdict::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
+
+/// Now, ns.
+pub const NOW_NS: i64 = 1_000_000_000_000;
+
+/// The lists of a cycle, owned.
+#[derive(Clone)]
+pub struct Scene {
+    pub profile: Profile,
+    pub parameters: Parameters,
+    pub configuration: Configuration,
+    pub ego: Ego,
+    pub points: Vec<TrajectoryPoint>,
+    pub tracks: Option<Vec<Track>>,
+    pub detections: Option<Vec<Detection>>,
+    pub stations: Vec<Station>,
+    pub occupied: Option<Vec<u8>>,
+    pub change: fn(&mut Cycle<'_>),
+}
+
+/// 5 m/s straight ahead from `origin` for 2.9 s in a corridor of 4 m; one track and its
+/// detection 50 m beside the road; an empty grid of 1 m cells, 200 by 200, around the CAV.
+pub fn scene(profile: Profile, configuration: Configuration, origin: [f64; 2]) -> Scene {
+    let [x, y] = origin;
+    let ego =
+        Ego { x, y, cos: 1.0, sin: 0.0, speed: 5.0, length: 4.5, width: 1.9, center_offset: 1.4 };
+    let point = |i: i32| TrajectoryPoint {
+        t_ns: NOW_NS + i64::from(i) * 100_000_000,
+        x: x + 0.5 * f64::from(i),
+        y,
+        cos: 1.0,
+        sin: 0.0,
+    };
+    let station = |i: i32| {
+        let at = x + 20.0 * f64::from(i) - 40.0;
+        Station { x: at, y, left: [at, y + 2.0], right: [at, y - 2.0] }
+    };
+    Scene {
+        profile,
+        parameters: Parameters::default(),
+        configuration,
+        ego,
+        points: (0..30).map(point).collect(),
+        tracks: Some(vec![track(1, x + 3.0, y + 50.0)]),
+        detections: Some(vec![detection(x + 3.0, y + 50.1)]),
+        stations: (0..10).map(station).collect(),
+        occupied: Some(vec![0; 5000]),
+        change: |_| (),
+    }
+}
+
+/// A standing track.
+pub fn track(id: i64, x: f64, y: f64) -> Track {
+    Track { id, x, y, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.0, width: 2.0 }
+}
+
+/// A detection.
+pub fn detection(x: f64, y: f64) -> Detection {
+    Detection { x, y, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 }
+}
+
+impl Scene {
+    /// Checks the scene with scratch of exactly the size asked for.
+    pub fn check(&self) -> Result<Report, InvalidInput> {
+        let stamp_ns = NOW_NS - 10_000_000;
+        let list = |items| TrackList { stamp_ns, items };
+        let mut cycle = Cycle {
+            profile: self.profile,
+            parameters: self.parameters,
+            now_ns: NOW_NS,
+            configuration: self.configuration,
+            ego: self.ego,
+            trajectory: Some(Trajectory { stamp_ns, points: &self.points }),
+            tracks: self.tracks.as_deref().map(list),
+            detections: self.detections.as_deref().map(|items| DetectionList { stamp_ns, items }),
+            lead: None,
+            route: Route { closed: false, stations: &self.stations },
+            grid: self.occupied.as_deref().map(|occupied| Grid {
+                stamp_ns,
+                x: self.ego.x - 100.0,
+                y: self.ego.y - 100.0,
+                cos: 1.0,
+                sin: 0.0,
+                resolution: 1.0,
+                width: 200,
+                height: 200,
+                occupied,
+                unknown: None,
+            }),
+            previous_tracks: None,
+        };
+        (self.change)(&mut cycle);
+        let sizes = Sizes::for_cycle(&cycle);
+        let mut rows = vec![Row::default(); sizes.rows];
+        let mut columns = vec![Column::default(); sizes.columns];
+        schedule::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+    }
+
+    /// The report of a valid scene.
+    pub fn report(&self) -> Report {
+        self.check().expect("a valid scene")
+    }
+
+    /// Stage and rule of the failure, if the scene is unsafe by a stage.
+    pub fn failure(&self) -> Option<(Stage, Witness)> {
+        let report = self.report();
+        let Some(FailedStage::Stage(stage)) = report.failed_stage else {
+            assert_eq!(report.failed_stage, None);
+            return None;
+        };
+        report.stages.iter().find_map(|outcome| match outcome {
+            Outcome::Failed(witness) => Some((stage, *witness)),
+            _ => None,
+        })
+    }
+
+    /// The rule that failed, if any.
+    pub fn rule(&self) -> Option<Rule> {
+        self.failure().map(|(_, witness)| witness.rule)
+    }
+}
