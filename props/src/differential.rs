@@ -170,8 +170,8 @@ pub fn same_witness(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<()
     for (index, outcome) in one.stages.iter().enumerate() {
         if let (Outcome::Failed(one), Outcome::Failed(two), Outcome::Failed(found)) =
             (outcome, &two.stages[index], &found.stages[index])
-            && place(one) == place(two)
-            && place(one) != place(found)
+            && place(one, cycle.profile) == place(two, cycle.profile)
+            && place(one, cycle.profile) != place(found, cycle.profile)
         {
             return Err(told(&"the witnesses differ", exact, strict, &implementation));
         }
@@ -232,8 +232,13 @@ fn kind(outcome: &Outcome) -> Outcome {
     }
 }
 
-/// A witness without the numbers that were compared.
-fn place(witness: &Witness) -> impl PartialEq + use<> {
-    let Witness { rule, point, track, detection, segment, disk, cell, compared: _ } = *witness;
-    (rule, point, track, detection, segment, disk, cell)
+/// What `spec/` pins of a witness: the rule, the point, the object, the disk and, where the disk
+/// is compared with the cell itself, the cell. Open are which of several unmatched tracks and
+/// nearest segments is named, and whether a dilated or a missing cell is.
+fn place(witness: &Witness, profile: Profile) -> impl PartialEq + use<> {
+    let Witness { rule, point, track, detection, segment: _, disk, cell, compared: _ } = *witness;
+    let track = if rule == Rule::NoAssignment { None } else { track };
+    let undilated = profile == Profile::Hardened && rule != Rule::Outside;
+    let cell = if undilated { cell } else { None };
+    (rule, point, track, detection, disk, cell)
 }

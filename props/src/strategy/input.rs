@@ -87,6 +87,10 @@ fn direction(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 pub fn is_near(cycle: &Cycle) -> bool {
     let before = place(cycle);
     let mut moved = cycle.clone();
+    if before.is_none() {
+        // Other generators draw margins at the limits of delta's domain on purpose.
+        moved.parameters.delta = 1e-6;
+    }
     if numbers(&mut moved).len() > 500 {
         // A list that is too long: not worth moving every number of it.
         return false;

@@ -16,13 +16,13 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let configuration = draw.pick(&[Configuration::MotRemote, Configuration::AllRemote]);
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     cycle.trajectory = None;
-    match draw.below(8) {
-        0 | 1 => mean_to_threshold(draw, frame, &mut cycle),
-        2 | 3 => threshold_to_mean(draw, frame, &mut cycle),
-        4 => pair_limit(draw, frame, &mut cycle),
-        5 => radius(draw, frame, &mut cycle),
-        6 => velocity(draw, frame, &mut cycle),
-        _ => anything(draw, frame, &mut cycle),
+    match (draw.below(8), profile) {
+        (0 | 1, _) => mean_to_threshold(draw, frame, &mut cycle),
+        (2, _) | (3 | 4, Profile::Paper) => threshold_to_mean(draw, frame, &mut cycle),
+        (3 | 4, Profile::Hardened) => pair_limit(draw, frame, &mut cycle),
+        (5, _) | (6, Profile::Paper) => radius(draw, frame, &mut cycle),
+        (6, Profile::Hardened) => velocity(draw, frame, &mut cycle),
+        (_, _) => anything(draw, frame, &mut cycle),
     }
     cycle
 }
@@ -60,7 +60,6 @@ fn threshold_to_mean(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 /// A generous `theta_tr`, and `theta_track_max` near the smallest possible largest pair.
 fn pair_limit(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let (tracks, detections) = (lattice(draw, 4), lattice(draw, 4));
-    cycle.profile = Profile::Hardened;
     cycle.parameters.theta_tr = 20.0;
     if let Some(costs) = Costs::of(&tracks, &detections, cycle) {
         cycle.parameters.theta_track_max = draw.near(costs.largest).clamp(1e-3, 1e3);
@@ -103,7 +102,6 @@ fn radius(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 
 /// Tracks that stage i would pass, and displacements since the previous list near the limit.
 fn velocity(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    cycle.profile = Profile::Hardened;
     let places = cluster(draw, 3);
     fill(draw, frame, cycle, &places, &places);
     let Some(list) = &mut cycle.tracks else { return };
