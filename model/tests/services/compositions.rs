@@ -60,7 +60,7 @@ fn a_composition_picks_exactly_one_provider_for_every_requirement() {
     assert!(!is_choice(&set, &of(&["near detections mot"])), "mot is no member");
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.1`
 #[test]
 fn a_composition_is_closed() {
     let set = chain_set();
@@ -72,7 +72,7 @@ fn a_composition_is_closed() {
     assert!(!is_closed(&set, &without_provider));
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.2`
 #[test]
 fn a_composition_is_minimal() {
     let mut composition = of(&["mot tracks goal", "far detections mot"]);
@@ -84,7 +84,7 @@ fn a_composition_is_minimal() {
     }
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.3`
 #[test]
 fn a_composition_is_acyclic_over_its_chosen_links() {
     assert!(is_acyclic(&of(&["mot tracks goal", "far detections mot"])));
@@ -94,7 +94,7 @@ fn a_composition_is_acyclic_over_its_chosen_links() {
     assert!(is_acyclic(&of(&["a x b", "a y c", "b x d", "c x d"])), "a diamond is no cycle");
 }
 
-/// `spec/1-services.md#composition`: a service that feeds itself may be chosen, and the choice is
+/// `spec/1-services.md#composition.3`: a service that feeds itself may be chosen, and the choice is
 /// cyclic.
 #[test]
 fn a_service_that_provides_for_itself_makes_a_cycle() {
@@ -105,7 +105,7 @@ fn a_service_that_provides_for_itself_makes_a_cycle() {
     assert_eq!(none(&task(list[..1].to_vec(), "goal")), NoComposition::Rule(Rule::Acyclic));
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.4`
 #[test]
 fn the_device_switches_of_a_composition_are_the_chosen_links_whose_stations_differ() {
     let set = chain_set();
@@ -116,7 +116,7 @@ fn the_device_switches_of_a_composition_are_the_chosen_links_whose_stations_diff
     assert!(!names_its_switches(&set, &hidden));
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.4`
 #[test]
 fn a_composition_is_called_distributed_exactly_when_it_has_a_device_switch() {
     let set = chain_set();
@@ -135,7 +135,7 @@ fn each_switch_is_named_once() {
     assert_eq!(compositions[0].switches, [("far".to_owned(), "goal".to_owned())]);
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.5`
 #[test]
 fn members_named_in_one_same_station_list_run_on_one_station() {
     let set = chain_set();
@@ -150,7 +150,7 @@ fn members_named_in_one_same_station_list_run_on_one_station() {
     assert!(keeps(&["near far nobody"]), "near is no member");
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.6`
 #[test]
 fn members_named_in_local_only_run_on_station_0() {
     let set = chain_set();
@@ -161,7 +161,7 @@ fn members_named_in_local_only_run_on_station_0() {
     assert!(keeps_local_only(&set, &names("far"), &near), "far is no member");
 }
 
-/// `spec/1-services.md#composition`; against brute force in `figure_2` and `random_sets`.
+/// `spec/1-services.md#composition.7`; against brute force in `figure_2` and `random_sets`.
 #[test]
 fn the_orchestrator_enumerates_every_composition_once_and_no_other() {
     let answer = answer(&task(chain(), "goal"));
@@ -172,7 +172,7 @@ fn the_orchestrator_enumerates_every_composition_once_and_no_other() {
     assert_eq!(chosen, [far, near]);
 }
 
-/// `spec/1-services.md#composition`: a goal without requirements is a composition of its own.
+/// `spec/1-services.md#composition.7`: a goal without requirements is a composition of its own.
 #[test]
 fn a_goal_without_requirements_stands_alone() {
     let compositions = answer(&task(chain(), "near")).compositions;
@@ -192,7 +192,7 @@ fn fan(providers: &[usize]) -> Vec<Service> {
     services
 }
 
-/// `spec/1-services.md#composition`: 10,000 are answered, 10,001 = 73 * 137 are not, and 2^64 are
+/// `spec/1-services.md#composition.7`: 10,000 are answered, 10,001 = 73 * 137 are not, and 2^64 are
 /// refused without being counted to the end.
 #[test]
 fn more_than_ten_thousand_closed_choices_are_an_error() {
@@ -202,7 +202,7 @@ fn more_than_ten_thousand_closed_choices_are_an_error() {
     assert_eq!(compose(&task(fan(&[2; 64]), "goal")), Err(TaskError::TooManyChoices));
 }
 
-/// `spec/1-services.md#composition`: placement rules that leave one composition do not help.
+/// `spec/1-services.md#composition.7`: placement rules that leave one composition do not help.
 #[test]
 fn closed_choices_are_counted_before_the_placement_rules_and_acyclicity() {
     let mut placed = task(fan(&[73, 137]), "goal");
@@ -220,7 +220,7 @@ fn closed_choices_are_counted_before_the_placement_rules_and_acyclicity() {
     assert_eq!(compose(&cyclic), Err(TaskError::TooManyChoices));
 }
 
-/// `spec/1-services.md#composition`: a provider that nobody can complete is no closed choice,
+/// `spec/1-services.md#composition.7`: a provider that nobody can complete is no closed choice,
 /// although its other requirements could be met in 2^64 ways.
 #[test]
 fn choices_that_cannot_be_closed_are_not_counted() {
@@ -235,7 +235,7 @@ fn choices_that_cannot_be_closed_are_not_counted() {
     assert_eq!(compositions[0].members, ["alive", "goal"]);
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.8`
 #[test]
 fn no_composition_names_a_requirement_that_nobody_guarantees_bytewise_first() {
     let missing = |requirement: &str, service: &str| NoComposition::Requirement {
@@ -255,7 +255,7 @@ fn no_composition_names_a_requirement_that_nobody_guarantees_bytewise_first() {
     assert_eq!(none(&task(only_x, "goal")), missing("x", "a"));
 }
 
-/// `spec/1-services.md#composition`: a reachable requirement that nobody guarantees is named
+/// `spec/1-services.md#composition.8`: a reachable requirement that nobody guarantees is named
 /// although what stands in the way of the only closed choice is a rule.
 #[test]
 fn a_requirement_is_named_before_a_rule() {
@@ -271,8 +271,9 @@ fn a_requirement_is_named_before_a_rule() {
     assert_eq!(none(&blocked), NoComposition::Rule(Rule::LocalOnly));
 }
 
-/// `spec/1-services.md#composition`: two closed choices, one that breaks a rule alone and one that
-/// breaks the other two; the rule that is enough alone is named, whatever its place in the order.
+/// `spec/1-services.md#composition.8`: two closed choices, one that breaks a rule alone and one
+/// that breaks the other two; the rule that is enough alone is named, whatever its place in the
+/// order.
 #[test]
 fn no_composition_names_the_first_rule_without_which_alone_there_would_be_one() {
     // `loop` makes a cycle with the goal, `far` is on station 1.
@@ -290,7 +291,7 @@ fn no_composition_names_the_first_rule_without_which_alone_there_would_be_one() 
     assert_eq!(none(&blocked), NoComposition::Rule(Rule::LocalOnly), "before acyclic");
 }
 
-/// `spec/1-services.md#composition`
+/// `spec/1-services.md#composition.8`
 #[test]
 fn no_composition_names_else_the_first_rule_that_some_closed_choice_breaks() {
     let list = vec![service("goal", "a", "g", 0), service("far", "g", "a", 1)];
@@ -311,7 +312,7 @@ fn an_absent_goal_is_an_error() {
     assert!(unknown.expect_err("unknown").to_string().contains("`nobody`"));
 }
 
-/// `spec/1-services.md#service`
+/// `spec/1-services.md#service.4`
 #[test]
 fn a_task_with_a_broken_service_set_is_refused() {
     let broken = ServiceError {
