@@ -11,7 +11,7 @@ use crate::{
 
 const TIMEOUT_NS: i64 = 500_000_000;
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.4`
 #[test]
 fn a_confirmation_of_the_requested_session_from_its_station_before_its_deadline_moves_to_remote() {
     for (profile, actions) in [(Profile::Paper, vec![Deactivate(Mot)]), (Profile::Hardened, vec![])]
@@ -24,7 +24,7 @@ fn a_confirmation_of_the_requested_session_from_its_station_before_its_deadline_
     }
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.4`
 #[test]
 fn a_confirmation_of_the_running_session_is_ignored() {
     for profile in PROFILES {
@@ -34,7 +34,7 @@ fn a_confirmation_of_the_running_session_is_ignored() {
     }
 }
 
-/// `spec/2-offloading.md#requester`: too late, another session, station or group; requested,
+/// `spec/2-offloading.md#requester.4`: too late, another session, station or group; requested,
 /// remote or local.
 #[test]
 fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and_nothing_else() {
@@ -55,7 +55,7 @@ fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and
     }
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.5`
 #[test]
 fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_can_tell() {
     let mut cav = Cav::requested(Profile::Paper, MOT);
@@ -65,7 +65,7 @@ fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_ca
     assert_eq!(cav.0.hold_until_ns(), None);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.5`
 #[test]
 fn a_rejection_of_the_requested_session_returns_it_at_once_without_a_release() {
     let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
@@ -76,7 +76,7 @@ fn a_rejection_of_the_requested_session_returns_it_at_once_without_a_release() {
     assert_eq!(cav.at(TIMEOUT_NS + 1, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.5`
 #[test]
 fn any_other_rejection_is_ignored() {
     for profile in PROFILES {
@@ -89,7 +89,7 @@ fn any_other_rejection_is_ignored() {
     }
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.5`
 #[test]
 fn deadlines_saturate_at_the_limits_of_64_bits() {
     let mut cav = Cav::paper();
@@ -102,7 +102,7 @@ fn deadlines_saturate_at_the_limits_of_64_bits() {
     assert_eq!(cav.at(i64::MAX, TICK), [release(1, Mot, 1)]);
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol`: session 1 ended in each possible way,
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.7`: session 1 ended in each possible way,
 /// session 2 is requested or runs, and every message of session 1 arrives late.
 #[test]
 fn a_message_of_an_ended_session_does_not_change_a_later_one() {

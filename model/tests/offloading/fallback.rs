@@ -1,5 +1,6 @@
 //! `spec/2-offloading.md#fallback`. Default: `t_wait` 10 s.
 
+use mufasa_model::configuration::Source;
 use mufasa_model::requester::Action::{Activate, Deactivate, Drop};
 use mufasa_model::requester::Group::{Mot, Plan};
 use mufasa_model::requester::GroupState::Local;
@@ -13,7 +14,7 @@ use crate::{
 
 const T_WAIT_NS: i64 = 10_000_000_000;
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.1`
 #[test]
 fn a_safety_issue_returns_every_remote_or_requested_group_in_the_same_step() {
     let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
@@ -23,7 +24,7 @@ fn a_safety_issue_returns_every_remote_or_requested_group_in_the_same_step() {
     assert_eq!(cav.states(), (Local, Local));
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.1`
 #[test]
 fn a_fallback_sends_one_release_per_group_to_its_station() {
     let mut cav = Cav::paper();
@@ -36,7 +37,7 @@ fn a_fallback_sends_one_release_per_group_to_its_station() {
     assert_eq!(cav.at(1, UNSAFE), fallen_back);
 }
 
-/// `spec/2-offloading.md#fallback`: the groups that an unsafe verdict names do not matter (I-10).
+/// `spec/2-offloading.md#fallback.1`: the groups that an unsafe verdict names do not matter (I-10).
 #[test]
 fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used() {
     for groups in [Groups::NONE, MOT, PLAN, Groups::ALL] {
@@ -44,12 +45,13 @@ fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used
             let mut cav = Cav::remote(profile, Groups::ALL);
             cav.at(1, EventKind::Verdict { safe: false, groups });
             assert_eq!(cav.states(), (Local, Local));
+            assert_eq!([Mot, Plan].map(|group| cav.0.source(group)), [Source::Local; 2]);
             assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS));
         }
     }
 }
 
-/// `spec/2-offloading.md#fallback`: what arrives late from the cycle's sessions is dropped.
+/// `spec/2-offloading.md#fallback.1`: what arrives late from the cycle's sessions is dropped.
 #[test]
 fn after_a_safety_issue_data_of_the_ended_sessions_are_dropped() {
     for profile in PROFILES {
@@ -61,7 +63,7 @@ fn after_a_safety_issue_data_of_the_ended_sessions_are_dropped() {
     }
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.2`
 #[test]
 fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() {
     let mut cav = Cav::paper();
@@ -72,7 +74,7 @@ fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() {
     }
 }
 
-/// `spec/2-offloading.md#fallback` (I-08)
+/// `spec/2-offloading.md#fallback.3` (I-08)
 #[test]
 fn offloading_is_possible_again_at_hold_until_and_not_before() {
     let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
@@ -82,7 +84,7 @@ fn offloading_is_possible_again_at_hold_until_and_not_before() {
     assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS), "the last value stays");
 }
 
-/// `spec/2-offloading.md#fallback` (I-09): late data and silence, with and without the switch.
+/// `spec/2-offloading.md#fallback.4` (I-09): late data and silence, with and without the switch.
 #[test]
 fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
     for qos_hold in [false, true] {
@@ -101,7 +103,7 @@ fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
     }
 }
 
-/// `spec/2-offloading.md#fallback`: a hold that a silent session starts at a tick forbids the
+/// `spec/2-offloading.md#fallback.7`: a hold that a silent session starts at a tick forbids the
 /// requests of that tick, because requests are decided last.
 #[test]
 fn a_hold_of_silence_forbids_the_requests_of_the_same_tick() {
@@ -120,7 +122,7 @@ fn a_hold_of_silence_forbids_the_requests_of_the_same_tick() {
     }
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.5`
 #[test]
 fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
     let mut cav = Cav::paper();
@@ -134,7 +136,7 @@ fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
     assert_eq!(cav.0.hold_until_ns(), Some(100 + T_WAIT_NS));
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.5`
 #[test]
 fn hold_until_saturates_at_the_limits_of_64_bits() {
     let parameters = Parameters { t_wait_ns: i64::MAX, ..Parameters::default() };
@@ -149,7 +151,7 @@ fn hold_until_saturates_at_the_limits_of_64_bits() {
     assert_eq!(cav.0.hold_until_ns(), Some(-1));
 }
 
-/// `spec/2-offloading.md#fallback`
+/// `spec/2-offloading.md#fallback.6`
 #[test]
 fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     let stages = [const { Outcome::NotScheduled }; 5];
@@ -168,7 +170,7 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     }
 }
 
-/// `spec/2-offloading.md#fallback`: PLAN is overdue, MOT silent, and the order is by kind first.
+/// `spec/2-offloading.md#fallback.7`: PLAN is overdue, MOT silent, and the order is by kind first.
 #[test]
 fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_plan_within_each() {
     let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
@@ -180,6 +182,10 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
     cav.at(1, data(1, Plan, 2, 1));
     cav.at(1, data(1, Mot, 1, 1));
     assert_eq!(cav.at(2, safe(Groups::ALL)), [Deactivate(Mot), Deactivate(Plan)]);
+    let early = [Drop(Plan), release(1, Plan, 2), Activate(Plan)];
+    assert_eq!(cav.at(3, data(1, Plan, 2, 4)), early);
+
+    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
     let all = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot), Activate(Plan)];
     assert_eq!(cav.at(3, UNSAFE), all);
 
@@ -189,7 +195,7 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
     assert_eq!(cav.at(100_000_001, TICK), tick);
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol` (H-08)
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.6` (H-08)
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
     let mut cav = Cav::remote(Profile::Hardened, MOT);

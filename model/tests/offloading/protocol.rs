@@ -264,7 +264,9 @@ impl World {
     /// the same.
     fn each_group_has_exactly_one_source(&self) {
         for (index, group) in Group::ALL.into_iter().enumerate() {
-            match self.cav.source(group) {
+            let source = self.cav.source(group);
+            assert!(source == Source::Local || self.now_ns >= self.blocked_until_ns, "a hold");
+            match source {
                 Source::Local => assert!(self.seen[index].local_computes, "no source"),
                 Source::Remote { station } => {
                     assert!(!self.seen[index].local_computes, "two sources");
@@ -299,9 +301,15 @@ impl World {
     }
 }
 
-/// 400 walks of 1,000 steps each in both profiles. Covers: at every time each group has exactly
-/// one source; no remote result is used between a safety issue and `hold_until`; ENV and TPL never
-/// differ; sessions end within the lease; H-08; a message of an ended session changes no later one.
+/// 400 walks of 1,000 steps each in both profiles.
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.1`: each group has exactly one source.
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.2`: after a safety issue no remote
+///   result is used, and no source is remote, before `hold_until`.
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.3`: ENV and TPL never differ.
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.5`: sessions end within the lease.
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.6` (H-08).
+/// - `spec/2-offloading.md#properties-of-the-whole-protocol.7`: a message of an ended session
+///   changes no later one.
 #[test]
 fn the_properties_hold_with_a_bad_network_failing_providers_and_an_attacker() {
     for profile in PROFILES {
@@ -346,7 +354,7 @@ enum Manner {
     Silent,
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol`: "if offers persist, some offering
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.4`: "if offers persist, some offering
 /// station confirms, no fault occurs and the hold has ended, offloading is reached again": every
 /// combination of three stations of which at least one confirms, after a fallback, three times.
 #[test]

@@ -17,7 +17,7 @@ const LEFT: [mufasa_model::requester::Action; 3] = [
     Activate(Mot),
 ];
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.2`
 #[test]
 fn latency_above_l_max_is_a_violation_and_equality_is_not() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -25,7 +25,7 @@ fn latency_above_l_max_is_a_violation_and_equality_is_not() {
     assert_eq!(cav.at(60_000_000, data(1, Mot, 1, 60_000_000 - L_MAX_NS - 1)), LEFT);
 }
 
-/// `spec/2-offloading.md#quality-of-service`: since the activation, then since an arrival.
+/// `spec/2-offloading.md#quality-of-service.2`: since the activation, then since an arrival.
 #[test]
 fn inter_arrival_time_above_dt_max_is_a_violation_and_equality_is_not() {
     let t_ns = DT_MAX_NS;
@@ -37,7 +37,7 @@ fn inter_arrival_time_above_dt_max_is_a_violation_and_equality_is_not() {
     assert_eq!(cav.at(t_ns + 1, data(1, Mot, 1, t_ns + 1)), LEFT);
 }
 
-/// `spec/2-offloading.md#quality-of-service`: an element out of order counts as an arrival.
+/// `spec/2-offloading.md#quality-of-service.1`: an element out of order counts as an arrival.
 #[test]
 fn every_element_of_the_running_session_is_an_arrival() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -46,7 +46,7 @@ fn every_element_of_the_running_session_is_an_arrival() {
     assert_eq!(cav.at(200_000_000, data(1, Mot, 1, 200_000_000)), []);
 }
 
-/// `spec/2-offloading.md#quality-of-service`: an old element that is also late is a violation.
+/// `spec/2-offloading.md#quality-of-service.1`: an old element that is also late is a violation.
 #[test]
 fn an_element_is_checked_for_latency_and_inter_arrival_time_first_and_for_its_order_then() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -61,7 +61,7 @@ fn an_element_is_checked_for_latency_and_inter_arrival_time_first_and_for_its_or
     assert_eq!(patient.at(10 + DT_MAX_NS + 1, data(1, Mot, 1, 10)), LEFT, "inter-arrival time");
 }
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.1`
 #[test]
 fn other_data_are_no_arrivals() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -71,7 +71,7 @@ fn other_data_are_no_arrivals() {
     assert_eq!(cav.at(DT_MAX_NS + 1, TICK), LEFT[1..]);
 }
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.3`
 #[test]
 fn silence_longer_than_dt_max_is_a_violation_at_the_first_tick_that_can_tell() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -83,7 +83,8 @@ fn silence_longer_than_dt_max_is_a_violation_at_the_first_tick_that_can_tell() {
     assert_eq!(cav.at(51 + DT_MAX_NS, TICK), LEFT[1..], "since the last arrival");
 }
 
-/// `spec/2-offloading.md#quality-of-service`: the activation is the confirmation, not the request.
+/// `spec/2-offloading.md#quality-of-service.3`: the activation is the confirmation, not the
+/// request.
 #[test]
 fn silence_is_counted_from_the_activation() {
     let mut cav = Cav::requested(Profile::Paper, MOT);
@@ -92,7 +93,7 @@ fn silence_is_counted_from_the_activation() {
     assert_eq!(cav.at(500_000_001, TICK), LEFT[1..]);
 }
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.4`
 #[test]
 fn a_generation_time_later_than_the_arrival_time_is_a_violation() {
     let mut cav = Cav::remote(Profile::Paper, MOT);
@@ -100,7 +101,7 @@ fn a_generation_time_later_than_the_arrival_time_is_a_violation() {
     assert_eq!(cav.at(11, data(1, Mot, 1, 12)), LEFT);
 }
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.5`
 #[test]
 fn a_violation_returns_that_group_and_no_other_with_a_release_and_the_element_is_dropped() {
     for profile in PROFILES {
@@ -114,7 +115,7 @@ fn a_violation_returns_that_group_and_no_other_with_a_release_and_the_element_is
     }
 }
 
-/// `spec/2-offloading.md#quality-of-service`
+/// `spec/2-offloading.md#quality-of-service.6`
 #[test]
 fn an_element_not_generated_later_than_the_last_one_used_since_the_activation_is_dropped() {
     let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
@@ -130,7 +131,7 @@ fn an_element_not_generated_later_than_the_last_one_used_since_the_activation_is
     assert_eq!(cav.at(14, data(1, Mot, 3, 2)), [], "the first since this activation");
 }
 
-/// `spec/2-offloading.md#fallback`: over the whole range of 64 bits.
+/// `spec/2-offloading.md#fallback.5`: over the whole range of 64 bits.
 #[test]
 fn differences_are_exact() {
     assert_eq!(latency_ns(i64::MAX, i64::MIN), i128::from(u64::MAX));
@@ -144,7 +145,7 @@ fn differences_are_exact() {
     assert!(is_silent(&parameters, i64::MAX, -1) && !is_silent(&parameters, i64::MIN, i64::MAX));
 }
 
-/// `spec/2-offloading.md#quality-of-service` with H-08: services that never stopped do not start.
+/// `spec/2-offloading.md#quality-of-service.5` with H-08: services that never stopped do not start.
 #[test]
 fn a_violation_activates_the_local_services_exactly_when_they_stopped() {
     let mut cav = Cav::remote(Profile::Hardened, MOT);

@@ -22,7 +22,7 @@ fn requests_are_numbered_over_all_groups_and_every_message_carries_the_number() 
     assert_eq!(cav.at(4, TICK), [request(1, Plan, 4)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.1`
 #[test]
 fn an_offer_replaces_the_stations_previous_offer() {
     let mut cav = Cav::paper();
@@ -35,7 +35,7 @@ fn an_offer_replaces_the_stations_previous_offer() {
     assert_eq!(cav.at(1, TICK), []);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.1`
 #[test]
 fn a_group_in_use_that_the_new_offer_no_longer_contains_is_left_as_by_a_withdrawal() {
     let mut cav = Cav::remote(crate::Profile::Paper, Groups::ALL);
@@ -50,7 +50,7 @@ fn a_group_in_use_that_the_new_offer_no_longer_contains_is_left_as_by_a_withdraw
     assert_eq!(cav.states(), (on(1, 1), on(1, 2)), "another station's offer");
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.2`
 #[test]
 fn a_request_is_sent_only_for_a_group_in_local() {
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
@@ -61,7 +61,7 @@ fn a_request_is_sent_only_for_a_group_in_local() {
     assert_eq!(cav.at(4, TICK), [], "both are remote");
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.2`
 #[test]
 fn a_request_is_sent_only_to_a_station_whose_current_offer_contains_the_group() {
     let mut cav = Cav::paper();
@@ -71,7 +71,7 @@ fn a_request_is_sent_only_to_a_station_whose_current_offer_contains_the_group() 
     assert_eq!(cav.at(2, TICK), [request(2, Mot, 1), request(1, Plan, 2)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.2`
 #[test]
 fn a_request_is_sent_only_while_the_group_is_in_the_area() {
     let mut cav = Cav::paper();
@@ -82,7 +82,7 @@ fn a_request_is_sent_only_while_the_group_is_in_the_area() {
     assert_eq!(cav.at(3, TICK), [request(1, Mot, 2)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.2`
 #[test]
 fn a_request_is_not_sent_before_hold_until() {
     let mut cav = Cav::paper();
@@ -92,7 +92,7 @@ fn a_request_is_not_sent_before_hold_until() {
     assert_eq!(cav.at(10_000_000_005, TICK).len(), 2);
 }
 
-/// `spec/2-offloading.md#requester`: no event but a tick sends a request.
+/// `spec/2-offloading.md#requester.2`: no event but a tick sends a request.
 #[test]
 fn requests_are_decided_at_ticks_only() {
     for kind in [
@@ -114,7 +114,7 @@ fn requests_are_decided_at_ticks_only() {
     }
 }
 
-/// `spec/2-offloading.md#requester`: an overdue request and a silent session.
+/// `spec/2-offloading.md#requester.2`: an overdue request and a silent session.
 #[test]
 fn a_group_that_returned_to_local_at_this_tick_waits_for_the_next() {
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
@@ -126,7 +126,7 @@ fn a_group_that_returned_to_local_at_this_tick_waits_for_the_next() {
     assert_eq!(cav.at(late, TICK), [request(2, Mot, 3), request(2, Plan, 4)]);
 }
 
-/// `spec/2-offloading.md#requester`: the other group does not wait.
+/// `spec/2-offloading.md#requester.2`: the other group does not wait.
 #[test]
 fn only_the_group_that_returned_at_this_tick_waits() {
     let mut cav = Cav::requested(crate::Profile::Paper, PLAN);
@@ -134,7 +134,7 @@ fn only_the_group_that_returned_at_this_tick_waits() {
     assert_eq!(cav.at(500_000_000, TICK), [release(1, Plan, 1), request(1, Mot, 2)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.6`
 #[test]
 fn all_groups_are_in_the_area_until_the_first_area_event() {
     let mut cav = Cav::paper();
@@ -142,7 +142,7 @@ fn all_groups_are_in_the_area_until_the_first_area_event() {
     assert_eq!(cav.at(0, TICK).len(), 2);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.6`
 #[test]
 fn an_area_event_replaces_the_set_and_a_group_outside_returns_to_local_with_a_release() {
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
@@ -154,7 +154,7 @@ fn an_area_event_replaces_the_set_and_a_group_outside_returns_to_local_with_a_re
     assert_eq!(cav.at(4, TICK), [request(1, Mot, 3)], "MOT is in the area again");
 }
 
-/// `spec/2-offloading.md#requester`: one thing wrong at a time.
+/// `spec/2-offloading.md#requester.7`: one thing wrong at a time.
 #[test]
 fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_running_ones() {
     for profile in PROFILES {
@@ -171,7 +171,7 @@ fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_r
     }
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.7`
 #[test]
 fn all_other_data_are_dropped_and_counted() {
     let mut cav = Cav::remote(crate::Profile::Paper, MOT);
@@ -185,7 +185,7 @@ fn all_other_data_are_dropped_and_counted() {
     assert_eq!(cav.0.foreign_data(), 2, "a used element is not counted");
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.8`
 #[test]
 fn a_withdrawal_removes_the_offer_and_returns_every_group_of_the_station_with_a_release() {
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
@@ -199,7 +199,7 @@ fn a_withdrawal_removes_the_offer_and_returns_every_group_of_the_station_with_a_
     assert_eq!(cav.at(4, TICK), [request(1, Mot, 3)], "no hold");
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.8`
 #[test]
 fn a_loss_does_the_same_without_a_release() {
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
@@ -210,7 +210,7 @@ fn a_loss_does_the_same_without_a_release() {
     assert_eq!(cav.0.hold_until_ns(), None);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.8`
 #[test]
 fn a_withdrawal_or_loss_of_another_station_changes_no_session() {
     for kind in [withdraw(2), lost(2)] {
@@ -222,7 +222,7 @@ fn a_withdrawal_or_loss_of_another_station_changes_no_session() {
     }
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.9`
 #[test]
 fn mot_and_plan_may_run_on_different_stations() {
     let mut cav = Cav::paper();
@@ -236,7 +236,7 @@ fn mot_and_plan_may_run_on_different_stations() {
     assert_eq!(cav.states(), (on(2, 1), Local));
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.9`
 #[test]
 fn one_requester_handles_offers_of_several_providers_at_the_same_time() {
     let mut cav = Cav::paper();

@@ -21,7 +21,7 @@ fn ask(cav: &mut Cav, t_ns: i64, wanted: Group) -> Option<i64> {
     asked
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.3`
 #[test]
 fn a_station_never_asked_for_this_group_is_taken_first_the_smallest_id() {
     let mut cav = Cav::paper();
@@ -35,7 +35,7 @@ fn a_station_never_asked_for_this_group_is_taken_first_the_smallest_id() {
     assert_eq!(ask(&mut cav, 5, Mot), Some(7));
 }
 
-/// `spec/2-offloading.md#requester`: never asked for MOT, although asked for PLAN.
+/// `spec/2-offloading.md#requester.3`: never asked for MOT, although asked for PLAN.
 #[test]
 fn what_counts_are_the_requests_for_this_group() {
     let mut cav = Cav::paper();
@@ -47,7 +47,7 @@ fn what_counts_are_the_requests_for_this_group() {
     assert_eq!(cav.at(3, TICK), [request(1, Mot, 3)]);
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.3`
 #[test]
 fn then_the_one_whose_last_request_for_this_group_is_the_oldest() {
     let mut cav = Cav::paper();
@@ -58,7 +58,7 @@ fn then_the_one_whose_last_request_for_this_group_is_the_oldest() {
     assert_eq!(asked, [1, 2, 3, 1, 2, 3, 1].map(Some));
 }
 
-/// `spec/2-offloading.md#requester`: the clock runs backwards; station 1 was asked first, later.
+/// `spec/2-offloading.md#requester.3`: the clock runs backwards; station 1 was asked first, later.
 #[test]
 fn the_oldest_request_is_the_oldest_in_the_order_of_the_requests_not_of_their_times() {
     let mut cav = Cav::paper();
@@ -68,7 +68,7 @@ fn the_oldest_request_is_the_oldest_in_the_order_of_the_requests_not_of_their_ti
     assert_eq!(asked, [1, 2, 1, 2].map(Some));
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.3`
 #[test]
 fn a_withdrawal_forgets_nothing() {
     for leave in [withdraw, lost] {
@@ -83,7 +83,7 @@ fn a_withdrawal_forgets_nothing() {
     }
 }
 
-/// `spec/2-offloading.md#requester`
+/// `spec/2-offloading.md#requester.3`
 #[test]
 fn a_station_that_always_rejects_starves_nobody() {
     let mut cav = Cav::paper();
