@@ -179,7 +179,8 @@ mod tests {
         assert_eq!(table.map(|(configuration, ..)| configuration), Configuration::ALL);
     }
 
-    /// `spec/1-services.md#configuration`: "Every group MUST have exactly one source at any time."
+    /// `spec/1-services.md#configuration.1`: "Every group MUST have exactly one source at any
+    /// time."
     #[test]
     fn every_group_has_exactly_one_source() {
         assert_eq!(Source::of(true, None), Source::Local);

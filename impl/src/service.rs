@@ -217,7 +217,7 @@ mod tests {
         ServiceSet::new(from)?.check_change(&ServiceSet::new(to)?)
     }
 
-    /// `spec/1-services.md#service`: "The required interfaces R and the guaranteed interfaces G
+    /// `spec/1-services.md#service.1`: "The required interfaces R and the guaranteed interfaces G
     /// MUST each be a finite set, possibly empty, of named interfaces; a name listed twice is an
     /// error." The same name in R and in G is none.
     #[test]
@@ -234,7 +234,7 @@ mod tests {
         );
     }
 
-    /// `spec/1-services.md#service`: "A service set MUST hold at least one service and MUST NOT
+    /// `spec/1-services.md#service.2`: "A service set MUST hold at least one service and MUST NOT
     /// hold two services with the same id."
     #[test]
     fn a_set_holds_at_least_one_service_and_no_id_twice() {
@@ -257,7 +257,7 @@ mod tests {
         );
     }
 
-    /// `spec/1-services.md#service`: "When a service set changes over time, the services of
+    /// `spec/1-services.md#service.3`: "When a service set changes over time, the services of
     /// station 0 MUST stay; only the services of other stations may come and go."
     #[test]
     fn services_of_station_0_stay_and_others_come_and_go() {
@@ -277,8 +277,8 @@ mod tests {
         );
     }
 
-    /// `spec/1-services.md#service`: "A service set that breaks one of these rules MUST be refused
-    /// with an error that names the service and the rule."
+    /// `spec/1-services.md#service.4`: "A service set that breaks one of these rules MUST be
+    /// refused with an error that names the service and the rule."
     #[test]
     fn the_error_names_the_first_service_and_its_first_rule() {
         let bad = service("a", &["x", "x"], &["y", "y"], -1);
@@ -302,7 +302,7 @@ mod tests {
         assert!(service("a", &[], &["z", "detections"], 5).feeds(&MOT));
     }
 
-    /// `spec/1-services.md#device-switch`: "Between two services a device switch from j to k MUST
+    /// `spec/1-services.md#device-switch.1`: "Between two services a device switch from j to k MUST
     /// be reported exactly when j feeds k and their stations differ."
     #[test]
     fn a_device_switch_is_reported_exactly_when_j_feeds_k_and_stations_differ() {

@@ -147,7 +147,8 @@ fn members_are_services_of_the_set_and_the_goal_is_one() {
     assert_eq!(absent, Err(CompositionError::UnknownGoal { goal: "actuation" }));
 }
 
-/// "A composition MUST be closed: every requirement of every member is provided by a member."
+/// `spec/1-services.md#composition.1`: "A composition MUST be closed: every requirement of every
+/// member is provided by a member."
 #[test]
 fn a_composition_is_closed() {
     let open = Composition {
@@ -165,7 +166,8 @@ fn a_composition_is_closed() {
     assert_eq!(answer(&outside), Err(CompositionError::LinkOfNoMember { link: last }));
 }
 
-/// "A composition MUST be minimal: every member other than the goal provides some chosen link."
+/// `spec/1-services.md#composition.2`: "A composition MUST be minimal: every member other than the
+/// goal provides some chosen link."
 #[test]
 fn a_composition_is_minimal() {
     let idle = Composition {
@@ -179,7 +181,7 @@ fn a_composition_is_minimal() {
     assert_eq!(answer(&idle), Err(CompositionError::NotMinimal { member: "mot" }));
 }
 
-/// "A composition MUST be acyclic over its chosen links."
+/// `spec/1-services.md#composition.3`: "A composition MUST be acyclic over its chosen links."
 #[test]
 fn a_composition_is_acyclic_over_its_chosen_links() {
     let services = &const {
@@ -208,8 +210,9 @@ fn a_composition_is_acyclic_over_its_chosen_links() {
     assert_eq!(answer_for(services, "goal", &straight), Ok(()));
 }
 
-/// "The device switches of a composition MUST be the chosen links whose two stations differ; it
-/// MUST be called distributed exactly when there is at least one."
+/// `spec/1-services.md#composition.4`: "The device switches of a composition MUST be the chosen
+/// links whose two stations differ; it MUST be called distributed exactly when there is at least
+/// one."
 #[test]
 fn switches_are_the_chosen_links_whose_stations_differ() {
     let [first, second] = SWITCHES;
@@ -249,7 +252,7 @@ fn switches_are_the_chosen_links_whose_stations_differ() {
     assert!(pairs.eq([second, first]), "in the order of the links");
 }
 
-/// A composition on one station is not distributed.
+/// `spec/1-services.md#composition.4`: a composition on one station is not distributed.
 #[test]
 fn without_a_switch_a_composition_is_not_distributed() {
     let services = &const { [service("goal", &["a"], &[], 0), service("one", &[], &["a"], 0)] };
@@ -274,8 +277,8 @@ fn two_links_between_the_same_members_are_one_switch() {
     assert_eq!(answer_for(services, "goal", &composition), Ok(()));
 }
 
-/// "All members named in one `same_station` list (ENV and TPL, which share memory) MUST run on one
-/// station."
+/// `spec/1-services.md#composition.5`: "All members named in one `same_station` list (ENV and TPL,
+/// which share memory) MUST run on one station."
 #[test]
 fn members_of_one_same_station_list_run_on_one_station() {
     let split = Composition {
@@ -297,7 +300,8 @@ fn members_of_one_same_station_list_run_on_one_station() {
     assert_eq!(answer(&split), Err(expected));
 }
 
-/// "Members named in `local_only` (control, actuation) MUST run on station 0."
+/// `spec/1-services.md#composition.6`: "Members named in `local_only` (control, actuation) MUST run
+/// on station 0."
 #[test]
 fn members_of_local_only_run_on_station_0() {
     let services = &const { [service("control", &[], &[], 1)] };
@@ -305,7 +309,7 @@ fn members_of_local_only_run_on_station_0() {
     assert_eq!(answer_for(services, "control", &local(&["control"], &[])), Err(expected));
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation`: input that does not fit the scratch
+/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: input that does not fit the scratch
 /// is an error, not a truncated check.
 #[test]
 fn too_little_scratch_is_an_error() {

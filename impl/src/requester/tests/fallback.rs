@@ -5,9 +5,9 @@ use super::*;
 use crate::configuration::Configuration;
 use crate::verdict::{FailedStage, InvalidInput, Outcome, Problem, Report, Stage};
 
-/// "When a stage finds a safety issue, every group that is remote or requested MUST return to
-/// local in the same step, with one release per group to its station" (I-10). Which groups the
-/// cycle used does not matter.
+/// `spec/2-offloading.md#fallback.1`: "When a stage finds a safety issue, every group that is
+/// remote or requested MUST return to local in the same step, with one release per group to its
+/// station" (I-10). Which groups the cycle used does not matter.
 #[test]
 fn a_safety_issue_returns_every_group_that_is_remote_or_requested() -> TestResult {
     for profile in PROFILES {
@@ -32,8 +32,8 @@ fn a_safety_issue_returns_every_group_that_is_remote_or_requested() -> TestResul
     Ok(())
 }
 
-/// "In the same step `hold_until` MUST become the later of its old value and now + t_wait, also
-/// when every group is local already."
+/// `spec/2-offloading.md#fallback.2`: "In the same step `hold_until` MUST become the later of its
+/// old value and now + t_wait, also when every group is local already."
 #[test]
 fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() -> TestResult {
     let mut table = FREE;
@@ -45,7 +45,8 @@ fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() -> TestRe
     Ok(())
 }
 
-/// "Offloading MUST be possible again at `hold_until` and not before (I-08)."
+/// `spec/2-offloading.md#fallback.3`: "Offloading MUST be possible again at `hold_until` and not
+/// before (I-08)."
 #[test]
 fn offloading_is_possible_again_at_hold_until_and_not_before() -> TestResult {
     let mut table = FREE;
@@ -59,7 +60,8 @@ fn offloading_is_possible_again_at_hold_until_and_not_before() -> TestResult {
     Ok(())
 }
 
-/// "A violation of quality of service MUST NOT start a hold unless `qos_hold` is set (I-09)."
+/// `spec/2-offloading.md#fallback.4`: "A violation of quality of service MUST NOT start a hold
+/// unless `qos_hold` is set (I-09)."
 #[test]
 fn a_violation_of_quality_of_service_starts_a_hold_only_with_qos_hold() -> TestResult {
     for (qos_hold, at_data, at_tick) in [(false, None, None), (true, Some(1001), Some(1101))] {
@@ -79,8 +81,9 @@ fn a_violation_of_quality_of_service_starts_a_hold_only_with_qos_hold() -> TestR
     Ok(())
 }
 
-/// "Time that does not advance, or runs backwards, MUST NOT shorten a hold; deadlines and
-/// hold_until saturate at the limits of 64 bits, differences are exact."
+/// `spec/2-offloading.md#fallback.5`: "Time that does not advance, or runs backwards, MUST NOT
+/// shorten a hold; deadlines and hold_until saturate at the limits of 64 bits, differences are
+/// exact."
 #[test]
 fn no_time_shortens_a_hold_and_sums_saturate() -> TestResult {
     let parameters = Parameters { qos_hold: true, ..TIMES };
@@ -112,7 +115,8 @@ fn no_time_shortens_a_hold_and_sums_saturate() -> TestResult {
     act(&mut requester, i64::MAX, TICK, &told)
 }
 
-/// "A cycle that ends in `error` MUST be handed to the requester as unsafe."
+/// `spec/2-offloading.md#fallback.6`: "A cycle that ends in `error` MUST be handed to the requester
+/// as unsafe."
 #[test]
 fn a_cycle_that_ends_in_error_is_handed_on_as_unsafe() -> TestResult {
     let report =
@@ -134,9 +138,9 @@ fn a_cycle_that_ends_in_error_is_handed_on_as_unsafe() -> TestResult {
     Ok(())
 }
 
-/// "A tick MUST end overdue requests first, then silent sessions, then decide requests. Actions of
-/// one event come in this order, MOT before PLAN within each: drops, releases, activations and
-/// deactivations, requests."
+/// `spec/2-offloading.md#fallback.7`: "A tick MUST end overdue requests first, then silent
+/// sessions, then decide requests. Actions of one event come in this order, MOT before PLAN within
+/// each: drops, releases, activations and deactivations, requests."
 #[test]
 fn a_tick_ends_requests_then_sessions_then_asks_and_actions_come_in_order() -> TestResult {
     // PLAN is overdue and MOT silent: the release of MOT comes first all the same.
@@ -156,19 +160,31 @@ fn a_tick_ends_requests_then_sessions_then_asks_and_actions_come_in_order() -> T
     act(&mut requester, 203, TICK, &mixed)
 }
 
-/// The hold that a silent session starts, with `qos_hold`, is there when requests are decided; an
-/// overdue request starts none.
+/// `spec/2-offloading.md#fallback.7`: the hold that a silent session starts, with `qos_hold`, is
+/// there when requests are decided at the same tick, unless it has ended at once; an overdue
+/// request starts none.
 #[test]
 fn the_order_of_a_tick_decides_whether_it_asks() -> TestResult {
-    let parameters = Parameters { qos_hold: true, t_wait_ns: 0, ..TIMES };
+    for (t_wait_ns, hold_until_ns, asks) in [(0, 101, true), (1, 102, false)] {
+        let mut table = FREE;
+        let parameters = Parameters { qos_hold: true, t_wait_ns, ..TIMES };
+        let mut requester = remote(Profile::Paper, parameters, &mut table)?;
+        let left = [release(1, PLAN, 2), Action::Activate(PLAN)];
+        act(&mut requester, 20, offer(1, only(MOT)), &left)?;
+        act(&mut requester, 20, offer(2, only(PLAN)), &[])?;
+        let silent = [release(1, MOT, 1), Action::Activate(MOT)];
+        let and_asks = [release(1, MOT, 1), Action::Activate(MOT), request(2, PLAN, 3)];
+        act(&mut requester, 101, TICK, if asks { &and_asks } else { &silent })?;
+        assert_eq!(requester.hold_until_ns(), Some(hold_until_ns));
+    }
     let mut table = FREE;
-    let mut requester = remote(Profile::Paper, parameters, &mut table)?;
-    let left = [release(1, PLAN, 2), Action::Activate(PLAN)];
-    act(&mut requester, 20, offer(1, only(MOT)), &left)?;
-    act(&mut requester, 20, offer(2, only(PLAN)), &[])?;
-    let silent = [release(1, MOT, 1), Action::Activate(MOT), request(2, PLAN, 3)];
-    act(&mut requester, 101, TICK, &silent)?;
-    assert_eq!(requester.hold_until_ns(), Some(101), "t_wait = 0: the hold has ended at once");
+    let mut requester =
+        Requester::new(Profile::Paper, Parameters { qos_hold: true, ..TIMES }, &mut table)?;
+    act(&mut requester, 0, offer(1, only(PLAN)), &[])?;
+    act(&mut requester, 0, TICK, &[request(1, PLAN, 1)])?;
+    act(&mut requester, 1, offer(1, Groups::ALL), &[])?;
+    act(&mut requester, 50, TICK, &[release(1, PLAN, 1), request(1, MOT, 2)])?;
+    assert_eq!(requester.hold_until_ns(), None);
     Ok(())
 }
 
@@ -196,7 +212,8 @@ fn an_event_of_a_station_below_1_is_an_error_that_changes_nothing() -> TestResul
     Ok(())
 }
 
-/// An offer that the table has no place for is an error and changes nothing; other events go on.
+/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: an offer that the table has no place
+/// for is an error and changes nothing; other events go on.
 #[test]
 fn an_offer_beyond_the_table_is_an_error_that_changes_nothing() -> TestResult {
     let mut table = [StationRecord::FREE; 1];

@@ -6,8 +6,9 @@ use super::super::{Actions, GroupState, Source};
 use super::*;
 use crate::configuration::Configuration;
 
-/// H-08 and "In the hardened profile the local services of a group MUST NOT be stopped while no
-/// result of the running session was in a safe cycle": make before break.
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.6`: H-08 and "In the hardened profile the
+/// local services of a group MUST NOT be stopped while no result of the running session was in a
+/// safe cycle": make before break.
 #[test]
 fn local_services_stop_only_at_the_first_safe_verdict_that_names_the_group_after_a_used_result()
 -> TestResult {
@@ -62,9 +63,9 @@ fn leaving_before_the_local_services_stopped_needs_no_activation() -> TestResult
     Ok(())
 }
 
-/// `spec/1-services.md#configuration`: "The local services of a group that becomes remote MUST
-/// stop at the confirmation in the paper profile, and at the first safe verdict after a used
-/// result in the hardened profile (H-08)."
+/// `spec/1-services.md#configuration.2`: "The local services of a group that becomes remote MUST
+/// stop at the confirmation in the paper profile, and at the first safe verdict after a used result
+/// in the hardened profile (H-08)."
 #[test]
 fn in_the_paper_profile_local_services_stop_at_the_confirmation() -> TestResult {
     let mut table = FREE;
@@ -79,7 +80,8 @@ fn in_the_paper_profile_local_services_stop_at_the_confirmation() -> TestResult 
     act(&mut requester, 0, SAFE, &[])
 }
 
-/// "A message of an ended session MUST NOT change a later one."
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.7`: "A message of an ended session MUST
+/// NOT change a later one."
 #[test]
 fn a_message_of_an_ended_session_does_not_change_a_later_one() -> TestResult {
     let mut table = FREE;
@@ -201,8 +203,10 @@ fn observe(
     }
 }
 
-/// "At every time each group MUST have exactly one source", "After a safety issue no remote result
-/// MUST reach control before `hold_until`", and the order of actions, along random events.
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.1`,
+/// `spec/2-offloading.md#properties-of-the-whole-protocol.2`: "At every time each group MUST have
+/// exactly one source", "After a safety issue no remote result MUST reach control before
+/// `hold_until`", and the order of actions, along random events.
 #[test]
 fn random_events_keep_the_properties() -> TestResult {
     let mut state = 0x9E37_79B9_7F4A_7C15;

@@ -5,8 +5,8 @@ use super::*;
 
 const LOCAL: GroupState = GroupState::Local;
 
-/// "An offer MUST replace the station's previous offer; a group in use that the new offer no
-/// longer contains MUST be left as by a withdrawal."
+/// `spec/2-offloading.md#requester.1`: "An offer MUST replace the station's previous offer; a group
+/// in use that the new offer no longer contains MUST be left as by a withdrawal."
 #[test]
 fn an_offer_replaces_the_previous_one_and_what_it_lacks_is_left() -> TestResult {
     for profile in PROFILES {
@@ -28,8 +28,9 @@ fn an_offer_replaces_the_previous_one_and_what_it_lacks_is_left() -> TestResult 
     Ok(())
 }
 
-/// "A request MUST be sent only for a group in `Local`, to a station whose current offer contains
-/// it, while the group is in the area (CODM), and not before `hold_until`."
+/// `spec/2-offloading.md#requester.2`: "A request MUST be sent only for a group in `Local`, to a
+/// station whose current offer contains it, while the group is in the area (CODM), and not before
+/// `hold_until`."
 #[test]
 fn a_request_is_sent_only_for_a_local_group_that_is_offered_in_the_area_without_hold() -> TestResult
 {
@@ -50,8 +51,8 @@ fn a_request_is_sent_only_for_a_local_group_that_is_offered_in_the_area_without_
     act(&mut requester, 1003, TICK, &[])
 }
 
-/// "Requests MUST be decided at ticks only, MOT before PLAN; a group that returned to local at
-/// this tick waits for the next."
+/// `spec/2-offloading.md#requester.2`: "Requests MUST be decided at ticks only, MOT before PLAN; a
+/// group that returned to local at this tick waits for the next."
 #[test]
 fn requests_are_decided_at_ticks_only_and_a_group_that_returned_at_this_tick_waits() -> TestResult {
     let mut table = FREE;
@@ -91,9 +92,9 @@ fn sessions_are_numbered_over_all_groups_and_never_twice() -> TestResult {
     act(&mut requester, 50, TICK, &[release(1, MOT, i64::MAX)])
 }
 
-/// "Among the stations that offer a group, one never asked for this group MUST be taken first (the
-/// smallest id), then the one whose last request for this group is the oldest in the order of the
-/// requests, not of their times; a withdrawal forgets nothing."
+/// `spec/2-offloading.md#requester.3`: "Among the stations that offer a group, one never asked for
+/// this group MUST be taken first (the smallest id), then the one whose last request for this group
+/// is the oldest in the order of the requests, not of their times; a withdrawal forgets nothing."
 #[test]
 fn one_never_asked_first_then_the_oldest_request_and_a_withdrawal_forgets_nothing() -> TestResult {
     for gone in [withdraw(1), lost(1), offer(1, Groups::NONE)] {
@@ -119,7 +120,8 @@ fn one_never_asked_first_then_the_oldest_request_and_a_withdrawal_forgets_nothin
     Ok(())
 }
 
-/// "So a station that always rejects starves nobody": each group has its own order.
+/// `spec/2-offloading.md#requester.3`: "So a station that always rejects starves nobody": each
+/// group has its own order.
 #[test]
 fn a_station_that_always_rejects_starves_nobody() -> TestResult {
     let mut table = FREE;
@@ -133,8 +135,9 @@ fn a_station_that_always_rejects_starves_nobody() -> TestResult {
     act(&mut requester, 2, TICK, &[request(2, PLAN, 4)])
 }
 
-/// "A confirmation of the requested session, from its station, before its deadline MUST move the
-/// group to `Remote`; a confirmation of the running session MUST be ignored".
+/// `spec/2-offloading.md#requester.4`: "A confirmation of the requested session, from its station,
+/// before its deadline MUST move the group to `Remote`; a confirmation of the running session MUST
+/// be ignored".
 #[test]
 fn a_confirmation_before_the_deadline_moves_to_remote_and_again_is_ignored() -> TestResult {
     for (profile, stop) in PROFILES.into_iter().zip([[Action::Deactivate(MOT)].as_slice(), &[]]) {
@@ -158,8 +161,8 @@ fn a_confirmation_before_the_deadline_moves_to_remote_and_again_is_ignored() -> 
     Ok(())
 }
 
-/// "any other confirmation MUST be answered with a release of the session it names and change
-/// nothing else."
+/// `spec/2-offloading.md#requester.4`: "any other confirmation MUST be answered with a release of
+/// the session it names and change nothing else."
 #[test]
 fn any_other_confirmation_is_answered_with_a_release_and_changes_nothing() -> TestResult {
     let mut table = FREE;
@@ -181,8 +184,8 @@ fn any_other_confirmation_is_answered_with_a_release_and_changes_nothing() -> Te
     Ok(())
 }
 
-/// "A request not confirmed before its deadline MUST return the group to `Local` at the first tick
-/// that can tell, with a release sent".
+/// `spec/2-offloading.md#requester.5`: "A request not confirmed before its deadline MUST return the
+/// group to `Local` at the first tick that can tell, with a release sent".
 #[test]
 fn a_request_not_confirmed_before_its_deadline_ends_at_the_first_tick_that_can_tell() -> TestResult
 {
@@ -198,8 +201,8 @@ fn a_request_not_confirmed_before_its_deadline_ends_at_the_first_tick_that_can_t
     Ok(())
 }
 
-/// "a rejection of the requested session MUST return it at once, without a release; any other
-/// rejection MUST be ignored."
+/// `spec/2-offloading.md#requester.5`: "a rejection of the requested session MUST return it at
+/// once, without a release; any other rejection MUST be ignored."
 #[test]
 fn a_rejection_returns_the_group_without_a_release_and_any_other_is_ignored() -> TestResult {
     let mut table = FREE;
@@ -218,9 +221,9 @@ fn a_rejection_returns_the_group_without_a_release_and_any_other_is_ignored() ->
     act(&mut requester, 60, reject(1, MOT, 1), &[])
 }
 
-/// "All groups are in the area until the first `area` event; an `area` event replaces the set, and
-/// a group that is requested or remote and no longer in the area MUST return to local with a
-/// release, without a hold."
+/// `spec/2-offloading.md#requester.6`: "All groups are in the area until the first `area` event; an
+/// `area` event replaces the set, and a group that is requested or remote and no longer in the area
+/// MUST return to local with a release, without a hold."
 #[test]
 fn an_area_event_replaces_the_set_and_what_it_lacks_returns_without_a_hold() -> TestResult {
     for profile in PROFILES {
@@ -239,8 +242,9 @@ fn an_area_event_replaces_the_set_and_what_it_lacks_returns_without_a_hold() -> 
     Ok(())
 }
 
-/// "Data for a group MUST be used only when the group is `Remote` and station and session are the
-/// running ones; all other data MUST be dropped and counted."
+/// `spec/2-offloading.md#requester.7`: "Data for a group MUST be used only when the group is
+/// `Remote` and station and session are the running ones; all other data MUST be dropped and
+/// counted."
 #[test]
 fn data_of_any_but_the_running_session_are_dropped_and_counted() -> TestResult {
     let mut table = FREE;
@@ -263,9 +267,9 @@ fn data_of_any_but_the_running_session_are_dropped_and_counted() -> TestResult {
     Ok(())
 }
 
-/// "A withdrawal MUST remove the station's offer and return every group that is requested from it
-/// or runs on it to local at once, with a release; a loss does the same without a release; neither
-/// starts a hold."
+/// `spec/2-offloading.md#requester.8`: "A withdrawal MUST remove the station's offer and return
+/// every group that is requested from it or runs on it to local at once, with a release; a loss
+/// does the same without a release; neither starts a hold."
 #[test]
 fn a_withdrawal_returns_its_groups_with_a_release_and_a_loss_without() -> TestResult {
     for profile in PROFILES {
@@ -293,8 +297,8 @@ fn a_withdrawal_returns_its_groups_with_a_release_and_a_loss_without() -> TestRe
     Ok(())
 }
 
-/// "MOT and PLAN may run on different stations; one requester MUST handle offers of several
-/// providers at the same time."
+/// `spec/2-offloading.md#requester.9`: "MOT and PLAN may run on different stations; one requester
+/// MUST handle offers of several providers at the same time."
 #[test]
 fn mot_and_plan_may_run_on_different_stations() -> TestResult {
     let mut table = FREE;

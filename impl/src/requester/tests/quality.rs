@@ -3,8 +3,9 @@
 use super::super::GroupState;
 use super::*;
 
-/// "Every element of the running session is an arrival, and MUST be checked for latency and
-/// inter-arrival time first and for its order then; other data are no arrivals."
+/// `spec/2-offloading.md#quality-of-service.1`: "Every element of the running session is an
+/// arrival, and MUST be checked for latency and inter-arrival time first and for its order then;
+/// other data are no arrivals."
 #[test]
 fn every_element_of_the_running_session_is_an_arrival_and_others_are_none() -> TestResult {
     let mut table = FREE;
@@ -22,8 +23,8 @@ fn every_element_of_the_running_session_is_an_arrival_and_others_are_none() -> T
     act(&mut requester, 170, data(1, MOT, 1, 50), &late)
 }
 
-/// "l > l_max or dt > dt_max MUST be a violation; equality MUST NOT", and "dt = time since the
-/// previous arrival, or since the activation".
+/// `spec/2-offloading.md#quality-of-service.2`: "l > l_max or dt > dt_max MUST be a violation;
+/// equality MUST NOT", and "dt = time since the previous arrival, or since the activation".
 #[test]
 fn latency_and_inter_arrival_time_beyond_their_limits_are_violations() -> TestResult {
     let violation = [Action::Drop(MOT), release(1, MOT, 1), Action::Activate(MOT)];
@@ -42,8 +43,9 @@ fn latency_and_inter_arrival_time_beyond_their_limits_are_violations() -> TestRe
     Ok(())
 }
 
-/// "Silence longer than dt_max since the last arrival (or since the activation) MUST be a
-/// violation at the first tick that can tell, without waiting for data."
+/// `spec/2-offloading.md#quality-of-service.3`: "Silence longer than dt_max since the last arrival
+/// (or since the activation) MUST be a violation at the first tick that can tell, without waiting
+/// for data."
 #[test]
 fn silence_is_a_violation_at_the_first_tick_that_can_tell() -> TestResult {
     for profile in PROFILES {
@@ -61,8 +63,8 @@ fn silence_is_a_violation_at_the_first_tick_that_can_tell() -> TestResult {
     Ok(())
 }
 
-/// "A generation time later than the arrival time MUST be a violation (the clocks cannot be
-/// trusted)."
+/// `spec/2-offloading.md#quality-of-service.4`: "A generation time later than the arrival time MUST
+/// be a violation (the clocks cannot be trusted)."
 #[test]
 fn a_generation_time_later_than_the_arrival_is_a_violation() -> TestResult {
     let mut table = FREE;
@@ -72,8 +74,8 @@ fn a_generation_time_later_than_the_arrival_is_a_violation() -> TestResult {
     act(&mut requester, 5, data(1, PLAN, 2, 6), &violation)
 }
 
-/// "A violation MUST return that group, and no other, to its local services at once, with a
-/// release sent; the element is dropped."
+/// `spec/2-offloading.md#quality-of-service.5`: "A violation MUST return that group, and no other,
+/// to its local services at once, with a release sent; the element is dropped."
 #[test]
 fn a_violation_returns_that_group_and_no_other() -> TestResult {
     for profile in PROFILES {
@@ -93,8 +95,9 @@ fn a_violation_returns_that_group_and_no_other() -> TestResult {
     Ok(())
 }
 
-/// "An element whose generation time is not later than that of the last one used since the
-/// activation MUST be dropped" - and a new activation starts anew.
+/// `spec/2-offloading.md#quality-of-service.6`: "An element whose generation time is not later than
+/// that of the last one used since the activation MUST be dropped" - and a new activation starts
+/// anew.
 #[test]
 fn an_element_not_later_than_the_last_one_used_since_the_activation_is_dropped() -> TestResult {
     let mut table = FREE;
