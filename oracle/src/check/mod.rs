@@ -124,7 +124,7 @@ pub fn run(
 ) -> io::Result<Findings> {
     let mut findings = Findings::default();
     let mut lines = Vec::new();
-    let progress = progress(drives);
+    let progress = progress(drives.iter().flatten().map(|drive| drive.cycles.len()).sum());
     for drive in drives {
         match drive {
             Ok(drive) => {
@@ -199,9 +199,8 @@ pub fn complain(err: &mut impl Write, message: &str) {
     let _ = writeln!(err, "mufasa: {message}");
 }
 
-/// Over all cycles; nothing is drawn when standard error is no terminal.
-fn progress(drives: &[Result<Drive, ReadError>]) -> ProgressBar {
-    let cycles: usize = drives.iter().flatten().map(|drive| drive.cycles.len()).sum();
+/// A bar over so many cycles; nothing is drawn when standard error is no terminal.
+pub fn progress(cycles: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} cycles, {eta} left");
     let bar = ProgressBar::new(u64::try_from(cycles).unwrap_or(u64::MAX));
     match style {

@@ -67,9 +67,6 @@ pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) -> Vec<Layer> {
     }
     drawn.push(Layer::Ego);
     ego(canvas, frame, cycle);
-    for item in cycle.tracks.iter().flat_map(|list| &list.items) {
-        id(canvas, frame, item);
-    }
     drawn
 }
 
@@ -216,6 +213,13 @@ fn predictions(
         }
     }
     any
+}
+
+/// Draws the ids of the tracks, above everything else.
+pub fn ids(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) {
+    for item in cycle.tracks.iter().flat_map(|list| &list.items) {
+        id(canvas, frame, item);
+    }
 }
 
 /// The id of a track, where the window can show all of it.

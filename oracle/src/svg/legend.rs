@@ -9,7 +9,7 @@ pub const LEGEND_HEIGHT: f64 = 76.0;
 /// Width of a character of the legend, px.
 const CHARACTER: f64 = 6.5;
 /// Room for the scale bar and the arrow on the right, px.
-const RIGHT: f64 = 250.0;
+const RIGHT: f64 = 230.0;
 
 /// Two lines above the map.
 pub fn title(canvas: &mut Canvas, first: &str, second: &str) {
@@ -30,7 +30,7 @@ fn entries(canvas: &mut Canvas, layers: &[Layer], top: f64) {
     let (mut x, mut y) = (MARGIN, top + 16.0);
     for (classes, text) in named {
         #[expect(clippy::cast_precision_loss)] // of a picture
-        let width = text.chars().count() as f64 * CHARACTER + 46.0;
+        let width = text.chars().count() as f64 * CHARACTER + 50.0;
         if x + width > PAGE_WIDTH - MARGIN - RIGHT {
             (x, y) = (MARGIN, y + 26.0);
         }

@@ -62,6 +62,7 @@ pub fn picture(scene: &Scene<'_>) -> String {
     map.open("clip-path=\"url(#map)\"");
     let drawn = layers::draw(&mut map, &frame, cycle);
     witness::draw(&mut map, &frame, cycle, report);
+    layers::ids(&mut map, &frame, cycle);
     map.close();
     let size = [PAGE_WIDTH - 2.0 * MARGIN, frame.height];
     map.rect([MARGIN, TITLE_HEIGHT], size, "frame");

@@ -90,16 +90,13 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
         }
     }
     objects(cycle, witness, point, &mut marks);
-    match witness.rule {
-        Rule::MeanCost | Rule::NoAssignment => assignment(cycle, &mut marks),
-        Rule::Gap => gap(cycle, &mut marks),
-        Rule::Corridor | Rule::ThetaMap => {
-            if let Some(point) = point {
-                marks.circles.push(([point.x, point.y], 0.5, true));
-                marks.anchor = [point.x, point.y];
-            }
-        }
-        _ => {}
+    if matches!(witness.rule, Rule::MeanCost | Rule::NoAssignment) {
+        assignment(cycle, &mut marks);
+    } else if witness.rule == Rule::Gap {
+        gap(cycle, &mut marks);
+    } else if let (Rule::Corridor | Rule::ThetaMap, Some(point)) = (witness.rule, point) {
+        marks.circles.push(([point.x, point.y], 0.5, true));
+        marks.anchor = [point.x, point.y];
     }
     marks
 }
@@ -108,10 +105,8 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
 fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, marks: &mut Marks) {
     let mut objects = Vec::new();
     if let (Some(id), Some(list)) = (witness.track, &cycle.tracks) {
-        let later = match (witness.rule, point) {
-            (Rule::Collision, Some(point)) => layers::seconds(list.stamp_ns, point.t_ns),
-            _ => 0.0,
-        };
+        let predicted = point.filter(|_| witness.rule == Rule::Collision);
+        let later = predicted.map_or(0.0, |point| layers::seconds(list.stamp_ns, point.t_ns));
         let track = list.items.iter().find(|track| track.id == id);
         objects.extend(track.map(|track| layers::track(track, later)));
         if later != 0.0 {
@@ -169,8 +164,8 @@ fn disks(cycle: &Cycle, footprint: &Rectangle, witness: &Witness, marks: &mut Ma
     }
 }
 
-/// Stage i: from every track in the field of view to its nearest detection; the loneliest track
-/// is marked.
+/// Stage i: from every track in the field of view to its nearest detection; those that are
+/// farther than `theta_track_max` are marked, and the loneliest one.
 fn assignment(cycle: &Cycle, marks: &mut Marks) {
     let (Some(tracks), Some(detections)) = (&cycle.tracks, &cycle.detections) else { return };
     let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
@@ -178,6 +173,8 @@ fn assignment(cycle: &Cycle, marks: &mut Marks) {
     let places: Vec<_> = detections.items.iter().map(|d| [d.x, d.y]).collect();
     let view = places.iter().map(|place| distance(*place, ego)).fold(0.0, f64::max);
     marks.circles.push((ego, view, false));
+    let limit = cycle.parameters.theta_track_max;
+    marks.shapes.clear();
     let mut loneliest: Option<(f64, Rectangle)> = None;
     for track in tracks.items.iter().filter(|track| distance([track.x, track.y], ego) <= view) {
         let at = [track.x, track.y];
@@ -185,14 +182,20 @@ fn assignment(cycle: &Cycle, marks: &mut Marks) {
             places.iter().copied().min_by(|a, b| distance(*a, at).total_cmp(&distance(*b, at)));
         let Some(nearest) = nearest else { continue };
         let apart = distance(nearest, at);
+        let rectangle = layers::track(track, 0.0);
+        if apart >= limit {
+            marks.shapes.push(rectangle);
+        }
         if loneliest.as_ref().is_none_or(|(most, _)| apart > *most) {
-            loneliest = Some((apart, layers::track(track, 0.0)));
+            loneliest = Some((apart, rectangle));
         }
         marks.lines.push([at, nearest]);
     }
-    if let Some((_, rectangle)) = loneliest {
+    if let Some((apart, rectangle)) = loneliest {
         marks.anchor = rectangle.centre;
-        marks.shapes.push(rectangle);
+        if apart < limit {
+            marks.shapes.push(rectangle);
+        }
     }
 }
 
