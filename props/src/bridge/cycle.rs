@@ -131,7 +131,7 @@ pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Paramete
 }
 
 /// The profile in the implementation's type.
-pub(super) fn profile_to_impl(profile: Profile) -> twin::Profile {
+pub fn profile_to_impl(profile: Profile) -> twin::Profile {
     match profile {
         Profile::Paper => twin::Profile::Paper,
         Profile::Hardened => twin::Profile::Hardened,

@@ -7,8 +7,11 @@
 use proptest::collection::vec;
 use proptest::prelude::{Strategy, any};
 
-/// Longest tape that proptest draws; every generator reads less.
+/// Length of the tapes for cycles; every generator of a cycle reads less.
 const TAPE: usize = 160;
+
+/// Length of the tapes for sequences of events.
+const LONG_TAPE: usize = 640;
 
 /// Reads choices from a tape.
 #[derive(Clone, Debug)]
@@ -17,7 +20,12 @@ pub struct Draw<'a> {
     at: usize,
 }
 
-/// Tapes for proptest.
+/// Tapes for sequences of events.
+pub fn long_tape() -> impl Strategy<Value = Vec<u32>> {
+    vec(any::<u32>(), LONG_TAPE)
+}
+
+/// Tapes for cycles.
 pub fn tape() -> impl Strategy<Value = Vec<u32>> {
     vec(any::<u32>(), TAPE)
 }

@@ -19,7 +19,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match (profile, draw.below(10)) {
         // Hardened: what is outside the corridor fails however near the path is.
         (Profile::Paper, 0 | 1) | (Profile::Hardened, 0) => {
-            reference_distance(draw, frame, &mut cycle)
+            reference_distance(draw, frame, &mut cycle);
         }
         (_, 2 | 3) => corridor_edge(draw, frame, &mut cycle),
         (_, 4) => crooked_road(draw, frame, &mut cycle),

@@ -6,12 +6,14 @@
 
 pub mod attack;
 pub mod base;
+pub mod composition;
 pub mod detections;
 pub mod draw;
 pub mod grid;
 pub mod input;
 pub mod map_validation;
 pub mod obstacle;
+pub mod requester;
 pub mod schedule;
 pub mod track_validation;
 pub mod tracks;
