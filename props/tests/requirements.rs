@@ -79,7 +79,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
         let name = path.file_name().expect("a name").to_string_lossy().into_owned();
         if path.is_dir() && name != "target" && !name.starts_with('.') {
             sources(&path, found);
-        } else if name.ends_with(".rs") && name != "requirements.rs" {
+        } else if path.extension().is_some_and(|it| it == "rs") && name != "requirements.rs" {
             found.push(path);
         }
     }

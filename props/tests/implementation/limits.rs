@@ -1,0 +1,212 @@
+//! The largest input that the domain allows, a small stack, and memory that is too small.
+
+use std::thread;
+
+use mufasa::composition::{Composition, Link, Task};
+use mufasa::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::service::{Service, ServiceSet};
+use mufasa::verdict::{InvalidInput, Outcome, Problem};
+use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
+use mufasa_model::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa_props::bridge::{Owned, to_impl};
+
+/// Bytes of stack: 32 for each of 1,024 points or tracks, less than a call takes.
+const STACK: usize = 32 << 10;
+
+/// How many of each there are: track i stands where detection i is, beside the road.
+#[derive(Clone, Copy)]
+struct Counts {
+    tracks: u16,
+    detections: u16,
+    points: u16,
+    stations: u16,
+    columns: i64,
+    rows: i64,
+}
+
+const SMALL: Counts =
+    Counts { tracks: 2, detections: 3, points: 90, stations: 3, columns: 64, rows: 64 };
+const LARGE: Counts = Counts {
+    tracks: 1024,
+    detections: 2048,
+    points: 1024,
+    stations: 8192,
+    columns: 1 << 15,
+    rows: 1 << 9,
+};
+
+/// A safe cycle at 5 m/s along the x axis.
+fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycle {
+    let place = |i: u16| (3.0 * f64::from(i % 64), 60.0 + 3.0 * f64::from(i / 64));
+    let items: Vec<Track> = (0..counts.tracks)
+        .map(|i| {
+            let ((x, y), id) = (place(i), i64::from(i));
+            Track { id, x, y, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 2.0, width: 1.0 }
+        })
+        .collect();
+    let detections = (0..counts.detections).map(|i| {
+        let (x, y) = place(i);
+        Detection { x, y, cos: 1.0, sin: 0.0, length: 2.0, width: 1.0 }
+    });
+    let points = (0..counts.points).map(|i| {
+        let t_ns = i64::from(i) * 10_000_000;
+        TrajectoryPoint { t_ns, x: 0.05 * f64::from(i), y: 0.0, cos: 1.0, sin: 0.0 }
+    });
+    let step = 200.0 / f64::from(counts.stations - 1);
+    let stations = (0..counts.stations).map(|i| {
+        let x = step * f64::from(i) - 50.0;
+        Station { x, y: 0.0, left: [x, 4.0], right: [x, -4.0] }
+    });
+    let cells = usize::try_from(counts.columns * counts.rows).expect("positive");
+    let grid = Grid {
+        stamp_ns: 0,
+        x: -50.0,
+        y: -50.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 2.0,
+        width: counts.columns,
+        height: counts.rows,
+        occupied: vec![0; cells.div_ceil(8)],
+        unknown: None,
+    };
+    let length = 4.0;
+    Cycle {
+        profile,
+        parameters: mufasa_model::parameters::Parameters { n: 64, ..Default::default() },
+        now_ns: 0,
+        configuration,
+        ego: Ego {
+            x: 0.0,
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            speed: 5.0,
+            length,
+            width: 2.0,
+            center_offset: 1.5,
+        },
+        trajectory: Some(Trajectory { stamp_ns: 0, points: points.collect() }),
+        tracks: Some(TrackList { stamp_ns: 0, items: items.clone() }),
+        detections: Some(DetectionList { stamp_ns: 0, items: detections.collect() }),
+        lead: Some(Lead { stamp_ns: 0, gap: 500.0, speed: 5.0 }),
+        route: Route { closed: false, stations: stations.collect() },
+        grid: Some(grid),
+        previous_tracks: Some(TrackList { stamp_ns: -50_000_000, items }),
+    }
+}
+
+/// One cycle for every configuration and profile, and those that stage iv lacks its input in.
+fn cycles(counts: Counts) -> Vec<Owned> {
+    let mut cycles = Vec::new();
+    for profile in [Profile::Paper, Profile::Hardened] {
+        for configuration in [AllRemote, MotRemote, PlanRemote] {
+            cycles.push(cycle(counts, profile, configuration));
+        }
+        let mut without_tracks = cycle(counts, profile, AllRemote);
+        without_tracks.tracks = None;
+        cycles.push(without_tracks.clone());
+        without_tracks.detections = None;
+        cycles.push(without_tracks);
+    }
+    cycles.iter().map(to_impl).collect()
+}
+
+/// How often each stage passed in these cycles, all safe, on a small stack.
+fn passed(cycles: &[Owned]) -> [u32; 5] {
+    let Sizes { rows, columns } = Sizes::MAX;
+    let mut rows = vec![Row::default(); rows];
+    let mut columns = vec![Column::default(); columns];
+    let reports: Vec<_> = on_small_stack(|| {
+        let check = |cycle: &Owned| {
+            let mut scratch = Scratch::new(&mut rows, &mut columns);
+            mufasa::schedule::check(&cycle.borrow(), &mut scratch)
+        };
+        cycles.iter().map(check).collect()
+    });
+    let mut passed = [0; 5];
+    for report in reports {
+        let report = report.expect("valid");
+        assert_eq!(report.failed_stage, None, "{report:?}");
+        for (count, outcome) in passed.iter_mut().zip(report.stages) {
+            *count += u32::from(outcome == Outcome::Passed);
+        }
+    }
+    passed
+}
+
+/// Runs what neither panics nor calls anything deep but the implementation.
+fn on_small_stack<T: Send>(run: impl FnOnce() -> T + Send) -> T {
+    thread::scope(|scope| {
+        let thread = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, run);
+        thread.expect("a thread").join().expect("no panic")
+    })
+}
+
+/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: the largest cycles are decided on
+/// the stack that small ones need; recursion that grows with the input would overflow it.
+#[test]
+fn the_largest_cycles_need_no_more_stack_than_small_ones() {
+    let stages = passed(&cycles(SMALL));
+    assert!(stages.iter().all(|count| *count > 0), "{stages:?}");
+    assert_eq!(passed(&cycles(LARGE)), stages);
+}
+
+/// The same for a composition that is one chain of 1,000 services.
+#[test]
+fn a_long_composition_needs_no_more_stack_than_a_short_one() {
+    let names: Vec<String> = (0..1000).map(|i| format!("s{i}")).collect();
+    let ids: Vec<&str> = names.iter().map(String::as_str).collect();
+    let service = |i: usize| Service {
+        id: ids[i],
+        requires: ids.get(i + 1..=i + 1).unwrap_or_default(),
+        guarantees: &ids[i..=i],
+        station: 0,
+    };
+    let link = |i: usize| Link { provider: ids[i + 1], interface: ids[i + 1], consumer: ids[i] };
+    let services: Vec<_> = (0..ids.len()).map(service).collect();
+    let links: Vec<_> = (0..ids.len() - 1).map(link).collect();
+    for length in [3, ids.len()] {
+        let composition = Composition {
+            members: &ids[ids.len() - length..],
+            links: &links[ids.len() - length..],
+            switches: &[],
+            distributed: false,
+        };
+        let mut scratch = vec![0; length];
+        let goal = composition.members[0];
+        let checked = on_small_stack(|| {
+            let task = |services| Task { services, goal, same_station: &[], local_only: &[] };
+            let check = |task| mufasa::composition::check(&task, &composition, &mut scratch);
+            ServiceSet::new(&services).ok().map(task).map(check)
+        });
+        assert_eq!(checked, Some(Ok(())), "{length} services");
+    }
+}
+
+/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: scratch that is one element too small
+/// is invalid input, whatever the rest; a truncated check would pass.
+#[test]
+fn scratch_that_is_one_too_small_is_invalid_input() {
+    for cycle in cycles(SMALL) {
+        let cycle = cycle.borrow();
+        let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
+        let check = |rows: usize, columns: usize| {
+            let (mut rows, mut columns) =
+                (vec![Row::default(); rows], vec![Column::default(); columns]);
+            mufasa::schedule::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+        };
+        assert!(check(rows, columns).is_ok());
+        let problem = Problem::ScratchTooSmall;
+        let refused = Err(InvalidInput { field: "scratch", index: None, problem });
+        if rows > 0 {
+            assert_eq!(check(rows - 1, columns), refused);
+        }
+        if columns > 0 {
+            assert_eq!(check(rows, columns - 1), refused);
+        }
+    }
+}
