@@ -33,6 +33,52 @@ fn scenarios(folder: &Path) -> Vec<(PathBuf, Vec<PathBuf>)> {
 }
 
 #[test]
+fn look() {
+    use mufasa_oracle::drive::*;
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+    for d in read(
+        &[own.join("demo/urban.xml"), own.join("demo/urban.solution.xml")],
+        &Options::default(),
+    ) {
+        let d = d.unwrap();
+        summary(&d);
+        for a in Attack::ALL {
+            summary(&inject(&d, &Injection { attack: a, from_s: 1.0, to_s: 9.0 }));
+        }
+    }
+    for s in ["KS2", "ST1", "MB3"] {
+        for v in ["2018b", "2020a"] {
+            for d in read(
+                &[
+                    own.join(format!("readers/small-{v}.xml")),
+                    own.join(format!("readers/small.{s}.solution.xml")),
+                ],
+                &Options::default(),
+            ) {
+                summary(&d.unwrap());
+            }
+        }
+    }
+    if let Some(folder) = data() {
+        let mut maps = Vec::new();
+        for set in std::fs::read_dir(folder.join("ulm/maps")).unwrap() {
+            for m in std::fs::read_dir(set.unwrap().path().join("extern")).unwrap() {
+                maps.push(m.unwrap().path());
+            }
+        }
+        maps.sort();
+        maps.retain(|m| m.extension().is_some_and(|e| e == "npy"));
+        maps.truncate(12);
+        for d in read(&maps, &Options::default()) {
+            match d {
+                Ok(d) => summary(&d),
+                Err(e) => println!("REFUSED {e}"),
+            }
+        }
+    }
+}
+
+#[test]
 fn every_shared_scenario_and_solution_gives_a_drive() {
     let Some(folder) = data() else {
         eprintln!("NOT RUN: no shared data; set MUFASA_DATA to the folder that holds commonroad/");

@@ -1,6 +1,7 @@
 //! Attacks on the remote services, injected into a drive (paper Sec. V-B, and the findings of
 //! `spec/3-stages.md#findings`). An attack changes what the CAV receives, never what it measures
-//! itself: ego, detections, lead, route and grid stay as they are.
+//! itself: detections, route and grid stay as they are, and so do ego and lead unless the CAV is
+//! shown driving what it is sent.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,7 +9,7 @@ use std::str::FromStr;
 use mufasa_model::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 
 use super::Drive;
-use super::geometry::{Point, Polyline, add, direction, distance, scale, sub};
+use super::planner::Planner;
 
 /// What an attacker does to the received data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,6 +66,19 @@ impl Attack {
             Self::TooFast => "too-fast",
         }
     }
+
+    /// Whether the CAV is shown driving what the attack makes of the trajectory.
+    fn is_driven(self) -> bool {
+        match self {
+            Self::EmptyTracks | Self::FalseVelocities | Self::FalseSizes => true,
+            Self::WrongMap
+            | Self::GhostTracks
+            | Self::Backwards
+            | Self::Frozen
+            | Self::Late
+            | Self::TooFast => false,
+        }
+    }
 }
 
 impl FromStr for Attack {
@@ -119,29 +133,55 @@ impl fmt::Display for Injection {
     }
 }
 
-/// The same drive under attack. The true `previous_tracks` stay: H-09 keeps the last list that
-/// was found good, which an attacked one is not taken to be.
+/// The same drive under attack.
+///
+/// Attacks that hide objects (empty tracks, false velocities and sizes) are dangerous only when
+/// the CAV drives what it is sent, so in these it does: it leaves its recorded motion at the first
+/// attacked cycle, and the drive ends with the last one, because nobody recorded what comes then.
+/// The true `previous_tracks` stay: H-09 keeps the last list that was found good, which an
+/// attacked one is not taken to be.
 #[must_use]
 pub fn inject(drive: &Drive, injection: &Injection) -> Drive {
     let mut attacked = drive.clone();
     attacked.name = format!("{}+{}", drive.name, injection.attack.name());
     let start_ns = drive.cycles.first().map_or(0, |c| c.cycle.now_ns);
-    let mut first: Option<Trajectory> = None;
+    let mut onset: Option<Onset> = None;
     let mut count = 0;
-    for cycle in attacked.cycles.iter_mut().map(|c| &mut c.cycle) {
-        let since_ns = cycle.now_ns.saturating_sub(start_ns);
-        #[expect(clippy::cast_precision_loss, reason = "drives last minutes")]
-        let since_s = since_ns as f64 / 1e9;
+    let mut end = attacked.cycles.len();
+    for (i, cycle) in attacked.cycles.iter_mut().map(|c| &mut c.cycle).enumerate() {
+        let since_s = seconds(cycle.now_ns.saturating_sub(start_ns));
         if (injection.from_s..=injection.to_s).contains(&since_s) {
-            if first.is_none() {
-                first.clone_from(&cycle.trajectory);
-            }
-            attack(cycle, injection.attack, first.as_ref());
+            let onset = onset.get_or_insert_with(|| Onset {
+                now_ns: cycle.now_ns,
+                trajectory: cycle.trajectory.clone(),
+                planner: Planner::new(cycle),
+            });
+            attack(cycle, injection.attack, onset);
             count += 1;
+            end = i + 1;
         }
     }
     attacked.notes.push(format!("attack {injection} s changes {count} cycles"));
+    if injection.attack.is_driven() && count > 0 {
+        attacked.cycles.truncate(end);
+        attacked.notes.push(String::from(
+            "from its first attacked cycle on the CAV drives what it is sent; the drive ends with \
+             the attack",
+        ));
+    }
     attacked
+}
+
+#[expect(clippy::cast_precision_loss, reason = "drives last minutes")]
+fn seconds(ns: i64) -> f64 {
+    ns as f64 / 1e9
+}
+
+/// The first attacked cycle.
+struct Onset {
+    now_ns: i64,
+    trajectory: Option<Trajectory>,
+    planner: Planner,
 }
 
 /// How late the data of `Late` are, ns.
@@ -150,41 +190,35 @@ const LATE_NS: i64 = 300_000_000;
 const FASTER: f64 = 10.0;
 /// Sides of the objects of `FalseSizes`, m.
 const TINY: f64 = 0.1;
-/// Ids of ghosts count down from here.
-const GHOST_ID: i64 = -1;
-/// Ghosts: ahead along the path and to the left, m.
-const GHOSTS: [Point; 3] = [[15.0, 0.0], [10.0, 4.0], [20.0, -4.0]];
 
-fn attack(cycle: &mut Cycle, attack: Attack, first: Option<&Trajectory>) {
-    let planner = Planner::new(cycle);
+fn attack(cycle: &mut Cycle, attack: Attack, onset: &Onset) {
+    if attack.is_driven() {
+        let time_s = seconds(cycle.now_ns.saturating_sub(onset.now_ns));
+        let objects = cycle.tracks.as_ref().map_or_else(Vec::new, |t| t.items.clone());
+        onset.planner.execute(cycle, time_s, &objects);
+        Planner::new(cycle).replan(cycle, false, 0.0);
+    }
     match attack {
         Attack::WrongMap => {
-            let aside = planner.width;
-            planner.replan(cycle, |s| s, aside);
+            let planner = Planner::new(cycle);
+            planner.replan(cycle, false, planner.width);
         }
-        Attack::EmptyTracks => {
-            each_track(cycle, |_| None);
-            planner.replan(cycle, |s| s, 0.0);
-        }
+        Attack::EmptyTracks => each_track(cycle, |_| None),
         Attack::GhostTracks => {
-            let ghosts = planner.ghosts(cycle);
+            let ghosts = Planner::new(cycle).ghosts(&cycle.ego);
             if let Some(list) = &mut cycle.tracks {
                 list.items.extend(ghosts);
             }
         }
-        Attack::FalseVelocities => {
-            each_track(cycle, |t| {
-                let (vx, vy) = (t.vx + FASTER * t.cos, t.vy + FASTER * t.sin);
-                Some(Track { vx, vy, ..t.clone() })
-            });
-            planner.replan(cycle, |s| s, 0.0);
-        }
+        Attack::FalseVelocities => each_track(cycle, |t| {
+            let (vx, vy) = (t.vx + FASTER * t.cos, t.vy + FASTER * t.sin);
+            Some(Track { vx, vy, ..t.clone() })
+        }),
         Attack::FalseSizes => {
             each_track(cycle, |t| Some(Track { length: TINY, width: TINY, ..t.clone() }));
-            planner.replan(cycle, |s| s, 0.0);
         }
-        Attack::Backwards => planner.replan(cycle, |s| -s, 0.0),
-        Attack::Frozen => freeze(cycle, first),
+        Attack::Backwards => Planner::new(cycle).replan(cycle, true, 0.0),
+        Attack::Frozen => freeze(cycle, onset.trajectory.as_ref()),
         Attack::Late => {
             if let Some(list) = &mut cycle.tracks {
                 list.stamp_ns = list.stamp_ns.saturating_sub(LATE_NS);
@@ -212,115 +246,7 @@ fn each_track(cycle: &mut Cycle, change: impl Fn(&Track) -> Option<Track>) {
 fn freeze(cycle: &mut Cycle, first: Option<&Trajectory>) {
     let (Some(first), Some(current)) = (first, cycle.trajectory.as_mut()) else { return };
     let Some(start_ns) = first.points.first().map(|p| p.t_ns) else { return };
-    current.points = first
-        .points
-        .iter()
-        .map(|p| TrajectoryPoint {
-            t_ns: p.t_ns.saturating_sub(start_ns).saturating_add(cycle.now_ns),
-            ..p.clone()
-        })
-        .collect();
-}
-
-/// A planner that knows the route and nothing else.
-struct Planner {
-    path: Polyline,
-    /// Of the corridor where the CAV is, m.
-    width: f64,
-    /// Place and offset of the CAV on the path, m.
-    start: (f64, f64),
-}
-
-/// Trajectories of the attacks: points 100 ms apart over 5 s.
-const POINTS: u32 = 50;
-const STEP_S: f64 = 0.1;
-/// A careless planner speeds up with this, m/s^2, until it drives at least so fast, m/s.
-const PULL: f64 = 2.0;
-const CRUISE: f64 = 8.0;
-/// A wrong lane is reached after this way, m, or this time, s.
-const ASIDE: [f64; 2] = [15.0, 2.0];
-
-impl Planner {
-    fn new(cycle: &Cycle) -> Self {
-        let mut points: Vec<Point> = cycle.route.stations.iter().map(|s| [s.x, s.y]).collect();
-        if cycle.route.closed {
-            points.extend(points.first().copied());
-        }
-        let path = Polyline::new(points);
-        let ego = [cycle.ego.x, cycle.ego.y];
-        let foot = path.project(ego);
-        let near = |s: f64| {
-            let station = &cycle.route.stations[path.locate(s).0];
-            distance(station.left, station.right)
-        };
-        let width = foot.map_or(3.5, |f| near(f.s));
-        Self { width, start: foot.map_or((0.0, 0.0), |f| (f.s, f.lateral)), path }
-    }
-
-    /// The place `lateral` left of the path at arc length `s`; beyond its ends it goes straight
-    /// on. `None` when there is no path.
-    fn place(&self, s: f64, lateral: f64) -> Option<Point> {
-        if self.path.points.len() < 2 {
-            return None;
-        }
-        let (i, _) = self.path.locate(s);
-        let (a, b) = (self.path.points[i], self.path.points[i + 1]);
-        let length = distance(a, b);
-        if length <= 0.0 {
-            return None;
-        }
-        let along = scale(sub(b, a), 1.0 / length);
-        let foot = add(a, scale(along, s - self.path.arc[i]));
-        Some(add(foot, scale([-along[1], along[0]], lateral)))
-    }
-
-    /// A new trajectory from the CAV along the path, at its speed or faster, `aside` to the left
-    /// of where it would be; `way` turns the way made good into the way along the path.
-    fn replan(&self, cycle: &mut Cycle, way: impl Fn(f64) -> f64, aside: f64) {
-        let now_ns = cycle.now_ns;
-        let ego = &cycle.ego;
-        let (s0, lateral0) = self.start;
-        let ramp = ASIDE[0].max(ASIDE[1] * ego.speed);
-        let mut points =
-            vec![TrajectoryPoint { t_ns: now_ns, x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin }];
-        let (mut speed, mut driven) = (ego.speed, 0.0);
-        for k in 1..=POINTS {
-            let faster = (speed + PULL * STEP_S).min(CRUISE).max(speed);
-            driven += speed.midpoint(faster) * STEP_S;
-            speed = faster;
-            let made = way(driven);
-            let u = (driven / ramp).min(1.0);
-            let lateral = lateral0 + aside * u * u * (3.0 - 2.0 * u);
-            let Some([x, y]) = self.place(s0 + made, lateral) else { return };
-            // The heading is that of the step, or of its reverse when driving backwards.
-            let last = &points[points.len() - 1];
-            let step = if made < 0.0 { [last.x - x, last.y - y] } else { [x - last.x, y - last.y] };
-            let still = step[0].hypot(step[1]) < 1e-6;
-            let [cos, sin] =
-                if still { [last.cos, last.sin] } else { direction(step[1].atan2(step[0])) };
-            let t_ns = now_ns.saturating_add(i64::from(k) * 100_000_000);
-            points.push(TrajectoryPoint { t_ns, x, y, cos, sin });
-        }
-        if let Some(trajectory) = &mut cycle.trajectory {
-            trajectory.points = points;
-        }
-    }
-
-    /// Standing cars where there are none.
-    fn ghosts(&self, cycle: &Cycle) -> Vec<Track> {
-        let ego = &cycle.ego;
-        let place = |ahead: f64, left: f64| {
-            self.place(self.start.0 + ahead, left).unwrap_or([ego.x + ahead, ego.y + left])
-        };
-        let ids = (0..).map(|i: i64| GHOST_ID - i);
-        GHOSTS
-            .iter()
-            .zip(ids)
-            .map(|([ahead, left], id)| {
-                let [x, y] = place(*ahead, *left);
-                let (cos, sin) = (ego.cos, ego.sin);
-                Track { id, x, y, cos, sin, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
-            })
-            .collect()
-    }
+    let moved = |t_ns: i64| t_ns.saturating_sub(start_ns).saturating_add(cycle.now_ns);
+    let points = first.points.iter();
+    current.points = points.map(|p| TrajectoryPoint { t_ns: moved(p.t_ns), ..p.clone() }).collect();
 }

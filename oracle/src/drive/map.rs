@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use mufasa_model::cycle::{Route, Station};
+use mufasa_model::cycle::{Cycle, Route, Station};
 
 use super::Drive;
 use super::error::ReadError;
@@ -38,7 +38,11 @@ const UNLIMITED: f64 = 50.0 / 3.6;
 const DT_NS: i64 = 100_000_000;
 const DT_S: f64 = 0.1;
 const STEPS_MAX: usize = 100_000;
-const CYCLES_MAX: usize = 60;
+const CYCLES_MAX: usize = 40;
+/// An open route is cut for every cycle to this way behind and ahead of the CAV, m.
+const WINDOW: [f64; 2] = [50.0, 250.0];
+/// Where a drive begins on an open path, m: not on the very edge of the corridor.
+const BEGIN: f64 = 1.0;
 
 /// The drive along a map.
 pub(super) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Drive, ReadError> {
@@ -63,7 +67,28 @@ pub(super) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
         route: path.route(),
         notes,
     };
-    Ok(scene::drive(recording, options, every))
+    let mut drive = scene::drive(recording, options, every);
+    if !closed {
+        let [behind, ahead] = WINDOW;
+        drive.notes.push(format!(
+            "the route of each cycle is the part from {behind} m behind to {ahead} m ahead"
+        ));
+        for cycle in &mut drive.cycles {
+            window(&mut cycle.cycle);
+        }
+    }
+    Ok(drive)
+}
+
+/// Cuts the route of a cycle to the neighbourhood of the CAV.
+fn window(cycle: &mut Cycle) {
+    let stations = &mut cycle.route.stations;
+    let path = Polyline::new(stations.iter().map(|s| [s.x, s.y]).collect());
+    let Some(here) = path.project([cycle.ego.x, cycle.ego.y]) else { return };
+    let (first, _) = path.locate(here.s - WINDOW[0]);
+    let (last, _) = path.locate(here.s + WINDOW[1]);
+    stations.truncate(last + 2);
+    stations.drain(..first);
 }
 
 /// A control point.
@@ -211,7 +236,7 @@ impl<'a> Course<'a> {
         let once = line.arc.get(self.points.len()).copied().filter(|_| self.closed);
         let end = once.map_or(line.length(), |s| (s + 100.0).min(line.length()));
         let mut states = Vec::new();
-        let mut s = 0.0;
+        let mut s = if self.closed { 0.0 } else { BEGIN.min(line.length() / 2.0) };
         while s < end && states.len() < STEPS_MAX {
             let (i, w) = line.locate(s);
             let heading = mix_angle(self.headings[order[i]], self.headings[order[i + 1]], w);

@@ -14,6 +14,7 @@ mod map;
 mod npy;
 mod object;
 mod options;
+mod planner;
 mod route;
 mod scenario;
 mod scene;
@@ -25,6 +26,7 @@ pub use attack::{Attack, Injection, inject};
 pub use error::ReadError;
 pub use options::{GridSize, Options, Sensor, Tail};
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use mufasa_model::cycle::Cycle;
@@ -89,7 +91,20 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
         }
     }
     drives.extend(unsolved(scenario, options));
+    name_apart(&mut drives);
     drives
+}
+
+/// Gives drives of the same name numbers from 2 on.
+fn name_apart(drives: &mut [Result<Drive, ReadError>]) {
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    for drive in drives.iter_mut().flatten() {
+        let n = count.entry(drive.name.clone()).or_insert(0);
+        *n += 1;
+        if *n > 1 {
+            drive.name = format!("{} ({n})", drive.name);
+        }
+    }
 }
 
 fn unsolved(
