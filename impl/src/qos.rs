@@ -47,6 +47,16 @@ impl Arrivals {
         Self { last_arrival_ns: now_ns, last_used_ns: None }
     }
 
+    /// Time of the last arrival, or of the activation, in ns.
+    pub const fn last_arrival_ns(&self) -> i64 {
+        self.last_arrival_ns
+    }
+
+    /// Generation time of the last element used since the activation, in ns.
+    pub const fn last_used_ns(&self) -> Option<i64> {
+        self.last_used_ns
+    }
+
     /// Whether an element was used since the activation.
     pub const fn has_used(&self) -> bool {
         self.last_used_ns.is_some()

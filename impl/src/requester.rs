@@ -10,6 +10,7 @@
 //! * After the request numbered 2^63 - 1 no request is sent any more; everything else goes on.
 
 mod event;
+mod inspect;
 mod per_group;
 mod slot;
 mod stations;
@@ -19,6 +20,7 @@ mod steps;
 mod tests;
 
 pub use self::event::{Action, Actions, Event, EventKind};
+pub use self::inspect::{Running, Suspended};
 pub use self::slot::GroupState;
 pub use self::stations::StationRecord;
 pub use crate::configuration::{Group, Groups, Source};

@@ -126,6 +126,12 @@ impl Provider {
         self.sessions.get(&(requester, group)).map(|running| running.session)
     }
 
+    /// When the requester of a running session was heard last, ns.
+    /// `spec/2-offloading.md#provider`.
+    pub fn last_heard_ns(&self, requester: i64, group: Group) -> Option<i64> {
+        self.sessions.get(&(requester, group)).map(|running| running.last_heard_ns)
+    }
+
     /// Number of running sessions.
     pub fn load(&self) -> usize {
         self.sessions.len()

@@ -2,17 +2,19 @@
 //!
 //! [`Requester::step`] is total: any event in any state, at any time, forwards or backwards.
 
+mod inspect;
 mod messages;
 mod state;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use messages::{Action, Event, EventKind, Group, GroupState, Groups, Parameters};
+pub use state::Session;
 
 use crate::configuration::{Configuration, Source};
 use crate::cycle::Profile;
 use crate::qos;
-use state::{Count, Session, Use};
+use state::{Count, Use};
 
 /// The state of a requester. Two that differ only in how much data they dropped are equal: the
 /// count decides nothing.

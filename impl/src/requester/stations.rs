@@ -75,6 +75,11 @@ impl<'a> Stations<'a> {
         Self { records }
     }
 
+    /// The table as it stands.
+    pub(super) const fn resume(records: &'a mut [StationRecord]) -> Self {
+        Self { records }
+    }
+
     pub(super) const fn records(&self) -> &[StationRecord] {
         self.records
     }

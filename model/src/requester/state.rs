@@ -21,16 +21,19 @@ impl Use {
     }
 }
 
-/// A running session.
+/// A running session. `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Session {
-    pub(super) station: i64,
-    pub(super) number: i64,
+pub struct Session {
+    /// On which station, >= 1.
+    pub station: i64,
+    /// Number of the request that led here.
+    pub number: i64,
     /// Time of the last arrival, or of the activation.
-    pub(super) last_arrival_ns: i64,
+    pub last_arrival_ns: i64,
     /// Generation time of the last element used since the activation.
-    pub(super) last_used_generated_ns: Option<i64>,
-    pub(super) local_computes: bool,
+    pub last_used_generated_ns: Option<i64>,
+    /// Whether the local services of the group still compute (H-08).
+    pub local_computes: bool,
 }
 
 /// A number for information only: it makes no two states different.
