@@ -1,5 +1,8 @@
-//! A whole cycle of the implementation against the exact model
-//! (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+//! A whole cycle of the implementation against the exact model: soundness
+//! (`spec/4-arithmetic.md#conformance-of-an-implementation.1`), completeness (`.2`) and failing
+//! stage (`.3`), as `conformance::conforms` has them:
+//! `spec/4-arithmetic.md#conformance-of-an-implementation.2`,
+//! `spec/4-arithmetic.md#conformance-of-an-implementation.3`.
 
 use mufasa_model::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};

@@ -1,0 +1,87 @@
+//! Who may know whom: model and implementation share no code, and the implementation needs
+//! nothing but `libm`. Read from the manifests, so that a new dependency fails here.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// Names under a table of a manifest, such as `dependencies`, and in its `[table.name]` form.
+fn names(manifest: &str, table: &str) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    let mut inside = false;
+    for line in manifest.lines().map(str::trim) {
+        if let Some(header) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
+            inside = header == table;
+            if let Some(name) = header.strip_prefix(table).and_then(|rest| rest.strip_prefix('.')) {
+                names.insert(name.trim_matches('"').to_owned());
+            }
+        } else if inside && !line.is_empty() && !line.starts_with('#') {
+            let name = line.split(['=', '.', ' ']).next().unwrap_or("");
+            names.insert(name.to_owned());
+        }
+    }
+    names
+}
+
+fn manifest(package: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(package).join("Cargo.toml");
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// All tables in which a dependency can stand, those of targets included.
+fn all_dependencies(manifest: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for table in ["dependencies", "dev-dependencies", "build-dependencies"] {
+        found.extend(names(manifest, table));
+    }
+    assert!(!manifest.contains("[target."), "read dependencies of targets too");
+    found
+}
+
+const WORKSPACE: [&str; 6] =
+    ["mufasa", "mufasa-model", "mufasa-props", "mufasa-proofs", "mufasa-benches", "mufasa-oracle"];
+
+#[test]
+fn model_and_implementation_know_no_crate_of_the_workspace() {
+    for package in ["model", "impl"] {
+        let dependencies = all_dependencies(&manifest(package));
+        for name in WORKSPACE {
+            assert!(!dependencies.contains(name), "{package} depends on {name}");
+        }
+        assert!(!manifest(package).contains("path ="), "{package} has a dependency by path");
+    }
+}
+
+#[test]
+fn the_implementation_needs_libm_and_at_most_optional_serde() {
+    let manifest = manifest("impl");
+    let mut dependencies = names(&manifest, "dependencies");
+    assert!(dependencies.remove("libm"), "the manifest was not understood");
+    if dependencies.remove("serde") {
+        assert!(manifest.contains("optional = true"), "serde has to be optional");
+    }
+    assert_eq!(dependencies, BTreeSet::new());
+    assert_eq!(names(&manifest, "build-dependencies"), BTreeSet::new());
+}
+
+#[test]
+fn proofs_know_the_implementation_alone() {
+    let mut dependencies = names(&manifest("proofs"), "dependencies");
+    dependencies.remove("mufasa");
+    for name in WORKSPACE {
+        assert!(!dependencies.contains(name), "proofs depend on {name}");
+    }
+}
+
+/// The rule can fail: a manifest that breaks it is seen to.
+#[test]
+fn a_forbidden_dependency_is_seen_in_every_form() {
+    for text in [
+        "[dependencies]\nmufasa = { path = \"../impl\" }\n",
+        "[dependencies]\nmufasa.workspace = true\n",
+        "[dependencies.mufasa]\nversion = \"1\"\n",
+        "[package]\nname = \"x\"\n\n[dev-dependencies]\n# why\nmufasa = \"0.1\"\n",
+    ] {
+        assert!(all_dependencies(text).contains("mufasa"), "{text}");
+    }
+}
