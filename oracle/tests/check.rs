@@ -94,6 +94,24 @@ fn late_data_end_offloading_without_a_wait() {
 }
 
 #[test]
+fn a_silence_between_cycles_ends_offloading_without_a_wait() {
+    let mut drive = drive(6, |_| false);
+    for cycle in &mut drive.cycles[3..] {
+        let cycle = &mut cycle.cycle;
+        cycle.now_ns += 1;
+        let trajectory = cycle.trajectory.as_mut().unwrap();
+        trajectory.stamp_ns += 1;
+        trajectory.points.iter_mut().for_each(|point| point.t_ns += 1);
+        cycle.tracks.as_mut().unwrap().stamp_ns += 1;
+    }
+    let checked = checked(&drive);
+    let course = &checked.courses[0];
+    assert_eq!((course.silent, course.offloaded, course.late), (2, 5, 0));
+    assert_eq!(course, &checked.courses[1]);
+    assert!(text(&checked).contains("silence longer than dt_max 2 times"));
+}
+
+#[test]
 fn fabricated_disagreements_are_counted_written_out_and_decide_the_exit_code() {
     let drive = drive(3, |index| index == 1);
     let mut checked = checked(&drive);

@@ -22,6 +22,8 @@ pub struct Course {
     /// Elements that ended offloading by the quality of service: too old or too long after the
     /// previous one.
     pub late: usize,
+    /// Silences that did so: the next cycle of the drive came later than `dt_max`.
+    pub silent: usize,
     /// Cycles whose remote data the requester used.
     pub offloaded: usize,
     /// Every action, with the number of the cycle.
@@ -67,7 +69,12 @@ pub fn follow<'a>(
             course.step(side, index, cycle, offer)?;
             offered = Some(groups);
         }
-        for action in course.step(side, index, cycle, EventKind::Tick)? {
+        let remote = |side: &_| Group::ALL.map(|group| is_remote(side, group));
+        let before = remote(side);
+        let ticked = course.step(side, index, cycle, EventKind::Tick)?;
+        let after = remote(side);
+        course.silent += before.iter().zip(after).filter(|(was, is)| **was && !is).count();
+        for action in ticked {
             if let Action::Request { station, group, session } = action {
                 let confirm = EventKind::Confirm { station, group, session };
                 course.step(side, index, cycle, confirm)?;
@@ -133,6 +140,10 @@ impl Course {
         }
         Ok(used)
     }
+}
+
+fn is_remote(side: &impl Side, group: Group) -> bool {
+    matches!(side.state(group), GroupState::Remote { .. })
 }
 
 /// When the remote result of a group in this cycle was generated.

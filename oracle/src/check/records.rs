@@ -77,6 +77,7 @@ struct SideRecord {
     stages: Vec<StageRecord>,
     offloaded: usize,
     late: usize,
+    silent: usize,
     fallbacks: Vec<FallbackRecord>,
 }
 
@@ -219,6 +220,7 @@ fn side(
         stages: stages.collect(),
         offloaded: course.offloaded,
         late: course.late,
+        silent: course.silent,
         fallbacks: fallbacks.collect(),
     }
 }

@@ -85,6 +85,10 @@ fn write_course(
     if course.late > 0 {
         writeln!(out, "  data too late {} times: back to local without a wait", course.late)?;
     }
+    if course.silent > 0 {
+        let times = course.silent;
+        writeln!(out, "  silence longer than dt_max {times} times: back to local without a wait")?;
+    }
     let mut rest = &course.unsafe_cycles[..];
     while let Some((first, after)) = rest.split_first() {
         let at = checked.seconds(first.index);
