@@ -12,7 +12,7 @@ use mufasa_props::bridge::check_impl;
 const RESOLUTION: f64 = 5.0;
 
 /// Every so many cells the exact model is asked too, at most.
-const MODEL_CELLS: usize = 20;
+const MODEL_CELLS: usize = 8;
 
 /// A table of whole numbers, row by row.
 type Table = Vec<Vec<i64>>;
