@@ -14,7 +14,7 @@ use super::error::ReadError;
 use super::geometry::{Point, Polyline, add, distance, mix, mix_angle, norm, scale, sub, wrap};
 use super::npy;
 use super::object::State;
-use super::options::Options;
+use super::options::{Options, Sensor};
 use super::scene::{self, Recording};
 
 /// Length and width of the test vehicle in the scenarios that come with the maps, m.
@@ -67,7 +67,9 @@ pub(super) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
         route: path.route(),
         notes,
     };
-    let mut drive = scene::drive(recording, options, every);
+    // Clutter would be all there is to see.
+    let sensor = Sensor { clutter: 0.0, ..options.sensor.clone() };
+    let mut drive = scene::drive(recording, &Options { sensor, ..options.clone() }, every);
     if !closed {
         let [behind, ahead] = WINDOW;
         drive.notes.push(format!(

@@ -11,7 +11,7 @@ use mufasa_model::cycle::{Cycle, Ego, Route, Track, TrackList, Trajectory, Traje
 use super::geometry::{direction, mix, mix_angle};
 use super::lead::{Cav, lead};
 use super::object::{Object, Seen, State, state_before};
-use super::options::{Options, Tail};
+use super::options::{Options, Sensor, Tail};
 use super::route::in_corridor;
 use super::sensor::{grid, scan};
 use super::{Drive, DriveCycle};
@@ -65,6 +65,11 @@ pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
              takes (v / a_b), so that there is no plan to judge"
         ));
     }
+    let Sensor { range_m, sigma_m, probability, clutter, seed } = &options.sensor;
+    notes.push(format!(
+        "detectors: range {range_m} m, deviation {sigma_m} m, probability {probability}, {clutter} \
+         clutter detections a scan, seed {seed}"
+    ));
     let outside = recording.ego.iter().filter(|s| !in_corridor(&recording.route, s.position));
     let outside = outside.count();
     if outside > 0 {
