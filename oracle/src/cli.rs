@@ -13,6 +13,7 @@ use mufasa_model::cycle::Profile;
 
 use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
+use crate::demo;
 use crate::drive::{self, GridSize, Injection, Options, Sensor, Tail, inject};
 use crate::json::names;
 use crate::oracle;
@@ -24,17 +25,21 @@ const BAD_INPUT: u8 = 2;
 const CLOSED_PIPE: u8 = 141;
 
 /// MUFASA's five validation stages, as an exact model and as an implementation, side by side.
+///
+/// Without a command: the demo.
 #[derive(Parser)]
 #[command(name = "mufasa", version, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
 enum Command {
     /// Check drives: every cycle by the model and by the implementation.
     Check(CheckArguments),
+    /// Check a drive that is built in, clean and attacked, in both profiles.
+    Demo(DemoArguments),
     /// Answer the JSON Lines of standard input on standard output.
     Oracle,
     /// Find all compositions of a service set.
@@ -115,6 +120,15 @@ struct RecordingArguments {
     grid_height: u32,
 }
 
+/// Exit codes: 0 the clean drive is safe and the attacks are caught, 1 not so, 2 the folder cannot
+/// be written, 3 model and implementation disagree.
+#[derive(Args)]
+struct DemoArguments {
+    /// Folder of the drive's files and the pictures.
+    #[arg(long, value_name = "DIR", default_value = demo::FOLDER)]
+    out: PathBuf,
+}
+
 #[derive(Args)]
 struct ComposeArguments {
     /// A composition record (JSON).
@@ -138,8 +152,10 @@ pub fn main() -> ExitCode {
         }
     };
     let mut out = BufWriter::new(io::stdout().lock());
-    let result = match cli.command {
+    let demo = || Command::Demo(DemoArguments { out: demo::FOLDER.into() });
+    let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
+        Command::Demo(arguments) => demo::run(&arguments.out, &mut out, &mut io::stderr()),
         Command::Oracle => oracle::run(io::stdin().lock(), &mut out).map(|()| 0),
         Command::Compose(arguments) => compose(&arguments, &mut out),
     };
@@ -276,7 +292,7 @@ mod tests {
     #[test]
     fn defaults_of_the_command_line_are_those_of_the_readers() {
         let cli = Cli::try_parse_from(["mufasa", "check", "x"]).unwrap();
-        let Command::Check(arguments) = cli.command else { panic!("not check") };
+        let Some(Command::Check(arguments)) = cli.command else { panic!("not check") };
         assert_eq!(options(&arguments), Options::default());
     }
 

@@ -4,6 +4,7 @@
 pub mod check;
 pub mod cli;
 pub mod compose;
+pub mod demo;
 pub mod drive;
 pub mod json;
 pub mod oracle;

@@ -245,6 +245,16 @@ fn the_table_over_all_drives_sums_them() {
 }
 
 #[test]
+fn pictures_of_drives_with_the_same_name_do_not_overwrite_each_other() {
+    let folder = folder("same");
+    let file = lines(&folder, "a", 2, &[1]);
+    let pictures = folder.join("pictures");
+    let output = mufasa(["check", &file, &file, "--svg", pictures.to_str().unwrap()]);
+    assert_eq!(code(&output), 1);
+    assert_eq!(fs::read_dir(&pictures).unwrap().count(), 2);
+}
+
+#[test]
 fn an_attack_is_injected_and_caught() {
     let folder = folder("inject");
     let file = lines(&folder, "a", 6, &[]);
@@ -317,4 +327,48 @@ fn help_is_no_error() {
         assert_eq!(code(&output), 0);
         assert!(!output.stdout.is_empty());
     }
+}
+
+#[test]
+fn without_arguments_the_demo_shows_what_it_should() {
+    let folder = folder("demo");
+    let output = Command::new(env!("CARGO_BIN_EXE_mufasa")).current_dir(&folder).output().unwrap();
+    let text = stdout(&output);
+    assert_eq!(code(&output), 0, "{text}{}", stderr(&output));
+    assert_eq!(stderr(&output), "");
+    let (hardened, paper) = text.split_once("PAPER PROFILE").unwrap();
+    for (attack, stage) in [("wrong-map", "ii"), ("empty-tracks", "iv"), ("ghost-tracks", "i")] {
+        let (_, told) = hardened.split_once(&format!("{attack}: from")).unwrap();
+        let verdict = told.lines().find(|line| line.starts_with("  caught at ")).unwrap();
+        assert!(verdict.contains(&format!(" by stage {stage}, ")), "{attack}: {verdict}");
+    }
+    assert!(hardened.contains("cycles safe, no fallback"));
+    assert!(paper.contains("empty-tracks: NOT caught") && paper.contains("F-14"));
+    assert!(text.lines().last().unwrap().contains("model and implementation agree"));
+    let pictures = text.lines().filter_map(|line| line.strip_prefix("picture: "));
+    let witnesses = pictures.map(|picture| {
+        let text = fs::read_to_string(folder.join(picture)).unwrap();
+        let document = Document::parse(&text).unwrap();
+        document.descendants().filter(|node| node.attribute("id") == Some("witness")).count()
+    });
+    let witnesses: Vec<_> = witnesses.collect();
+    assert!(witnesses.len() >= 3 && witnesses.iter().all(|count| *count == 1), "{witnesses:?}");
+    // The command that it names next works.
+    let (_, more) = text.split_once("more: mufasa ").unwrap();
+    let more = more.lines().next().unwrap().split(' ');
+    let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
+        .args(more)
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+}
+
+#[test]
+fn a_demo_that_cannot_write_says_so() {
+    let folder = folder("demo-unwritable");
+    let file = write(&folder, "file", "");
+    let output = mufasa(["demo", "--out", &file]);
+    assert_eq!(code(&output), 2);
+    assert!(stderr(&output).contains(&file));
 }

@@ -1,0 +1,243 @@
+//! The demo: a drive that is built in, clean and under the attacks of the paper (Sec. V-B), in
+//! both profiles.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use mufasa_model::cycle::Profile;
+use mufasa_model::requester::Parameters;
+
+use crate::check::course::Checked;
+use crate::check::fallback::Hold;
+use crate::check::{self, Findings, complain, counted, files, pictures, report, words};
+use crate::drive::{self, Attack, Drive, Injection, Options};
+use crate::json::names;
+use crate::table;
+
+/// Where the demo puts its files unless it is told otherwise.
+pub const FOLDER: &str = "mufasa-demo";
+
+/// The drive: a scenario and its solution, with the names of their files.
+const FILES: [(&str, &str); 2] = [
+    ("urban.xml", include_str!("../data/demo/urban.xml")),
+    ("urban.solution.xml", include_str!("../data/demo/urban.solution.xml")),
+];
+
+/// Start of the attacks, s since the first cycle.
+const ATTACKED_FROM_S: f64 = 2.0;
+
+/// A run over the drive.
+struct Case {
+    attack: Option<Attack>,
+    /// What the attacker does, and what comes of it.
+    story: &'static str,
+    /// Whether the paper profile finds it; the hardened one finds every attack.
+    paper: bool,
+}
+
+const CASES: [Case; 4] = [
+    Case { attack: None, story: "nothing is injected", paper: false },
+    Case {
+        attack: Some(Attack::WrongMap),
+        story: "the remote planner is given another map, its trajectories leave the lane",
+        paper: true,
+    },
+    Case {
+        attack: Some(Attack::EmptyTracks),
+        story: "the track lists are emptied, the remote planner sees a free road",
+        paper: false,
+    },
+    Case {
+        attack: Some(Attack::GhostTracks),
+        story: "tracks of objects that are not there are added to the lists",
+        paper: true,
+    },
+];
+
+/// Runs the demo and writes scenario, solution and a picture of every fallback into `folder`.
+/// Returns the exit code: 0 when everything is as it should be, 1 when not, 2 when the folder
+/// cannot be written, 3 when model and implementation disagree.
+pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Result<u8> {
+    let drives = match prepare(folder) {
+        Ok(drives) => drives,
+        Err(message) => {
+            complain(err, &message);
+            return Ok(2);
+        }
+    };
+    let mut demo =
+        Demo { folder, findings: Findings::default(), surprises: Vec::new(), problem: None };
+    introduction(&drives[0], out)?;
+    let [hardened, paper] = &drives;
+    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-12\n")?;
+    for case in &CASES {
+        demo.case(case, hardened, out)?;
+    }
+    writeln!(out, "PAPER PROFILE: the published method, same drive, same attacks\n")?;
+    let mut lines = Vec::new();
+    let mut sentences = Vec::new();
+    for case in &CASES {
+        let drive = case.drive(paper);
+        let checked = demo.check(&drive);
+        lines.push(report::line(&checked));
+        sentences.push(format!(
+            "{}: {}",
+            case.name(),
+            demo.outcome(case, &checked, Profile::Paper)
+        ));
+    }
+    write!(out, "{}", table::by_drive(&lines))?;
+    for sentence in sentences {
+        writeln!(out, "  {sentence}")?;
+    }
+    demo.finish(out, err)
+}
+
+/// Writes the files of the drive and reads them, in the hardened and in the paper profile.
+fn prepare(folder: &Path) -> Result<[Drive; 2], String> {
+    let cannot = |file: &Path, error| format!("{}: cannot be written: {error}", file.display());
+    files::prepare(folder).map_err(|error| cannot(folder, error))?;
+    let paths = FILES.map(|(name, _)| folder.join(name));
+    for (path, (_, text)) in paths.iter().zip(FILES) {
+        files::write(path, text).map_err(|error| cannot(path, error))?;
+    }
+    let read = |profile| {
+        let options = Options { profile, ..Options::default() };
+        let drives = drive::read(&paths, &options);
+        drives.into_iter().next().ok_or("no drive is built in".to_owned())
+    };
+    let in_words = |error: drive::ReadError| error.to_string();
+    Ok([read(Profile::Hardened)?.map_err(in_words)?, read(Profile::Paper)?.map_err(in_words)?])
+}
+
+fn introduction(drive: &Drive, out: &mut impl Write) -> io::Result<()> {
+    writeln!(
+        out,
+        "A made-up drive behind another car, {} at 10 Hz. Object tracking, environment model and\n\
+         planning run on a server (AllRemote). Every cycle is judged twice: by the exact model\n\
+         and by the implementation.\n",
+        counted(drive.cycles.len(), "cycle")
+    )
+}
+
+impl Case {
+    fn name(&self) -> &'static str {
+        self.attack.map_or("clean", Attack::name)
+    }
+
+    fn drive(&self, clean: &Drive) -> Drive {
+        match self.attack {
+            None => clean.clone(),
+            Some(attack) => {
+                let injection = Injection { attack, from_s: ATTACKED_FROM_S, to_s: f64::INFINITY };
+                drive::inject(clean, &injection)
+            }
+        }
+    }
+
+    fn is_to_be_found(&self, profile: Profile) -> bool {
+        self.attack.is_some() && (profile == Profile::Hardened || self.paper)
+    }
+}
+
+struct Demo<'a> {
+    folder: &'a Path,
+    findings: Findings,
+    /// What is not as it should be.
+    surprises: Vec<String>,
+    /// A picture that could not be written.
+    problem: Option<(PathBuf, io::Error)>,
+}
+
+impl Demo<'_> {
+    fn case(&mut self, case: &Case, clean: &Drive, out: &mut impl Write) -> io::Result<()> {
+        let drive = case.drive(clean);
+        let checked = self.check(&drive);
+        self.draw(&checked);
+        let [model, implementation] = checked.tallies();
+        match case.attack {
+            None => writeln!(out, "{}: {}", case.name(), case.story)?,
+            Some(_) => {
+                writeln!(out, "{}: from {ATTACKED_FROM_S} s on {}", case.name(), case.story)?;
+            }
+        }
+        write!(out, "{}", table::by_stage(&model, &implementation))?;
+        writeln!(out, "  {}\n", self.outcome(case, &checked, Profile::Hardened))?;
+        out.flush()
+    }
+
+    /// Draws the cycles that started a fallback.
+    fn draw(&mut self, checked: &Checked<'_>) {
+        let started = |index: usize| {
+            let cycles = &checked.courses[0].unsafe_cycles;
+            let starts = |hold| matches!(hold, Hold::Started { .. });
+            cycles.iter().any(|cycle| cycle.index == index && starts(cycle.hold))
+        };
+        match pictures::write(self.folder, checked, started) {
+            Ok(written) => self.findings.pictures.extend(written),
+            Err(problem) => self.problem = Some(problem),
+        }
+    }
+
+    /// Judges a drive.
+    fn check<'d>(&mut self, drive: &'d Drive) -> Checked<'d> {
+        let progress = check::progress(drive.cycles.len());
+        let checked = Checked::new(drive, &Parameters::default(), false, || progress.inc(1));
+        progress.finish_and_clear();
+        self.findings.add(&checked);
+        checked
+    }
+
+    /// What became of a case in a sentence; notes what is not as it should be.
+    fn outcome(&mut self, case: &Case, checked: &Checked<'_>, profile: Profile) -> String {
+        let unsafe_cycles = &checked.courses[0].unsafe_cycles;
+        let first = unsafe_cycles.first().map(|cycle| cycle.index);
+        let early = first.is_some_and(|index| checked.seconds(index) < ATTACKED_FROM_S);
+        if first.is_some() != case.is_to_be_found(profile) || early {
+            let profile = names::profile(profile);
+            self.surprises.push(format!("{} in the {profile} profile", case.name()));
+        }
+        let cycles = checked.judged.len();
+        match (first, case.attack) {
+            (None, None) => format!("all {cycles} cycles safe, no fallback"),
+            (None, Some(_)) => format!(
+                "NOT caught: all {cycles} cycles pass. Stage iii compares the trajectory with an \
+                 empty list, which switches stages iv and v off (F-14, closed by H-10)"
+            ),
+            (Some(index), _) => format!(
+                "caught at {:.1} s by {}; {}, {} of {cycles} cycles unsafe",
+                checked.seconds(index),
+                words::answer(&checked.judged[index].model),
+                counted(checked.courses[0].fallbacks(), "fallback"),
+                unsafe_cycles.len()
+            ),
+        }
+    }
+
+    fn finish(self, out: &mut impl Write, err: &mut impl Write) -> io::Result<u8> {
+        let Self { folder, findings, surprises, problem } = self;
+        let folder = folder.display();
+        writeln!(out)?;
+        for picture in &findings.pictures {
+            writeln!(out, "picture: {}", picture.display())?;
+        }
+        let [scenario, solution] = FILES.map(|(name, _)| name);
+        writeln!(
+            out,
+            "more: mufasa check {folder}/{scenario} {folder}/{solution} --inject false-velocities@2..\n\n\
+             demo: {}",
+            findings.summary()
+        )?;
+        if let Some((file, error)) = problem {
+            complain(err, &format!("{}: cannot be written: {error}", file.display()));
+            return Ok(2);
+        }
+        if findings.disagreements > 0 {
+            return Ok(3);
+        }
+        for surprise in &surprises {
+            complain(err, &format!("not as expected: {surprise}"));
+        }
+        Ok(u8::from(!surprises.is_empty()))
+    }
+}
