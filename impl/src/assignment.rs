@@ -8,23 +8,15 @@
 
 use crate::scratch::{Column, Row};
 
-/// What became of the rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Assigned {
-    /// How many rows got a column: as many as is possible at all.
-    pub(crate) rows: usize,
-    /// The first row that got none.
-    pub(crate) left_out: Option<usize>,
-}
-
 /// Assigns the first `count` rows one after the other; `cost` of a row and a column is `None` where
-/// the two must not be paired. The result is in `Column::row`.
+/// the two must not be paired. The result is in `Column::row`; returned is how many rows have got a
+/// column, which is as many as is possible at all.
 pub(crate) fn assign(
     rows: &mut [Row],
     count: usize,
     columns: &mut [Column],
     cost: impl Fn(&[Row], usize, usize) -> Option<i64>,
-) -> Assigned {
+) -> usize {
     for row in rows.iter_mut() {
         row.column = None;
         row.potential = 0;
@@ -32,15 +24,7 @@ pub(crate) fn assign(
     for column in columns.iter_mut() {
         *column = Column::default();
     }
-    let mut assigned = Assigned { rows: 0, left_out: None };
-    for start in 0..count {
-        if augment(rows, columns, start, &cost).is_some() {
-            assigned.rows = assigned.rows.saturating_add(1);
-        } else if assigned.left_out.is_none() {
-            assigned.left_out = Some(start);
-        }
-    }
-    assigned
+    (0..count).filter(|&start| augment(rows, columns, start, &cost).is_some()).count()
 }
 
 /// Finds the shortest path from row `start` to a free column and assigns along it; `None` when

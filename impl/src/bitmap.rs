@@ -8,6 +8,15 @@ pub(crate) struct Bitmap<'a> {
     pub(crate) height: i64,
 }
 
+/// A set cell near another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Near {
+    pub(crate) row: i64,
+    pub(crate) column: i64,
+    /// The square of the distance that was asked for, in cells.
+    pub(crate) squared: i64,
+}
+
 impl Bitmap<'_> {
     /// The first set cell of the row with from <= column <= to; columns outside the array are not
     /// set.
@@ -31,9 +40,9 @@ impl Bitmap<'_> {
         None
     }
 
-    /// The squared distance, in cells, from a cell to the first set cell (by row, then column) whose
-    /// centre is at most the root of `most` cells away.
-    pub(crate) fn within(&self, column: i64, row: i64, most: i64) -> Option<i64> {
+    /// The first set cell, by row, then column, whose centre is at most the root of `most` cells
+    /// away from that of a cell, and the square of that distance.
+    pub(crate) fn within(&self, column: i64, row: i64, most: i64) -> Option<Near> {
         let reach = root(most);
         let rows = row.saturating_sub(reach).max(0)..=row.saturating_add(reach);
         rows.take_while(|&k| k < self.height).find_map(|k| {
@@ -41,7 +50,8 @@ impl Bitmap<'_> {
             let across = root(most.saturating_sub(up));
             let from = column.saturating_sub(across);
             let found = self.first_in_row(k, from, column.saturating_add(across))?;
-            Some(up.saturating_add(square(found.saturating_sub(column))))
+            let squared = up.saturating_add(square(found.saturating_sub(column)));
+            Some(Near { row: k, column: found, squared })
         })
     }
 }

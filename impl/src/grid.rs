@@ -1,7 +1,7 @@
 //! Stage v: trajectory with grid map (`spec/3-stages.md#stage-v-trajectory-with-grid-map`), with
 //! H-06.
 
-use crate::bitmap::Bitmap;
+use crate::bitmap::{Bitmap, Near};
 use crate::collision::examined;
 use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
 use crate::distance::s_b;
@@ -44,9 +44,9 @@ struct Disk {
     row: Real,
 }
 
-/// A cell, and its distance as the stage means it, m.
+/// A cell, unless it is beyond the array, and its distance as the stage means it, m.
 struct Hit {
-    cell: (i64, i64),
+    cell: Option<(i64, i64)>,
     distance: f64,
 }
 
@@ -62,7 +62,7 @@ fn first(
         (0..cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
             let Hit { cell, distance } = hit(&map.disk(cycle, point, i))?;
             let witness = Witness::of(rule, [distance, map.radius.value()]).at_point(index);
-            Some(Witness { disk: Some(number), cell: Some(cell), ..witness })
+            Some(Witness { disk: Some(number), cell, ..witness })
         })
     })
 }
@@ -119,17 +119,20 @@ impl Map {
         [most, most.saturating_sub(1)].into_iter().find(fits).unwrap_or(most.saturating_sub(2))
     }
 
-    /// Paper: the first marked cell of the array in which the disk centre may lie.
+    /// Paper: the first occupied cell that marks a cell of the array in which the disk centre may
+    /// lie.
     fn marked(&self, disk: &Disk, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
         let column = disk.column.over(self.resolution);
         let row = disk.row.over(self.resolution);
-        cells_around(row, self.height).find_map(|k| {
-            cells_around(column, self.width).find_map(|i| {
-                let squared = occupied.within(i, k, steps)?;
-                let distance = Real::integer(squared).sqrt() * self.resolution;
-                Some(Hit { cell: (i, k), distance: distance.value() })
+        let place = |near: &Near| (near.row, near.column);
+        let marks = cells_around(row, self.height)
+            .filter_map(|k| {
+                let columns = cells_around(column, self.width);
+                columns.filter_map(|i| occupied.within(i, k, steps)).min_by_key(place)
             })
-        })
+            .min_by_key(place)?;
+        let distance = Real::integer(marks.squared).sqrt() * self.resolution;
+        Some(Hit { cell: Some((marks.column, marks.row)), distance: distance.value() })
     }
 
     /// H-06: the first cell of the bitmap whose closed square may be at distance <= r.
@@ -149,35 +152,21 @@ impl Map {
         })
     }
 
-    /// H-06: the first place outside the array that may be at distance <= r, as the cell there.
+    /// H-06: places outside the grid may be at distance <= r.
     fn outside(&self, disk: &Disk) -> Option<Hit> {
-        let cells = |count: i64| Real::integer(count) * self.resolution;
-        let borders = [disk.column, disk.row];
-        let opposite = [cells(self.width) - disk.column, cells(self.height) - disk.row];
-        let within = borders.into_iter().chain(opposite).fold(self.radius + Real::ONE, Real::min);
-        if !within.possibly_at_most(self.radius) {
-            return None;
-        }
-        let (first, last) = self.reach(disk.row, self.radius);
-        let place = (first..=last).find_map(|k| {
-            let (from, to) = self.reach_in_row(disk, k);
-            if k < 0 || k >= self.height {
-                return (from..=to).find_map(|i| self.hit(disk, i, k));
-            }
-            let left = from..=to.min(-1);
-            let right = from.max(self.width)..=to;
-            left.chain(right).find_map(|i| self.hit(disk, i, k))
-        });
-        // Rounding may leave a border within reach and no cell beyond it.
-        let distance = within.max(Real::ZERO).value();
-        place.or(Some(Hit { cell: (-1, -1), distance }))
+        let end = |count: i64| Real::integer(count) * self.resolution;
+        let columns = disk.column.min(end(self.width) - disk.column);
+        let rows = disk.row.min(end(self.height) - disk.row);
+        let within = columns.min(rows).max(Real::ZERO);
+        let reaches = within.possibly_at_most(self.radius);
+        reaches.then(|| Hit { cell: None, distance: within.value() })
     }
 
     /// The cell, if its closed square may be at distance <= r.
     fn hit(&self, disk: &Disk, i: i64, k: i64) -> Option<Hit> {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);
-        touches.then(|| Hit { cell: (i, k), distance: apart.sqrt().value() })
+        touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
     }
 
     /// The first and the last column that the disk may touch in row `k`.

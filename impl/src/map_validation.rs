@@ -33,8 +33,9 @@ fn theta_map(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
         if in_corridor(&cycle.route, q) || certainly_near(&cycle.route, q, limit) {
             return None;
         }
-        let (away, _) = path_distance(&cycle.route, q, 0);
-        Some(Witness::of(Rule::ThetaMap, [away.value(), limit]).at_point(index))
+        let (away, segment) = path_distance(&cycle.route, q, 0);
+        let witness = Witness::of(Rule::ThetaMap, [away.value(), limit]).at_point(index);
+        Some(Witness { segment: Some(segment), ..witness })
     })
 }
 
@@ -44,7 +45,8 @@ fn start(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
     let max_age_ns = cycle.parameters.max_age_ns;
     if age_ns > max_age_ns || age_ns < max_age_ns.saturating_neg() {
-        let compared = [Real::integer(age_ns).value(), Real::integer(max_age_ns).value()];
+        let compared =
+            [age_ns.saturating_abs(), max_age_ns].map(|time_ns| Real::seconds(time_ns).value());
         return Some(Witness::of(Rule::StartTime, compared).at_point(0));
     }
     let moved = Real::new(cycle.ego.speed) * Real::seconds(age_ns.max(0));

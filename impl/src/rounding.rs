@@ -1,20 +1,21 @@
 //! Real numbers with a proven error bound (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 //!
 //! A `Real` stands for one unknown real number x and knows abs(x - (hi + lo)) <= err. The centre
-//! is a double-double (relative error of an operation below 16 u^2, u = 2^-53; Joldes, Muller,
-//! Popescu 2017), so that the bound stays below 1e-15 m for every quantity of the stages, far
-//! below the least margin delta = 1e-8 m. Only + - * / and the correctly rounded square root are
-//! used, never a fused operation. Comparisons answer "certainly" or "possibly"; a NaN is never
-//! certain.
+//! is a double-double, so that the bound stays below 1e-15 m for every quantity of the stages, far
+//! below the least margin delta = 1e-8 m. Every operation computes its rounding error, or a bound
+//! on it, from its own result; where nothing is rounded the bound is 0, and an equality is decided
+//! as in the model. Only + - * / and the correctly rounded square root are used, never a fused
+//! operation. Comparisons answer "certainly" or "possibly"; a NaN is never certain.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// Bound on the relative rounding error of one operation: 256 u^2, at least 16 times what is
-/// proven for the algorithms used.
-const OPERATION: f64 = f64::from_bits((1023 - 98) << 52);
+/// Bound on the relative error of one rounding: 2^-53.
+const ROUNDING: f64 = f64::from_bits((1023 - 53) << 52);
 /// Bound on what one operation loses to underflow; each of at most ten partial results loses less
 /// than 2^-1073.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
+/// A product above this loses nothing to underflow.
+const NO_UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 /// Bounds are sums and products of at most 16 non-negative doubles; this covers their rounding.
 const BOUND_UP: f64 = 1.0 + f64::from_bits((1023 - 45) << 52);
 /// `hi` times this is below the size of `hi + lo`, also after rounding.
@@ -104,7 +105,7 @@ impl Real {
         let least = abs(other.hi) * CENTRE_DOWN - other.err * BOUND_UP;
         if least > 0.0 {
             let residue = (self - other * quotient).magnitude();
-            Self { err: (residue / least + UNDERFLOW) * BOUND_UP, ..quotient }
+            Self { err: quotient_up(residue, least), ..quotient }
         } else {
             Self { hi: 0.0, lo: 0.0, err: f64::INFINITY }
         }
@@ -123,7 +124,7 @@ impl Real {
         let (hi, lo) = two_sum(first, second);
         let root = Self { hi, lo, err: 0.0 };
         let residue = (self - root.squared()).magnitude();
-        Self { err: (residue / (root.hi * CENTRE_DOWN) + UNDERFLOW) * BOUND_UP, ..root }
+        Self { err: quotient_up(residue, root.hi * CENTRE_DOWN), ..root }
     }
 
     /// self < other for every pair of numbers that the two may stand for.
@@ -148,6 +149,19 @@ impl Real {
         !other.certainly_below(self)
     }
 
+    /// Bound on what the product, whose high part is given, loses to underflow; nothing when a
+    /// factor is exactly 0, or both are doubles and the product is not tiny.
+    fn underflow(self, other: Self, product: f64) -> f64 {
+        let is_zero = |x: Self| abs(x.hi) + x.err <= 0.0;
+        let is_double = |x: Self| abs(x.lo) <= 0.0;
+        let is_exact = is_double(self) && is_double(other) && abs(product) > NO_UNDERFLOW;
+        if is_zero(self) || is_zero(other) || is_exact && self.err + other.err <= 0.0 {
+            0.0
+        } else {
+            UNDERFLOW
+        }
+    }
+
     /// Upper bound on the absolute value of the number.
     pub(crate) fn magnitude(self) -> f64 {
         (abs(self.hi) * BOUND_UP + self.err) * BOUND_UP
@@ -165,13 +179,15 @@ impl Neg for Real {
 impl Add for Real {
     type Output = Self;
 
-    /// Joldes et al., algorithm 6; sums do not underflow.
+    /// What `rest` and `last` hold is exactly what is left out; sums do not underflow.
     fn add(self, other: Self) -> Self {
-        let (s, e) = two_sum(self.hi, other.hi);
-        let (t, f) = two_sum(self.lo, other.lo);
-        let (s, e) = two_sum(s, e + t);
-        let (hi, lo) = two_sum(s, e + f);
-        let err = (self.err + other.err + abs(hi) * OPERATION) * BOUND_UP;
+        let (sum, low) = two_sum(self.hi, other.hi);
+        let (lows, last) = two_sum(self.lo, other.lo);
+        let (low, rest) = two_sum(low, lows);
+        let (sum, low) = two_sum(sum, low);
+        let (low, lost) = two_sum(low, last);
+        let (hi, lo) = two_sum(sum, low);
+        let err = (self.err + other.err + (abs(rest) + abs(lost))) * BOUND_UP;
         Self { hi, lo, err }
     }
 }
@@ -187,15 +203,25 @@ impl Sub for Real {
 impl Mul for Real {
     type Output = Self;
 
-    /// Joldes et al., algorithm 10, with an exact product that needs no fused operation.
+    /// The product of the high parts is exact; the mixed products are rounded, that of the low
+    /// parts is left out.
     fn mul(self, other: Self) -> Self {
-        let (p, e) = two_product(self.hi, other.hi);
-        let (hi, lo) = two_sum(p, e + (self.hi * other.lo + self.lo * other.hi));
+        let (product, low) = two_product(self.hi, other.hi);
+        let (one, two) = (self.hi * other.lo, self.lo * other.hi);
+        let (mixed, lost) = two_sum(one, two);
+        let (low, rest) = two_sum(low, mixed);
+        let (hi, lo) = two_sum(product, low);
+        let lost = abs(lost) + abs(rest) + (abs(one) + abs(two)) * ROUNDING;
+        let lost = lost + abs(self.lo * other.lo) + self.underflow(other, product);
         let (a, b) = (abs(self.hi) * BOUND_UP, abs(other.hi) * BOUND_UP);
         let inherited = a * other.err + b * self.err + self.err * other.err;
-        let err = (inherited + abs(hi) * OPERATION + UNDERFLOW) * BOUND_UP;
-        Self { hi, lo, err }
+        Self { hi, lo, err: (inherited + lost) * BOUND_UP }
     }
+}
+
+/// Upper bound on a quotient of bounds, 0 only for 0.
+fn quotient_up(bound: f64, divisor: f64) -> f64 {
+    if bound > 0.0 { (bound / divisor + UNDERFLOW) * BOUND_UP } else { bound }
 }
 
 /// The rounded sum and its error, exactly (Knuth).

@@ -53,7 +53,8 @@ pub(crate) fn path_distance(route: &Route<'_>, q: [f64; 2], hint: usize) -> (Rea
             return (best, at);
         }
         let candidate = length(&segment);
-        let at = if candidate.value() < best.value() { segment.index } else { at };
+        let nearer = (candidate - best).value() < 0.0;
+        let at = if nearer { segment.index } else { at };
         (best.min(candidate), at)
     })
 }

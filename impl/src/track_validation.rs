@@ -2,7 +2,7 @@
 
 use core::cmp::Ordering;
 
-use crate::assignment::{Assigned, assign};
+use crate::assignment::assign;
 use crate::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use crate::exact::compare_distances;
 use crate::input::elapsed_ns;
@@ -107,18 +107,25 @@ fn matched_cost(
     let pairs = Pairs { tracks: tracks.items, detections: detections.items, swapped: false };
     let columns = first(scratch.columns, detections.items.len().saturating_add(spare));
     let limit = cycle.parameters.theta_track_max;
-    let Assigned { rows: assigned, left_out } =
-        assign(scratch.rows, gated, columns, |rows, row, column| {
-            match pairs.get(rows, row, column) {
-                Some(pair) => certainly_closer(pair.metres(), limit).then(|| units(pair.metres())),
-                None => Some(0),
-            }
-        });
-    let Some(row) = left_out else {
+    let assigned = assign(scratch.rows, gated, columns, |rows, row, column| {
+        match pairs.get(rows, row, column) {
+            Some(pair) => certainly_closer(pair.metres(), limit).then(|| units(pair.metres())),
+            None => Some(0),
+        }
+    });
+    if assigned == gated {
         return compare_mean(cycle, pairs.sum(scratch.rows, columns), k);
-    };
+    }
+    // The first track that is near no detection; else several compete, and no one of them is it.
+    let lone = (0..gated).find(|&row| {
+        let mut columns = 0..detections.items.len();
+        !columns.any(|column| {
+            let pair = pairs.get(scratch.rows, row, column);
+            pair.is_some_and(|pair| certainly_closer(pair.metres(), limit))
+        })
+    });
+    let track = lone.and_then(|row| tracks.items.get(scratch.rows.get(row)?.track));
     let compared = [count(assigned.saturating_sub(spare)), count(k)];
-    let track = scratch.rows.get(row).and_then(|row| tracks.items.get(row.track));
     let witness = Witness::of(Rule::NoAssignment, compared);
     Some(Witness { track: track.map(|track| track.id), ..witness })
 }

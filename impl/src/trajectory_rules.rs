@@ -89,7 +89,7 @@ type StepRule = fn(&Cycle<'_>, &Step<'_>) -> Option<[f64; 2]>;
 
 fn step_time(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
     let (dt_ns, most_ns) = (step.dt_ns(), cycle.parameters.step_max_ns);
-    let compared = [Real::integer(dt_ns).value(), Real::integer(most_ns).value()];
+    let compared = [dt_ns, most_ns].map(|time_ns| Real::seconds(time_ns).value());
     (dt_ns > most_ns).then_some(compared)
 }
 

@@ -3,13 +3,13 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Assigned, assign};
+use super::assign;
 use crate::random::Random;
 use crate::scratch::{Column, Row};
 
 type Costs = Vec<Vec<Option<i64>>>;
 
-fn run(costs: &Costs, columns: usize) -> (Assigned, i64) {
+fn run(costs: &Costs, columns: usize) -> (usize, i64) {
     let mut rows = vec![Row::default(); costs.len()];
     let mut table = vec![Column::default(); columns];
     let assigned = assign(&mut rows, costs.len(), &mut table, |_, row, column| costs[row][column]);
@@ -20,7 +20,7 @@ fn run(costs: &Costs, columns: usize) -> (Assigned, i64) {
         costs[row][column].expect("a pair that must not be")
     });
     let sum = total.sum();
-    assert_eq!(seen.iter().filter(|&&row| row).count(), assigned.rows);
+    assert_eq!(seen.iter().filter(|&&row| row).count(), assigned);
     (assigned, sum)
 }
 
@@ -53,8 +53,7 @@ fn no_assignment_is_cheaper() {
         let costs: Costs = (0..rows).map(|_| (0..columns).map(|_| cost()).collect()).collect();
         let (assigned, sum) = run(&costs, columns);
         let (most, least) = best(&costs, &mut vec![false; columns]);
-        assert_eq!(assigned.rows, most, "{costs:?}");
-        assert_eq!(assigned.left_out.is_none(), most == rows);
+        assert_eq!(assigned, most, "{costs:?}");
         if most == rows {
             assert_eq!(sum, least, "{costs:?}");
         } else {
@@ -68,8 +67,7 @@ fn no_assignment_is_cheaper() {
 fn more_rows_than_columns() {
     let costs: Costs = vec![vec![Some(4)], vec![Some(3)]];
     let (assigned, sum) = run(&costs, 1);
-    assert_eq!(assigned, Assigned { rows: 1, left_out: Some(1) });
-    assert_eq!(sum, 4);
+    assert_eq!((assigned, sum), (1, 4));
 }
 
 /// The largest costs and sizes: potentials stay in range, and the least sum is known.
@@ -80,4 +78,29 @@ fn costs_at_the_limit() {
     let costs: Costs =
         (0..300).map(|row| (0..300).map(|column| Some(cost(row, column))).collect()).collect();
     assert_eq!(run(&costs, 300).1, 300 * (cap - 1));
+}
+
+/// Dual potentials prove larger assignments minimal: no cost is below the sum of its potentials,
+/// equality holds for the pairs, no column has one above 0, and columns without a row have 0.
+#[test]
+fn potentials_prove_that_nothing_is_cheaper() {
+    let mut random = Random(8);
+    for (rows, columns) in [(1, 1), (7, 9), (60, 60), (60, 90), (200, 210)] {
+        for range in [50, 1 << 40] {
+            let mut cost = || Some(random.below(range) as i64);
+            let costs: Costs = (0..rows).map(|_| (0..columns).map(|_| cost()).collect()).collect();
+            let mut lines = vec![Row::default(); rows];
+            let mut table = vec![Column::default(); columns];
+            let count = assign(&mut lines, rows, &mut table, |_, row, column| costs[row][column]);
+            assert_eq!(count, rows);
+            for (at, column) in table.iter().enumerate() {
+                assert!(column.potential <= 0 && (column.row.is_some() || column.potential == 0));
+                for (row, line) in lines.iter().enumerate() {
+                    let left = costs[row][at].map(|cost| cost - line.potential - column.potential);
+                    assert!(left.is_some_and(|left| left >= 0), "{row} {at}");
+                    assert!(column.row != Some(row) || left == Some(0), "{row} {at}");
+                }
+            }
+        }
+    }
 }
