@@ -1,0 +1,125 @@
+//! Laws of a cycle's report (`spec/3-stages.md#schedule`).
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{Cycle, Profile};
+use mufasa::verdict::{FailedStage, Outcome, Report, Stage};
+
+/// A law of a cycle with valid input and its report.
+pub type Law = fn(&Cycle<'_>, &Report) -> bool;
+
+/// All laws of one report with their names.
+pub const LAWS: [(&str, Law); 6] = [
+    ("no_stage_runs_in_local", no_stage_runs_in_local),
+    ("only_scheduled_stages_run", only_scheduled_stages_run),
+    ("nothing_runs_after_a_failure", nothing_runs_after_a_failure),
+    ("unsafe_exactly_when_something_failed", unsafe_exactly_when_something_failed),
+    ("nothing_runs_without_its_input", nothing_runs_without_its_input),
+    ("no_trajectory_is_accepted_unexamined", no_trajectory_is_accepted_unexamined),
+];
+
+/// In `Local` no stage runs, and nothing is unsafe.
+pub fn no_stage_runs_in_local(cycle: &Cycle<'_>, report: &Report) -> bool {
+    cycle.configuration != Configuration::Local
+        || (report.failed_stage.is_none()
+            && report.stages.iter().all(|outcome| *outcome == Outcome::NotScheduled))
+}
+
+/// A stage is `not_scheduled` exactly where the table has a dash; H-05 puts v into `PlanRemote`.
+pub fn only_scheduled_stages_run(cycle: &Cycle<'_>, report: &Report) -> bool {
+    let hardened = cycle.profile == Profile::Hardened;
+    let scheduled = match cycle.configuration {
+        Configuration::Local => [false; 5],
+        Configuration::MotRemote => [true, true, false, true, true],
+        Configuration::AllRemote => [true; 5],
+        Configuration::PlanRemote => [false, true, true, true, hardened],
+    };
+    report
+        .stages
+        .iter()
+        .zip(scheduled)
+        .all(|(outcome, scheduled)| (*outcome == Outcome::NotScheduled) != scheduled)
+}
+
+/// Behind the first stage that failed none ran (I-04).
+pub fn nothing_runs_after_a_failure(_: &Cycle<'_>, report: &Report) -> bool {
+    let mut rest = report.stages.iter().skip_while(|outcome| !failed(outcome)).skip(1);
+    rest.all(|outcome| !ran(outcome))
+}
+
+/// The failed stage is the stage that failed; without one the cycle is safe or lacks an obstacle
+/// check (H-05).
+pub fn unsafe_exactly_when_something_failed(cycle: &Cycle<'_>, report: &Report) -> bool {
+    let first = Stage::ALL.into_iter().zip(&report.stages).find(|(_, outcome)| failed(outcome));
+    match (report.failed_stage, first) {
+        (Some(FailedStage::Stage(named)), Some((stage, _))) => named == stage,
+        (None, None) => true,
+        (Some(FailedStage::NoObstacleCheck), None) => cycle.profile == Profile::Hardened,
+        (Some(FailedStage::Input), None) => report.input.is_some(),
+        (Some(FailedStage::Stage(_)), None)
+        | (None | Some(FailedStage::NoObstacleCheck | FailedStage::Input), Some(_)) => false,
+    }
+}
+
+/// Stage i needs current detections, ii to v a current trajectory, iii current tracks, v a
+/// current grid; iv fails without detections only by its gap, which needs a lead (H-04).
+pub fn nothing_runs_without_its_input(cycle: &Cycle<'_>, report: &Report) -> bool {
+    let current = |stamp_ns: Option<i64>| {
+        stamp_ns.is_some_and(|stamp_ns| {
+            (0..=cycle.parameters.max_age_ns).contains(&(cycle.now_ns - stamp_ns))
+        })
+    };
+    let trajectory = current(cycle.trajectory.map(|list| list.stamp_ns));
+    let tracks = current(cycle.tracks.map(|list| list.stamp_ns));
+    let detections = current(cycle.detections.map(|list| list.stamp_ns));
+    let lead = current(cycle.lead.map(|lead| lead.stamp_ns));
+    let grid = current(cycle.grid.map(|grid| grid.stamp_ns));
+    let gap_alone = cycle.profile == Profile::Hardened && lead && failed(&report.stages[3]);
+    let inputs = [
+        cycle.tracks.is_some() && detections,
+        trajectory,
+        trajectory && tracks,
+        trajectory && (detections || gap_alone),
+        trajectory && grid,
+    ];
+    report.stages.iter().zip(inputs).all(|(outcome, is_there)| is_there || !ran(outcome))
+}
+
+/// H-05: a safe cycle of the hardened profile with a current trajectory had one of iii, iv and v
+/// run, and in `AllRemote` a iii that stage i has not checked does not count (H-02).
+pub fn no_trajectory_is_accepted_unexamined(cycle: &Cycle<'_>, report: &Report) -> bool {
+    let current = cycle.trajectory.is_some_and(|list| {
+        (0..=cycle.parameters.max_age_ns).contains(&(cycle.now_ns - list.stamp_ns))
+    });
+    if cycle.profile == Profile::Paper
+        || cycle.configuration == Configuration::Local
+        || report.failed_stage.is_some()
+        || !current
+    {
+        return true;
+    }
+    let [i, _, iii, iv, v] = &report.stages;
+    let iii_counts = cycle.configuration != Configuration::AllRemote || ran(i);
+    ran(iv) || ran(v) || (ran(iii) && iii_counts)
+}
+
+/// What the paper profile rejects the hardened one rejects too.
+pub fn hardened_accepts_nothing_that_paper_rejects(paper: &Report, hardened: &Report) -> bool {
+    paper.failed_stage.is_none() || hardened.failed_stage.is_some()
+}
+
+fn failed(outcome: &Outcome) -> bool {
+    match outcome {
+        Outcome::Failed(_) => true,
+        Outcome::Passed
+        | Outcome::Skipped(_)
+        | Outcome::NotApplicable(_)
+        | Outcome::NotScheduled => false,
+    }
+}
+
+fn ran(outcome: &Outcome) -> bool {
+    match outcome {
+        Outcome::Passed | Outcome::Failed(_) => true,
+        Outcome::Skipped(_) | Outcome::NotApplicable(_) | Outcome::NotScheduled => false,
+    }
+}
