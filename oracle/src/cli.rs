@@ -46,9 +46,10 @@ enum Command {
     Compose(ComposeArguments),
 }
 
-/// Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are still checked),
-/// 3 model and implementation disagree.
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are still checked),
+3 model and implementation disagree; the highest that applies.")]
 struct CheckArguments {
     /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
     /// as .npy; recognised by their content.
@@ -68,8 +69,6 @@ struct CheckArguments {
     /// frozen, late, too-fast.
     #[arg(long, value_name = "ATTACK")]
     inject: Vec<Injection>,
-    #[command(flatten)]
-    recording: RecordingArguments,
     /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
     #[arg(long, conflicts_with = "summary")]
     json: bool,
@@ -79,6 +78,8 @@ struct CheckArguments {
     /// Draw every unsafe cycle into this folder.
     #[arg(long, value_name = "DIR")]
     svg: Option<PathBuf>,
+    #[command(flatten)]
+    recording: RecordingArguments,
 }
 
 /// What a recording does not say.
@@ -120,9 +121,10 @@ struct RecordingArguments {
     grid_height: u32,
 }
 
-/// Exit codes: 0 the clean drive is safe and the attacks are caught, 1 not so, 2 the folder cannot
-/// be written, 3 model and implementation disagree.
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 the clean drive is safe and the attacks are caught, 1 not so, 2 the folder cannot
+be written, 3 model and implementation disagree.")]
 struct DemoArguments {
     /// Folder of the drive's files and the pictures.
     #[arg(long, value_name = "DIR", default_value = demo::FOLDER)]
@@ -130,6 +132,8 @@ struct DemoArguments {
 }
 
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 there is a composition, 1 there is none, 2 bad input.")]
 struct ComposeArguments {
     /// A composition record (JSON).
     file: PathBuf,

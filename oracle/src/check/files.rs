@@ -25,10 +25,10 @@ pub fn write(file: &Path, content: &str) -> io::Result<()> {
     written
 }
 
-/// A name for a file from any text: letters, digits, `-`, `_` and `.` stay.
+/// A name for a file from any text: letters, digits, and `-_.+()` stay.
 pub fn name(text: &str) -> String {
-    let plain = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-    let name: String = text.chars().take(100).map(plain).collect();
+    let plain = |c: char| if c.is_alphanumeric() || "-_.+()".contains(c) { c } else { '_' };
+    let name: String = text.chars().take(150).map(plain).collect();
     if name.trim_start_matches('.').is_empty() { "drive".to_owned() } else { name }
 }
 

@@ -89,11 +89,13 @@ impl Findings {
     pub fn summary(&self) -> String {
         let Self { drives, unreadable, tally, disagreements, fallbacks, pictures } = self;
         let agreement = match disagreements {
-            0 => "model and implementation agree".to_owned(),
-            count => format!("model and implementation DISAGREE {count} times"),
+            // Of nothing there is nothing to agree on.
+            0 if tally.cycles == 0 => String::new(),
+            0 => "; model and implementation agree".to_owned(),
+            count => format!("; model and implementation DISAGREE {count} times"),
         };
         let mut text = format!(
-            "{}, {}: {} safe, {} unsafe, {}; {agreement}",
+            "{}, {}: {} safe, {} unsafe, {}{agreement}",
             counted(*drives, "drive"),
             counted(tally.cycles, "cycle"),
             tally.safe,
@@ -242,6 +244,6 @@ mod tests {
         let findings = Findings { drives: 1, unreadable: 2, ..Findings::default() };
         let text = findings.summary();
         assert!(text.starts_with("1 drive, 0 cycles: 0 safe, 0 unsafe, 0 fallbacks; "), "{text}");
-        assert!(text.ends_with("agree; 2 files that could not be read or written"), "{text}");
+        assert!(text.ends_with("fallbacks; 2 files that could not be read or written"), "{text}");
     }
 }

@@ -35,8 +35,8 @@ pub fn write(
             report,
         };
         let stage = report.failed_stage.map_or("", names::failed_stage);
-        let name = files::name(&format!("{}-{index:04}-{stage}", checked.drive.name));
-        let file = folder.join(format!("{name}.svg"));
+        let name = files::name(&checked.drive.name);
+        let file = folder.join(format!("{name}-{index:04}-{stage}.svg"));
         files::write(&file, &picture(&scene)).map_err(|error| (file.clone(), error))?;
         written.push(file);
     }
