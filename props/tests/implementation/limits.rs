@@ -13,8 +13,9 @@ use mufasa_model::cycle::{
 };
 use mufasa_props::bridge::{Owned, to_impl};
 
-/// Bytes of stack: 32 for each of 1,024 points or tracks, less than a call takes.
-const STACK: usize = 32 << 10;
+/// Bytes of stack: 16 for each of 1,024 points or tracks, which no call that returns here can do
+/// with.
+const STACK: usize = 16 << 10;
 
 /// How many of each there are: track i stands where detection i is, beside the road.
 #[derive(Clone, Copy)]
