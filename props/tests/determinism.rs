@@ -3,7 +3,7 @@
 
 use mufasa::scratch::{Column, Row, Scratch, Sizes};
 use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_props::bridge::{check_impl, to_impl};
+use mufasa_props::bridge::{check_impl, invalid_input_from_impl, report_from_impl, to_impl};
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::whole;
@@ -16,9 +16,10 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
     let mut rows = vec![Row::default(); Sizes::MAX.rows];
     let mut columns = vec![Column::default(); Sizes::MAX.columns];
     let mut failed = 0;
-    for _ in 0..4000 {
+    for index in 0..4000 {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let cycle = whole::cycle(&mut Draw::new(&tape), Profile::Hardened);
+        let profile = [Profile::Paper, Profile::Hardened][index % 2];
+        let cycle = whole::cycle(&mut Draw::new(&tape), profile);
         let first = format!("{:?}", check_impl(&cycle));
         assert_eq!(first, format!("{:?}", check_impl(&cycle)), "the second run of {cycle:?}");
         assert_eq!(first, format!("{:?}", check_impl(&moved(&cycle))), "other memory: {cycle:?}");
@@ -32,6 +33,8 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
             mufasa::schedule::check(&owned.borrow(), &mut scratch)
         };
         assert_eq!(format!("{used:?}"), format!("{fresh:?}"), "used scratch: {cycle:?}");
+        let used = used.map(|it| report_from_impl(&it)).map_err(|it| invalid_input_from_impl(&it));
+        assert_eq!(format!("{used:?}"), first, "scratch of another size: {cycle:?}");
         failed += u32::from(first.contains("Failed"));
     }
     assert!(failed > 400, "only {failed} cycles had a witness");
