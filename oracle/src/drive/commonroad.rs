@@ -18,8 +18,6 @@ use super::solution::Solution;
 const VEHICLES: [&str; 6] = ["car", "truck", "bus", "taxi", "priorityVehicle", "motorcycle"];
 /// Share of its states that a vehicle must be on lanelets to be picked.
 const ON_LANELETS: f64 = 0.95;
-/// A vehicle that goes less far than this hardly moves, m.
-const TRAVEL: f64 = 10.0;
 
 /// The drive of a solution in its scenario.
 pub(super) fn solved(
@@ -58,7 +56,7 @@ pub(super) fn recorded(
     let mut notes = scenario.notes.clone();
     let object = match options.ego {
         Some(id) => named(scenario, id, file)?,
-        None => picked(scenario, file)?,
+        None => picked(scenario, file, options)?,
     };
     let Motion::Moving(states) = &object.motion else {
         return Err(no_vehicle(file, object.id, "has no recorded trajectory"));
@@ -115,7 +113,13 @@ impl Parts {
         })?;
         let dt_ns = scenario.dt_ns;
         let recording = Recording { name, source, dt_ns, ego, size, objects, route, notes };
-        Ok(scene::drive(recording, options, 1))
+        let drive = scene::drive(recording, options, 1);
+        if drive.cycles.is_empty() {
+            let message = "the recording of the CAV is shorter than braking takes (v / a_b); keep \
+                           the tail to have its cycles all the same";
+            return Err(ReadError::file(file, message));
+        }
+        Ok(drive)
     }
 }
 
@@ -151,28 +155,31 @@ fn named<'a>(scenario: &'a Scenario, id: i64, file: &Path) -> Result<&'a Object,
     object.ok_or_else(|| no_vehicle(file, id, "is not in this scenario"))
 }
 
-/// Of the vehicles that stay on the lanelets: those that go `TRAVEL` before those that hardly
-/// move, then the one with the longest recording, the farthest way, the smallest id.
-fn picked<'a>(scenario: &'a Scenario, file: &Path) -> Result<&'a Object, ReadError> {
-    let mut best: Option<((bool, usize, f64), &Object)> = None;
+/// Of the vehicles that stay on the lanelets the one that goes farthest in the cycles that its
+/// recording gives, then the one with the longest recording, then the smallest id.
+fn picked<'a>(
+    scenario: &'a Scenario,
+    file: &Path,
+    options: &Options,
+) -> Result<&'a Object, ReadError> {
+    let mut best: Option<((f64, usize), &Object)> = None;
     for object in scenario.objects.iter().filter(|o| VEHICLES.contains(&o.kind.as_str())) {
         let Motion::Moving(states) = &object.motion else { continue };
         if states.len() < 2 || !on_lanelets(&scenario.network, states) {
             continue;
         }
-        let far = travelled(states);
-        let key = (far >= TRAVEL, states.len(), far);
-        let better = best.is_none_or(|((moves, n, most), o)| {
-            let order = key.0.cmp(&moves).then(key.1.cmp(&n)).then(key.2.total_cmp(&most));
-            order.then(o.id.cmp(&object.id)).is_gt()
+        let cycles = scene::cycles(states, scenario.dt_ns, options);
+        let key = (travelled(&states[..cycles]), states.len());
+        let better = best.is_none_or(|((far, n), o)| {
+            key.0.total_cmp(&far).then(key.1.cmp(&n)).then(o.id.cmp(&object.id)).is_gt()
         });
         if better {
             best = Some((key, object));
         }
     }
     best.map(|(_, object)| object).ok_or_else(|| {
-        let sets = scenario.objects.iter().any(|o| matches!(o.motion, Motion::Occupied { .. }));
-        let message = if sets {
+        let is_set = |o: &Object| matches!(o.motion, Motion::Occupied { .. });
+        let message = if scenario.objects.iter().any(is_set) {
             "the obstacles are sets of occupied places, and none is a vehicle with a trajectory \
              that could be the CAV; give a solution"
         } else {
@@ -183,7 +190,7 @@ fn picked<'a>(scenario: &'a Scenario, file: &Path) -> Result<&'a Object, ReadErr
 }
 
 fn on_lanelets(network: &Network, states: &[State]) -> bool {
-    let on = states.iter().filter(|s| network.covers(s.position)).count();
+    let on = states.iter().filter(|s| network.covers(s.position, s.heading)).count();
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 states")]
     let share = on as f64 / states.len() as f64;
     share >= ON_LANELETS

@@ -101,9 +101,9 @@ impl Lanelet {
 }
 
 impl Network {
-    /// Whether a point is on some lanelet.
-    pub(super) fn covers(&self, p: Point) -> bool {
-        self.lanelets.values().any(|l| l.contains(p))
+    /// Whether a pose is on some lanelet that leads its way.
+    pub(super) fn covers(&self, p: Point, heading: f64) -> bool {
+        self.lanelets.values().any(|l| l.contains(p) && l.cost(p, heading).is_some())
     }
 
     /// The lanelets that a trajectory follows: of all sequences the one of least cost, where

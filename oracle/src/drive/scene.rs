@@ -46,19 +46,15 @@ pub(super) struct Recording {
 pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Drive {
     let maker = Maker { recording: &recording, options };
     let mut cycles: Vec<DriveCycle> = Vec::new();
-    let mut short = 0;
-    let steps = (0..recording.ego.len()).step_by(every.max(1));
-    for i in steps {
-        if options.tail == Tail::Stop && maker.rest_is_short(i) {
-            short += 1;
-            continue;
-        }
+    let count = self::cycles(&recording.ego, recording.dt_ns, options);
+    for i in (0..count).step_by(every.max(1)) {
         let previous = cycles.last().and_then(|c| c.cycle.tracks.clone());
         let id = format!("{}#{}", recording.name, recording.ego[i].step);
         cycles.push(DriveCycle { id, cycle: maker.cycle(i, previous) });
     }
     let mut notes = recording.notes.clone();
     notes.push(format!("{} cycles from {} states", cycles.len(), recording.ego.len()));
+    let short = recording.ego.len() - count;
     if short > 0 {
         notes.push(format!(
             "no cycle for {short} states at the end: less is recorded after them than braking \
@@ -82,6 +78,23 @@ pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
     Drive { name, source, cycles, notes }
 }
 
+/// States of a recording that give a cycle: all, or those up to the last that is followed by as
+/// much as braking from it takes, and by one step at least.
+pub(super) fn cycles(states: &[State], dt_ns: i64, options: &Options) -> usize {
+    let a_b = options.parameters.a_b;
+    // With a deceleration outside the domain the monitor is to say so.
+    if options.tail == Tail::Keep || !(0.1..=100.0).contains(&a_b) {
+        return states.len();
+    }
+    let long_enough = |(i, state): (usize, &State)| {
+        let steps = states.len() - 1 - i;
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 steps of 10 s")]
+        let rest_s = steps as f64 * (dt_ns as f64 / 1e9);
+        steps > 0 && rest_s >= state.speed.abs() / a_b
+    };
+    states.iter().enumerate().rposition(long_enough).map_or(0, |last| last + 1)
+}
+
 struct Maker<'a> {
     recording: &'a Recording,
     options: &'a Options,
@@ -91,14 +104,6 @@ impl Maker<'_> {
     #[expect(clippy::cast_precision_loss, reason = "at most 10 s")]
     fn dt_s(&self) -> f64 {
         self.recording.dt_ns as f64 / 1e9
-    }
-
-    /// Whether the recording ends before the CAV could stop, or with this step.
-    fn rest_is_short(&self, i: usize) -> bool {
-        let steps = self.recording.ego.len() - 1 - i;
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 steps")]
-        let rest = steps as f64 * self.dt_s();
-        steps == 0 || rest < self.recording.ego[i].speed.abs() / self.options.parameters.a_b
     }
 
     fn cycle(&self, i: usize, previous_tracks: Option<TrackList>) -> Cycle {

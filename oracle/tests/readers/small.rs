@@ -125,17 +125,17 @@ fn a_change_of_lane_crosses_over_and_opens_both_lanes() {
 
 #[test]
 fn the_vehicle_is_picked_or_named() {
+    // Car 7 is faster, but of its 2 s only 0.8 give cycles, of those of car 8 1.1: 7 m and 8 m.
     let picked = small("2020a", None, &Options::default());
-    assert!(
-        picked.notes.iter().any(|n| n.contains("recorded car 7 (picked), 21 states over 20.0 m"))
-    );
-    let asked = small("2020a", None, &Options { ego: Some(8), ..Options::default() });
-    assert!(near(asked.cycles[0].cycle.ego.x, 1.0));
+    let note = "CAV: recorded car 8 (picked), 21 states over 16.0 m";
+    assert!(picked.notes.iter().any(|n| n == note), "{:?}", picked.notes);
+    let asked = small("2020a", None, &Options { ego: Some(7), ..Options::default() });
+    assert!(near(asked.cycles[0].cycle.ego.x, 40.0));
     let ids = |d: &mufasa_oracle::drive::Drive| {
         let tracks = d.cycles[0].cycle.tracks.as_ref().unwrap();
         tracks.items.iter().map(|t| t.id).collect::<Vec<_>>()
     };
-    assert_eq!((ids(&picked), ids(&asked)), (vec![8, 9, 10], vec![7, 9, 10]));
+    assert_eq!((ids(&picked), ids(&asked)), (vec![7, 9, 10], vec![8, 9, 10]));
 }
 
 #[test]
