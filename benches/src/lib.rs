@@ -1,1 +1,4 @@
-//! Filled next.
+//! Workloads of three sizes, and the plain programs that the implementation is timed against.
+
+pub mod alternative;
+pub mod workload;
