@@ -281,6 +281,7 @@ fn a_reader_that_goes_away_ends_the_program_quietly() {
     assert_eq!(code(&output), 141);
 }
 
+/// `spec/5-interfaces.md#programs-under-test.1`
 #[test]
 fn the_oracle_answers_standard_input() {
     let folder = folder("oracle");

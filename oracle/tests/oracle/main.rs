@@ -7,3 +7,4 @@ mod protocol;
 mod round_trip;
 mod schema;
 mod schema_cycle;
+mod verdicts;
