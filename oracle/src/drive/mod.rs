@@ -14,6 +14,7 @@ mod map;
 mod npy;
 mod object;
 mod options;
+mod order;
 mod planner;
 mod route;
 mod scenario;
@@ -60,14 +61,16 @@ pub struct DriveCycle {
 /// (`spec/5-interfaces.md#cycle`; the options do not touch them).
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
-/// one drive of a recorded vehicle. The results are in the order of the files; an error names
+/// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark
+/// id. The results are in the order of the files; an error names
 /// file, place and value, and does not stop the others. Every line of JSON that is no cycle is an
 /// error of its own.
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
     let mut scenario: Option<(&Path, Scenario, bool)> = None;
-    for path in paths {
+    let paths = order::solutions_behind_scenarios(paths);
+    for path in &paths {
         let content = load(path);
         if !matches!(content, Ok(Content::Solution(_))) {
             drives.extend(unsolved(scenario.take(), options));
