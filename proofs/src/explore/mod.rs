@@ -1,0 +1,31 @@
+//! The offloading protocol as one distributed system, explored state by state
+//! (`spec/2-offloading.md#properties-of-the-whole-protocol`).
+//!
+//! * `bounds`: every bound with its reason.
+//! * `refine`: the model's and the implementation's requester, step by step.
+//! * `automaton`, `cav`, `station`: the real parts as finite automata, and why that loses nothing.
+//! * `state`, `moves`, `system`: the whole system.
+//! * `properties`, `observer`: what has to hold, judged from outside.
+//! * `search`, `lasso`, `runs`: the exact search, and the search for endless runs.
+//! * `second`: stateright on the same system.
+//! * `replay`: traces walked with real numbers and times; `words`: states and moves in words.
+//! * `run`: a world explored, with the verdict of every property.
+
+pub mod automaton;
+pub mod bounds;
+pub mod cav;
+mod fit;
+pub mod lasso;
+pub mod moves;
+pub mod observer;
+pub mod properties;
+pub mod refine;
+pub mod replay;
+pub mod run;
+pub mod runs;
+pub mod search;
+pub mod second;
+pub mod state;
+pub mod station;
+pub mod system;
+pub mod words;
