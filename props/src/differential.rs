@@ -170,8 +170,9 @@ pub fn same_witness(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<()
     for (index, outcome) in one.stages.iter().enumerate() {
         if let (Outcome::Failed(one), Outcome::Failed(two), Outcome::Failed(found)) =
             (outcome, &two.stages[index], &found.stages[index])
-            && place(one, cycle.profile) == place(two, cycle.profile)
-            && place(one, cycle.profile) != place(found, cycle.profile)
+            && place(one) == place(two)
+            && close(one, two)
+            && (place(one) != place(found) || !close(one, found))
         {
             return Err(told(&"the witnesses differ", exact, strict, &implementation));
         }
@@ -232,13 +233,17 @@ fn kind(outcome: &Outcome) -> Outcome {
     }
 }
 
-/// What `spec/` pins of a witness: the rule, the point, the object, the disk and, where the disk
-/// is compared with the cell itself, the cell. Open are which of several unmatched tracks and
-/// nearest segments is named, and whether a dilated or a missing cell is.
-fn place(witness: &Witness, profile: Profile) -> impl PartialEq + use<> {
-    let Witness { rule, point, track, detection, segment: _, disk, cell, compared: _ } = *witness;
-    let track = if rule == Rule::NoAssignment { None } else { track };
-    let undilated = profile == Profile::Hardened && rule != Rule::Outside;
-    let cell = if undilated { cell } else { None };
-    (rule, point, track, detection, disk, cell)
+/// A witness without the numbers that were compared, and without the nearest segment where the
+/// distance to it decides: of two that are equally near up to rounding either may be named.
+fn place(witness: &Witness) -> impl PartialEq + use<> {
+    let Witness { rule, point, track, detection, segment, disk, cell, compared: _ } = *witness;
+    let by_distance = matches!(rule, Rule::ThetaMap | Rule::Corridor);
+    let segment = if by_distance { None } else { segment };
+    (rule, point, track, detection, segment, disk, cell)
+}
+
+/// The numbers that were compared, the same but for rounding.
+fn close(one: &Witness, other: &Witness) -> bool {
+    let pairs = one.compared.iter().zip(other.compared);
+    pairs.into_iter().all(|(one, other)| (one - other).abs() <= 1e-6 * (1.0 + one.abs()))
 }
