@@ -11,8 +11,8 @@ use crate::verdict::{Reading, Rule, Witness};
 /// Compares the whole trajectory with the route; `None` passes.
 pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let corridor = corridor(&scene.route);
-    let places: Vec<Place> =
-        trajectory.iter().map(|point| Place::of(scene, &corridor, point)).collect();
+    let places: Vec<Place> = trajectory.iter().map(|point| Place::of(scene, point)).collect();
+    let inside = |place: &Place| is_inside(scene, &corridor, place.position);
     let at = |rule: Rule, failure: &dyn Fn(&Place) -> Option<(Real, Real)>| {
         places.iter().enumerate().find_map(|(i, place)| {
             failure(place).map(|(left, right)| Witness {
@@ -24,7 +24,7 @@ pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     };
     let theta_map = &scene.parameters.theta_map;
     let too_far = at(Rule::ThetaMap, &|place| {
-        let fails = place.distance > theta_map - &scene.m && !place.inside;
+        let fails = place.distance > theta_map - &scene.m && !inside(place);
         fails.then(|| (place.distance.clone(), theta_map.clone()))
     });
     if scene.profile == Profile::Paper || too_far.is_some() {
@@ -33,7 +33,7 @@ pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     start_failure(scene, trajectory)
         .or_else(|| {
             at(Rule::Corridor, &|place| {
-                (!place.inside).then(|| (place.distance.clone(), Real::zero()))
+                (!inside(place)).then(|| (place.distance.clone(), Real::zero()))
             })
         })
         .or_else(|| at(Rule::Direction, &|place| place.heading_failure(scene)))
@@ -66,33 +66,37 @@ fn corridor(route: &Corridor) -> Vec<Triangle> {
 
 /// Where a trajectory point lies on the route.
 struct Place<'a> {
+    position: &'a Vector,
     heading: &'a Vector,
     /// Distance to each segment of the reference path with the segment's direction.
     segments: Vec<(Real, Vector)>,
     /// Distance to the reference path.
     distance: Real,
-    /// In the corridor, strictly or laxly in those readings.
-    inside: bool,
+}
+
+/// In the corridor; strictly or laxly in those readings.
+fn is_inside(scene: &Scene, corridor: &[Triangle], position: &Vector) -> bool {
+    let square = || square(position, &scene.parameters.delta);
+    match scene.reading {
+        Reading::Exact => corridor.iter().any(|triangle| contains_point(triangle, position)),
+        Reading::Strict => union_contains(corridor, &square()),
+        Reading::Lax => union_meets(corridor, &square()),
+    }
 }
 
 impl<'a> Place<'a> {
-    fn of(scene: &Scene, corridor: &[Triangle], point: &'a Point) -> Self {
+    fn of(scene: &Scene, point: &'a Point) -> Self {
         let position = &point.pose.origin;
         let segments: Vec<_> = segments(&scene.route)
             .into_iter()
             .map(|[a, b]| (distance_to_segment(position, &a[0], &b[0]), &b[0] - &a[0]))
             .collect();
         let distance = segments.iter().map(|(distance, _)| distance.clone()).min();
-        let half_side = &scene.parameters.delta;
         Self {
+            position,
             heading: &point.pose.direction,
             distance: distance.unwrap_or_else(Real::zero),
             segments,
-            inside: match scene.reading {
-                Reading::Exact => corridor.iter().any(|t| contains_point(t, position)),
-                Reading::Strict => union_contains(corridor, &square(position, half_side)),
-                Reading::Lax => union_meets(corridor, &square(position, half_side)),
-            },
         }
     }
 

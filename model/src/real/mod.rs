@@ -21,13 +21,16 @@ use roots::Roots;
 
 /// An exact real number.
 #[derive(Clone, Debug)]
-pub struct Real(Rc<Node>);
+pub struct Real {
+    interval: Interval,
+    /// How the number was made; none where the interval is a point, which is the number then.
+    node: Option<Rc<Node>>,
+}
 
 #[derive(Debug)]
 struct Node {
-    interval: Interval,
     term: Term,
-    exact: OnceCell<Roots>,
+    exact: OnceCell<Rc<Roots>>,
 }
 
 #[derive(Debug)]
@@ -45,7 +48,8 @@ thread_local! {
     static FILTER: Cell<bool> = const { Cell::new(true) };
 }
 
-/// Runs `compute` with every comparison decided by exact arithmetic alone, on this thread.
+/// Runs `compute` with every number it makes kept as a term, and every comparison decided by exact
+/// arithmetic alone, on this thread.
 pub fn unfiltered<T>(compute: impl FnOnce() -> T) -> T {
     FILTER.set(false);
     let result = compute();
@@ -89,13 +93,13 @@ impl Real {
     /// The square root of a rational that is not negative.
     #[must_use]
     pub fn sqrt(&self) -> Self {
-        Self::new(self.0.interval.sqrt(), Term::Root(self.clone()))
+        Self::new(self.interval.sqrt(), Term::Root(self.clone()))
     }
 
     /// The square.
     #[must_use]
     pub fn square(&self) -> Self {
-        Self::new(self.0.interval.square(), Term::Product(self.clone(), self.clone()))
+        Self::new(self.interval.square(), Term::Product(self.clone(), self.clone()))
     }
 
     /// The absolute value.
@@ -106,7 +110,7 @@ impl Real {
 
     /// The nearest double, for witnesses.
     pub fn to_f64(&self) -> f64 {
-        if self.0.interval.is_point() { self.0.interval.lo } else { self.exact().to_f64() }
+        if self.interval.is_point() { self.interval.lo } else { self.exact().to_f64() }
     }
 
     /// The largest integer not above the number, at the limits of 64 bits when it is beyond.
@@ -124,37 +128,49 @@ impl Real {
 
     /// A double near the number.
     fn to_f64_fast(&self) -> f64 {
-        let Interval { lo, hi } = self.0.interval;
+        let Interval { lo, hi } = self.interval;
         if lo == f64::NEG_INFINITY || hi == f64::INFINITY { self.to_f64() } else { lo.midpoint(hi) }
     }
 
     fn new(interval: Interval, term: Term) -> Self {
-        Self(Rc::new(Node { interval, term, exact: OnceCell::new() }))
+        if FILTER.get() && interval.is_point() {
+            return Self { interval, node: None };
+        }
+        Self { interval, node: Some(Rc::new(Node { term, exact: OnceCell::new() })) }
     }
 
-    fn exact(&self) -> &Roots {
-        self.0.exact.get_or_init(|| match &self.0.term {
-            Term::Double(value) => Roots::rational(RBig::try_from(*value).unwrap_or(RBig::ZERO)),
-            Term::Integer(value) => Roots::rational(RBig::from(*value)),
-            Term::Sum(a, b) => a.exact().plus(&RBig::ONE, b.exact()),
-            Term::Difference(a, b) => a.exact().plus(&RBig::NEG_ONE, b.exact()),
-            Term::Product(a, b) => a.exact().times(b.exact()),
-            Term::Quotient(a, b) => {
-                a.exact().times(&Roots::rational(RBig::ONE / b.rational().clone()))
-            }
-            Term::Root(a) => Roots::sqrt(a.rational()),
-        })
+    fn exact(&self) -> Rc<Roots> {
+        match &self.node {
+            Some(node) => Rc::clone(node.exact.get_or_init(|| Rc::new(node.term.value()))),
+            None => Rc::new(Term::Double(self.interval.lo).value()),
+        }
     }
 
     /// The formulas divide by, take roots of, and round only rationals.
-    fn rational(&self) -> &RBig {
-        self.exact().as_rational().expect("the formulas take roots of and divide by rationals only")
+    fn rational(&self) -> RBig {
+        let exact = self.exact();
+        let rational = exact.as_rational();
+        rational.expect("the formulas take roots of and divide by rationals only").clone()
+    }
+}
+
+impl Term {
+    fn value(&self) -> Roots {
+        match self {
+            Self::Double(value) => Roots::rational(RBig::try_from(*value).unwrap_or(RBig::ZERO)),
+            Self::Integer(value) => Roots::rational(RBig::from(*value)),
+            Self::Sum(a, b) => a.exact().plus(&RBig::ONE, &b.exact()),
+            Self::Difference(a, b) => a.exact().plus(&RBig::NEG_ONE, &b.exact()),
+            Self::Product(a, b) => a.exact().times(&b.exact()),
+            Self::Quotient(a, b) => a.exact().times(&Roots::rational(RBig::ONE / b.rational())),
+            Self::Root(a) => Roots::sqrt(&a.rational()),
+        }
     }
 }
 
 impl Ord for Real {
     fn cmp(&self, other: &Self) -> Ordering {
-        let (a, b) = (self.0.interval, other.0.interval);
+        let (a, b) = (self.interval, other.interval);
         if FILTER.get() {
             if a.hi < b.lo {
                 return Ordering::Less;
@@ -166,7 +182,7 @@ impl Ord for Real {
                 return Ordering::Equal;
             }
         }
-        self.exact().plus(&RBig::NEG_ONE, other.exact()).sign()
+        self.exact().plus(&RBig::NEG_ONE, &other.exact()).sign()
     }
 }
 
@@ -211,7 +227,7 @@ macro_rules! operator {
             fn $op(self, other: &Real) -> Real {
                 let interval: fn(Interval, Interval) -> Interval = $interval;
                 Real::new(
-                    interval(self.0.interval, other.0.interval),
+                    interval(self.interval, other.interval),
                     Term::$term(self.clone(), other.clone()),
                 )
             }

@@ -69,10 +69,13 @@ fn filter_changes_no_comparison() {
     let mut draw = draws(7);
     let mut seen = [0; 3];
     for _ in 0..20_000 {
-        let depth = draw(3);
-        let (a, b) = (expression(&mut draw, depth), expression(&mut draw, depth));
-        let filtered = a.cmp(&b);
-        assert_eq!(filtered, unfiltered(|| a.cmp(&b)), "{a:?} {b:?}");
+        let (seed, depth) = (draw(1 << 30), draw(3));
+        let compare = || {
+            let mut draw = draws(seed);
+            expression(&mut draw, depth).cmp(&expression(&mut draw, depth))
+        };
+        let filtered = compare();
+        assert_eq!(filtered, unfiltered(compare), "seed {seed}, depth {depth}");
         seen[(filtered as i8 + 1).unsigned_abs() as usize] += 1;
     }
     assert!(seen.iter().all(|&n| n > 400), "less, equal and greater all occur: {seen:?}");
