@@ -16,7 +16,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         draw.pick(&[Configuration::PlanRemote, Configuration::AllRemote, Configuration::MotRemote]);
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
-    match (profile, draw.below(10)) {
+    match (profile, draw.below(11)) {
         // Hardened: what is outside the corridor fails however near the path is.
         (Profile::Paper, 0 | 1) | (Profile::Hardened, 0) => {
             reference_distance(draw, frame, &mut cycle);
@@ -27,7 +27,8 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
         (Profile::Hardened, 1 | 7 | 8) => step(draw, frame, &mut cycle),
-        (Profile::Hardened, _) => arc_length(draw, frame, &mut cycle),
+        (Profile::Hardened, 9) => arc_length(draw, frame, &mut cycle),
+        (Profile::Hardened, _) => stops_short(draw, frame, &mut cycle),
     }
     cycle
 }
@@ -242,10 +243,12 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         3 => {
             along = draw.pick(&[1.0, -1.0]) * draw.near(0.0);
             aside = draw.pick(&[0.0, 0.25, -0.25]);
+            (first, second) = one_towards(draw, aside);
         }
         4 => {
             along = 1.0;
             aside = draw.pick(&[1.0, -1.0]) * draw.near(0.5 * width);
+            (first, second) = one_towards(draw, aside);
         }
         _ => {
             along = 0.5;
@@ -267,6 +270,14 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         t_ns += 200_000_000;
     }
     cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// Headings of the two points of a step, of which only one has the step at its limit: the other
+/// is turned towards the step.
+fn one_towards(draw: &mut Draw<'_>, aside: f64) -> ((f64, f64), (f64, f64)) {
+    let turn = draw.pick(&[0.0, 0.1, 0.4]) * aside.signum();
+    let (limit, slack) = ((1.0, 0.0), (turn.cos(), turn.sin()));
+    if draw.below(2) == 0 { (limit, slack) } else { (slack, limit) }
 }
 
 /// H-12: the arc length of the last points near what braking or accelerating covers, or a last
@@ -316,6 +327,25 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         point.t_ns = first_ns + t_ns;
         (point.x, point.y) = frame.at(along, 0.0);
     }
+}
+
+/// H-12: a trajectory that goes on at `v_now` and then stands for a while, near the place that the
+/// CAV cannot stop before.
+fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[10.0, 8.0, 13.9]);
+    let (ego, p) = (cycle.ego.clone(), cycle.parameters.clone());
+    let mut trajectory = base::straight(&ego, frame, cycle.now_ns, &p);
+    let dt_ns = trajectory.points[1].t_ns - cycle.now_ns;
+    for _ in 0..draw.between(1, 4) {
+        let last = trajectory.points[trajectory.points.len() - 1].clone();
+        trajectory.points.push(TrajectoryPoint { t_ns: last.t_ns + dt_ns, ..last });
+    }
+    let stop = draw.near(ego.speed * ego.speed / (2.0 * p.a_b) - p.start_tolerance).max(0.0);
+    for point in &mut trajectory.points {
+        let along = (ego.speed * seconds(point.t_ns - cycle.now_ns)).min(stop);
+        (point.x, point.y) = frame.at(along, 0.0);
+    }
+    cycle.trajectory = Some(trajectory);
 }
 
 /// Time from now until the CAV could stand, ns, rounded up.

@@ -1,7 +1,7 @@
 //! Stage iii at its thresholds (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
 use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
+use mufasa_model::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 
 use super::base::{self, seconds};
 use super::draw::Draw;
@@ -77,6 +77,12 @@ fn fleeing(found: Obstacle) -> Track {
     Track { id: 7, x, y, cos, sin, vx, vy, length, width }
 }
 
+/// The track as a detector sees it.
+fn seen(track: &Track) -> Detection {
+    let Track { x, y, cos, sin, length, width, .. } = *track;
+    Detection { x, y, cos, sin, length, width }
+}
+
 /// H-09: a previous list that holds the track, or one that does not.
 fn hold(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let Some(list) = &cycle.tracks else { return };
@@ -86,8 +92,13 @@ fn hold(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         track.x -= 0.1 * track.vx;
         track.y -= 0.1 * track.vy;
     }
-    if draw.one_in(2) {
+    if draw.one_in(3) {
         previous.items.pop();
     }
     cycle.previous_tracks = Some(previous);
+    if draw.one_in(3) {
+        // With a detection at every track stage i runs and passes, and ids count as held.
+        let items = list.items.iter().map(seen).collect();
+        cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items });
+    }
 }
