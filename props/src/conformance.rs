@@ -205,6 +205,11 @@ mod tests {
     }
 
     #[test]
+    fn a_cycle_is_decided_in_this_order() {
+        assert_eq!(STAGES.map(rank), [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
     fn every_triple_is_judged_by_the_three_rules() {
         for exact in STAGES {
             for strict in STAGES.into_iter().filter(|strict| rank(*strict) <= rank(exact)) {
