@@ -132,7 +132,8 @@ impl At<'_> {
         self.number("cos", cos, &finite)?;
         self.number("sin", sin, &finite)?;
         let norm = Real::from_double(cos).square() + Real::from_double(sin).square();
-        if (norm - Real::from_integer(1)).abs() <= Real::from_double(1e-6) {
+        let (one, tolerance) = (Real::from_integer(1), Real::from_double(1e-6));
+        if (&one - &tolerance..=&one + &tolerance).contains(&norm) {
             return Ok(());
         }
         Err(self.problem("cos", format!("({cos}, {sin}) is not of length 1 within 1e-6")))

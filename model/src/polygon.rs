@@ -2,7 +2,6 @@
 //! it (`spec/4-arithmetic.md#strict-and-lax`).
 
 use crate::real::Real;
-use crate::rectangle::extent;
 use crate::vector::Vector;
 
 /// A closed triangle, possibly degenerate.
@@ -41,13 +40,31 @@ pub fn union_contains(triangles: &[Triangle], square: &[Vector; 4]) -> bool {
 /// the plane nor a normal of a side of the triangle separates them. That is enough when the other
 /// is an axis-parallel square or a point.
 fn shares_a_point(triangle: &Triangle, other: &[Vector]) -> bool {
-    let (one, zero) = (Real::from_integer(1), Real::zero());
-    let axes = [Vector { x: one.clone(), y: zero.clone() }, Vector { x: zero, y: one }];
-    let sides = (0..3).map(|i| (&triangle[(i + 1) % 3] - &triangle[i]).left());
-    axes.into_iter().chain(sides).all(|axis| {
-        let (a, b) = (extent(triangle, &axis), extent(other, &axis));
+    let zero = Real::zero();
+    let overlaps = |coordinate: fn(&Vector) -> &Real| {
+        let (a, b) = (range(triangle, coordinate), range(other, coordinate));
         a.0 <= b.1 && b.0 <= a.1
-    })
+    };
+    let sides = || (0..3).map(|i| (&triangle[i], &triangle[(i + 1) % 3], &triangle[(i + 2) % 3]));
+    overlaps(|point| &point.x)
+        && overlaps(|point| &point.y)
+        && sides().all(|(from, to, opposite)| {
+            let side = to - from;
+            let beside = |point: &Vector| side.cross(&(point - from));
+            let opposite = beside(opposite);
+            let others: Vec<Real> = other.iter().map(beside).collect();
+            // The triangle lies between the side, at 0, and the opposite corner.
+            let all_left = others.iter().all(|beside| *beside > zero && *beside > opposite);
+            let all_right = others.iter().all(|beside| *beside < zero && *beside < opposite);
+            !all_left && !all_right
+        })
+}
+
+/// Least and greatest of a coordinate.
+fn range(points: &[Vector], coordinate: fn(&Vector) -> &Real) -> (&Real, &Real) {
+    let mut values = points.iter().map(coordinate);
+    let first = values.next().expect("triangles and squares have corners");
+    values.fold((first, first), |(least, most), value| (least.min(value), most.max(value)))
 }
 
 /// The convex pieces of positive area that are left of a convex piece outside the triangle.

@@ -43,9 +43,8 @@ pub fn share_a_point(a: &Rectangle, b: &Rectangle) -> bool {
 }
 
 /// Least and greatest scalar product with the axis.
-pub fn extent(points: &[Vector], axis: &Vector) -> (Real, Real) {
-    let products: Vec<Real> = points.iter().map(|point| point.dot(axis)).collect();
-    let least = products.iter().min().cloned().unwrap_or_else(Real::zero);
-    let greatest = products.iter().max().cloned().unwrap_or_else(Real::zero);
-    (least, greatest)
+fn extent(points: &[Vector; 4], axis: &Vector) -> (Real, Real) {
+    let [a, b, c, d] = points.each_ref().map(|point| point.dot(axis));
+    let least = (&a).min(&b).min(&c).min(&d).clone();
+    (least, a.max(b).max(c).max(d))
 }
