@@ -2,7 +2,7 @@
 
 use mufasa_model::cycle::Cycle;
 use mufasa_model::schedule;
-use mufasa_model::verdict::{InvalidInput, Outcome, Reading, Report, Witness};
+use mufasa_model::verdict::{InvalidInput, Outcome, Report, Witness};
 use serde::Serialize;
 
 use crate::json::composition_answer::CompositionAnswer;
@@ -149,9 +149,7 @@ pub struct ErrorProblem {
 impl CycleAnswer {
     /// Decides a cycle in the three readings. `Err` is invalid local input.
     pub fn decide(id: &str, cycle: &Cycle) -> Result<Self, InvalidInput> {
-        let exact = schedule::check(cycle, Reading::Exact)?;
-        let strict = schedule::check(cycle, Reading::Strict)?;
-        let lax = schedule::check(cycle, Reading::Lax)?;
+        let [strict, exact, lax] = schedule::check_in_all_readings(cycle)?;
         Ok(Self::new(id.to_owned(), exact, &strict, &lax))
     }
 
