@@ -12,6 +12,9 @@ use mufasa_model::verdict::Reading;
 use mufasa_props::bridge::check_impl;
 use serde_json::Value;
 
+/// Most tracks of a list that the exact model is asked about: more take it half a minute.
+const MODEL_TRACKS: usize = 50;
+
 fn parsed(name: &str) -> Option<Vec<Value>> {
     let text = super::read(name)?;
     let value: Value = serde_json::from_str(&text).expect("the file is JSON");
@@ -63,9 +66,11 @@ fn stage_i_meets_the_means_of_scipy() {
         for (factor, safe) in [(1.0 + 1e-9, true), (1.0 - 1e-9, false)] {
             let mut cycle = cycle(position, &tracks, &detections);
             cycle.parameters.theta_tr = mean * factor;
-            let model = check(&cycle, Reading::Exact).expect("valid input");
+            if tracks.len() <= MODEL_TRACKS {
+                let model = check(&cycle, Reading::Exact).expect("valid input");
+                assert_eq!(model.failed_stage.is_none(), safe, "model, mean {mean}");
+            }
             let implementation = check_impl(&cycle).expect("valid input");
-            assert_eq!(model.failed_stage.is_none(), safe, "model, mean {mean}");
             assert_eq!(implementation.failed_stage.is_none(), safe, "implementation, {mean}");
         }
     }
