@@ -10,11 +10,13 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use mufasa_model::configuration::Configuration;
 use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::bounds::Bounds;
 
 use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
 use crate::demo;
 use crate::drive::{self, GridSize, Injection, Options, Sensor, Tail, inject};
+use crate::explore;
 use crate::json::names;
 use crate::oracle;
 use crate::parameters_file;
@@ -44,6 +46,8 @@ enum Command {
     Oracle,
     /// Find all compositions of a service set.
     Compose(ComposeArguments),
+    /// Explore the offloading protocol state by state.
+    Explore(ExploreArguments),
 }
 
 #[derive(Args)]
@@ -145,6 +149,30 @@ struct ComposeArguments {
     svg: Option<PathBuf>,
 }
 
+/// Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model
+/// and implementation disagree, or the two engines do.
+#[derive(Args)]
+struct ExploreArguments {
+    /// Profile; by default both.
+    #[arg(long, value_parser = profile(), ignore_case = true)]
+    profile: Option<Profile>,
+    /// How much: small takes minutes, large hours.
+    #[arg(long, default_value = "small", value_parser = bounds(), ignore_case = true)]
+    bounds: Bounds,
+    /// Only this world.
+    #[arg(long, value_name = "NAME")]
+    world: Option<String>,
+    /// Threads of the second engine, stateright; 0 leaves it out. By default all.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Folder for the vectors and charts of what fails.
+    #[arg(long, value_name = "DIR", default_value = "counterexamples")]
+    out: PathBuf,
+    /// Serve stateright's explorer page for a world at this address instead.
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:3000")]
+    serve: Option<String>,
+}
+
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -162,6 +190,7 @@ pub fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments.out, &mut out, &mut io::stderr()),
         Command::Oracle => oracle::run(io::stdin().lock(), &mut out).map(|()| 0),
         Command::Compose(arguments) => compose(&arguments, &mut out),
+        Command::Explore(arguments) => explore(arguments, &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -249,6 +278,24 @@ fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> io::Result<u8>
     Ok(u8::from(composed.answer().compositions.is_empty()))
 }
 
+fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> {
+    let all = std::thread::available_parallelism().map_or(1, usize::from);
+    let settings = explore::Settings {
+        profiles: arguments
+            .profile
+            .map_or(vec![Profile::Paper, Profile::Hardened], |profile| vec![profile]),
+        bounds: arguments.bounds,
+        world: arguments.world,
+        threads: arguments.threads.unwrap_or(all),
+        folder: arguments.out,
+    };
+    let end = match &arguments.serve {
+        Some(address) => explore::serve(&settings, address, out, &mut io::stderr())?,
+        None => explore::run(&settings, out, &mut io::stderr())?,
+    };
+    Ok(end.code())
+}
+
 fn refused(message: &str) -> u8 {
     complain(&mut io::stderr(), message);
     BAD_INPUT
@@ -261,6 +308,10 @@ fn profile() -> impl TypedValueParser<Value = Profile> {
 fn configuration() -> impl TypedValueParser<Value = Configuration> {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     one_of([Local, MotRemote, AllRemote, PlanRemote], names::configuration)
+}
+
+fn bounds() -> impl TypedValueParser<Value = Bounds> {
+    one_of([Bounds::Small, Bounds::Large], Bounds::name)
 }
 
 /// One of these values by its name in the records.

@@ -4,6 +4,7 @@ mod canvas;
 mod frame;
 mod layers;
 mod legend;
+pub mod sequence;
 mod witness;
 
 use std::fmt::Write as _;

@@ -27,6 +27,14 @@ pub enum Bounds {
 }
 
 impl Bounds {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Small => "small",
+            Self::Large => "large",
+        }
+    }
+
     /// The worlds of this size.
     pub fn worlds(self) -> &'static [World] {
         match self {
@@ -56,8 +64,8 @@ pub struct Ticks {
 /// middle, so that what happens within it is not what happens at its ends.
 const SHORT: Ticks = Ticks { t_wait: 2, request_timeout: 1, l_max: 1, dt_max: 1, lease: 2 };
 
-/// No two limits are equal or follow at once, so that no order of two ends is left out by chance.
-const LONG: Ticks = Ticks { t_wait: 5, request_timeout: 2, l_max: 2, dt_max: 3, lease: 4 };
+/// No two are equal, so that no order of two ends is left out by chance.
+const LONG: Ticks = Ticks { t_wait: 5, request_timeout: 4, l_max: 2, dt_max: 3, lease: 6 };
 
 /// A station of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,10 +136,10 @@ const SMALL: &[World] = &[
               worse to a CAV; two stations are enough to be offloaded to two at once, and to be \
               asked in turn",
         requesters: 1,
-        stations: &[StationBounds { offers: &[ALL, MOT], capacity: 0 }; 2],
-        areas: &[ALL, PLAN],
+        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 2],
+        areas: &[ALL, MOT, PLAN, NONE],
         in_flight: 0,
-        ticks: SHORT,
+        ticks: LONG,
         qos_hold: false,
         attacker: true,
     },
@@ -141,9 +149,9 @@ const SMALL: &[World] = &[
               station is enough, because a hold does not depend on who is asked",
         requesters: 1,
         stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }],
-        areas: &[ALL, MOT],
+        areas: &[ALL, MOT, PLAN, NONE],
         in_flight: 0,
-        ticks: SHORT,
+        ticks: LONG,
         qos_hold: true,
         attacker: true,
     },
@@ -180,7 +188,7 @@ const SMALL: &[World] = &[
         in_flight: 2,
         ticks: SHORT,
         qos_hold: false,
-        attacker: false,
+        attacker: true,
     },
     World {
         name: "honest",

@@ -103,6 +103,17 @@ impl Law {
         }
     }
 
+    /// The heading of its requirement.
+    pub fn requirement(self) -> &'static str {
+        match self {
+            Self::NoMoreThanCapacity | Self::OthersKeepTheirSessions => {
+                "spec/2-offloading.md#provider"
+            }
+            Self::PartsValid => "spec/2-offloading.md#requester",
+            _ => "spec/2-offloading.md#properties-of-the-whole-protocol",
+        }
+    }
+
     /// Whether it speaks of every state (always), or of what every endless run comes to.
     pub fn is_safety(self) -> bool {
         !matches!(self, Self::OffloadingReachedAgain | Self::LeftSessionEnds)

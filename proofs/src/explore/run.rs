@@ -35,8 +35,8 @@ pub struct Outcome {
     pub results: Vec<Finding>,
     /// The sights seen, each with the length of a shortest trace to it.
     pub seen: Vec<(Sight, usize)>,
-    /// What the second engine says, if it was asked.
-    pub second: Option<Confirmation>,
+    /// What the second engine says, and its time, if it was asked.
+    pub second: Option<(Confirmation, Duration)>,
 }
 
 /// A property in a world.
@@ -82,7 +82,10 @@ pub fn run(
         .map(|(sight, step)| (*sight, explored.trace_of(&system, *step).len()))
         .collect();
     let time = start.elapsed();
-    let second = (threads > 0).then(|| second::explore(&system, threads));
+    let second = (threads > 0).then(|| {
+        let start = Instant::now();
+        (second::explore(&system, threads), start.elapsed())
+    });
     Ok(Outcome {
         states: explored.len(),
         transitions: explored.transitions,

@@ -78,6 +78,14 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Whether it goes to a station, else to a CAV.
+    pub fn is_to_station(self) -> bool {
+        match self {
+            Self::Request | Self::Release | Self::Alive => true,
+            Self::Confirm | Self::Reject => false,
+        }
+    }
+
     const ALL: [Self; 5] = [Self::Request, Self::Release, Self::Alive, Self::Confirm, Self::Reject];
 }
 

@@ -1,0 +1,232 @@
+//! The offloading protocol explored state by state, with tables, vectors and charts of what was
+//! found (`spec/2-offloading.md#properties-of-the-whole-protocol`).
+
+pub mod chart;
+pub mod findings;
+pub mod tables;
+pub mod vector;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::bounds::{Bounds, World};
+use mufasa_proofs::explore::moves::Move;
+use mufasa_proofs::explore::properties::Law;
+use mufasa_proofs::explore::replay;
+use mufasa_proofs::explore::run::{self, Outcome};
+use mufasa_proofs::explore::search::Progress;
+use mufasa_proofs::explore::second;
+use mufasa_proofs::explore::system::System;
+
+use crate::check::{complain, files};
+use crate::json::names;
+
+/// What is explored.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// In which profiles.
+    pub profiles: Vec<Profile>,
+    /// How much.
+    pub bounds: Bounds,
+    /// Only the world of this name.
+    pub world: Option<String>,
+    /// Threads of the second engine; 0: it is not asked.
+    pub threads: usize,
+    /// Folder for vectors and charts of what was found.
+    pub folder: PathBuf,
+}
+
+/// How an exploration ended; the worst that applies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum End {
+    /// Every property that a profile claims holds.
+    #[default]
+    Holds,
+    /// A property that a profile claims fails, or speaks of something that was never seen.
+    Fails,
+    /// No such world, or a file could not be written.
+    BadInput,
+    /// Model and implementation differ, or the two engines do.
+    Disagree,
+}
+
+impl End {
+    /// The exit code.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Explores, writes tables to `out`, and what is wrong to `err`. Errors are those of writing to
+/// `out`.
+pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
+    let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
+        return Ok(End::BadInput);
+    };
+    if let Err(error) = files::prepare(&settings.folder) {
+        complain(err, &format!("{}: cannot be written to: {error}", settings.folder.display()));
+        return Ok(End::BadInput);
+    }
+    let mut end = End::default();
+    for profile in &settings.profiles {
+        let mut outcomes = Vec::new();
+        for world in &worlds {
+            match explore(world, *profile, settings.threads) {
+                Ok(outcome) => outcomes.push(outcome),
+                Err(difference) => {
+                    complain(err, &format!("{}: {difference}", title(world, *profile)));
+                    end = End::Disagree;
+                }
+            }
+        }
+        writeln!(out, "{}, {} bounds", names::profile(*profile), settings.bounds.name())?;
+        writeln!(out, "{}", tables::worlds(&outcomes))?;
+        writeln!(out, "{}", tables::properties(*profile, &outcomes))?;
+        end = end.max(judge(*profile, &outcomes, err));
+        if settings.world.is_none() {
+            end = end.max(look_for_unseen(*profile, &outcomes, err));
+        }
+        match findings::write(&settings.folder, *profile, &outcomes) {
+            Ok(written) => {
+                for file in written {
+                    writeln!(out, "{}", file.display())?;
+                }
+            }
+            Err((file, error)) => {
+                complain(err, &format!("{}: cannot be written: {error}", file.display()));
+                end = end.max(End::BadInput);
+            }
+        }
+        out.flush()?;
+    }
+    Ok(end)
+}
+
+/// Serves the explorer page of stateright for one world, until the program is ended.
+pub fn serve(
+    settings: &Settings,
+    address: &str,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<End> {
+    let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
+        return Ok(End::BadInput);
+    };
+    let (Some(world), Some(profile)) = (worlds.last(), settings.profiles.last()) else {
+        return Ok(End::BadInput);
+    };
+    let system = match System::new(world, *profile) {
+        Ok(system) => Arc::new(system),
+        Err(difference) => {
+            complain(err, &format!("{}: {difference}", title(world, *profile)));
+            return Ok(End::Disagree);
+        }
+    };
+    // The address is tried first: the explorer itself panics when it cannot have it.
+    if let Err(error) = std::net::TcpListener::bind(address) {
+        complain(err, &format!("{address}: cannot be listened on: {error}"));
+        return Ok(End::BadInput);
+    }
+    writeln!(out, "{}: http://{address} until ended", title(world, *profile))?;
+    out.flush()?;
+    second::serve(&system, address, draw);
+    Ok(End::Holds)
+}
+
+/// The worlds asked for; says so when there is none of that name.
+fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Vec<&'static World>> {
+    let all = bounds.worlds();
+    let found: Vec<_> =
+        all.iter().filter(|world| name.is_none_or(|name| name == world.name)).collect();
+    if found.is_empty() {
+        let names: Vec<_> = all.iter().map(|world| world.name).collect();
+        complain(err, &format!("no such world; there are {}", names.join(", ")));
+        return None;
+    }
+    Some(found)
+}
+
+fn explore(
+    world: &'static World,
+    profile: Profile,
+    threads: usize,
+) -> Result<Outcome, Box<mufasa_proofs::explore::refine::Difference>> {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_prefix(title(world, profile));
+    bar.set_message("the parts");
+    bar.tick();
+    let start = Instant::now();
+    let outcome = run::run(world, profile, threads, |progress| {
+        bar.set_message(words(progress, start));
+        bar.tick();
+    });
+    bar.finish_and_clear();
+    outcome
+}
+
+fn words(progress: Progress, start: Instant) -> String {
+    let Progress { states, done, depth, transitions } = progress;
+    let seconds = start.elapsed().as_secs_f64().max(1e-3);
+    // A number of states is far below 2^53.
+    #[expect(clippy::cast_precision_loss, reason = "shown with few digits")]
+    let rate = done as f64 / seconds;
+    format!(
+        "{} states, {} to do, depth {depth}, {} moves, {rate:.0} states/s",
+        tables::grouped(tables::wide(states)),
+        tables::grouped(tables::wide(states - done)),
+        tables::grouped(transitions),
+    )
+}
+
+fn judge(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
+    let mut end = End::default();
+    for outcome in outcomes {
+        let name = title(outcome.system.world(), profile);
+        if let Some((second, _)) = &outcome.second
+            && second.states != outcome.states
+        {
+            let (first, second) = (outcome.states, second.states);
+            complain(err, &format!("{name}: {first} states, stateright says {second}"));
+            end = end.max(End::Disagree);
+        }
+        let fails = outcome
+            .results
+            .iter()
+            .any(|finding| finding.counterexample.is_some() && finding.law.is_claimed(profile));
+        if fails {
+            end = end.max(End::Fails);
+        }
+    }
+    end
+}
+
+/// All worlds together have to show what the properties speak of: a property of nothing holds.
+fn look_for_unseen(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
+    let mut end = End::default();
+    for law in Law::ALL {
+        for sight in tables::unseen(law, profile, outcomes) {
+            let (profile, law) = (names::profile(profile), law.name());
+            complain(err, &format!("{profile}: {law}: not seen: {}", sight.name()));
+            end = End::Fails;
+        }
+    }
+    end
+}
+
+/// The chart of a trace, for the explorer page.
+fn draw(system: &System, trace: &[Move]) -> Option<String> {
+    let scenes = replay::replay(system, trace).ok()?;
+    Some(chart::draw(system, &title(system.world(), system.profile()), "", &scenes))
+}
+
+/// Profile and world.
+pub fn title(world: &World, profile: Profile) -> String {
+    format!("{} {}", names::profile(profile), world.name)
+}

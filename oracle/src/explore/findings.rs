@@ -1,0 +1,123 @@
+//! What was found, kept as vectors and charts.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::properties::Law;
+use mufasa_proofs::explore::replay::{self, Scene};
+use mufasa_proofs::explore::run::{Counterexample, Outcome};
+use mufasa_proofs::explore::system::System;
+
+use super::{chart, title, vector};
+use crate::check::files;
+use crate::json::{Trace, names};
+
+/// A counterexample, told with real numbers.
+pub struct Story<'a> {
+    /// Its name: that of the finding, or of the property.
+    pub name: String,
+    /// The property that fails.
+    pub law: Law,
+    /// The system in which it was found.
+    pub system: &'a System,
+    /// What happens.
+    pub scenes: Vec<Scene>,
+}
+
+/// The stories of all properties that fail: one without an attacker rather than one with, and
+/// the shortest. A story that cannot be told is left out; the tables still show it.
+pub fn stories(profile: Profile, outcomes: &[Outcome]) -> Vec<Story<'_>> {
+    Law::ALL.into_iter().filter_map(|law| story(law, profile, outcomes)).collect()
+}
+
+fn story(law: Law, profile: Profile, outcomes: &[Outcome]) -> Option<Story<'_>> {
+    let failures = outcomes.iter().filter_map(|outcome| {
+        let finding = outcome.results.iter().find(|finding| finding.law == law)?;
+        Some((&*outcome.system, finding.counterexample.as_ref()?))
+    });
+    let length = |it: &Counterexample| it.trace.len() + it.circle.len();
+    let (system, found) = failures.min_by_key(|(system, found)| {
+        (system.world().attacker, system.world().requesters, length(found))
+    })?;
+    let scenes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat()).ok()?;
+    let name = if law.is_claimed(profile) {
+        format!("{}-{}", law.name(), names::profile(profile))
+    } else {
+        String::from("F-12")
+    };
+    Some(Story { name, law, system, scenes })
+}
+
+/// Writes a vector and a chart of every property that fails. Errors name the file.
+pub fn write(
+    folder: &Path,
+    profile: Profile,
+    outcomes: &[Outcome],
+) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+    let mut written = Vec::new();
+    for story in stories(profile, outcomes) {
+        let name = files::name(&story.name);
+        for (ending, content) in [("jsonl", story.vectors()), ("svg", Ok(story.chart()))] {
+            let file = folder.join(format!("{name}.{ending}"));
+            let write = content.and_then(|content| files::write(&file, &content));
+            write.map_err(|error| (file.clone(), error))?;
+            written.push(file);
+        }
+    }
+    Ok(written)
+}
+
+impl Story<'_> {
+    /// The vector of the first CAV in its profile, and the same events in the other one.
+    pub fn vectors(&self) -> io::Result<String> {
+        let events = vector::events(&self.scenes, 0);
+        let profile = self.system.profile();
+        let mut lines = String::new();
+        for profile in [profile, other(profile)] {
+            let trace = Trace {
+                profile,
+                parameters: self.system.world().parameters(),
+                events: events.clone(),
+            };
+            let id = format!("{}-{}", self.name, names::profile(profile));
+            lines += &vector::line(&id, self.requirement(), self.note(profile), &trace)?;
+            lines.push('\n');
+        }
+        Ok(lines)
+    }
+
+    /// The message sequence chart.
+    pub fn chart(&self) -> String {
+        let title =
+            format!("{} ({})", self.name, title(self.system.world(), self.system.profile()));
+        chart::draw(self.system, &title, self.note(self.system.profile()), &self.scenes)
+    }
+
+    fn requirement(&self) -> &'static str {
+        match self.law {
+            Law::NoStopBeforeSafeCycle => "F-12",
+            law => law.requirement(),
+        }
+    }
+
+    fn note(&self, profile: Profile) -> &'static str {
+        match (self.law, profile) {
+            (Law::NoStopBeforeSafeCycle, Profile::Paper) => {
+                "Break before make: the local services of the group stop at the confirmation, \
+                 before any result of the station"
+            }
+            (Law::NoStopBeforeSafeCycle, Profile::Hardened) => {
+                "Make before break: after the same events the local services of the group compute"
+            }
+            _ => "Shortest trace that the exploration found",
+        }
+    }
+}
+
+fn other(profile: Profile) -> Profile {
+    match profile {
+        Profile::Paper => Profile::Hardened,
+        Profile::Hardened => Profile::Paper,
+    }
+}

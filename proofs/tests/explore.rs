@@ -1,0 +1,132 @@
+//! The small worlds, explored by both engines: every property, every sight, and the number of
+//! reachable states, which is pinned so that a change of the protocol is seen.
+//!
+//! Covers `spec/2-offloading.md#properties-of-the-whole-protocol.1` to
+//! `spec/2-offloading.md#properties-of-the-whole-protocol.7`, F-12 and H-08 within the bounds of
+//! `proofs/src/explore/bounds.rs`, and that model and implementation take every explored step
+//! alike (`System::new` fails at the first difference).
+#![cfg(feature = "explore")]
+
+use std::collections::BTreeSet;
+
+use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::bounds::Bounds;
+use mufasa_proofs::explore::properties::Law;
+use mufasa_proofs::explore::replay;
+use mufasa_proofs::explore::run::{self, Outcome};
+
+/// Of a world: states of the requester, its steps compared, states of the system, moves.
+type Sizes = (&'static str, usize, usize, usize, u64);
+
+const PAPER: &[Sizes] = &[
+    ("anything", 10_400, 724_128, 19_648, 1_446_336),
+    ("qos-hold", 1_362, 61_376, 2_420, 111_664),
+    ("link", 114, 4_860, 1_330_746, 73_737_295),
+    ("choice", 64, 2_000, 242_804, 10_771_944),
+    ("fleet", 16, 344, 745_999, 41_714_655),
+    ("honest", 16, 236, 3_773, 57_905),
+];
+
+/// The states of the system are as many as in the paper profile: where one has stopped the local
+/// services, the other remembers what a stop still waits for, which the observer does in both.
+const HARDENED: &[Sizes] = &[
+    ("anything", 19_648, 1_446_336, 19_648, 1_446_336),
+    ("qos-hold", 2_340, 109_424, 2_420, 111_664),
+    ("link", 245, 10_766, 1_330_746, 73_737_295),
+    ("choice", 84, 2_760, 242_804, 10_771_944),
+    ("fleet", 21, 474, 745_999, 41_714_655),
+    ("honest", 21, 321, 3_773, 57_905),
+];
+
+fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
+    let worlds = Bounds::Small.worlds();
+    let outcomes: Vec<_> = worlds
+        .iter()
+        .map(|world| run::run(world, profile, 1, |_| {}).unwrap_or_else(|it| panic!("{it}")))
+        .collect();
+    let sizes: Vec<Sizes> = outcomes
+        .iter()
+        .map(|outcome| {
+            let requesters = outcome.system.requesters();
+            let name = outcome.system.world().name;
+            let (states, moves) = (outcome.states, outcome.transitions);
+            println!("{profile:?} {name}: {states} states, {moves} moves, {:?}", outcome.time);
+            (name, requesters.len(), requesters.reactions(), states, moves)
+        })
+        .collect();
+    assert_eq!(sizes, expected, "the protocol or the bounds have changed");
+    outcomes
+}
+
+/// The second engine finds as many states, and nothing broken.
+fn both_engines_agree(outcome: &Outcome) {
+    let name = outcome.system.world().name;
+    let (second, _) = outcome.second.as_ref().expect("it was asked");
+    assert_eq!(second.states, outcome.states, "{name}");
+    assert!(second.broken.is_empty(), "{name}: {:?}", second.broken);
+    assert!(second.offloaded, "{name}: nobody offloaded anything");
+}
+
+fn claimed_properties_hold(profile: Profile, outcome: &Outcome) {
+    for finding in outcome.results.iter().filter(|finding| finding.law.is_claimed(profile)) {
+        let name = outcome.system.world().name;
+        assert_eq!(finding.counterexample, None, "{name}: {}", finding.law.name());
+        // An aim that never lay ahead would have been reached by nobody.
+        assert_ne!(finding.ahead.map(|(states, _)| states), Some(0), "{name}");
+    }
+}
+
+/// Every property was asked somewhere, and everything was seen that it speaks of.
+fn no_property_is_empty(profile: Profile, outcomes: &[Outcome]) {
+    for law in Law::ALL {
+        let asked = outcomes.iter().flat_map(|it| &it.results).any(|it| it.law == law);
+        assert!(asked, "{} was asked nowhere", law.name());
+        for sight in law.companions().iter().filter(|sight| sight.is_expected(profile)) {
+            let seen = outcomes.iter().flat_map(|it| &it.seen).any(|(it, _)| it == sight);
+            assert!(seen, "{}: never seen: {}", law.name(), sight.name());
+        }
+    }
+}
+
+#[test]
+fn all_properties_hold_in_the_hardened_profile() {
+    let outcomes = explore_all(Profile::Hardened, HARDENED);
+    for outcome in &outcomes {
+        both_engines_agree(outcome);
+        claimed_properties_hold(Profile::Hardened, outcome);
+    }
+    no_property_is_empty(Profile::Hardened, &outcomes);
+}
+
+/// In the paper profile all hold but one: F-12 is found in every world, and its trace, which is
+/// minimal, ends with the confirmation at which the local services stop.
+#[test]
+fn all_properties_but_f_12_hold_in_the_paper_profile() {
+    let outcomes = explore_all(Profile::Paper, PAPER);
+    for outcome in &outcomes {
+        both_engines_agree(outcome);
+        claimed_properties_hold(Profile::Paper, outcome);
+        let finding = outcome.results.iter().find(|it| it.law == Law::NoStopBeforeSafeCycle);
+        let found = finding.and_then(|it| it.counterexample.as_ref()).expect("F-12");
+        // Offer, tick, forged confirmation; or offer, tick, request and confirmation delivered.
+        let shortest = if outcome.system.world().attacker { 3 } else { 4 };
+        assert_eq!(found.trace.len(), shortest);
+        let scenes = replay::replay(&outcome.system, &found.trace).expect("it can be walked");
+        let last = scenes.last().expect("some moves");
+        assert!(!last.cavs[0].computes[0], "the local services stopped");
+        assert!(scenes.iter().rev().skip(1).all(|scene| scene.cavs[0].computes[0]));
+    }
+    no_property_is_empty(Profile::Paper, &outcomes);
+}
+
+#[test]
+fn the_bounds_are_stated() {
+    for bounds in [Bounds::Small, Bounds::Large] {
+        let names: BTreeSet<_> = bounds.worlds().iter().map(|world| world.name).collect();
+        assert_eq!(names.len(), bounds.worlds().len(), "names are used once");
+        for world in bounds.worlds() {
+            assert!(world.why.len() > 40, "{}: why?", world.name);
+            assert!(world.in_flight == 0 || world.in_flight >= 2, "a tick sends two messages");
+        }
+    }
+}
