@@ -2,9 +2,9 @@
 """A program under test: the paper profile of MUFASA in plain doubles, from the text of spec/ alone.
 
 It answers the records `cycle` (read by record.py) and `offloading` (offloading.py) of
-spec/5-interfaces.md, one line each. It is no
-part of the project: it shows how little a program needs to be judged by `mufasa conform`, and with
-`--bug NAME` that `mufasa conform` finds what it has to find.
+spec/5-interfaces.md, one line each. It is no part of the project: it shows how little a program
+needs to be judged by `mufasa conform`, and with `--bug NAME` that `mufasa conform` finds what it
+has to find.
 
 Every comparison that could accept is made cautious by EPS: coordinates reach 2^24 m, where doubles
 are 2e-9 m apart, and spec/4-arithmetic.md lets a program reject within delta of a threshold.
