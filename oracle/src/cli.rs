@@ -1,10 +1,12 @@
 //! The command line: arguments, exit codes, and quiet ends when nobody reads on.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
+use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
@@ -14,6 +16,7 @@ use mufasa_proofs::explore::bounds::Bounds;
 
 use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
+use crate::conform::{self, Kind};
 use crate::demo;
 use crate::drive::{self, GridSize, Injection, Options, Sensor, Tail, inject};
 use crate::explore;
@@ -43,7 +46,9 @@ enum Command {
     /// Check a drive that is built in, clean and attacked, in both profiles.
     Demo(DemoArguments),
     /// Answer the JSON Lines of standard input on standard output.
-    Oracle,
+    Oracle(OracleArguments),
+    /// Hold a program under test against the exact model.
+    Conform(ConformArguments),
     /// Find all compositions of a service set.
     Compose(ComposeArguments),
     /// Explore the offloading protocol state by state.
@@ -136,6 +141,75 @@ struct DemoArguments {
 }
 
 #[derive(Args)]
+struct OracleArguments {
+    /// Answer with the implementation in place of the exact model: fast and cautious, without the
+    /// strict and the lax verdict, and without compositions.
+    #[arg(long)]
+    implementation: bool,
+}
+
+#[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "\
+Exit codes: 0 the program conforms in every case, 1 it disagrees in some, 2 bad input, nothing was
+compared, or (merge) a shard is missing."
+)]
+struct ConformArguments {
+    #[command(subcommand)]
+    merge: Option<MergeCommand>,
+    /// Profile of generated cases and of recorded drives.
+    #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
+    profile: Profile,
+    /// Number of cases, all shards together; by default 10000, or all that the drives give.
+    #[arg(long, value_name = "N")]
+    cases: Option<u64>,
+    /// Seed of the cases.
+    #[arg(long, value_name = "S", default_value = "0")]
+    seed: u64,
+    /// Longest time that an answer may take, ms.
+    #[arg(long, value_name = "MS", default_value = "1000", value_parser = clap::value_parser!(u64).range(1..=3_600_000))]
+    time_limit: u64,
+    /// Kinds of generated records.
+    #[arg(
+        long,
+        value_name = "KINDS",
+        value_delimiter = ',',
+        default_value = "cycle,offloading,composition"
+    )]
+    kinds: Vec<Kind>,
+    /// Ask only the cases whose number leaves I when divided by N, such as 0/8.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<(u64, u64)>,
+    /// Take the cycles of drives, clean and attacked, in place of generated ones.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "kinds")]
+    drives: Vec<PathBuf>,
+    /// Let a disagreement pass that a margin of so many metres explains (rounding), 1e-8 to 1e-2.
+    #[arg(long, value_name = "M", value_parser = number(1e-8, 1e-2))]
+    tolerance: Option<f64>,
+    /// Folder for the summary (JSON), the report (JUnit XML) and the shrunk records.
+    #[arg(long, value_name = "DIR", default_value = "mufasa-conform")]
+    out: PathBuf,
+    /// The program under test and its arguments.
+    #[arg(last = true, required = true)]
+    command: Vec<OsString>,
+}
+
+#[derive(Subcommand)]
+enum MergeCommand {
+    /// Join the summaries of shards.
+    Merge {
+        /// Summaries of all shards of one campaign.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Folder for the joined files.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+}
+
+#[derive(Args)]
 #[command(after_help = "\
 Exit codes: 0 there is a composition, 1 there is none, 2 bad input.")]
 struct ComposeArguments {
@@ -188,7 +262,11 @@ pub fn main() -> ExitCode {
     let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
         Command::Demo(arguments) => demo::run(&arguments.out, &mut out, &mut io::stderr()),
-        Command::Oracle => oracle::run(io::stdin().lock(), &mut out).map(|()| 0),
+        Command::Oracle(OracleArguments { implementation }) => {
+            let answer = if implementation { oracle::by_implementation } else { oracle::by_model };
+            oracle::run(io::stdin().lock(), &mut out, answer).map(|()| 0)
+        }
+        Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
     };
@@ -296,6 +374,37 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
     Ok(end.code())
 }
 
+fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> {
+    let result = match arguments.merge {
+        Some(MergeCommand::Merge { files, out: folder }) => {
+            conform::merge(&files, folder.as_ref(), out)
+        }
+        None => {
+            let settings = conform::Settings {
+                command: arguments.command,
+                profile: arguments.profile,
+                cases: arguments.cases,
+                seed: arguments.seed,
+                time_limit: Duration::from_millis(arguments.time_limit),
+                kinds: arguments.kinds,
+                shard: arguments.shard,
+                drives: arguments.drives,
+                tolerance: arguments.tolerance,
+                out: arguments.out,
+            };
+            conform::run(&settings, out, &mut io::stderr())
+        }
+    };
+    match result {
+        Ok(code) => Ok(code),
+        Err(conform::ConformError::Output(error)) => Err(error),
+        Err(error) => {
+            out.flush()?;
+            Ok(refused(&error.to_string()))
+        }
+    }
+}
+
 fn refused(message: &str) -> u8 {
     complain(&mut io::stderr(), message);
     BAD_INPUT
@@ -323,6 +432,16 @@ fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
         let same = |value: &T| name(*value).eq_ignore_ascii_case(&given);
         values.into_iter().find(same).ok_or("unknown name")
     })
+}
+
+/// `I/N` with I below N.
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let (at, of) = text.split_once('/').ok_or("must be I/N, such as 0/8")?;
+    match (at.parse(), of.parse()) {
+        (Ok(at), Ok(of)) if at < of => Ok((at, of)),
+        (Ok(_), Ok(_)) => Err(String::from("I must be below N; shards are counted from 0")),
+        (_, _) => Err(String::from("must be two whole numbers I/N, such as 0/8")),
+    }
 }
 
 /// A number within limits; NaN is in none.

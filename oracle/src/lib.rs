@@ -4,9 +4,11 @@
 pub mod check;
 pub mod cli;
 pub mod compose;
+pub mod conform;
 pub mod demo;
 pub mod drive;
 pub mod explore;
+pub mod implementation;
 pub mod json;
 pub mod oracle;
 pub mod parameters_file;

@@ -2,27 +2,44 @@
 
 use std::io::{self, BufRead, ErrorKind, Write};
 
+use serde_json::Value;
+
+use crate::implementation;
 use crate::json::answer::Answer;
 use crate::json::{self, LineError};
 
 /// Longest line that is read; the largest grid takes about 6 MB.
 pub const MAX_LINE_BYTES: usize = 64 << 20;
 
+/// The answer to a line, given without its newline, and its number from 1.
+pub type Answering = fn(&[u8], usize) -> serde_json::Result<String>;
+
+/// Answers with the exact model. Errors: none, as answers always become JSON.
+pub fn by_model(line: &[u8], number: usize) -> serde_json::Result<String> {
+    serde_json::to_string(&json::answer(line, number))
+}
+
+/// Answers with the implementation. Errors: none, as answers always become JSON.
+pub fn by_implementation(line: &[u8], number: usize) -> serde_json::Result<String> {
+    let answer: Value = implementation::answer(line, number);
+    serde_json::to_string(&answer)
+}
+
 /// Answers every line of `input` on one line of `output`, in order, each as soon as it is decided,
 /// until the end of the input. Errors are those of reading and writing alone; a line that is no
 /// record is answered.
-pub fn run(mut input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+pub fn run(mut input: impl BufRead, mut output: impl Write, answer: Answering) -> io::Result<()> {
     let mut line = Vec::new();
     let mut number = 0;
     while let Some(length) = read_line(&mut input, &mut line)? {
         number += 1;
         let answer = match length {
-            Length::Fits => json::answer(&line, number),
-            Length::TooLong => Answer::Error(
+            Length::Fits => answer(&line, number)?,
+            Length::TooLong => serde_json::to_string(&Answer::Error(
                 LineError::whole(number, format!("is longer than {MAX_LINE_BYTES} bytes")).into(),
-            ),
+            ))?,
         };
-        serde_json::to_writer(&mut output, &answer)?;
+        output.write_all(answer.as_bytes())?;
         output.write_all(b"\n")?;
         output.flush()?;
     }

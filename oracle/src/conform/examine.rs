@@ -1,0 +1,251 @@
+//! One record: asked, decided by the model, and compared
+//! (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+
+use mufasa_model::cycle::Cycle;
+use mufasa_model::schedule::check;
+use mufasa_model::verdict::{FailedStage, InvalidInput, Outcome, Reading, Stage};
+use mufasa_props::conformance::{Answer, Disagreement, name, rank, stage_conforms};
+use serde_json::{Map, Value};
+
+use super::answer::{self, Said};
+use super::class::{Breach, Class, Scale};
+use super::error::ConformError;
+use super::question::{Question, event_type};
+use super::subject::{Broken, Subject};
+use crate::json::composition_answer::CompositionAnswer;
+use crate::json::offloading_answer::OffloadingAnswer;
+use crate::json::{Trace, compose, names};
+
+/// Margin within which a disagreement counts as one at the threshold, m.
+const ROUNDING_M: f64 = 1e-6;
+
+/// What the model says.
+#[derive(Clone, Debug)]
+pub enum Expected {
+    /// Of a cycle, exactly.
+    Cycle(Answer),
+    /// Of a trace.
+    Offloading(OffloadingAnswer),
+    /// Of a composition; `Err` is invalid input.
+    Composition(Result<CompositionAnswer, InvalidInput>),
+}
+
+/// A record, asked and compared.
+#[derive(Clone, Debug)]
+pub struct Examined {
+    /// The model's answer.
+    pub expected: Expected,
+    /// The line that came back, or what came instead.
+    pub answered: Result<Vec<u8>, Broken>,
+    /// The answer's breach of conformance, if any.
+    pub class: Option<Class>,
+    /// Whether only the tolerance makes the answer conform.
+    pub tolerated: bool,
+}
+
+/// Asks a record under this id. A disagreement that a margin of `tolerance` m explains is none.
+/// Errors: the program cannot be started again.
+pub fn examine(
+    subject: &mut Subject,
+    id: &str,
+    question: &Question,
+    tolerance: Option<f64>,
+) -> Result<Examined, ConformError> {
+    let (expected, answered) = subject.ask(&question.line(id), || expect(id, question))?;
+    let compared = match &answered {
+        Ok(line) => answer::object(line, id)
+            .and_then(|object| compare(question, &expected, &object))
+            .map_err(|broken| subject.broke(broken)),
+        Err(broken) => Err(broken.clone()),
+    };
+    let (profile, configuration) = question.setting();
+    let class = |breach, place, profile: &str, configuration: &str, scale| Class {
+        kind: question.kind(),
+        breach,
+        place,
+        profile: profile.to_owned(),
+        configuration: configuration.to_owned(),
+        scale,
+    };
+    Ok(match compared {
+        Ok(None) => Examined { expected, answered, class: None, tolerated: false },
+        Ok(Some(differs)) => {
+            let within = |margin| match (question, differs.said) {
+                (Question::Cycle(cycle), Some(said)) => is_within(cycle, said, margin),
+                (_, _) => false,
+            };
+            let tolerated = tolerance.is_some_and(within);
+            let scale = if within(ROUNDING_M) { Scale::Threshold } else { Scale::Clear };
+            let class = class(differs.breach, differs.place, profile, configuration, scale);
+            Examined { expected, answered, class: Some(class).filter(|_| !tolerated), tolerated }
+        }
+        Err(broken) => {
+            let class = class(broken.breach, String::new(), "", "", Scale::Clear);
+            Examined { expected, answered: Err(broken), class: Some(class), tolerated: false }
+        }
+    })
+}
+
+/// The model's answer to a record with this id.
+pub fn expect(id: &str, question: &Question) -> Expected {
+    match question {
+        Question::Cycle(cycle) => Expected::Cycle(check(cycle, Reading::Exact)),
+        Question::Offloading(trace) => {
+            Expected::Offloading(OffloadingAnswer::run(id.to_owned(), trace))
+        }
+        Question::Composition(task) => {
+            let composed = compose(task);
+            let answer = |(_, answer)| CompositionAnswer::new(id.to_owned(), answer);
+            Expected::Composition(composed.map(answer))
+        }
+    }
+}
+
+/// A difference.
+struct Differs {
+    breach: Breach,
+    place: String,
+    /// The failing stage of a cycle that was answered.
+    said: Option<Option<FailedStage>>,
+}
+
+impl Differs {
+    fn new(breach: Breach, place: impl Into<String>) -> Self {
+        Self { breach, place: place.into(), said: None }
+    }
+}
+
+fn compare(
+    question: &Question,
+    expected: &Expected,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    match (question, expected) {
+        (Question::Cycle(cycle), Expected::Cycle(exact)) => {
+            Ok(compare_cycle(cycle, exact, answer::said(object)?))
+        }
+        (Question::Offloading(trace), Expected::Offloading(expected)) => {
+            compare_states(trace, expected, object)
+        }
+        (Question::Composition(_), Expected::Composition(expected)) => {
+            compare_compositions(expected, object)
+        }
+        // `expect` answers in kind.
+        (_, _) => Ok(None),
+    }
+}
+
+fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
+    let (report, said) = match (exact, said) {
+        (Err(_), Said::Error) => return None,
+        (Err(problem), Said::Verdict(_)) => {
+            return Some(Differs::new(Breach::Input, format!("{} valid", part(problem))));
+        }
+        (Ok(report), Said::Error) => {
+            let instead = name(report.failed_stage);
+            return Some(Differs::new(Breach::Input, format!("error instead of {instead}")));
+        }
+        (Ok(report), Said::Verdict(said)) => (report, said),
+    };
+    let exact = report.failed_stage;
+    if said == exact {
+        return None;
+    }
+    let strict = check(cycle, Reading::Strict).ok().and_then(|report| report.failed_stage);
+    let (breach, place) = match stage_conforms(exact, strict, said).err()? {
+        Disagreement::UnsafeAccepted { exact } => {
+            let mut place = name(Some(exact)).to_owned();
+            if let FailedStage::Stage(stage) = exact
+                && let Outcome::Failed(witness) = &report.stages[index(stage)]
+            {
+                place = format!("{place} {}", names::rule(witness.rule));
+            } else if let Some(problem) = &report.input {
+                place = format!("{place} {}", part(problem));
+            }
+            (Breach::Soundness, place)
+        }
+        Disagreement::SafeRejected { implementation } => {
+            (Breach::Completeness, name(Some(implementation)).to_owned())
+        }
+        Disagreement::WrongStage { .. }
+        | Disagreement::WrongInput { .. }
+        | Disagreement::ModelUnordered { .. } => {
+            (Breach::Stage, format!("{} instead of {}", name(said), name(exact)))
+        }
+    };
+    Some(Differs { breach, place, said: Some(said) })
+}
+
+/// Place of a stage in a report.
+pub fn index(stage: Stage) -> usize {
+    Stage::ALL.iter().position(|it| *it == stage).unwrap_or(0)
+}
+
+/// The input that a problem is in: the first word of its path.
+fn part(problem: &InvalidInput) -> &str {
+    problem.field.split('.').next().unwrap_or(&problem.field)
+}
+
+/// Whether the model with this margin could fail at this stage: it lies between the strict and
+/// the lax reading.
+fn is_within(cycle: &Cycle, said: Option<FailedStage>, margin_m: f64) -> bool {
+    let mut cycle = cycle.clone();
+    cycle.parameters.delta = margin_m;
+    let at = |reading| check(&cycle, reading).map(|report| rank(report.failed_stage));
+    match (at(Reading::Strict), at(Reading::Lax)) {
+        (Ok(strict), Ok(lax)) => (strict..=lax).contains(&rank(said)),
+        (Err(_), _) | (_, Err(_)) => false,
+    }
+}
+
+fn compare_states(
+    trace: &Trace,
+    expected: &OffloadingAnswer,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    if answer::is_error(object) {
+        return Ok(Some(Differs::new(Breach::States, "error")));
+    }
+    let states = answer::list(object, "states")?;
+    for ((event, expected), state) in trace.events.iter().zip(&expected.states).zip(states) {
+        // The states are plain data: they always become JSON.
+        let expected = serde_json::to_value(expected).unwrap_or_default();
+        for key in ["mot", "plan", "hold_until_ns", "actions"] {
+            if state.get(key) != expected.get(key) {
+                let place = format!("{key} after {}", event_type(event));
+                return Ok(Some(Differs::new(Breach::States, place)));
+            }
+        }
+    }
+    let same = states.len() == expected.states.len();
+    Ok((!same).then(|| Differs::new(Breach::States, "number of states")))
+}
+
+fn compare_compositions(
+    expected: &Result<CompositionAnswer, InvalidInput>,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    let differs = |place| Ok(Some(Differs::new(Breach::Compositions, place)));
+    let expected = match (expected, answer::is_error(object)) {
+        (Err(_), true) => return Ok(None),
+        (Err(_), false) => return differs("invalid input taken for valid"),
+        (Ok(_), true) => return differs("error"),
+        (Ok(expected), false) => serde_json::to_value(expected).unwrap_or_default(),
+    };
+    let found = answer::list(object, "compositions")?;
+    let wanted = expected.get("compositions").and_then(Value::as_array);
+    let wanted = wanted.map_or(&[][..], Vec::as_slice);
+    if found.iter().any(|it| !wanted.contains(it)) {
+        return differs("one that is none, or in another form");
+    }
+    if wanted.iter().any(|it| !found.contains(it)) {
+        return differs("one is missing");
+    }
+    if found != wanted {
+        return differs("order or repetition");
+    }
+    if object.get("none").unwrap_or(&Value::Null) != expected.get("none").unwrap_or(&Value::Null) {
+        return differs("none");
+    }
+    Ok(None)
+}

@@ -1,0 +1,78 @@
+//! The summary as JUnit XML, which build servers show.
+
+use std::fmt::Write;
+
+use super::summary::{Found, Group, Summary};
+
+/// A test per class of disagreements, which failed, and per group of cases without any.
+pub fn xml(summary: &Summary) -> String {
+    let passed: Vec<&Group> =
+        summary.groups.iter().filter(|group| group.disagreements == 0).collect();
+    let failures = summary.classes.len();
+    let tests = passed.len() + failures;
+    let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "<testsuites tests=\"{tests}\" failures=\"{failures}\">\n\
+         <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" \
+         skipped=\"0\">"
+    );
+    for Group { kind, profile, configuration, expected, cases, .. } in passed {
+        let parts = [kind.name(), profile, configuration, expected];
+        let words: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+        let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));
+        let _ = writeln!(text, "<testcase classname=\"mufasa.{}\" name=\"{name}\"/>", kind.name());
+    }
+    for Found { class, count, told, record, .. } in &summary.classes {
+        let (kind, name) = (class.kind.name(), escaped(&class.to_string()));
+        let message = escaped(&format!("{count} cases; exact: {}", told.expected));
+        let mut body = format!("program: {}\nexact: {}\n", told.answered, told.expected);
+        if let Some(numbers) = &told.numbers {
+            let _ = writeln!(
+                body,
+                "decides: {}\n{} against {}, margin {}",
+                numbers.what, numbers.left, numbers.right, numbers.margin
+            );
+        }
+        let _ = writeln!(body, "record: {}", record.get());
+        let _ = writeln!(
+            text,
+            "<testcase classname=\"mufasa.{kind}\" name=\"{name}\"><failure type=\"{}\" \
+             message=\"{message}\">{}</failure></testcase>",
+            class.breach.name(),
+            escaped(&body)
+        );
+    }
+    text.push_str("</testsuite>\n</testsuites>\n");
+    text
+}
+
+/// Text for XML: markup escaped, characters that XML cannot hold replaced.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\n' => out.push_str("&#10;"),
+            '\u{9}' | '\u{d}' | '\u{20}'..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'.. => {
+                out.push(c);
+            }
+            _ => out.push('\u{fffd}'),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(escaped("a<b & \"c\"\u{0}\n"), "a&lt;b &amp; &quot;c&quot;\u{fffd}&#10;");
+    }
+}

@@ -1,0 +1,149 @@
+//! Shrinking: the smallest record that still shows the same class. First the choices that the
+//! record was drawn from, with proptest's search; then the record itself, by what makes it easier
+//! to read.
+
+use proptest::num::u32::BinarySearch;
+use proptest::strategy::ValueTree;
+
+use super::class::{Breach, Class};
+use super::error::ConformError;
+use super::examine::examine;
+use super::minimise;
+use super::question::Question;
+use super::subject::Subject;
+
+/// Records tried while the choices are shrunk.
+const TRIES_OF_CHOICES: usize = 1500;
+
+/// Records tried while the record itself is made smaller.
+const TRIES_OF_RECORDS: usize = 4000;
+
+/// A case that shows a class, and the program that is asked whether a smaller one does.
+#[derive(Debug)]
+pub struct Hunt<'a> {
+    /// The program under test.
+    pub subject: &'a mut Subject,
+    /// What must stay the same.
+    pub class: &'a Class,
+    /// Name of the case; smaller ones are called `NAME.1`, `NAME.2` and so on.
+    pub name: &'a str,
+    /// As of the campaign.
+    pub tolerance: Option<f64>,
+    tries: usize,
+    tries_left: usize,
+    restarts_left: usize,
+    error: Option<ConformError>,
+}
+
+impl<'a> Hunt<'a> {
+    /// A hunt that has not begun.
+    pub fn new(
+        subject: &'a mut Subject,
+        class: &'a Class,
+        name: &'a str,
+        tolerance: Option<f64>,
+    ) -> Self {
+        // A hang costs the time limit each, a start of another program some milliseconds.
+        let restarts_left = match class.breach {
+            Breach::Hangs => 4,
+            Breach::Dies | Breach::Floods | Breach::OutOfOrder | Breach::Nonsense => 60,
+            Breach::Soundness
+            | Breach::Completeness
+            | Breach::Stage
+            | Breach::Input
+            | Breach::States
+            | Breach::Compositions => 200,
+        };
+        Self {
+            subject,
+            class,
+            name,
+            tolerance,
+            tries: 0,
+            tries_left: 1,
+            restarts_left,
+            error: None,
+        }
+    }
+
+    /// The smallest record found, or `None` when the record, asked again, shows the class no
+    /// more. `tape` are the choices that it was drawn from and how they are read.
+    /// Errors: the program cannot be started again.
+    pub fn run(
+        mut self,
+        question: &Question,
+        tape: Option<(Vec<u32>, &dyn Fn(&[u32]) -> Question)>,
+    ) -> Result<Option<Question>, ConformError> {
+        let mut smallest = None;
+        if self.shows(question) {
+            let mut found = question.clone();
+            if let Some((tape, read)) = tape {
+                self.tries_left = TRIES_OF_CHOICES;
+                found = read(&self.choices(tape, read));
+            }
+            self.tries_left = TRIES_OF_RECORDS;
+            smallest = Some(minimise::question(&found, &mut |it| self.shows(it)));
+        }
+        match self.error {
+            Some(error) => Err(error),
+            None => Ok(smallest),
+        }
+    }
+
+    /// Whether a record shows the class; never once the tries are used up.
+    fn shows(&mut self, question: &Question) -> bool {
+        if self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some() {
+            return false;
+        }
+        self.tries_left -= 1;
+        self.tries += 1;
+        let id = format!("{}.{}", self.name, self.tries);
+        match examine(self.subject, &id, question, self.tolerance) {
+            Ok(examined) => {
+                if examined.answered.is_err() {
+                    self.restarts_left -= 1;
+                }
+                examined.class.as_ref() == Some(self.class)
+            }
+            Err(error) => {
+                self.error = Some(error);
+                false
+            }
+        }
+    }
+
+    /// Zeroes as many choices as possible, in chunks, then lowers the others one by one.
+    fn choices(&mut self, mut tape: Vec<u32>, read: &dyn Fn(&[u32]) -> Question) -> Vec<u32> {
+        for size in [160, 64, 32, 16, 8, 4, 2, 1] {
+            for start in (0..tape.len()).step_by(size) {
+                let end = (start + size).min(tape.len());
+                if tape[start..end].iter().any(|choice| *choice != 0) {
+                    let before = tape[start..end].to_vec();
+                    tape[start..end].fill(0);
+                    if !self.shows(&read(&tape)) {
+                        tape[start..end].copy_from_slice(&before);
+                    }
+                }
+            }
+        }
+        for at in 0..tape.len() {
+            if tape[at] == 0 {
+                continue;
+            }
+            let mut search = BinarySearch::new(tape[at]);
+            let mut best = tape[at];
+            let mut moved = search.simplify();
+            while moved && self.tries_left > 0 {
+                tape[at] = search.current();
+                moved = if self.shows(&read(&tape)) {
+                    best = search.current();
+                    search.simplify()
+                } else {
+                    search.complicate()
+                };
+            }
+            tape[at] = best;
+        }
+        tape
+    }
+}

@@ -1,0 +1,317 @@
+//! The program under test: started once, fed line by line, and started again when it breaks.
+
+use std::ffi::OsString;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::class::Breach;
+use super::error::ConformError;
+
+/// Longest answer that is read; traces of thousands of events take a few MB.
+const MAX_ANSWER_BYTES: usize = 16 << 20;
+
+/// Lines that wait to be read; a program that floods then waits, too.
+const WAITING_LINES: usize = 16;
+
+/// What is kept of the program's last words on standard error.
+const STDERR_BYTES: usize = 2000;
+
+/// How long a line too many is waited for behind an answer that is none.
+const GRACE: Duration = Duration::from_millis(20);
+
+/// How long an ended program is waited for.
+const LAST_WORDS: Duration = Duration::from_millis(300);
+
+/// No answer, or none that can be compared.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Broken {
+    /// What the program does: one of those that `Breach::is_broken`.
+    pub breach: Breach,
+    /// In words.
+    pub words: String,
+}
+
+impl Broken {
+    /// A breach in words.
+    pub fn new(breach: Breach, words: impl Into<String>) -> Self {
+        Self { breach, words: words.into() }
+    }
+}
+
+/// The program under test.
+#[derive(Debug)]
+pub struct Subject {
+    command: Vec<OsString>,
+    time_limit: Duration,
+    running: Option<Running>,
+    starts: u64,
+}
+
+#[derive(Debug)]
+struct Running {
+    child: Child,
+    heard: Receiver<Heard>,
+    /// Lines on their way to the program; dropped to end its input.
+    lines: Sender<Vec<u8>>,
+    last_words: Arc<Mutex<Vec<u8>>>,
+}
+
+/// What comes from the program.
+#[derive(Debug)]
+enum Heard {
+    Line(Vec<u8>),
+    TooLong,
+    End,
+}
+
+impl Subject {
+    /// Starts the program: its name and arguments, and the time that an answer may take.
+    /// Errors: it cannot be started.
+    pub fn start(command: &[OsString], time_limit: Duration) -> Result<Self, ConformError> {
+        let mut subject = Self { command: command.to_vec(), time_limit, running: None, starts: 0 };
+        subject.ensure()?;
+        Ok(subject)
+    }
+
+    /// How often the program was started.
+    pub fn starts(&self) -> u64 {
+        self.starts
+    }
+
+    /// Sends a line, does something else, and returns its result with the line that came back.
+    /// Errors: the program ended before and cannot be started again.
+    pub fn ask<T>(
+        &mut self,
+        line: &str,
+        meanwhile: impl FnOnce() -> T,
+    ) -> Result<(T, Result<Vec<u8>, Broken>), ConformError> {
+        let time_limit = self.time_limit;
+        let running = self.ensure()?;
+        if let Err(broken) = running.quiet() {
+            self.stop();
+            return Ok((meanwhile(), Err(broken)));
+        }
+        let sent = Instant::now();
+        let mut bytes = line.as_bytes().to_vec();
+        bytes.push(b'\n');
+        // A program that ended is seen by what comes back.
+        let _ = running.lines.send(bytes);
+        let result = meanwhile();
+        // What the model takes is not the program's time, but nearly so on a busy machine.
+        let left = time_limit.saturating_sub(sent.elapsed()).max(time_limit / 4);
+        let answer = running.next(left, time_limit);
+        if answer.is_err() {
+            self.stop();
+        }
+        Ok((result, answer))
+    }
+
+    /// Judges an answer that is none: followed by another line at once, it is a flood. The
+    /// program is stopped.
+    pub fn broke(&mut self, broken: Broken) -> Broken {
+        let more = self
+            .running
+            .as_ref()
+            .is_some_and(|running| matches!(running.heard.recv_timeout(GRACE), Ok(Heard::Line(_))));
+        self.stop();
+        if more {
+            let words = format!("writes line after line; the first: {}", broken.words);
+            return Broken::new(Breach::Floods, words);
+        }
+        broken
+    }
+
+    /// Ends the input and waits for the end of the output. A line that still comes is a flood.
+    pub fn finish(&mut self) -> Result<(), Broken> {
+        let Some(running) = self.running.take() else { return Ok(()) };
+        let Running { mut child, heard, lines, .. } = running;
+        drop(lines);
+        let last = heard.recv_timeout(self.time_limit);
+        drop(heard);
+        if !matches!(last, Ok(Heard::End)) {
+            let _ = child.kill();
+        }
+        let _ = child.wait();
+        match last {
+            Ok(Heard::Line(line)) => Err(unasked(&line)),
+            Ok(Heard::TooLong) => Err(too_long()),
+            Ok(Heard::End) | Err(_) => Ok(()),
+        }
+    }
+
+    fn ensure(&mut self) -> Result<&mut Running, ConformError> {
+        let running = match self.running.take() {
+            Some(running) => running,
+            None => {
+                self.starts += 1;
+                Running::start(&self.command)?
+            }
+        };
+        Ok(self.running.insert(running))
+    }
+
+    fn stop(&mut self) {
+        if let Some(mut running) = self.running.take() {
+            let _ = running.child.kill();
+            let _ = running.child.wait();
+        }
+    }
+}
+
+impl Drop for Subject {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
+impl Running {
+    fn start(command: &[OsString]) -> Result<Self, ConformError> {
+        let (program, arguments) = match command {
+            [program, arguments @ ..] => (program.clone(), arguments),
+            [] => (OsString::new(), &[][..]),
+        };
+        let failed =
+            |error| ConformError::Start { command: program.to_string_lossy().into_owned(), error };
+        let mut child = Command::new(&program)
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(failed)?;
+        let (say, heard) = mpsc::sync_channel(WAITING_LINES);
+        let (lines, to_write) = mpsc::channel();
+        let last_words = Arc::new(Mutex::new(Vec::new()));
+        // The threads end with the pipes; nobody waits for them, as a grandchild may hold those.
+        if let Some(output) = child.stdout.take() {
+            thread::spawn(move || read(output, &say));
+        }
+        if let Some(input) = child.stdin.take() {
+            thread::spawn(move || write(input, &to_write));
+        }
+        if let Some(errors) = child.stderr.take() {
+            let kept = Arc::clone(&last_words);
+            thread::spawn(move || keep_last(errors, &kept));
+        }
+        Ok(Self { child, heard, lines, last_words })
+    }
+
+    /// Nothing has come that was not asked for.
+    fn quiet(&mut self) -> Result<(), Broken> {
+        match self.heard.try_recv() {
+            Ok(Heard::Line(line)) => Err(unasked(&line)),
+            Ok(Heard::TooLong) => Err(too_long()),
+            Ok(Heard::End) | Err(TryRecvError::Disconnected) => Err(self.died()),
+            Err(TryRecvError::Empty) => Ok(()),
+        }
+    }
+
+    fn next(&mut self, left: Duration, time_limit: Duration) -> Result<Vec<u8>, Broken> {
+        match self.heard.recv_timeout(left) {
+            Ok(Heard::Line(line)) => Ok(line),
+            Ok(Heard::TooLong) => Err(too_long()),
+            Ok(Heard::End) | Err(RecvTimeoutError::Disconnected) => Err(self.died()),
+            Err(RecvTimeoutError::Timeout) => {
+                let words = format!(
+                    "no answer within {} ms (does it flush its output after every line?){}",
+                    time_limit.as_millis(),
+                    self.said()
+                );
+                Err(Broken::new(Breach::Hangs, words))
+            }
+        }
+    }
+
+    fn died(&mut self) -> Broken {
+        let since = Instant::now();
+        let status = loop {
+            match self.child.try_wait() {
+                Ok(Some(status)) => break Some(status),
+                Ok(None) if since.elapsed() < LAST_WORDS => {
+                    thread::sleep(Duration::from_millis(2));
+                }
+                Ok(None) | Err(_) => break None,
+            }
+        };
+        let how = status.map_or_else(
+            || String::from("closes its output before it has answered"),
+            |status| format!("ends before it has answered ({status})"),
+        );
+        Broken::new(Breach::Dies, how + &self.said())
+    }
+
+    /// The last words on standard error.
+    fn said(&self) -> String {
+        // The thread that reads them may be a moment behind.
+        thread::sleep(Duration::from_millis(5));
+        let kept = self.last_words.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = String::from_utf8_lossy(&kept);
+        let text = text.trim();
+        if text.is_empty() { String::new() } else { format!("; its standard error: {text}") }
+    }
+}
+
+fn unasked(line: &[u8]) -> Broken {
+    let words = format!("writes a line that nobody asked for: {}", excerpt(line));
+    Broken::new(Breach::Floods, words)
+}
+
+fn too_long() -> Broken {
+    Broken::new(Breach::Floods, format!("writes a line longer than {MAX_ANSWER_BYTES} bytes"))
+}
+
+/// The beginning of a line, printable.
+pub fn excerpt(line: &[u8]) -> String {
+    const MOST: usize = 300;
+    let text = String::from_utf8_lossy(&line[..line.len().min(4 * MOST)]);
+    let shown: String =
+        text.chars().take(MOST).map(|c| if c.is_control() { '.' } else { c }).collect();
+    if shown.len() < line.len() { shown + "..." } else { shown }
+}
+
+fn read(output: impl Read, say: &SyncSender<Heard>) {
+    let mut output = BufReader::new(output);
+    loop {
+        let mut line = Vec::new();
+        let limit = MAX_ANSWER_BYTES as u64 + 1;
+        let heard = match output.by_ref().take(limit).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => Heard::End,
+            Ok(_) if line.len() > MAX_ANSWER_BYTES => Heard::TooLong,
+            Ok(_) => {
+                if line.last() == Some(&b'\n') {
+                    line.pop();
+                }
+                Heard::Line(line)
+            }
+        };
+        let is_line = matches!(heard, Heard::Line(_));
+        if say.send(heard).is_err() || !is_line {
+            return;
+        }
+    }
+}
+
+fn write(mut input: ChildStdin, lines: &Receiver<Vec<u8>>) {
+    while let Ok(line) = lines.recv() {
+        if input.write_all(&line).and_then(|()| input.flush()).is_err() {
+            return;
+        }
+    }
+}
+
+fn keep_last(mut errors: impl Read, kept: &Mutex<Vec<u8>>) {
+    let mut chunk = [0; 1024];
+    while let Ok(count) = errors.read(&mut chunk) {
+        if count == 0 {
+            return;
+        }
+        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.extend_from_slice(&chunk[..count]);
+        let surplus = kept.len().saturating_sub(STDERR_BYTES);
+        kept.drain(..surplus);
+    }
+}

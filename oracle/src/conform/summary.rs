@@ -1,0 +1,199 @@
+//! The result of a campaign or of a shard, as it is kept and merged.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+
+use super::class::{Class, Kind};
+use super::error::ConformError;
+use super::explain::Told;
+
+/// The result of a campaign, or of some of its shards.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Summary {
+    /// What was done; equal in all shards.
+    pub campaign: Campaign,
+    /// Shards in it, ascending.
+    pub shards: Vec<u64>,
+    /// Cases asked.
+    pub asked: u64,
+    /// Cases not asked because their kind was given up.
+    pub skipped: u64,
+    /// Cases that only the tolerance makes agree.
+    pub tolerated: u64,
+    /// Starts of the program.
+    pub starts: u64,
+    /// Kinds that were given up after too many restarts.
+    pub given_up: Vec<Kind>,
+    /// Cases by kind, profile, configuration and expected verdict.
+    pub groups: Vec<Group>,
+    /// Disagreements, by class.
+    pub classes: Vec<Found>,
+}
+
+/// What makes shards parts of one campaign.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Campaign {
+    /// The program under test and its arguments.
+    pub command: Vec<String>,
+    /// `paper` or `hardened`.
+    pub profile: String,
+    /// Seed of the cases.
+    pub seed: u64,
+    /// Cases of all shards together.
+    pub cases: u64,
+    /// Kinds of records.
+    pub kinds: Vec<Kind>,
+    /// Files of drives; empty when cases are generated.
+    pub drives: Vec<String>,
+    /// Time limit of an answer, ms.
+    pub time_limit_ms: u64,
+    /// Margin within which a disagreement is none, m.
+    pub tolerance: Option<f64>,
+    /// Into how many shards the cases are divided.
+    pub of: u64,
+}
+
+/// Cases that have something in common.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Group {
+    /// Kind of the records.
+    pub kind: Kind,
+    /// Profile, or empty.
+    pub profile: String,
+    /// Configuration, or empty.
+    pub configuration: String,
+    /// What the exact model says: `safe`, a failing stage, `error`; empty for other kinds.
+    pub expected: String,
+    /// Cases asked.
+    pub cases: u64,
+    /// Disagreements among them.
+    pub disagreements: u64,
+}
+
+/// A class of disagreements with its smallest case.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Found {
+    /// The class.
+    pub class: Class,
+    /// Its name, which is the id of the record below.
+    pub id: String,
+    /// How many cases of it.
+    pub count: u64,
+    /// The first case, by its number in the campaign and by name.
+    pub first: u64,
+    /// Its name.
+    pub name: String,
+    /// What was answered and what is right, in the shrunk case.
+    pub told: Told,
+    /// Whether the case showed the class again when it was asked again, and was shrunk.
+    pub shrunk: bool,
+    /// Objects, events or services of the shrunk case.
+    pub size: usize,
+    /// What `size` counts.
+    pub unit: String,
+    /// The shrunk record.
+    pub record: Box<RawValue>,
+}
+
+impl Summary {
+    /// All disagreements.
+    pub fn disagreements(&self) -> u64 {
+        self.classes.iter().map(|found| found.count).sum()
+    }
+
+    /// Whether every shard is in it.
+    pub fn is_complete(&self) -> bool {
+        self.missing().is_empty()
+    }
+
+    /// Shards that are not in it.
+    pub fn missing(&self) -> Vec<u64> {
+        (0..self.campaign.of).filter(|shard| !self.shards.contains(shard)).collect()
+    }
+
+    /// Reads a summary from a file.
+    pub fn read(path: &Path) -> Result<Self, ConformError> {
+        let text = fs::read_to_string(path)
+            .map_err(|error| ConformError::file(path, format!("cannot be read: {error}")))?;
+        serde_json::from_str(&text).map_err(|error| {
+            ConformError::file(path, format!("is no summary of `mufasa conform`: {error}"))
+        })
+    }
+
+    /// Joins the shards of one campaign. Errors: other campaigns, a shard given twice.
+    pub fn merge(files: &[PathBuf]) -> Result<Self, ConformError> {
+        let mut merged: Option<Self> = None;
+        for path in files {
+            let summary = Self::read(path)?;
+            merged = Some(match merged {
+                None => summary,
+                Some(merged) => merged.with(summary, path)?,
+            });
+        }
+        merged.ok_or_else(|| ConformError::Merge(String::from("no summaries given")))
+    }
+
+    fn with(mut self, other: Self, path: &Path) -> Result<Self, ConformError> {
+        if self.campaign != other.campaign {
+            let what = "belongs to another campaign: command, profile, seed, cases, kinds, \
+                        drives, time limit, tolerance and number of shards must be the same";
+            return Err(ConformError::file(path, what));
+        }
+        if let Some(shard) = other.shards.iter().find(|shard| self.shards.contains(shard)) {
+            return Err(ConformError::file(path, format!("shard {shard} is given twice")));
+        }
+        self.shards.extend(other.shards);
+        self.shards.sort_unstable();
+        self.asked += other.asked;
+        self.skipped += other.skipped;
+        self.tolerated += other.tolerated;
+        self.starts += other.starts;
+        self.given_up.extend(other.given_up);
+        self.given_up.sort();
+        self.given_up.dedup();
+        for group in other.groups {
+            let same = |it: &&mut Group| {
+                (it.kind, &it.profile, &it.configuration, &it.expected)
+                    == (group.kind, &group.profile, &group.configuration, &group.expected)
+            };
+            match self.groups.iter_mut().find(same) {
+                Some(known) => {
+                    known.cases += group.cases;
+                    known.disagreements += group.disagreements;
+                }
+                None => self.groups.push(group),
+            }
+        }
+        let key = |it: &Group| {
+            (it.kind, it.profile.clone(), it.configuration.clone(), it.expected.clone())
+        };
+        self.groups.sort_by_key(key);
+        let mut classes: BTreeMap<Class, Found> = BTreeMap::new();
+        for found in self.classes.into_iter().chain(other.classes) {
+            let class = found.class.clone();
+            let better = |one: &Found, two: &Found| {
+                let key = |it: &Found| (!it.shrunk, it.size, it.record.get().len(), it.first);
+                key(one) < key(two)
+            };
+            let joined = match classes.remove(&class) {
+                None => found,
+                Some(known) => {
+                    let count = known.count + found.count;
+                    let smaller = if better(&known, &found) { known } else { found };
+                    Found { count, ..smaller }
+                }
+            };
+            classes.insert(class, joined);
+        }
+        self.classes = classes.into_values().collect();
+        Ok(self)
+    }
+}
