@@ -3,12 +3,14 @@
 use mufasa_model::cycle::Cycle;
 use mufasa_model::schedule;
 use mufasa_model::verdict::{InvalidInput, Outcome, Report, Witness};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::json::composition_answer::CompositionAnswer;
 use crate::json::error::LineError;
 use crate::json::names;
 use crate::json::offloading_answer::OffloadingAnswer;
+use crate::vectors::schema::words;
 
 /// The answer to one line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -25,13 +27,15 @@ pub enum Answer {
 }
 
 /// The answer to one cycle.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct CycleAnswer {
     /// Id of the record.
     pub id: String,
     /// `safe` or `unsafe`, as the exact model decides.
+    #[schemars(with = "words::Verdict")]
     pub verdict: &'static str,
     /// `None` when the cycle is safe.
+    #[schemars(with = "Option<words::FailedStage>")]
     pub failed_stage: Option<&'static str>,
     /// Where the problem is, when the failed stage is `input`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,13 +43,15 @@ pub struct CycleAnswer {
     /// What became of every stage.
     pub stages: Stages,
     /// Verdict of the strict reading.
+    #[schemars(with = "words::Verdict")]
     pub strict: &'static str,
     /// Verdict of the lax reading.
+    #[schemars(with = "words::Verdict")]
     pub lax: &'static str,
 }
 
 /// A problem in remote data.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct InputProblem {
     /// Dotted path without indices.
     pub field: String,
@@ -54,7 +60,7 @@ pub struct InputProblem {
 }
 
 /// The outcomes of the five stages.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct Stages {
     /// Track validation.
     pub i: StageAnswer,
@@ -69,7 +75,7 @@ pub struct Stages {
 }
 
 /// The outcome of a stage.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum StageAnswer {
     /// It ran and found nothing.
@@ -82,11 +88,13 @@ pub enum StageAnswer {
     /// Conditional, or stopped by an earlier failure.
     Skipped {
         /// Why.
+        #[schemars(with = "words::Reason")]
         reason: &'static str,
     },
     /// Scheduled always, but an input is missing.
     NotApplicable {
         /// Key of that input in the record.
+        #[schemars(with = "words::Missing")]
         missing: &'static str,
     },
     /// Not part of this configuration.
@@ -94,9 +102,10 @@ pub enum StageAnswer {
 }
 
 /// A witness; keys that its rule has no use for are left out.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct WitnessAnswer {
     /// The rule that was broken.
+    #[schemars(with = "words::Rule")]
     pub rule: &'static str,
     /// Index of the trajectory point.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -121,20 +130,22 @@ pub struct WitnessAnswer {
 }
 
 /// The answer to a line that is no record, or to a record with invalid local input.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct ErrorAnswer {
     /// Id of the record, when it could be read.
     pub id: Option<String>,
     /// Always `error`.
+    #[schemars(with = "words::ErrorVerdict")]
     pub verdict: &'static str,
     /// Always null.
+    #[schemars(with = "()")]
     pub failed_stage: Option<&'static str>,
     /// What is wrong.
     pub error: ErrorProblem,
 }
 
 /// What is wrong with a line.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct ErrorProblem {
     /// Dotted path without indices; empty for the record itself.
     pub field: String,

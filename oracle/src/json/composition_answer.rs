@@ -2,10 +2,13 @@
 
 use mufasa_model::composition::Composition;
 use mufasa_model::orchestrator::{Answer, NoComposition, Rule};
+use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::vectors::schema::words;
+
 /// Every composition, or why there is none.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct CompositionAnswer {
     /// Id of the record.
     pub id: String,
@@ -16,7 +19,7 @@ pub struct CompositionAnswer {
 }
 
 /// One composition; every list is sorted bytewise.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct CompositionEntry {
     /// Ids of the services.
     pub members: Vec<String>,
@@ -29,7 +32,7 @@ pub struct CompositionEntry {
 }
 
 /// Why there is no composition.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 #[serde(untagged)]
 pub enum NoneEntry {
     /// Nobody guarantees the requirement.
@@ -42,6 +45,7 @@ pub enum NoneEntry {
     /// A rule stands in the way.
     Rule {
         /// `same_station`, `local_only` or `acyclic`.
+        #[schemars(with = "words::PlacementRule")]
         rule: &'static str,
     },
 }

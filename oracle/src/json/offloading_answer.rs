@@ -1,13 +1,15 @@
 //! The answer to an offloading trace (`spec/5-interfaces.md#offloading-trace`).
 
 use mufasa_model::requester::{Action, Group, GroupState, Requester};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::json::names;
 use crate::json::offloading::Trace;
+use crate::vectors::schema::{self, words};
 
 /// One state per event.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct OffloadingAnswer {
     /// Id of the record.
     pub id: String,
@@ -16,7 +18,7 @@ pub struct OffloadingAnswer {
 }
 
 /// The state after an event, and what the event made the requester do.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 pub struct StateAnswer {
     /// `local`, `requested:N` or `remote:N`.
     pub mot: String,
@@ -29,16 +31,18 @@ pub struct StateAnswer {
 }
 
 /// An action.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
 #[serde(untagged)]
 pub enum ActionAnswer {
     /// A message to a station.
     Send {
         /// `request` or `release`.
+        #[schemars(with = "words::Send")]
         send: &'static str,
         /// To whom.
         station: i64,
         /// Of which group.
+        #[schemars(with = "schema::record::Group")]
         group: &'static str,
         /// In which session.
         session: i64,
@@ -46,16 +50,19 @@ pub enum ActionAnswer {
     /// The local services of a group start.
     Activate {
         /// Which group.
+        #[schemars(with = "schema::record::Group")]
         activate: &'static str,
     },
     /// The local services of a group stop.
     Deactivate {
         /// Which group.
+        #[schemars(with = "schema::record::Group")]
         deactivate: &'static str,
     },
     /// An element is not used.
     Drop {
         /// Of which group.
+        #[schemars(with = "schema::record::Group")]
         drop: &'static str,
     },
 }
