@@ -285,17 +285,18 @@ fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
     at.number(fields.width, track.width, SIZE)
 }
 
-/// Whether stamp and points are within 60 s of now, or there is no trajectory.
+/// Whether the stamp is not more than 60 s before now, or there is no trajectory. The points of a
+/// local trajectory that old may be as old.
 fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInput> {
     let Some(trajectory) = &cycle.trajectory else { return Ok(true) };
     let at = Place { index: None };
-    let mut usable = at.stamp("trajectory.stamp_ns", trajectory.stamp_ns, cycle.now_ns, remote)?;
+    let usable = at.stamp("trajectory.stamp_ns", trajectory.stamp_ns, cycle.now_ns, remote)?;
     at.size("trajectory.points", trajectory.points.len(), [1, 1024])?;
     let mut before: Option<i64> = None;
     for (index, point) in trajectory.points.iter().enumerate() {
         let &TrajectoryPoint { t_ns, x, y, cos, sin } = point;
         let at = Place { index: Some(index) };
-        usable &= at.stamp("trajectory.points.t_ns", t_ns, cycle.now_ns, remote)?;
+        at.stamp("trajectory.points.t_ns", t_ns, cycle.now_ns, usable)?;
         at.number("trajectory.points.x", x, POSITION)?;
         at.number("trajectory.points.y", y, POSITION)?;
         at.number("trajectory.points.cos", cos, ANY)?;

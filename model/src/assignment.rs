@@ -1,6 +1,8 @@
 //! The assignment of least cost, with the witnesses that show that it is one
 //! (`spec/4-arithmetic.md#the-model-is-exact`).
 
+use std::ops::{Add, Sub};
+
 use crate::real::Real;
 
 /// Costs of pairing row i with column j; `None` forbids the pair.
@@ -46,60 +48,140 @@ impl Dual {
     }
 }
 
+/// Whether the cheapest one-to-one assignment of exactly `pairs` rows and columns costs less than
+/// `bound`. The verdict is that of a witness checked exactly: an assignment that costs less, or dual
+/// potentials whose bound is not less. Both are looked for in doubles; only when these do not
+/// settle it, because least cost and bound are closer than doubles are, in exact numbers. `Err` is
+/// the largest number of pairs, when there are fewer.
+pub fn costs_less(
+    costs: &Costs,
+    columns: usize,
+    pairs: usize,
+    bound: &Real,
+) -> Result<Comparison, usize> {
+    let doubles: Vec<Vec<Option<f64>>> = (costs.iter())
+        .map(|row| row.iter().map(|cost| cost.as_ref().map(Real::near)).collect())
+        .collect();
+    let found = Search::shortest_paths(&doubles, columns, pairs)?;
+    let cost = found.cost_in(costs);
+    if cost < *bound {
+        return Ok(Comparison { less: true, cost });
+    }
+    if found.dual(costs).lower_bound(costs, pairs).is_some_and(|least| least >= *bound) {
+        return Ok(Comparison { less: false, cost });
+    }
+    let cost = least_cost(costs, columns, pairs)?.cost;
+    Ok(Comparison { less: cost < *bound, cost })
+}
+
+/// Answer of `costs_less`.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The least cost is less than the bound.
+    pub less: bool,
+    /// Cost of the assignment found: the least, up to what doubles can tell.
+    pub cost: Real,
+}
+
 /// The cheapest one-to-one assignment of exactly `pairs` rows and columns, by shortest augmenting
 /// paths over exact numbers. `Err` is the largest number of pairs, when there are fewer.
 ///
 /// # Panics
 /// If the potentials do not prove that the assignment is the cheapest.
 pub fn least_cost(costs: &Costs, columns: usize, pairs: usize) -> Result<Assignment, usize> {
-    let mut search = Search::new(costs, columns);
-    for found in 0..pairs {
-        if !search.augment() {
-            return Err(found);
-        }
+    let search = Search::shortest_paths(costs, columns, pairs)?;
+    let (cost, dual) = (search.cost_in(costs), search.dual(costs));
+    let proves = dual.lower_bound(costs, pairs).is_some_and(|bound| bound >= cost);
+    assert!(proves, "the potentials prove the assignment optimal");
+    Ok(Assignment { pairs: search.pairs(), cost, dual })
+}
+
+/// What the search computes with: exact numbers, or doubles to find a candidate.
+trait Number: Clone + PartialOrd + Add<Output = Self> + Sub<Output = Self> {
+    fn zero() -> Self;
+    fn exact(&self) -> Real;
+}
+
+impl Number for Real {
+    fn zero() -> Self {
+        Self::zero()
     }
-    let assigned: Vec<_> =
-        search.of_row.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))).collect();
-    let cost: Real = assigned.iter().filter_map(|&(i, j)| costs[i][j].clone()).sum();
-    let beta = search.v.iter().map(|v| (&search.lambda - v).max(Real::zero())).collect();
-    let dual = Dual { lambda: search.lambda, alpha: search.u, beta };
-    assert_eq!(assigned.len(), pairs, "as many pairs as asked for");
-    assert!(
-        dual.lower_bound(costs, pairs).is_some_and(|bound| bound >= cost),
-        "the potentials prove the assignment optimal"
-    );
-    Ok(Assignment { pairs: assigned, cost, dual })
+
+    fn exact(&self) -> Real {
+        self.clone()
+    }
+}
+
+impl Number for f64 {
+    fn zero() -> Self {
+        0.0
+    }
+
+    fn exact(&self) -> Real {
+        Real::from_double(*self)
+    }
 }
 
 /// Potentials of a flow from a source over rows and columns to a sink: `u` of the rows, `v` of the
 /// columns, `lambda` of the sink; along every usable arc c_ij + u_i - v_j >= 0 and v_j >= lambda
 /// at free columns, so that Dijkstra's algorithm finds the shortest augmenting path.
-struct Search<'a> {
-    costs: &'a Costs,
-    u: Vec<Real>,
-    v: Vec<Real>,
-    lambda: Real,
+struct Search<'a, N> {
+    costs: &'a [Vec<Option<N>>],
+    u: Vec<N>,
+    v: Vec<N>,
+    lambda: N,
     of_row: Vec<Option<usize>>,
     of_column: Vec<Option<usize>>,
 }
 
 /// Shortest distances to the columns, over which row, and which of them are final.
-struct Tree {
-    distance: Vec<Option<Real>>,
+struct Tree<N> {
+    distance: Vec<Option<N>>,
     over_row: Vec<usize>,
     done: Vec<bool>,
 }
 
-impl<'a> Search<'a> {
-    fn new(costs: &'a Costs, columns: usize) -> Self {
-        Self {
+impl<'a, N: Number> Search<'a, N> {
+    fn shortest_paths(
+        costs: &'a [Vec<Option<N>>],
+        columns: usize,
+        pairs: usize,
+    ) -> Result<Self, usize> {
+        let mut search = Self {
             costs,
-            u: vec![Real::zero(); costs.len()],
-            v: vec![Real::zero(); columns],
-            lambda: Real::zero(),
+            u: vec![N::zero(); costs.len()],
+            v: vec![N::zero(); columns],
+            lambda: N::zero(),
             of_row: vec![None; costs.len()],
             of_column: vec![None; columns],
-        }
+        };
+        (0..pairs).try_for_each(|found| if search.augment() { Ok(()) } else { Err(found) })?;
+        Ok(search)
+    }
+
+    fn pairs(&self) -> Vec<(usize, usize)> {
+        self.of_row.iter().enumerate().filter_map(|(i, j)| j.map(|j| (i, j))).collect()
+    }
+
+    fn cost_in(&self, costs: &Costs) -> Real {
+        self.pairs().iter().filter_map(|&(i, j)| costs[i][j].clone()).sum()
+    }
+
+    /// A solution of the dual program near the potentials: alpha is the least that beta allows.
+    fn dual(&self, costs: &Costs) -> Dual {
+        let (lambda, zero) = (self.lambda.exact(), Real::zero());
+        let beta: Vec<Real> =
+            self.v.iter().map(|v| (&lambda - v.exact()).max(zero.clone())).collect();
+        let alpha = (costs.iter())
+            .map(|row| {
+                let needed = row
+                    .iter()
+                    .zip(&beta)
+                    .filter_map(|(cost, beta)| cost.as_ref().map(|cost| &lambda - beta - cost));
+                needed.fold(zero.clone(), Real::max)
+            })
+            .collect();
+        Dual { lambda, alpha, beta }
     }
 
     /// Adds one pair at least cost; false when no more pair is possible.
@@ -111,9 +193,9 @@ impl<'a> Search<'a> {
             done: vec![false; columns],
         };
         for row in (0..self.costs.len()).filter(|&row| self.of_row[row].is_none()) {
-            self.relax(&mut tree, row, &Real::zero());
+            self.relax(&mut tree, row, &N::zero());
         }
-        let mut end: Option<(Real, usize)> = None;
+        let mut end: Option<(N, usize)> = None;
         while let Some(column) = nearest(&tree) {
             let Some(distance) = tree.distance[column].clone() else { break };
             if end.as_ref().is_some_and(|(best, _)| *best <= distance) {
@@ -123,7 +205,7 @@ impl<'a> Search<'a> {
             if let Some(row) = self.of_column[column] {
                 self.relax(&mut tree, row, &distance);
             } else {
-                let to_sink = &distance + &self.v[column] - &self.lambda;
+                let to_sink = distance + self.v[column].clone() - self.lambda.clone();
                 if end.as_ref().is_none_or(|(best, _)| to_sink < *best) {
                     end = Some((to_sink, column));
                 }
@@ -135,13 +217,14 @@ impl<'a> Search<'a> {
         true
     }
 
-    fn relax(&self, tree: &mut Tree, row: usize, distance: &Real) {
+    fn relax(&self, tree: &mut Tree<N>, row: usize, distance: &N) {
         for (column, cost) in self.costs[row].iter().enumerate() {
             let Some(cost) = cost else { continue };
             if tree.done[column] {
                 continue;
             }
-            let through = distance + (cost + &self.u[row] - &self.v[column]);
+            let reduced = cost.clone() + self.u[row].clone() - self.v[column].clone();
+            let through = distance.clone() + reduced;
             if tree.distance[column].as_ref().is_none_or(|known| through < *known) {
                 tree.distance[column] = Some(through);
                 tree.over_row[column] = row;
@@ -149,21 +232,21 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn raise_potentials(&mut self, tree: &Tree, length: &Real) {
+    fn raise_potentials(&mut self, tree: &Tree<N>, length: &N) {
         for column in 0..self.v.len() {
             let step = match &tree.distance[column] {
-                Some(distance) => distance.min(length).clone(),
-                None => length.clone(),
+                Some(distance) if distance < length => distance.clone(),
+                Some(_) | None => length.clone(),
             };
             if let Some(row) = self.of_column[column] {
-                self.u[row] = &self.u[row] + &step;
+                self.u[row] = self.u[row].clone() + step.clone();
             }
-            self.v[column] = &self.v[column] + &step;
+            self.v[column] = self.v[column].clone() + step;
         }
-        self.lambda = &self.lambda + length;
+        self.lambda = self.lambda.clone() + length.clone();
     }
 
-    fn flip_path(&mut self, tree: &Tree, end: usize) {
+    fn flip_path(&mut self, tree: &Tree<N>, end: usize) {
         let mut column = end;
         loop {
             let row = tree.over_row[column];
@@ -178,14 +261,21 @@ impl<'a> Search<'a> {
     }
 }
 
-fn nearest(tree: &Tree) -> Option<usize> {
-    let open = (0..tree.done.len()).filter(|&j| !tree.done[j] && tree.distance[j].is_some());
-    open.min_by(|&a, &b| tree.distance[a].cmp(&tree.distance[b]))
+/// The column at the least distance that is not final.
+fn nearest<N: Number>(tree: &Tree<N>) -> Option<usize> {
+    let mut nearest: Option<(usize, &N)> = None;
+    for (column, distance) in tree.distance.iter().enumerate() {
+        let Some(distance) = distance.as_ref().filter(|_| !tree.done[column]) else { continue };
+        if nearest.is_none_or(|(_, least)| distance < least) {
+            nearest = Some((column, distance));
+        }
+    }
+    nearest.map(|(column, _)| column)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Costs, least_cost};
+    use super::{Costs, costs_less, least_cost};
     use crate::real::Real;
 
     /// A minimum over assignments, written as a minimum over assignments.
@@ -244,6 +334,13 @@ mod tests {
                 match (least_cost(&costs, columns, pairs), expected) {
                     (Ok(found), Some(expected)) => {
                         assert_eq!(found.cost, expected);
+                        // On the least cost, where doubles cannot tell, and beside it.
+                        let tiny = Real::from_double(1e-30);
+                        let less = |bound: Real| {
+                            costs_less(&costs, columns, pairs, &bound).expect("feasible").less
+                        };
+                        assert!(!less(expected.clone()) && !less(&expected - &tiny));
+                        assert!(less(&expected + &tiny) && less(expected + Real::from_integer(1)));
                         feasible += 1;
                     }
                     (Err(most), None) => {

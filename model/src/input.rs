@@ -289,11 +289,13 @@ fn check_trajectory(
 ) -> Result<(), InvalidInput> {
     let Some(trajectory) = trajectory else { return Ok(()) };
     at("trajectory", None).stamp("stamp_ns", trajectory.stamp_ns, now, is_remote)?;
+    // The points of a local trajectory that counts as missing for its age may be as old.
+    let is_used = i128::from(now) - i128::from(trajectory.stamp_ns) <= NEAR_NOW;
     at("trajectory.points", None).size(trajectory.points.len(), 1, POINTS)?;
     let mut previous: Option<i64> = None;
     for (i, point) in trajectory.points.iter().enumerate() {
         let p = at("trajectory.points", Some(i));
-        p.stamp("t_ns", point.t_ns, now, is_remote)?;
+        p.stamp("t_ns", point.t_ns, now, is_used)?;
         p.position(point.x, point.y)?;
         p.direction(point.cos, point.sin)?;
         if let Some(before) = previous.filter(|&before| before >= point.t_ns) {

@@ -17,7 +17,7 @@ pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
         places.iter().enumerate().find_map(|(i, place)| {
             failure(place).map(|(left, right)| Witness {
                 point: Some(i),
-                segment: Some(place.nearest_segment()),
+                segment: Some(place.nearest),
                 ..Witness::new(rule, &left, &right)
             })
         })
@@ -67,11 +67,12 @@ fn corridor(route: &Corridor) -> Vec<Triangle> {
 /// Where a trajectory point lies on the route.
 struct Place<'a> {
     position: &'a Vector,
-    heading: &'a Vector,
-    /// Distance to each segment of the reference path with the segment's direction.
-    segments: Vec<(Real, Vector)>,
     /// Distance to the reference path.
     distance: Real,
+    /// The first segment at that distance.
+    nearest: usize,
+    /// heading . segment for every segment that H-07 asks.
+    along: Vec<Real>,
 }
 
 /// In the corridor; strictly or laxly in those readings.
@@ -91,36 +92,31 @@ impl<'a> Place<'a> {
             .into_iter()
             .map(|[a, b]| (distance_to_segment(position, &a[0], &b[0]), &b[0] - &a[0]))
             .collect();
-        let distance = segments.iter().map(|(distance, _)| distance.clone()).min();
-        Self {
-            position,
-            heading: &point.pose.direction,
-            distance: distance.unwrap_or_else(Real::zero),
-            segments,
-        }
-    }
-
-    fn nearest_segment(&self) -> usize {
-        self.segments.iter().position(|(distance, _)| *distance == self.distance).unwrap_or(0)
-    }
-
-    /// H-07: heading . segment >= 0 for at least one nearest segment. A closing segment of length 0
-    /// has no direction and is not asked.
-    fn heading_failure(&self, scene: &Scene) -> Option<(Real, Real)> {
+        let distances = segments.iter().map(|(distance, _)| distance).enumerate();
+        let (nearest, distance) = distances
+            .min_by(|(_, a), (_, b)| a.cmp(b))
+            .map(|(nearest, distance)| (nearest, distance.clone()))
+            .expect("a route has at least two stations");
         let reach = match scene.reading {
-            Reading::Exact => self.distance.clone(),
-            Reading::Strict | Reading::Lax => &self.distance + &scene.parameters.delta,
+            Reading::Exact => distance.clone(),
+            Reading::Strict | Reading::Lax => &distance + &scene.parameters.delta,
         };
-        let along: Vec<Real> = (self.segments.iter())
+        // A closing segment of length 0 has no direction and is not asked.
+        let along = (segments.iter())
             .filter(|(distance, segment)| *distance <= reach && segment.squared() > Real::zero())
-            .map(|(_, segment)| self.heading.dot(segment))
+            .map(|(_, segment)| point.pose.direction.dot(segment))
             .collect();
+        Self { position, distance, nearest, along }
+    }
+
+    /// H-07: heading . segment >= 0 for at least one nearest segment.
+    fn heading_failure(&self, scene: &Scene) -> Option<(Real, Real)> {
         let forward = |along: &Real| *along >= scene.m;
         let passes = match scene.reading {
-            Reading::Exact | Reading::Lax => along.iter().any(forward),
-            Reading::Strict => along.iter().all(forward),
+            Reading::Exact | Reading::Lax => self.along.iter().any(forward),
+            Reading::Strict => self.along.iter().all(forward),
         };
-        (!passes).then(|| (along[0].clone(), Real::zero()))
+        (!passes).then(|| (self.along[0].clone(), Real::zero()))
     }
 }
 

@@ -181,9 +181,7 @@ impl Scene {
             let age = i128::from(cycle.now_ns) - i128::from(stamp_ns);
             (0..=i128::from(cycle.parameters.max_age_ns)).contains(&age)
         };
-        let trajectory = cycle.trajectory.as_ref().filter(|list| {
-            is_current(list.stamp_ns) && list.points.iter().all(|p| !is_stale(cycle.now_ns, p.t_ns))
-        });
+        let trajectory = cycle.trajectory.as_ref().filter(|list| is_current(list.stamp_ns));
         Self {
             profile: cycle.profile,
             configuration: cycle.configuration,

@@ -1,6 +1,6 @@
 //! Stage i: track validation (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
 
-use crate::assignment::{Costs, least_cost};
+use crate::assignment::{Costs, costs_less};
 use crate::cycle::Profile;
 use crate::real::Real;
 use crate::scene::{Object, Scene, Track, Tracks};
@@ -104,13 +104,10 @@ fn mean_failure(scene: &Scene, costs: &Costs, columns: usize, pairs: usize) -> O
         return None;
     }
     let count = |n: usize| Real::from_integer(i128::try_from(n).unwrap_or(i128::MAX));
-    match least_cost(costs, columns, pairs) {
-        Ok(assignment) => {
-            let theta_tr = &scene.parameters.theta_tr;
-            let passes = assignment.cost < count(pairs) * (theta_tr - &scene.m);
-            (!passes)
-                .then(|| Witness::new(Rule::MeanCost, &(assignment.cost / count(pairs)), theta_tr))
-        }
+    let theta_tr = &scene.parameters.theta_tr;
+    match costs_less(costs, columns, pairs, &(count(pairs) * (theta_tr - &scene.m))) {
+        Ok(comparison) => (!comparison.less)
+            .then(|| Witness::new(Rule::MeanCost, &(comparison.cost / count(pairs)), theta_tr)),
         Err(most) => Some(Witness::new(Rule::NoAssignment, &count(most), &count(pairs))),
     }
 }

@@ -116,7 +116,7 @@ impl Real {
     /// The largest integer not above the number, at the limits of 64 bits when it is beyond.
     pub fn floor(&self) -> i64 {
         #[expect(clippy::cast_possible_truncation, reason = "`as` saturates; a guess to start at")]
-        let mut floor = self.to_f64_fast().floor() as i64;
+        let mut floor = self.near().floor() as i64;
         while floor > i64::MIN && *self < Self::from_integer(floor.into()) {
             floor -= 1;
         }
@@ -126,8 +126,8 @@ impl Real {
         floor
     }
 
-    /// A double near the number.
-    fn to_f64_fast(&self) -> f64 {
+    /// A double near the number, as near as its interval tells.
+    pub fn near(&self) -> f64 {
         let Interval { lo, hi } = self.interval;
         if lo == f64::NEG_INFINITY || hi == f64::INFINITY { self.to_f64() } else { lo.midpoint(hi) }
     }

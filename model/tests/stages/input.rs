@@ -208,6 +208,13 @@ fn old_local_data_are_missing_old_remote_data_invalid() {
         trajectory.points.iter_mut().for_each(|point| point.t_ns -= 100_000_000_000);
     };
     assert_eq!(problem(MotRemote, trajectory), None);
+    // The stamp decides: an old point under a fresh stamp is outside the domain.
+    let old_point: Change = |c| list!(c.trajectory).points[0].t_ns = NOW - 60_000_000_001;
+    let field = || "trajectory.points.t_ns".into();
+    assert_eq!(problem(MotRemote, old_point), Some((true, field(), Some(0))));
+    assert_eq!(problem(PlanRemote, old_point), Some((false, field(), Some(0))));
+    let at_the_end: Change = |c| list!(c.trajectory).points[0].t_ns = NOW - 60_000_000_000;
+    assert_eq!(problem(MotRemote, at_the_end), None);
     assert_eq!(problem(PlanRemote, trajectory), Some((false, "trajectory.stamp_ns".into(), None)));
 }
 
