@@ -56,21 +56,6 @@ pub fn check(cycle: &Cycle, reading: Reading) -> Result<Report, InvalidInput> {
     }
 }
 
-/// Decides one cycle in the strict, the exact and the lax reading. Every margin moves towards
-/// rejection in the one and towards acceptance in the other, so what strict accepts exact accepts,
-/// and what exact accepts lax accepts, with the same outcome of every stage: a reading is computed
-/// only where the one before rejects.
-pub fn check_in_all_readings(cycle: &Cycle) -> Result<[Report; 3], InvalidInput> {
-    let strict = check(cycle, Reading::Strict)?;
-    let next = |before: &Report, reading| match before.failed_stage {
-        None => Ok(before.clone()),
-        Some(_) => check(cycle, reading),
-    };
-    let exact = next(&strict, Reading::Exact)?;
-    let lax = next(&exact, Reading::Lax)?;
-    Ok([strict, exact, lax])
-}
-
 fn invalid_remote_data(cycle: &Cycle, problem: InvalidInput) -> Report {
     let outcome = |stage| match scheduled(cycle.profile, cycle.configuration, stage) {
         Scheduled::Always | Scheduled::Conditional => Outcome::Skipped(Reason::AfterFailure),

@@ -1,17 +1,18 @@
 //! Strict, exact and lax reading of the model (`spec/4-arithmetic.md#strict-and-lax`): what one
-//! accepts the next accepts, with the same outcomes, so `check_in_all_readings` may copy reports.
+//! accepts the next accepts, with the same outcomes, so `readings` may copy reports.
 
 use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::schedule::{check, check_in_all_readings};
+use mufasa_model::schedule::check;
 use mufasa_model::verdict::Reading;
 use mufasa_props::conformance::Answer;
 use mufasa_props::differential::{hold, near_threshold};
+use mufasa_props::readings::readings;
 use mufasa_props::strategy::whole;
 
 fn readings_are_nested(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<(), String> {
     let lax = check(cycle, Reading::Lax);
     let apart = [strict.clone(), exact.clone(), lax].into_iter().collect::<Result<Vec<_>, _>>();
-    let together = check_in_all_readings(cycle).map(Vec::from);
+    let together = readings(cycle).map(Vec::from);
     if apart == together {
         return Ok(());
     }

@@ -1,8 +1,8 @@
 //! Answers as JSON (`spec/5-interfaces.md#cycle`).
 
 use mufasa_model::cycle::Cycle;
-use mufasa_model::schedule;
 use mufasa_model::verdict::{InvalidInput, Outcome, Report, Witness};
+use mufasa_props::readings::readings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -160,7 +160,7 @@ pub struct ErrorProblem {
 impl CycleAnswer {
     /// Decides a cycle in the three readings. `Err` is invalid local input.
     pub fn decide(id: &str, cycle: &Cycle) -> Result<Self, InvalidInput> {
-        let [strict, exact, lax] = schedule::check_in_all_readings(cycle)?;
+        let [strict, exact, lax] = readings(cycle)?;
         Ok(Self::new(id.to_owned(), exact, &strict, &lax))
     }
 
