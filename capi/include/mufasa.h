@@ -1,0 +1,735 @@
+/* C interface of MUFASA's implementation: see capi/README.md.
+ *
+ * Generated from capi/src; UPDATE_HEADER=1 cargo test -p mufasa-capi --test header writes it anew. */
+
+#ifndef MUFASA_H
+#define MUFASA_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Bytes of the texts of MufasaInvalidInput, the closing 0 included.
+#define MUFASA_TEXT_BYTES 96
+
+// Bytes of scratch memory that are enough for every cycle.
+#define MUFASA_SCRATCH_BYTES_MAX (1 << 20)
+
+// One event never makes more actions than this.
+#define MUFASA_MAX_ACTIONS 8
+
+// A requester needs memory aligned to this many bytes, as `malloc` gives it.
+#define MUFASA_REQUESTER_ALIGN 8
+
+// What a function says about the call itself. Anything but `Ok` is a fault of the calling
+// program, not of the data of the cycle.
+enum MufasaStatus
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Done.
+  MUFASA_STATUS_OK = 0,
+  // A pointer that must not be null is null.
+  MUFASA_STATUS_NULL_POINTER = 1,
+  // A pointer is not aligned for what it points to.
+  MUFASA_STATUS_MISALIGNED = 2,
+  // A profile, configuration, group, set of groups or type of an event that does not exist.
+  MUFASA_STATUS_UNKNOWN_VALUE = 3,
+  // The memory is smaller than the function that tells its size says.
+  MUFASA_STATUS_MEMORY_TOO_SMALL = 4,
+  // The array for actions has fewer than MUFASA_MAX_ACTIONS places.
+  MUFASA_STATUS_TOO_FEW_ACTIONS = 5,
+  // A parameter of the requester is below 0.
+  MUFASA_STATUS_NEGATIVE_PARAMETER = 6,
+  // An event names a station below 1.
+  MUFASA_STATUS_INVALID_STATION = 7,
+  // An offer of a station for which the table has no place.
+  MUFASA_STATUS_TABLE_FULL = 8,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaStatus MufasaStatus;
+#else
+typedef uint32_t MufasaStatus;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The verdict. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
+enum MufasaVerdict
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing was found.
+  MUFASA_VERDICT_SAFE = 1,
+  // `failed_stage` says where.
+  MUFASA_VERDICT_UNSAFE = 2,
+  // Invalid local input (`input` says what), or a call that failed. Treat it as unsafe.
+  MUFASA_VERDICT_ERROR = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaVerdict MufasaVerdict;
+#else
+typedef uint32_t MufasaVerdict;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What made a cycle unsafe.
+enum MufasaFailedStage
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing.
+  MUFASA_FAILED_STAGE_NONE = 0,
+  // Track validation.
+  MUFASA_FAILED_STAGE_I = 1,
+  // Trajectory to map.
+  MUFASA_FAILED_STAGE_II = 2,
+  // Trajectory with tracks.
+  MUFASA_FAILED_STAGE_III = 3,
+  // Trajectory with detections.
+  MUFASA_FAILED_STAGE_IV = 4,
+  // Trajectory with grid map.
+  MUFASA_FAILED_STAGE_V = 5,
+  // Invalid remote data.
+  MUFASA_FAILED_STAGE_INPUT = 6,
+  // H-05: a trajectory that nothing compared with obstacles.
+  MUFASA_FAILED_STAGE_NO_OBSTACLE_CHECK = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaFailedStage MufasaFailedStage;
+#else
+typedef uint32_t MufasaFailedStage;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What became of a stage.
+enum MufasaOutcomeKind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Not part of this configuration.
+  MUFASA_OUTCOME_KIND_NOT_SCHEDULED = 0,
+  // It ran and found nothing.
+  MUFASA_OUTCOME_KIND_PASSED = 1,
+  // It found what `witness` says.
+  MUFASA_OUTCOME_KIND_FAILED = 2,
+  // It did not run, for `reason`.
+  MUFASA_OUTCOME_KIND_SKIPPED = 3,
+  // It should have run and lacked `missing`.
+  MUFASA_OUTCOME_KIND_NOT_APPLICABLE = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaOutcomeKind MufasaOutcomeKind;
+#else
+typedef uint32_t MufasaOutcomeKind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Why a stage was skipped.
+enum MufasaReason
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It was not skipped.
+  MUFASA_REASON_NONE = 0,
+  // An earlier stage failed.
+  MUFASA_REASON_AFTER_FAILURE = 1,
+  // Another stage made it unnecessary.
+  MUFASA_REASON_OTHER_STAGE_RAN = 2,
+  // `missing` says which input was not current.
+  MUFASA_REASON_NO_CURRENT_INPUT = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaReason MufasaReason;
+#else
+typedef uint32_t MufasaReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// An input that a stage lacked.
+enum MufasaInput
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // No input was missing.
+  MUFASA_INPUT_NONE = 0,
+  MUFASA_INPUT_TRAJECTORY = 1,
+  MUFASA_INPUT_TRACKS = 2,
+  MUFASA_INPUT_DETECTIONS = 3,
+  MUFASA_INPUT_GRID = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaInput MufasaInput;
+#else
+typedef uint32_t MufasaInput;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The rule that a witness breaks; the names are those of the answers of `mufasa oracle`.
+enum MufasaRule
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // There is no witness.
+  MUFASA_RULE_NONE = 0,
+  MUFASA_RULE_MEAN_COST = 1,
+  MUFASA_RULE_NO_ASSIGNMENT = 2,
+  MUFASA_RULE_VELOCITY = 3,
+  MUFASA_RULE_THETA_MAP = 4,
+  MUFASA_RULE_START_TIME = 5,
+  MUFASA_RULE_START_POSITION = 6,
+  MUFASA_RULE_CORRIDOR = 7,
+  MUFASA_RULE_DIRECTION = 8,
+  MUFASA_RULE_STEP_TIME = 9,
+  MUFASA_RULE_STEP_LENGTH = 10,
+  MUFASA_RULE_STEP_SPEED = 11,
+  MUFASA_RULE_STEP_FORWARD = 12,
+  MUFASA_RULE_STEP_LATERAL = 13,
+  MUFASA_RULE_STEP_TURN = 14,
+  MUFASA_RULE_ARC_TOO_SHORT = 15,
+  MUFASA_RULE_ARC_TOO_LONG = 16,
+  MUFASA_RULE_ENDS_TOO_SOON = 17,
+  MUFASA_RULE_GAP = 18,
+  MUFASA_RULE_COLLISION = 19,
+  MUFASA_RULE_COLLISION_STANDING = 20,
+  MUFASA_RULE_OCCUPIED = 21,
+  MUFASA_RULE_UNKNOWN = 22,
+  MUFASA_RULE_OUTSIDE = 23,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaRule MufasaRule;
+#else
+typedef uint32_t MufasaRule;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What the requester does; the comment says which fields of MufasaAction it uses.
+enum MufasaActionType
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Ask a station to run a group: station, group, session.
+  MUFASA_ACTION_TYPE_REQUEST = 1,
+  // Tell a station that a session has ended: station, group, session.
+  MUFASA_ACTION_TYPE_RELEASE = 2,
+  // Start the local services: group.
+  MUFASA_ACTION_TYPE_ACTIVATE = 3,
+  // Stop the local services: group.
+  MUFASA_ACTION_TYPE_DEACTIVATE = 4,
+  // Do not use the element that arrived: group.
+  MUFASA_ACTION_TYPE_DROP = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaActionType MufasaActionType;
+#else
+typedef uint32_t MufasaActionType;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A group of services; a set of groups is the sum of their numbers.
+enum MufasaGroup
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // MOT: multi-object tracking.
+  MUFASA_GROUP_MOT = 1,
+  // PLAN: environment model and trajectory planning.
+  MUFASA_GROUP_PLAN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaGroup MufasaGroup;
+#else
+typedef uint32_t MufasaGroup;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The state of a group.
+enum MufasaGroupStateKind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It runs on the CAV.
+  MUFASA_GROUP_STATE_KIND_LOCAL = 0,
+  // It runs on the CAV, and a station was asked to run it.
+  MUFASA_GROUP_STATE_KIND_REQUESTED = 1,
+  // It runs on a station.
+  MUFASA_GROUP_STATE_KIND_REMOTE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaGroupStateKind MufasaGroupStateKind;
+#else
+typedef uint32_t MufasaGroupStateKind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Which groups are remote; `MufasaCycle.configuration` takes its number.
+enum MufasaConfiguration
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // None.
+  MUFASA_CONFIGURATION_LOCAL = 1,
+  // MOT.
+  MUFASA_CONFIGURATION_MOT_REMOTE = 2,
+  // MOT and PLAN.
+  MUFASA_CONFIGURATION_ALL_REMOTE = 3,
+  // PLAN.
+  MUFASA_CONFIGURATION_PLAN_REMOTE = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaConfiguration MufasaConfiguration;
+#else
+typedef uint32_t MufasaConfiguration;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
+enum MufasaProfile
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The published method.
+  MUFASA_PROFILE_PAPER = 1,
+  // The published method and the rules H-nn.
+  MUFASA_PROFILE_HARDENED = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaProfile MufasaProfile;
+#else
+typedef uint32_t MufasaProfile;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What happens; the comment says which further fields of MufasaEvent it uses.
+enum MufasaEventType
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // A station offers groups: station, groups.
+  MUFASA_EVENT_TYPE_OFFER = 1,
+  // A station withdraws its offer: station.
+  MUFASA_EVENT_TYPE_WITHDRAW = 2,
+  // A station can no longer be reached: station.
+  MUFASA_EVENT_TYPE_LOST = 3,
+  // These groups may be offloaded here: groups.
+  MUFASA_EVENT_TYPE_AREA = 4,
+  // Time passes.
+  MUFASA_EVENT_TYPE_TICK = 5,
+  // A station confirms: station, group, session.
+  MUFASA_EVENT_TYPE_CONFIRM = 6,
+  // A station rejects: station, group, session.
+  MUFASA_EVENT_TYPE_REJECT = 7,
+  // A result arrives: station, group, session, generated_ns.
+  MUFASA_EVENT_TYPE_DATA = 8,
+  // A cycle ended: safe, and groups whose data it used.
+  MUFASA_EVENT_TYPE_VERDICT = 9,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaEventType MufasaEventType;
+#else
+typedef uint32_t MufasaEventType;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A requester in the memory of the caller; what is in it is nobody's business.
+typedef struct MufasaRequester MufasaRequester;
+
+// Parameters of the stages; names and domains as in spec/.
+typedef struct MufasaParameters {
+  double theta_tr;
+  double theta_map;
+  double theta_obj;
+  double a_b;
+  double safety_time;
+  int64_t max_age_ns;
+  int64_t n;
+  double theta_track_max;
+  int64_t miss_budget;
+  double tau;
+  double a_max;
+  double start_tolerance;
+  double v_max;
+  int64_t step_max_ns;
+  double theta_velocity;
+  double delta;
+} MufasaParameters;
+
+// Pose, speed and size of the CAV.
+typedef struct MufasaEgo {
+  double x;
+  double y;
+  double cos;
+  double sin;
+  double speed;
+  double length;
+  double width;
+  double center_offset;
+} MufasaEgo;
+
+// One station of a route.
+typedef struct MufasaStation {
+  double x;
+  double y;
+  double left[2];
+  double right[2];
+} MufasaStation;
+
+// Reference path and boundaries.
+typedef struct MufasaRoute {
+  // Not 0: the last station is followed by the first.
+  uint8_t closed;
+  // Stations in driving order.
+  const struct MufasaStation *stations;
+  // How many.
+  size_t stations_len;
+} MufasaRoute;
+
+// One pose of a trajectory.
+typedef struct MufasaTrajectoryPoint {
+  int64_t t_ns;
+  double x;
+  double y;
+  double cos;
+  double sin;
+} MufasaTrajectoryPoint;
+
+// The planned trajectory.
+typedef struct MufasaTrajectory {
+  // Time of generation.
+  int64_t stamp_ns;
+  // Points in order of time.
+  const struct MufasaTrajectoryPoint *points;
+  // How many.
+  size_t points_len;
+} MufasaTrajectory;
+
+// A tracked object.
+typedef struct MufasaTrack {
+  int64_t id;
+  double x;
+  double y;
+  double cos;
+  double sin;
+  double vx;
+  double vy;
+  double length;
+  double width;
+} MufasaTrack;
+
+// A list of tracks.
+typedef struct MufasaTrackList {
+  // Time that the positions are valid for.
+  int64_t stamp_ns;
+  // Tracks in list order.
+  const struct MufasaTrack *items;
+  // How many.
+  size_t items_len;
+} MufasaTrackList;
+
+// A detected object.
+typedef struct MufasaDetection {
+  double x;
+  double y;
+  double cos;
+  double sin;
+  double length;
+  double width;
+} MufasaDetection;
+
+// The detections of all local detectors.
+typedef struct MufasaDetectionList {
+  // Time of measurement.
+  int64_t stamp_ns;
+  // Detections in list order.
+  const struct MufasaDetection *items;
+  // How many.
+  size_t items_len;
+} MufasaDetectionList;
+
+// The leading vehicle.
+typedef struct MufasaLead {
+  int64_t stamp_ns;
+  double gap;
+  double speed;
+} MufasaLead;
+
+// An occupancy grid map.
+typedef struct MufasaGrid {
+  // Time of measurement.
+  int64_t stamp_ns;
+  // Origin.
+  double x;
+  // Origin.
+  double y;
+  // Direction of the rows.
+  double cos;
+  // Direction of the rows.
+  double sin;
+  // Side of a cell.
+  double resolution;
+  // Columns.
+  int64_t width;
+  // Rows.
+  int64_t height;
+  // Bit row * width + column, least significant bit of each byte first.
+  const uint8_t *occupied;
+  // Bytes of `occupied`: (width * height + 7) / 8.
+  size_t occupied_len;
+  // The same form, or null.
+  const uint8_t *unknown;
+  // Bytes of `unknown`.
+  size_t unknown_len;
+} MufasaGrid;
+
+// One cycle. A null pointer is a missing input.
+typedef struct MufasaCycle {
+  // A MufasaProfile.
+  uint32_t profile;
+  // A MufasaConfiguration.
+  uint32_t configuration;
+  // Time of the decision on the CAV's monotonic clock.
+  int64_t now_ns;
+  // Start from `mufasa_parameters_default`.
+  struct MufasaParameters parameters;
+  // The CAV itself.
+  struct MufasaEgo ego;
+  // The route.
+  struct MufasaRoute route;
+  // May be null.
+  const struct MufasaTrajectory *trajectory;
+  // May be null.
+  const struct MufasaTrackList *tracks;
+  // May be null.
+  const struct MufasaDetectionList *detections;
+  // May be null.
+  const struct MufasaLead *lead;
+  // May be null.
+  const struct MufasaGrid *grid;
+  // H-09: the last list that stage i passed in a safe cycle. May be null.
+  const struct MufasaTrackList *previous_tracks;
+} MufasaCycle;
+
+// Why a stage failed. Indices that mean nothing for the rule are -1.
+typedef struct MufasaWitness {
+  // The rule that was broken.
+  MufasaRule rule;
+  // 1 when `track` means something.
+  uint32_t has_track;
+  // Id of the track.
+  int64_t track;
+  // Index of the trajectory point (the later one of a step).
+  int64_t point;
+  // Index of the detection.
+  int64_t detection;
+  // Index of the segment of the reference path.
+  int64_t segment;
+  // Index of the disk.
+  int64_t disk;
+  // Column and row of the grid cell.
+  int64_t cell[2];
+  // The two numbers that were compared.
+  double compared[2];
+} MufasaWitness;
+
+// What became of one stage.
+typedef struct MufasaOutcome {
+  // What became of it.
+  MufasaOutcomeKind kind;
+  // Of a skipped stage.
+  MufasaReason reason;
+  // Of a stage that lacked an input.
+  MufasaInput missing;
+  // Of a failed stage.
+  struct MufasaWitness witness;
+} MufasaOutcome;
+
+// What is wrong with the input. The texts are empty when nothing is.
+typedef struct MufasaInvalidInput {
+  // Dotted path of the field, such as tracks.items.vx.
+  char field[MUFASA_TEXT_BYTES];
+  // What is wrong and what would be right.
+  char message[MUFASA_TEXT_BYTES];
+  // Index in the innermost list, or -1.
+  int64_t index;
+} MufasaInvalidInput;
+
+// The answer to one cycle.
+typedef struct MufasaReport {
+  // The verdict.
+  MufasaVerdict verdict;
+  // What made the cycle unsafe.
+  MufasaFailedStage failed_stage;
+  // Stages i to v.
+  struct MufasaOutcome stages[5];
+  // The problem of invalid input, local or remote.
+  struct MufasaInvalidInput input;
+} MufasaReport;
+
+// Times of a requester in ns, each at least 0.
+typedef struct MufasaRequesterParameters {
+  int64_t t_wait_ns;
+  int64_t request_timeout_ns;
+  int64_t l_max_ns;
+  int64_t dt_max_ns;
+  // Not 0: a violation of quality of service starts a hold, too.
+  uint32_t qos_hold;
+} MufasaRequesterParameters;
+
+// Something that happens at a time. Fields that its type does not use may be anything.
+typedef struct MufasaEvent {
+  // The CAV's monotonic clock.
+  int64_t t_ns;
+  // A MufasaEventType.
+  uint32_t event_type;
+  // A MufasaGroup.
+  uint32_t group;
+  // Sum of MufasaGroup.
+  uint32_t groups;
+  // Not 0: the cycle was safe. One that ended with the verdict ERROR was not.
+  uint32_t safe;
+  // Id of the station, at least 1.
+  int64_t station;
+  // The session that the message names.
+  int64_t session;
+  // When the result was generated, on the CAV's clock.
+  int64_t generated_ns;
+} MufasaEvent;
+
+// Something to be done.
+typedef struct MufasaAction {
+  // What.
+  MufasaActionType action_type;
+  // Which group.
+  MufasaGroup group;
+  // Id of the station, or 0.
+  int64_t station;
+  // The session, or 0.
+  int64_t session;
+} MufasaAction;
+
+// The state of a group.
+typedef struct MufasaGroupState {
+  // What it is.
+  MufasaGroupStateKind kind;
+  // The station, or 0.
+  int64_t station;
+  // The session, or 0.
+  int64_t session;
+  // Of a requested group: a confirmation must come before this time.
+  int64_t deadline_ns;
+  // The station whose results may reach control; 0 is the CAV.
+  int64_t source;
+} MufasaGroupState;
+
+// The state of a requester.
+typedef struct MufasaRequesterState {
+  // MOT.
+  struct MufasaGroupState mot;
+  // PLAN.
+  struct MufasaGroupState plan;
+  // For `MufasaCycle.configuration`.
+  MufasaConfiguration configuration;
+  // 0: there never was a hold.
+  uint32_t has_hold;
+  // No request is sent before this time.
+  int64_t hold_until_ns;
+} MufasaRequesterState;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The defaults of spec/3-stages.md.
+struct MufasaParameters mufasa_parameters_default(void);
+
+// Bytes of scratch memory that `mufasa_check` needs for this cycle, at any alignment;
+// MUFASA_SCRATCH_BYTES_MAX when the cycle cannot be read.
+//
+// # Safety
+// Every pointer in the cycle is null or points to what its type says.
+size_t mufasa_scratch_bytes(const struct MufasaCycle *cycle);
+
+// Decides one cycle. Unless `report` is null or misaligned it is always written; when the status
+// is not OK its verdict is ERROR. Use data of a cycle only when its verdict is SAFE, and tell the
+// requester of every other one as unsafe.
+//
+// # Safety
+// Every pointer in the cycle is null or points to what its type says, in the number that is
+// given beside it, which nobody writes to during the call. `scratch` points to `scratch_bytes`
+// bytes that nobody else uses during the call and that overlap nothing in the cycle and not the
+// report; their content means nothing before and after.
+MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
+                          void *scratch,
+                          size_t scratch_bytes,
+                          struct MufasaReport *report);
+
+// The defaults of spec/2-offloading.md.
+struct MufasaRequesterParameters mufasa_requester_parameters_default(void);
+
+// Bytes of memory for a requester that knows this many stations. A place of the table is taken
+// for good by every station that was ever asked.
+size_t mufasa_requester_bytes(size_t stations);
+
+// Makes a requester in `memory`, whose content means nothing before: both groups local, no
+// offers, no hold, all groups in the area. `*requester` is where it is; it needs no end, and may
+// not be moved.
+//
+// # Safety
+// `parameters` is null or points to parameters; `memory` points to `bytes` bytes that nobody
+// else uses as long as the requester is used; `requester` is null or can be written to.
+MufasaStatus mufasa_requester_init(uint32_t profile,
+                                   const struct MufasaRequesterParameters *parameters,
+                                   size_t stations,
+                                   void *memory,
+                                   size_t bytes,
+                                   struct MufasaRequester **requester);
+
+// Takes one event and writes what has to be done about it, in this order. When the status is not
+// OK nothing has changed, and `*actions_len`, if it can be written to, is 0.
+//
+// # Safety
+// `requester` is null or comes from `mufasa_requester_init`, in memory that nobody else wrote to,
+// and no other call uses it at the same time; `event` is null or points to an event; `actions`
+// is null or has `capacity` places; `actions_len` is null or can be written to.
+MufasaStatus mufasa_requester_step(struct MufasaRequester *requester,
+                                   const struct MufasaEvent *event,
+                                   struct MufasaAction *actions,
+                                   size_t capacity,
+                                   size_t *actions_len);
+
+// Writes the state of a requester.
+//
+// # Safety
+// `requester` as for `mufasa_requester_step`; `state` is null or can be written to.
+MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
+                                    struct MufasaRequesterState *state);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* MUFASA_H */

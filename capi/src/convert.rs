@@ -1,0 +1,310 @@
+//! From the record of C to that of `mufasa`; lists are copied into the caller's scratch memory.
+//!
+//! A list longer than its domain is passed on with one element too many: that is enough for the
+//! check to refuse it, whatever its length is, and scratch memory stays bounded.
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa::parameters::Parameters;
+use mufasa::scratch::{Column, Row, Sizes};
+
+use crate::cycle::{
+    MufasaConfiguration, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid, MufasaParameters,
+    MufasaProfile, MufasaStation, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
+};
+use crate::memory::{Arena, list, optional};
+use crate::status::MufasaStatus;
+
+/// The sizes of `spec/4-arithmetic.md#domain` and one.
+const TRACKS: usize = 1025;
+const DETECTIONS: usize = 2049;
+const POINTS: usize = 1025;
+const STATIONS: usize = 8193;
+const BITMAP_BYTES: usize = (1 << 21) + 1;
+
+/// How many elements of each kind scratch memory has to hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Counts {
+    points: usize,
+    tracks: usize,
+    previous: usize,
+    detections: usize,
+    stations: usize,
+    sizes: Sizes,
+}
+
+impl Counts {
+    /// Of every cycle.
+    pub(crate) const MAX: Self = Self {
+        points: POINTS,
+        tracks: TRACKS,
+        previous: TRACKS,
+        detections: DETECTIONS,
+        stations: STATIONS,
+        sizes: Sizes::MAX,
+    };
+
+    /// Of this cycle.
+    ///
+    /// # Safety
+    /// The pointers of `raw` are null or point to what they say.
+    pub(crate) unsafe fn of(raw: &MufasaCycle) -> Result<Self, MufasaStatus> {
+        // SAFETY: the caller's duty, here and below.
+        let points = unsafe { optional(raw.trajectory) }?.map_or(0, |list| list.points_len);
+        // SAFETY: as above.
+        let tracks = unsafe { optional(raw.tracks) }?.map_or(0, |list| list.items_len);
+        // SAFETY: as above.
+        let previous = unsafe { optional(raw.previous_tracks) }?.map_or(0, |list| list.items_len);
+        // SAFETY: as above.
+        let detections = unsafe { optional(raw.detections) }?.map_or(0, |list| list.items_len);
+        let (tracks, detections) = (tracks.min(TRACKS), detections.min(DETECTIONS));
+        let spare = usize::try_from(raw.parameters.miss_budget).unwrap_or(0).min(tracks);
+        let columns = detections.saturating_add(spare).max(tracks);
+        Ok(Self {
+            points: points.min(POINTS),
+            tracks,
+            previous: previous.min(TRACKS),
+            detections,
+            stations: raw.route.stations_len.min(STATIONS),
+            sizes: capped(Sizes { rows: tracks, columns }),
+        })
+    }
+
+    /// Bytes for all of them, wherever the memory begins.
+    pub(crate) const fn bytes(&self) -> usize {
+        Arena::bytes_of::<TrajectoryPoint>(self.points)
+            .saturating_add(Arena::bytes_of::<Track>(self.tracks))
+            .saturating_add(Arena::bytes_of::<Track>(self.previous))
+            .saturating_add(Arena::bytes_of::<Detection>(self.detections))
+            .saturating_add(Arena::bytes_of::<Station>(self.stations))
+            .saturating_add(Arena::bytes_of::<Row>(self.sizes.rows))
+            .saturating_add(Arena::bytes_of::<Column>(self.sizes.columns))
+    }
+}
+
+/// Sizes beyond those of the domain are never used: the check refuses such a cycle before.
+pub(crate) fn capped(sizes: Sizes) -> Sizes {
+    Sizes { rows: sizes.rows.min(Sizes::MAX.rows), columns: sizes.columns.min(Sizes::MAX.columns) }
+}
+
+/// The record of `mufasa`.
+///
+/// # Safety
+/// The pointers of `raw` are null or point to what they say, and nobody writes there during `'a`.
+pub(crate) unsafe fn cycle<'a>(
+    raw: &MufasaCycle,
+    arena: &mut Arena<'a>,
+) -> Result<Cycle<'a>, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let trajectory = match unsafe { optional(raw.trajectory) }? {
+        None => None,
+        Some(it) => {
+            // SAFETY: as above.
+            let points = unsafe { list(it.points, it.points_len, POINTS) }?;
+            let points = arena.keep(points.iter().map(trajectory_point))?;
+            Some(Trajectory { stamp_ns: it.stamp_ns, points })
+        }
+    };
+    // SAFETY: as above.
+    let detections = match unsafe { optional(raw.detections) }? {
+        None => None,
+        Some(it) => {
+            // SAFETY: as above.
+            let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
+            let items = arena.keep(items.iter().map(detection))?;
+            Some(DetectionList { stamp_ns: it.stamp_ns, items })
+        }
+    };
+    // SAFETY: as above.
+    let stations = unsafe { list(raw.route.stations, raw.route.stations_len, STATIONS) }?;
+    let stations = arena.keep(stations.iter().map(station))?;
+    // SAFETY: as above.
+    let lead = unsafe { optional(raw.lead) }?;
+    Ok(Cycle {
+        profile: profile(raw.profile)?,
+        parameters: parameters(&raw.parameters),
+        now_ns: raw.now_ns,
+        configuration: configuration(raw.configuration)?,
+        ego: ego(&raw.ego),
+        trajectory,
+        // SAFETY: as above.
+        tracks: unsafe { tracks(raw.tracks, arena) }?,
+        detections,
+        lead: lead.map(|it| Lead { stamp_ns: it.stamp_ns, gap: it.gap, speed: it.speed }),
+        route: Route { closed: raw.route.closed != 0, stations },
+        // SAFETY: as above.
+        grid: unsafe { grid(raw.grid) }?,
+        // SAFETY: as above.
+        previous_tracks: unsafe { tracks(raw.previous_tracks, arena) }?,
+    })
+}
+
+/// # Safety
+/// As for [`cycle`].
+unsafe fn tracks<'a>(
+    raw: *const MufasaTrackList,
+    arena: &mut Arena<'a>,
+) -> Result<Option<TrackList<'a>>, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let Some(it) = unsafe { optional(raw) }? else { return Ok(None) };
+    // SAFETY: as above.
+    let items = unsafe { list(it.items, it.items_len, TRACKS) }?;
+    let items = arena.keep(items.iter().map(track))?;
+    Ok(Some(TrackList { stamp_ns: it.stamp_ns, items }))
+}
+
+/// # Safety
+/// As for [`cycle`].
+unsafe fn grid<'a>(raw: *const MufasaGrid) -> Result<Option<Grid<'a>>, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let Some(it) = unsafe { optional(raw) }? else { return Ok(None) };
+    let unknown = if it.unknown.is_null() {
+        None
+    } else {
+        // SAFETY: as above.
+        Some(unsafe { list(it.unknown, it.unknown_len, BITMAP_BYTES) }?)
+    };
+    Ok(Some(Grid {
+        stamp_ns: it.stamp_ns,
+        x: it.x,
+        y: it.y,
+        cos: it.cos,
+        sin: it.sin,
+        resolution: it.resolution,
+        width: it.width,
+        height: it.height,
+        // SAFETY: as above.
+        occupied: unsafe { list(it.occupied, it.occupied_len, BITMAP_BYTES) }?,
+        unknown,
+    }))
+}
+
+/// The profile of a number.
+pub(crate) fn profile(raw: u32) -> Result<Profile, MufasaStatus> {
+    let choices =
+        [(MufasaProfile::Paper, Profile::Paper), (MufasaProfile::Hardened, Profile::Hardened)];
+    let found = choices.into_iter().find(|&(number, _)| number as u32 == raw);
+    found.map(|(_, profile)| profile).ok_or(MufasaStatus::UnknownValue)
+}
+
+fn configuration(raw: u32) -> Result<Configuration, MufasaStatus> {
+    let found = Configuration::ALL.into_iter().find(|&it| configuration_number(it) as u32 == raw);
+    found.ok_or(MufasaStatus::UnknownValue)
+}
+
+/// The number of a configuration.
+pub(crate) const fn configuration_number(configuration: Configuration) -> MufasaConfiguration {
+    match configuration {
+        Configuration::Local => MufasaConfiguration::Local,
+        Configuration::MotRemote => MufasaConfiguration::MotRemote,
+        Configuration::AllRemote => MufasaConfiguration::AllRemote,
+        Configuration::PlanRemote => MufasaConfiguration::PlanRemote,
+    }
+}
+
+fn parameters(raw: &MufasaParameters) -> Parameters {
+    let MufasaParameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    } = *raw;
+    Parameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    }
+}
+
+/// The parameters of C.
+pub(crate) fn parameters_of(parameters: &Parameters) -> MufasaParameters {
+    let Parameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    } = *parameters;
+    MufasaParameters {
+        theta_tr,
+        theta_map,
+        theta_obj,
+        a_b,
+        safety_time,
+        max_age_ns,
+        n,
+        theta_track_max,
+        miss_budget,
+        tau,
+        a_max,
+        start_tolerance,
+        v_max,
+        step_max_ns,
+        theta_velocity,
+        delta,
+    }
+}
+
+fn ego(raw: &MufasaEgo) -> Ego {
+    let MufasaEgo { x, y, cos, sin, speed, length, width, center_offset } = *raw;
+    Ego { x, y, cos, sin, speed, length, width, center_offset }
+}
+
+fn trajectory_point(raw: &MufasaTrajectoryPoint) -> TrajectoryPoint {
+    let MufasaTrajectoryPoint { t_ns, x, y, cos, sin } = *raw;
+    TrajectoryPoint { t_ns, x, y, cos, sin }
+}
+
+fn track(raw: &MufasaTrack) -> Track {
+    let MufasaTrack { id, x, y, cos, sin, vx, vy, length, width } = *raw;
+    Track { id, x, y, cos, sin, vx, vy, length, width }
+}
+
+fn detection(raw: &MufasaDetection) -> Detection {
+    let MufasaDetection { x, y, cos, sin, length, width } = *raw;
+    Detection { x, y, cos, sin, length, width }
+}
+
+fn station(raw: &MufasaStation) -> Station {
+    let MufasaStation { x, y, left, right } = *raw;
+    Station { x, y, left, right }
+}

@@ -1,0 +1,234 @@
+//! The record of one cycle as C gives it (`spec/5-interfaces.md#cycle`): positions in m, speeds in
+//! m/s, times in ns, directions as cos and sin. Values outside their domain are found by the check.
+
+/// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaProfile {
+    /// The published method.
+    Paper = 1,
+    /// The published method and the rules H-nn.
+    Hardened = 2,
+}
+
+/// Which groups are remote; `MufasaCycle.configuration` takes its number.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaConfiguration {
+    /// None.
+    Local = 1,
+    /// MOT.
+    MotRemote = 2,
+    /// MOT and PLAN.
+    AllRemote = 3,
+    /// PLAN.
+    PlanRemote = 4,
+}
+
+/// Parameters of the stages; names and domains as in spec/.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs, reason = "the names are those of spec/3-stages.md")]
+pub struct MufasaParameters {
+    pub theta_tr: f64,
+    pub theta_map: f64,
+    pub theta_obj: f64,
+    pub a_b: f64,
+    pub safety_time: f64,
+    pub max_age_ns: i64,
+    pub n: i64,
+    pub theta_track_max: f64,
+    pub miss_budget: i64,
+    pub tau: f64,
+    pub a_max: f64,
+    pub start_tolerance: f64,
+    pub v_max: f64,
+    pub step_max_ns: i64,
+    pub theta_velocity: f64,
+    pub delta: f64,
+}
+
+/// Pose, speed and size of the CAV.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaEgo {
+    pub x: f64,
+    pub y: f64,
+    pub cos: f64,
+    pub sin: f64,
+    pub speed: f64,
+    pub length: f64,
+    pub width: f64,
+    pub center_offset: f64,
+}
+
+/// One pose of a trajectory.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaTrajectoryPoint {
+    pub t_ns: i64,
+    pub x: f64,
+    pub y: f64,
+    pub cos: f64,
+    pub sin: f64,
+}
+
+/// The planned trajectory.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaTrajectory {
+    /// Time of generation.
+    pub stamp_ns: i64,
+    /// Points in order of time.
+    pub points: *const MufasaTrajectoryPoint,
+    /// How many.
+    pub points_len: usize,
+}
+
+/// A tracked object.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaTrack {
+    pub id: i64,
+    pub x: f64,
+    pub y: f64,
+    pub cos: f64,
+    pub sin: f64,
+    pub vx: f64,
+    pub vy: f64,
+    pub length: f64,
+    pub width: f64,
+}
+
+/// A list of tracks.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaTrackList {
+    /// Time that the positions are valid for.
+    pub stamp_ns: i64,
+    /// Tracks in list order.
+    pub items: *const MufasaTrack,
+    /// How many.
+    pub items_len: usize,
+}
+
+/// A detected object.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaDetection {
+    pub x: f64,
+    pub y: f64,
+    pub cos: f64,
+    pub sin: f64,
+    pub length: f64,
+    pub width: f64,
+}
+
+/// The detections of all local detectors.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaDetectionList {
+    /// Time of measurement.
+    pub stamp_ns: i64,
+    /// Detections in list order.
+    pub items: *const MufasaDetection,
+    /// How many.
+    pub items_len: usize,
+}
+
+/// The leading vehicle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaLead {
+    pub stamp_ns: i64,
+    pub gap: f64,
+    pub speed: f64,
+}
+
+/// One station of a route.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
+pub struct MufasaStation {
+    pub x: f64,
+    pub y: f64,
+    pub left: [f64; 2],
+    pub right: [f64; 2],
+}
+
+/// Reference path and boundaries.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaRoute {
+    /// Not 0: the last station is followed by the first.
+    pub closed: u8,
+    /// Stations in driving order.
+    pub stations: *const MufasaStation,
+    /// How many.
+    pub stations_len: usize,
+}
+
+/// An occupancy grid map.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaGrid {
+    /// Time of measurement.
+    pub stamp_ns: i64,
+    /// Origin.
+    pub x: f64,
+    /// Origin.
+    pub y: f64,
+    /// Direction of the rows.
+    pub cos: f64,
+    /// Direction of the rows.
+    pub sin: f64,
+    /// Side of a cell.
+    pub resolution: f64,
+    /// Columns.
+    pub width: i64,
+    /// Rows.
+    pub height: i64,
+    /// Bit row * width + column, least significant bit of each byte first.
+    pub occupied: *const u8,
+    /// Bytes of `occupied`: (width * height + 7) / 8.
+    pub occupied_len: usize,
+    /// The same form, or null.
+    pub unknown: *const u8,
+    /// Bytes of `unknown`.
+    pub unknown_len: usize,
+}
+
+/// One cycle. A null pointer is a missing input.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaCycle {
+    /// A MufasaProfile.
+    pub profile: u32,
+    /// A MufasaConfiguration.
+    pub configuration: u32,
+    /// Time of the decision on the CAV's monotonic clock.
+    pub now_ns: i64,
+    /// Start from `mufasa_parameters_default`.
+    pub parameters: MufasaParameters,
+    /// The CAV itself.
+    pub ego: MufasaEgo,
+    /// The route.
+    pub route: MufasaRoute,
+    /// May be null.
+    pub trajectory: *const MufasaTrajectory,
+    /// May be null.
+    pub tracks: *const MufasaTrackList,
+    /// May be null.
+    pub detections: *const MufasaDetectionList,
+    /// May be null.
+    pub lead: *const MufasaLead,
+    /// May be null.
+    pub grid: *const MufasaGrid,
+    /// H-09: the last list that stage i passed in a safe cycle. May be null.
+    pub previous_tracks: *const MufasaTrackList,
+}

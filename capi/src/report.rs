@@ -1,0 +1,371 @@
+//! What a cycle reports, as C gets it (`spec/3-stages.md#schedule`).
+
+use core::ffi::c_char;
+
+use mufasa::verdict::{
+    FailedStage, Input, InvalidInput, Outcome, Problem, Reason, Report, Rule, Stage, Witness,
+};
+
+/// The verdict. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaVerdict {
+    /// Nothing was found.
+    Safe = 1,
+    /// `failed_stage` says where.
+    Unsafe = 2,
+    /// Invalid local input (`input` says what), or a call that failed. Treat it as unsafe.
+    Error = 3,
+}
+
+/// What made a cycle unsafe.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaFailedStage {
+    /// Nothing.
+    None = 0,
+    /// Track validation.
+    I = 1,
+    /// Trajectory to map.
+    Ii = 2,
+    /// Trajectory with tracks.
+    Iii = 3,
+    /// Trajectory with detections.
+    Iv = 4,
+    /// Trajectory with grid map.
+    V = 5,
+    /// Invalid remote data.
+    Input = 6,
+    /// H-05: a trajectory that nothing compared with obstacles.
+    NoObstacleCheck = 7,
+}
+
+/// What became of a stage.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaOutcomeKind {
+    /// Not part of this configuration.
+    NotScheduled = 0,
+    /// It ran and found nothing.
+    Passed = 1,
+    /// It found what `witness` says.
+    Failed = 2,
+    /// It did not run, for `reason`.
+    Skipped = 3,
+    /// It should have run and lacked `missing`.
+    NotApplicable = 4,
+}
+
+/// Why a stage was skipped.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaReason {
+    /// It was not skipped.
+    None = 0,
+    /// An earlier stage failed.
+    AfterFailure = 1,
+    /// Another stage made it unnecessary.
+    OtherStageRan = 2,
+    /// `missing` says which input was not current.
+    NoCurrentInput = 3,
+}
+
+/// An input that a stage lacked.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "the names are those of the record")]
+pub enum MufasaInput {
+    /// No input was missing.
+    None = 0,
+    Trajectory = 1,
+    Tracks = 2,
+    Detections = 3,
+    Grid = 4,
+}
+
+/// The rule that a witness breaks; the names are those of the answers of `mufasa oracle`.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "mufasa::verdict::Rule says what each is")]
+pub enum MufasaRule {
+    /// There is no witness.
+    None = 0,
+    MeanCost = 1,
+    NoAssignment = 2,
+    Velocity = 3,
+    ThetaMap = 4,
+    StartTime = 5,
+    StartPosition = 6,
+    Corridor = 7,
+    Direction = 8,
+    StepTime = 9,
+    StepLength = 10,
+    StepSpeed = 11,
+    StepForward = 12,
+    StepLateral = 13,
+    StepTurn = 14,
+    ArcTooShort = 15,
+    ArcTooLong = 16,
+    EndsTooSoon = 17,
+    Gap = 18,
+    Collision = 19,
+    CollisionStanding = 20,
+    Occupied = 21,
+    Unknown = 22,
+    Outside = 23,
+}
+
+/// Why a stage failed. Indices that mean nothing for the rule are -1.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaWitness {
+    /// The rule that was broken.
+    pub rule: MufasaRule,
+    /// 1 when `track` means something.
+    pub has_track: u32,
+    /// Id of the track.
+    pub track: i64,
+    /// Index of the trajectory point (the later one of a step).
+    pub point: i64,
+    /// Index of the detection.
+    pub detection: i64,
+    /// Index of the segment of the reference path.
+    pub segment: i64,
+    /// Index of the disk.
+    pub disk: i64,
+    /// Column and row of the grid cell.
+    pub cell: [i64; 2],
+    /// The two numbers that were compared.
+    pub compared: [f64; 2],
+}
+
+/// What became of one stage.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaOutcome {
+    /// What became of it.
+    pub kind: MufasaOutcomeKind,
+    /// Of a skipped stage.
+    pub reason: MufasaReason,
+    /// Of a stage that lacked an input.
+    pub missing: MufasaInput,
+    /// Of a failed stage.
+    pub witness: MufasaWitness,
+}
+
+/// Bytes of the texts of MufasaInvalidInput, the closing 0 included.
+pub const MUFASA_TEXT_BYTES: usize = 96;
+
+/// What is wrong with the input. The texts are empty when nothing is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaInvalidInput {
+    /// Dotted path of the field, such as tracks.items.vx.
+    pub field: [c_char; MUFASA_TEXT_BYTES],
+    /// What is wrong and what would be right.
+    pub message: [c_char; MUFASA_TEXT_BYTES],
+    /// Index in the innermost list, or -1.
+    pub index: i64,
+}
+
+/// The answer to one cycle.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaReport {
+    /// The verdict.
+    pub verdict: MufasaVerdict,
+    /// What made the cycle unsafe.
+    pub failed_stage: MufasaFailedStage,
+    /// Stages i to v.
+    pub stages: [MufasaOutcome; 5],
+    /// The problem of invalid input, local or remote.
+    pub input: MufasaInvalidInput,
+}
+
+const NO_WITNESS: MufasaWitness = MufasaWitness {
+    rule: MufasaRule::None,
+    has_track: 0,
+    track: 0,
+    point: -1,
+    detection: -1,
+    segment: -1,
+    disk: -1,
+    cell: [-1, -1],
+    compared: [0.0, 0.0],
+};
+
+const NOT_SCHEDULED: MufasaOutcome = MufasaOutcome {
+    kind: MufasaOutcomeKind::NotScheduled,
+    reason: MufasaReason::None,
+    missing: MufasaInput::None,
+    witness: NO_WITNESS,
+};
+
+/// The report of a cycle that could not be checked, or of invalid local input.
+pub(crate) fn error(problem: Option<InvalidInput>) -> MufasaReport {
+    MufasaReport {
+        verdict: MufasaVerdict::Error,
+        failed_stage: MufasaFailedStage::None,
+        stages: [NOT_SCHEDULED; 5],
+        input: input(problem),
+    }
+}
+
+/// The report of a cycle that was checked.
+pub(crate) fn report(report: &Report) -> MufasaReport {
+    MufasaReport {
+        verdict: match report.failed_stage {
+            None => MufasaVerdict::Safe,
+            Some(_) => MufasaVerdict::Unsafe,
+        },
+        failed_stage: failed_stage(report.failed_stage),
+        stages: report.stages.map(outcome),
+        input: input(report.input),
+    }
+}
+
+fn failed_stage(failed: Option<FailedStage>) -> MufasaFailedStage {
+    match failed {
+        None => MufasaFailedStage::None,
+        Some(FailedStage::Input) => MufasaFailedStage::Input,
+        Some(FailedStage::Stage(Stage::I)) => MufasaFailedStage::I,
+        Some(FailedStage::Stage(Stage::Ii)) => MufasaFailedStage::Ii,
+        Some(FailedStage::Stage(Stage::Iii)) => MufasaFailedStage::Iii,
+        Some(FailedStage::Stage(Stage::Iv)) => MufasaFailedStage::Iv,
+        Some(FailedStage::Stage(Stage::V)) => MufasaFailedStage::V,
+        Some(FailedStage::NoObstacleCheck) => MufasaFailedStage::NoObstacleCheck,
+    }
+}
+
+fn outcome(outcome: Outcome) -> MufasaOutcome {
+    let of = |kind| MufasaOutcome { kind, ..NOT_SCHEDULED };
+    match outcome {
+        Outcome::NotScheduled => NOT_SCHEDULED,
+        Outcome::Passed => of(MufasaOutcomeKind::Passed),
+        Outcome::Failed(it) => {
+            MufasaOutcome { witness: witness(&it), ..of(MufasaOutcomeKind::Failed) }
+        }
+        Outcome::Skipped(reason) => {
+            let (reason, missing) = match reason {
+                Reason::AfterFailure => (MufasaReason::AfterFailure, MufasaInput::None),
+                Reason::OtherStageRan => (MufasaReason::OtherStageRan, MufasaInput::None),
+                Reason::NoCurrent(it) => (MufasaReason::NoCurrentInput, missing(it)),
+            };
+            MufasaOutcome { reason, missing, ..of(MufasaOutcomeKind::Skipped) }
+        }
+        Outcome::NotApplicable(it) => {
+            MufasaOutcome { missing: missing(it), ..of(MufasaOutcomeKind::NotApplicable) }
+        }
+    }
+}
+
+const fn missing(input: Input) -> MufasaInput {
+    match input {
+        Input::Trajectory => MufasaInput::Trajectory,
+        Input::Tracks => MufasaInput::Tracks,
+        Input::Detections => MufasaInput::Detections,
+        Input::Grid => MufasaInput::Grid,
+    }
+}
+
+fn witness(witness: &Witness) -> MufasaWitness {
+    let &Witness { rule: broken, point, track, detection, segment, disk, cell, compared } = witness;
+    MufasaWitness {
+        rule: rule(broken),
+        has_track: u32::from(track.is_some()),
+        track: track.unwrap_or(0),
+        point: index(point),
+        detection: index(detection),
+        segment: index(segment),
+        disk: index(disk),
+        cell: cell.map_or([-1, -1], |(column, row)| [column, row]),
+        compared,
+    }
+}
+
+const fn rule(rule: Rule) -> MufasaRule {
+    match rule {
+        Rule::MeanCost => MufasaRule::MeanCost,
+        Rule::NoAssignment => MufasaRule::NoAssignment,
+        Rule::Velocity => MufasaRule::Velocity,
+        Rule::ThetaMap => MufasaRule::ThetaMap,
+        Rule::StartTime => MufasaRule::StartTime,
+        Rule::StartPosition => MufasaRule::StartPosition,
+        Rule::Corridor => MufasaRule::Corridor,
+        Rule::Direction => MufasaRule::Direction,
+        Rule::StepTime => MufasaRule::StepTime,
+        Rule::StepLength => MufasaRule::StepLength,
+        Rule::StepSpeed => MufasaRule::StepSpeed,
+        Rule::StepForward => MufasaRule::StepForward,
+        Rule::StepLateral => MufasaRule::StepLateral,
+        Rule::StepTurn => MufasaRule::StepTurn,
+        Rule::ArcTooShort => MufasaRule::ArcTooShort,
+        Rule::ArcTooLong => MufasaRule::ArcTooLong,
+        Rule::EndsTooSoon => MufasaRule::EndsTooSoon,
+        Rule::Gap => MufasaRule::Gap,
+        Rule::Collision => MufasaRule::Collision,
+        Rule::CollisionStanding => MufasaRule::CollisionStanding,
+        Rule::Occupied => MufasaRule::Occupied,
+        Rule::Unknown => MufasaRule::Unknown,
+        Rule::Outside => MufasaRule::Outside,
+    }
+}
+
+fn index(index: Option<usize>) -> i64 {
+    index.and_then(|index| i64::try_from(index).ok()).unwrap_or(-1)
+}
+
+fn input(problem: Option<InvalidInput>) -> MufasaInvalidInput {
+    let (field, message) = problem.map_or(("", ""), |it| (it.field, Problem::message(it.problem)));
+    MufasaInvalidInput {
+        field: text(field),
+        message: text(message),
+        index: index(problem.and_then(|it| it.index)),
+    }
+}
+
+/// A text with a closing 0; one that is too long is cut off.
+fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
+    let mut bytes = [0; MUFASA_TEXT_BYTES];
+    let places = bytes.iter_mut().take(MUFASA_TEXT_BYTES - 1);
+    for (place, byte) in places.zip(text.bytes()) {
+        *place = c_char::from_ne_bytes([byte]);
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use core::ffi::CStr;
+
+    use mufasa::verdict::{InvalidInput, Problem};
+
+    use super::{MUFASA_TEXT_BYTES, input};
+
+    const PROBLEMS: [Problem; 11] = [
+        Problem::NotFinite,
+        Problem::OutOfDomain,
+        Problem::NotADirection,
+        Problem::TimeOutOfRange,
+        Problem::DuplicateId,
+        Problem::EqualPoints,
+        Problem::TimeNotIncreasing,
+        Problem::TooFew,
+        Problem::TooMany,
+        Problem::BitmapLength,
+        Problem::ScratchTooSmall,
+    ];
+
+    #[test]
+    fn messages_fit_and_end_with_a_zero() {
+        for problem in PROBLEMS {
+            let field = "previous_tracks.items.length";
+            let told = input(Some(InvalidInput { field, index: Some(3), problem }));
+            let bytes: Vec<u8> = told.message.iter().map(|byte| byte.to_ne_bytes()[0]).collect();
+            let text = CStr::from_bytes_until_nul(&bytes).unwrap().to_str().unwrap();
+            assert_eq!(text, problem.message());
+            assert!(field.len() < MUFASA_TEXT_BYTES);
+            assert_eq!(told.index, 3);
+        }
+    }
+}

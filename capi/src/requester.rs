@@ -1,0 +1,469 @@
+//! `mufasa::requester` for C. The requester lives in memory of the caller, its table of stations
+//! right behind it.
+
+use core::ffi::c_void;
+use core::mem::{align_of, size_of};
+
+use mufasa::requester::{
+    Action, Actions, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+    RequesterError, StationRecord, Suspended,
+};
+
+use crate::convert;
+use crate::cycle::MufasaConfiguration;
+use crate::memory::{put, required};
+use crate::status::MufasaStatus;
+
+/// A group of services; a set of groups is the sum of their numbers.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaGroup {
+    /// MOT: multi-object tracking.
+    Mot = 1,
+    /// PLAN: environment model and trajectory planning.
+    Plan = 2,
+}
+
+/// What happens; the comment says which further fields of MufasaEvent it uses.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaEventType {
+    /// A station offers groups: station, groups.
+    Offer = 1,
+    /// A station withdraws its offer: station.
+    Withdraw = 2,
+    /// A station can no longer be reached: station.
+    Lost = 3,
+    /// These groups may be offloaded here: groups.
+    Area = 4,
+    /// Time passes.
+    Tick = 5,
+    /// A station confirms: station, group, session.
+    Confirm = 6,
+    /// A station rejects: station, group, session.
+    Reject = 7,
+    /// A result arrives: station, group, session, generated_ns.
+    Data = 8,
+    /// A cycle ended: safe, and groups whose data it used.
+    Verdict = 9,
+}
+
+/// Something that happens at a time. Fields that its type does not use may be anything.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaEvent {
+    /// The CAV's monotonic clock.
+    pub t_ns: i64,
+    /// A MufasaEventType.
+    pub event_type: u32,
+    /// A MufasaGroup.
+    pub group: u32,
+    /// Sum of MufasaGroup.
+    pub groups: u32,
+    /// Not 0: the cycle was safe. One that ended with the verdict ERROR was not.
+    pub safe: u32,
+    /// Id of the station, at least 1.
+    pub station: i64,
+    /// The session that the message names.
+    pub session: i64,
+    /// When the result was generated, on the CAV's clock.
+    pub generated_ns: i64,
+}
+
+/// What the requester does; the comment says which fields of MufasaAction it uses.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaActionType {
+    /// Ask a station to run a group: station, group, session.
+    Request = 1,
+    /// Tell a station that a session has ended: station, group, session.
+    Release = 2,
+    /// Start the local services: group.
+    Activate = 3,
+    /// Stop the local services: group.
+    Deactivate = 4,
+    /// Do not use the element that arrived: group.
+    Drop = 5,
+}
+
+/// Something to be done.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaAction {
+    /// What.
+    pub action_type: MufasaActionType,
+    /// Which group.
+    pub group: MufasaGroup,
+    /// Id of the station, or 0.
+    pub station: i64,
+    /// The session, or 0.
+    pub session: i64,
+}
+
+/// One event never makes more actions than this.
+pub const MUFASA_MAX_ACTIONS: usize = 8;
+
+/// Times of a requester in ns, each at least 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs, reason = "the names are those of spec/2-offloading.md")]
+pub struct MufasaRequesterParameters {
+    pub t_wait_ns: i64,
+    pub request_timeout_ns: i64,
+    pub l_max_ns: i64,
+    pub dt_max_ns: i64,
+    /// Not 0: a violation of quality of service starts a hold, too.
+    pub qos_hold: u32,
+}
+
+/// The state of a group.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaGroupStateKind {
+    /// It runs on the CAV.
+    Local = 0,
+    /// It runs on the CAV, and a station was asked to run it.
+    Requested = 1,
+    /// It runs on a station.
+    Remote = 2,
+}
+
+/// The state of a group.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaGroupState {
+    /// What it is.
+    pub kind: MufasaGroupStateKind,
+    /// The station, or 0.
+    pub station: i64,
+    /// The session, or 0.
+    pub session: i64,
+    /// Of a requested group: a confirmation must come before this time.
+    pub deadline_ns: i64,
+    /// The station whose results may reach control; 0 is the CAV.
+    pub source: i64,
+}
+
+/// The state of a requester.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaRequesterState {
+    /// MOT.
+    pub mot: MufasaGroupState,
+    /// PLAN.
+    pub plan: MufasaGroupState,
+    /// For `MufasaCycle.configuration`.
+    pub configuration: MufasaConfiguration,
+    /// 0: there never was a hold.
+    pub has_hold: u32,
+    /// No request is sent before this time.
+    pub hold_until_ns: i64,
+}
+
+/// A requester in the memory of the caller; what is in it is nobody's business.
+pub struct MufasaRequester {
+    suspended: Suspended,
+    stations: usize,
+}
+
+/// A requester needs memory aligned to this many bytes, as `malloc` gives it.
+pub const MUFASA_REQUESTER_ALIGN: usize = 8;
+
+const _: () = assert!(align_of::<MufasaRequester>() <= MUFASA_REQUESTER_ALIGN);
+const _: () = assert!(align_of::<StationRecord>() <= MUFASA_REQUESTER_ALIGN);
+/// So the table can begin right behind the requester.
+const _: () = assert!(size_of::<MufasaRequester>().is_multiple_of(align_of::<StationRecord>()));
+
+/// The defaults of spec/2-offloading.md.
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_requester_parameters_default() -> MufasaRequesterParameters {
+    let Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold } =
+        Parameters::default();
+    let qos_hold = u32::from(qos_hold);
+    MufasaRequesterParameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold }
+}
+
+/// Bytes of memory for a requester that knows this many stations. A place of the table is taken
+/// for good by every station that was ever asked.
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_requester_bytes(stations: usize) -> usize {
+    stations.saturating_mul(size_of::<StationRecord>()).saturating_add(size_of::<MufasaRequester>())
+}
+
+/// Makes a requester in `memory`, whose content means nothing before: both groups local, no
+/// offers, no hold, all groups in the area. `*requester` is where it is; it needs no end, and may
+/// not be moved.
+///
+/// # Safety
+/// `parameters` is null or points to parameters; `memory` points to `bytes` bytes that nobody
+/// else uses as long as the requester is used; `requester` is null or can be written to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_requester_init(
+    profile: u32,
+    parameters: *const MufasaRequesterParameters,
+    stations: usize,
+    memory: *mut c_void,
+    bytes: usize,
+    requester: *mut *mut MufasaRequester,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    match unsafe { init(profile, parameters, stations, memory, bytes) } {
+        // SAFETY: the caller's duty.
+        Ok(made) => status(unsafe { put(requester, made) }),
+        Err(status) => status,
+    }
+}
+
+/// Takes one event and writes what has to be done about it, in this order. When the status is not
+/// OK nothing has changed, and `*actions_len`, if it can be written to, is 0.
+///
+/// # Safety
+/// `requester` is null or comes from `mufasa_requester_init`, in memory that nobody else wrote to,
+/// and no other call uses it at the same time; `event` is null or points to an event; `actions`
+/// is null or has `capacity` places; `actions_len` is null or can be written to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_requester_step(
+    requester: *mut MufasaRequester,
+    event: *const MufasaEvent,
+    actions: *mut MufasaAction,
+    capacity: usize,
+    actions_len: *mut usize,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    if let Err(status) = unsafe { put(actions_len, 0) } {
+        return status;
+    }
+    if capacity < MUFASA_MAX_ACTIONS {
+        return MufasaStatus::TooFewActions;
+    }
+    if actions.is_null() {
+        return MufasaStatus::NullPointer;
+    }
+    if !actions.is_aligned() {
+        return MufasaStatus::Misaligned;
+    }
+    // SAFETY: the caller's duty.
+    let taken = match unsafe { step(requester, event) } {
+        Ok(taken) => taken,
+        Err(status) => return status,
+    };
+    let mut len: usize = 0;
+    for taken in taken.as_slice() {
+        // SAFETY: an event makes at most MUFASA_MAX_ACTIONS actions, and `actions` has as many
+        // places or more (checked; that it has `capacity` of them is the caller's duty).
+        let place = unsafe { actions.add(len) };
+        // SAFETY: as above.
+        if let Err(status) = unsafe { put(place, action(*taken)) } {
+            return status;
+        }
+        len = len.saturating_add(1);
+    }
+    // SAFETY: the caller's duty.
+    status(unsafe { put(actions_len, len) })
+}
+
+/// Writes the state of a requester.
+///
+/// # Safety
+/// `requester` as for `mufasa_requester_step`; `state` is null or can be written to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_requester_state(
+    requester: *const MufasaRequester,
+    state: *mut MufasaRequesterState,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let stored = match unsafe { required(requester) } {
+        Ok(stored) => stored,
+        Err(status) => return status,
+    };
+    // The state does not depend on the table.
+    let requester = Requester::resume(stored.suspended, &mut []);
+    let group = |group| {
+        let (kind, station, session, deadline_ns) = match requester.state(group) {
+            GroupState::Local => (MufasaGroupStateKind::Local, 0, 0, 0),
+            GroupState::Requested { station, session, deadline_ns } => {
+                (MufasaGroupStateKind::Requested, station, session, deadline_ns)
+            }
+            GroupState::Remote { station, session } => {
+                (MufasaGroupStateKind::Remote, station, session, 0)
+            }
+        };
+        let source = requester.source(group).station();
+        MufasaGroupState { kind, station, session, deadline_ns, source }
+    };
+    let told = MufasaRequesterState {
+        mot: group(Group::Mot),
+        plan: group(Group::Plan),
+        configuration: convert::configuration_number(requester.configuration()),
+        has_hold: u32::from(requester.hold_until_ns().is_some()),
+        hold_until_ns: requester.hold_until_ns().unwrap_or(0),
+    };
+    // SAFETY: the caller's duty.
+    status(unsafe { put(state, told) })
+}
+
+/// # Safety
+/// As for [`mufasa_requester_init`].
+unsafe fn init(
+    profile: u32,
+    parameters: *const MufasaRequesterParameters,
+    stations: usize,
+    memory: *mut c_void,
+    bytes: usize,
+) -> Result<*mut MufasaRequester, MufasaStatus> {
+    let profile = convert::profile(profile)?;
+    // SAFETY: the caller's duty.
+    let raw = unsafe { required(parameters) }?;
+    let parameters = Parameters {
+        t_wait_ns: raw.t_wait_ns,
+        request_timeout_ns: raw.request_timeout_ns,
+        l_max_ns: raw.l_max_ns,
+        dt_max_ns: raw.dt_max_ns,
+        qos_hold: raw.qos_hold != 0,
+    };
+    if memory.is_null() {
+        return Err(MufasaStatus::NullPointer);
+    }
+    if memory.align_offset(MUFASA_REQUESTER_ALIGN) != 0 {
+        return Err(MufasaStatus::Misaligned);
+    }
+    if bytes < mufasa_requester_bytes(stations) {
+        return Err(MufasaStatus::MemoryTooSmall);
+    }
+    let suspended = Requester::new(profile, parameters, &mut []).map_err(refused)?.suspend();
+    let place: *mut MufasaRequester = memory.cast();
+    // SAFETY: not null, aligned, and `bytes` is enough for it (checked); writable (the caller's
+    // duty).
+    unsafe { place.write(MufasaRequester { suspended, stations }) };
+    // SAFETY: `bytes` is enough for the requester and `stations` records behind it (checked).
+    let records = unsafe { table(place) };
+    for station in 0..stations {
+        // SAFETY: as above.
+        let record = unsafe { records.add(station) };
+        // SAFETY: as above; it is aligned because the requester is, and its size is a multiple of
+        // the alignment of a record (asserted above).
+        unsafe { record.write(StationRecord::FREE) };
+    }
+    Ok(place)
+}
+
+/// # Safety
+/// As for [`mufasa_requester_step`].
+unsafe fn step(
+    requester: *mut MufasaRequester,
+    event: *const MufasaEvent,
+) -> Result<Actions, MufasaStatus> {
+    // SAFETY: the caller's duty.
+    let event = self::event(unsafe { required(event) }?)?;
+    // SAFETY: the caller's duty.
+    let &MufasaRequester { suspended, stations } = unsafe { required(requester) }?;
+    // SAFETY: the requester was not null (checked), so it comes from `init`, which was given memory
+    // for the table behind it.
+    let records = unsafe { table(requester) };
+    // SAFETY: `init` wrote `stations` records there; nobody else uses them (the caller's duty).
+    let records = unsafe { core::slice::from_raw_parts_mut(records, stations) };
+    let mut resumed = Requester::resume(suspended, records);
+    let actions = resumed.step(&event).map_err(refused)?;
+    let suspended = resumed.suspend();
+    // SAFETY: the requester can be written to (the caller's duty).
+    unsafe { put(requester, MufasaRequester { suspended, stations }) }?;
+    Ok(actions)
+}
+
+/// Where the table of a requester begins.
+///
+/// # Safety
+/// The requester is in memory that goes on behind it.
+unsafe fn table(requester: *mut MufasaRequester) -> *mut StationRecord {
+    // SAFETY: the caller's duty; the end of the requester is in the same memory.
+    unsafe { requester.add(1) }.cast()
+}
+
+fn status(result: Result<(), MufasaStatus>) -> MufasaStatus {
+    match result {
+        Ok(()) => MufasaStatus::Ok,
+        Err(status) => status,
+    }
+}
+
+fn refused(error: RequesterError) -> MufasaStatus {
+    match error {
+        RequesterError::NegativeParameter { .. } => MufasaStatus::NegativeParameter,
+        RequesterError::Station { .. } => MufasaStatus::InvalidStation,
+        RequesterError::TableFull { .. } => MufasaStatus::TableFull,
+    }
+}
+
+fn event(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
+    let &MufasaEvent { t_ns, event_type, station, session, generated_ns, .. } = raw;
+    let kinds = [
+        MufasaEventType::Offer,
+        MufasaEventType::Withdraw,
+        MufasaEventType::Lost,
+        MufasaEventType::Area,
+        MufasaEventType::Tick,
+        MufasaEventType::Confirm,
+        MufasaEventType::Reject,
+        MufasaEventType::Data,
+        MufasaEventType::Verdict,
+    ];
+    let kind = kinds.into_iter().find(|&kind| kind as u32 == event_type);
+    let kind = match kind.ok_or(MufasaStatus::UnknownValue)? {
+        MufasaEventType::Offer => EventKind::Offer { station, groups: groups(raw.groups)? },
+        MufasaEventType::Withdraw => EventKind::Withdraw { station },
+        MufasaEventType::Lost => EventKind::Lost { station },
+        MufasaEventType::Area => EventKind::Area { groups: groups(raw.groups)? },
+        MufasaEventType::Tick => EventKind::Tick,
+        MufasaEventType::Confirm => {
+            EventKind::Confirm { station, group: group(raw.group)?, session }
+        }
+        MufasaEventType::Reject => EventKind::Reject { station, group: group(raw.group)?, session },
+        MufasaEventType::Data => {
+            EventKind::Data { station, group: group(raw.group)?, session, generated_ns }
+        }
+        MufasaEventType::Verdict => {
+            EventKind::Verdict { safe: raw.safe != 0, groups: groups(raw.groups)? }
+        }
+    };
+    Ok(Event { t_ns, kind })
+}
+
+fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
+    let (mot, plan) = (MufasaGroup::Mot as u32, MufasaGroup::Plan as u32);
+    if raw & !(mot | plan) != 0 {
+        return Err(MufasaStatus::UnknownValue);
+    }
+    Ok(Groups { mot: raw & mot != 0, plan: raw & plan != 0 })
+}
+
+fn group(raw: u32) -> Result<Group, MufasaStatus> {
+    let found = Group::ALL.into_iter().find(|&group| group_number(group) as u32 == raw);
+    found.ok_or(MufasaStatus::UnknownValue)
+}
+
+const fn group_number(group: Group) -> MufasaGroup {
+    match group {
+        Group::Mot => MufasaGroup::Mot,
+        Group::Plan => MufasaGroup::Plan,
+    }
+}
+
+fn action(action: Action) -> MufasaAction {
+    let message = |action_type, station, group, session| MufasaAction {
+        action_type,
+        group: group_number(group),
+        station,
+        session,
+    };
+    match action {
+        Action::Request { station, group, session } => {
+            message(MufasaActionType::Request, station, group, session)
+        }
+        Action::Release { station, group, session } => {
+            message(MufasaActionType::Release, station, group, session)
+        }
+        Action::Activate(group) => message(MufasaActionType::Activate, 0, group, 0),
+        Action::Deactivate(group) => message(MufasaActionType::Deactivate, 0, group, 0),
+        Action::Drop(group) => message(MufasaActionType::Drop, 0, group, 0),
+    }
+}

@@ -1,0 +1,26 @@
+//! Whether a call could be carried out at all.
+
+/// What a function says about the call itself. Anything but `Ok` is a fault of the calling
+/// program, not of the data of the cycle.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaStatus {
+    /// Done.
+    Ok = 0,
+    /// A pointer that must not be null is null.
+    NullPointer = 1,
+    /// A pointer is not aligned for what it points to.
+    Misaligned = 2,
+    /// A profile, configuration, group, set of groups or type of an event that does not exist.
+    UnknownValue = 3,
+    /// The memory is smaller than the function that tells its size says.
+    MemoryTooSmall = 4,
+    /// The array for actions has fewer than MUFASA_MAX_ACTIONS places.
+    TooFewActions = 5,
+    /// A parameter of the requester is below 0.
+    NegativeParameter = 6,
+    /// An event names a station below 1.
+    InvalidStation = 7,
+    /// An offer of a station for which the table has no place.
+    TableFull = 8,
+}

@@ -1,0 +1,29 @@
+//! The committed header is the one that the sources give.
+
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn the_header_is_the_one_of_the_sources() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let config = cbindgen::Config::from_file(here.join("cbindgen.toml")).expect("cbindgen.toml");
+    let mut builder = cbindgen::Builder::new().with_config(config);
+    for source in ["status", "cycle", "report", "check", "requester"] {
+        builder = builder.with_src(here.join("src").join(source).with_extension("rs"));
+    }
+    let mut text = Vec::new();
+    builder.generate().expect("sources that cbindgen understands").write(&mut text);
+    let text = String::from_utf8(text).expect("UTF-8");
+    let path = here.join("include/mufasa.h");
+    if std::env::var_os("UPDATE_HEADER").is_some() {
+        fs::write(&path, &text).expect("the header can be written");
+    }
+    let committed = fs::read_to_string(&path).unwrap_or_default();
+    let line = committed.lines().zip(text.lines()).position(|(old, new)| old != new);
+    assert!(
+        committed == text,
+        "include/mufasa.h differs from the sources, first at line {:?}; \
+         UPDATE_HEADER=1 cargo test -p mufasa-capi --test header writes it anew",
+        line.map(|line| line + 1),
+    );
+}
