@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Duration;
@@ -23,9 +23,12 @@ use crate::explore;
 use crate::json::names;
 use crate::oracle;
 use crate::parameters_file;
+use crate::vectors;
 
 /// Bad input or arguments.
 const BAD_INPUT: u8 = 2;
+/// Model and text, or model and implementation, disagree.
+const DISAGREE: u8 = 3;
 /// As a shell says that a program was ended by a closed pipe.
 const CLOSED_PIPE: u8 = 141;
 
@@ -51,6 +54,8 @@ enum Command {
     Conform(ConformArguments),
     /// Find all compositions of a service set.
     Compose(ComposeArguments),
+    /// Write the vectors: lines with the answers that they must get, their schemas, a README.
+    Vectors(VectorsArguments),
     /// Explore the offloading protocol state by state.
     Explore(ExploreArguments),
 }
@@ -247,6 +252,14 @@ struct ExploreArguments {
     serve: Option<String>,
 }
 
+/// Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.
+#[derive(Args)]
+struct VectorsArguments {
+    /// Folder; files of other names there stay.
+    #[arg(long, value_name = "DIR", default_value = "vectors")]
+    out: PathBuf,
+}
+
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -268,6 +281,7 @@ pub fn main() -> ExitCode {
         }
         Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
+        Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
@@ -403,6 +417,27 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
             Ok(refused(&error.to_string()))
         }
     }
+}
+
+fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
+    let contents = match vectors::contents() {
+        Ok(contents) => contents,
+        Err(refused) => {
+            for vector in refused {
+                complain(&mut io::stderr(), &vector.to_string());
+            }
+            return Ok(DISAGREE);
+        }
+    };
+    if let Err(error) = vectors::write(folder, &contents) {
+        return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
+    }
+    let lines = |(name, text): (&String, &String)| {
+        if name.ends_with(".jsonl") { text.lines().count() } else { 0 }
+    };
+    let count: usize = contents.iter().map(lines).sum();
+    writeln!(out, "{}: {} files, {count} vectors", folder.display(), contents.len())?;
+    Ok(0)
 }
 
 fn refused(message: &str) -> u8 {

@@ -30,6 +30,6 @@ fn tell(book: &mut Book, topic: Topic, (name, note): (&str, &str), story: &Story
 }
 
 /// The default parameters with the switch of I-09.
-fn with_qos_hold(qos_hold: bool) -> Parameters {
+pub fn with_qos_hold(qos_hold: bool) -> Parameters {
     Parameters { qos_hold, ..Parameters::default() }
 }

@@ -1,7 +1,7 @@
 //! The rules of `spec/3-stages.md#hardened-profile` on both sides of their thresholds, one file
 //! per rule. H-08 is a rule of the protocol.
 
-mod objects;
+pub mod objects;
 mod schedule;
 mod trajectory;
 

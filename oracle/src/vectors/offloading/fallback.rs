@@ -112,11 +112,8 @@ fn order(book: &mut Book) {
     tell(book, ORDER, ("requests-last", note), &story, (["local", "requested:1"], None, &actions));
     let note = "A hold that a silent session starts forbids the requests of the same tick.";
     let story = Story::remote(Paper, PLAN).parameters(with_qos_hold(true)).offer(1, 1, ALL);
-    let told = (
-        LOCAL,
-        Some(100_000_001 + T_WAIT),
-        ["release plan 1#1", "activate plan"].as_slice(),
-    );
+    let told =
+        (LOCAL, Some(100_000_001 + T_WAIT), ["release plan 1#1", "activate plan"].as_slice());
     tell(book, ORDER, ("held-at-once", note), &story.tick(100_000_001), told);
 }
 

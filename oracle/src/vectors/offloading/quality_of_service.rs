@@ -72,7 +72,7 @@ pub fn add(book: &mut Book) {
     tell(book, FUTURE, ("now", note), &story, (REMOTE, None, &[]));
     let note = "Generated later than it arrived: a violation.";
     let story = mot().data(10, SESSION, 11);
-    tell(book, FUTURE, ("later", note), &story, (LOCAL, None, &LEFT));
+    tell(book, FUTURE, ("generated-later", note), &story, (LOCAL, None, &LEFT));
 
     let note = "A violation returns that group and no other, without a hold.";
     let story = Story::remote(Paper, ALL).data(1, SESSION, 2);

@@ -50,7 +50,7 @@ fn offers(book: &mut Book) {
     tell(book, OFFER, ("left-requested", note), &story, told);
     let note = "Another station's offer changes no session.";
     let story = Story::remote(Paper, ALL).offer(1, 2, NONE);
-    tell(book, OFFER, ("other-station", note), &story, (["remote:1", "remote:1"], None, &[]));
+    tell(book, OFFER, ("offer-of-another", note), &story, (["remote:1", "remote:1"], None, &[]));
 }
 
 fn requests(book: &mut Book) {
@@ -81,8 +81,7 @@ fn requests(book: &mut Book) {
     tell(book, REQUEST, ("hold-ended", note), &story.tick(hold), told);
     let note = "A group that returned at this tick waits for the next; the other does not.";
     let story = Story::requested(Paper, PLAN).offer(1, 1, ALL).tick(TIMEOUT);
-    let told =
-        (["requested:1", "local"], None, ["release plan 1#1", "request mot 1#2"].as_slice());
+    let told = (["requested:1", "local"], None, ["release plan 1#1", "request mot 1#2"].as_slice());
     tell(book, REQUEST, ("waits-a-tick", note), &story, told);
 }
 
@@ -128,10 +127,9 @@ fn confirmations(book: &mut Book) {
     let note = "A confirmation of the running session is ignored.";
     let story = Story::remote(Paper, MOT).confirm(1, (1, Mot, 1));
     tell(book, CONFIRM, ("again", note), &story, (["remote:1", "local"], None, &[]));
-    for (name, station, session, action) in [
-        ("other-session", 1, 2, "release mot 1#2"),
-        ("other-station", 2, 1, "release mot 2#1"),
-    ] {
+    for (name, station, session, action) in
+        [("other-session", 1, 2, "release mot 1#2"), ("other-station", 2, 1, "release mot 2#1")]
+    {
         let note = "Any other confirmation is answered with a release of what it names.";
         let story = Story::requested(Paper, MOT).confirm(1, (station, Mot, session));
         let told = (["requested:1", "local"], None, [action]);
@@ -173,7 +171,7 @@ fn area_and_data(book: &mut Book) {
     let note = "A remote group no longer in the area returns with a release, without a hold.";
     let story = Story::remote(Paper, ALL).area(2, PLAN);
     let told = (["local", "remote:1"], None, ["release mot 1#1", "activate mot"].as_slice());
-    tell(book, AREA, ("left", note), &story, told);
+    tell(book, AREA, ("area-left", note), &story, told);
     let note = "All groups are in the area until the first event of an area.";
     let both = ["request mot 1#1", "request plan 1#2"];
     let story = Story::new(Paper).offer(0, 1, ALL).tick(0);
@@ -181,12 +179,12 @@ fn area_and_data(book: &mut Book) {
     let note = "An area replaces the previous one.";
     let story = Story::new(Paper).offer(0, 1, ALL).area(0, PLAN).area(1, MOT).tick(2);
     let told = (["requested:1", "local"], None, ["request mot 1#1"].as_slice());
-    tell(book, AREA, ("replaced", note), &story, told);
+    tell(book, AREA, ("area-replaced", note), &story, told);
     let note = "Data of the running session are used: nothing is dropped.";
     let remote = ["remote:1", "local"];
     let story = Story::remote(Paper, MOT).data(1, (1, Mot, 1), 1);
     tell(book, DATA, ("used", note), &story, (remote, None, &[]));
-    for (name, station, session) in [("other-station", 2, 1), ("other-session", 1, 2)] {
+    for (name, station, session) in [("data-other-station", 2, 1), ("data-other-session", 1, 2)] {
         let note = "Data of another station or session are dropped.";
         let story = Story::remote(Paper, MOT).data(1, (station, Mot, session), 1);
         tell(book, DATA, (name, note), &story, (remote, None, &["drop mot"]));
@@ -208,7 +206,7 @@ fn leaving(book: &mut Book) {
     tell(book, LEAVE, ("lost", note), &story, (LOCAL, None, &["activate plan"]));
     let note = "Another station leaves: no session changes.";
     let story = Story::remote(Paper, MOT).offer(1, 2, ALL).withdraw(2, 2);
-    tell(book, LEAVE, ("other-station", note), &story, (["remote:1", "local"], None, &[]));
+    tell(book, LEAVE, ("another-leaves", note), &story, (["remote:1", "local"], None, &[]));
     let note = "MOT and PLAN run on different stations.";
     let story = Story::new(Paper).offer(0, 2, MOT).offer(0, 1, PLAN).tick(1);
     let story = story.confirm(2, (2, Mot, 1)).confirm(2, (1, Plan, 2));
