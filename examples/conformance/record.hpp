@@ -243,11 +243,12 @@ inline void check_list(const std::optional<Stamped<Object>>& list, const Cycle& 
 }
 inline void check_trajectory(Cycle& c, bool remote) {
   if (!c.trajectory) return;
+  // An old local trajectory counts as missing: then its points may be old, too.
   bool usable = check_time(c.trajectory->stamp_ns, c.now_ns, remote);
   const auto& points = c.trajectory->items;
   within<std::size_t>(points.size(), 1, 1024);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    usable &= check_time(points[i].t_ns, c.now_ns, remote);
+    check_time(points[i].t_ns, c.now_ns, usable);
     check_pose(points[i]);
     if (i && points[i - 1].t_ns >= points[i].t_ns) throw Invalid{};
   }

@@ -201,11 +201,12 @@ def check_list(value, now_ns, remote, limit, domains):
 def check_trajectory(cycle, remote):
     if (trajectory := cycle["trajectory"]) is None:
         return
+    # An old local trajectory counts as missing: then its points may be old, too.
     usable = check_stamp(trajectory["stamp_ns"], cycle["now_ns"], remote)
     points = trajectory["points"]
     within(len(points), (1, 1024))
     for before, point in zip([None, *points], points):
-        usable &= check_stamp(point["t_ns"], cycle["now_ns"], remote)
+        check_stamp(point["t_ns"], cycle["now_ns"], usable)
         check_item(point, POSE)
         if before and before["t_ns"] >= point["t_ns"]:
             raise Invalid
