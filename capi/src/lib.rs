@@ -20,6 +20,7 @@
 
 pub mod check;
 pub mod cycle;
+pub mod event;
 pub mod report;
 pub mod requester;
 pub mod status;

@@ -5,103 +5,14 @@ use core::ffi::c_void;
 use core::mem::{align_of, size_of};
 
 use mufasa::requester::{
-    Action, Actions, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
-    RequesterError, StationRecord, Suspended,
+    Actions, Group, GroupState, Parameters, Requester, RequesterError, StationRecord, Suspended,
 };
 
 use crate::convert;
 use crate::cycle::MufasaConfiguration;
+use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent};
 use crate::memory::{put, required};
 use crate::status::MufasaStatus;
-
-/// A group of services; a set of groups is the sum of their numbers.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MufasaGroup {
-    /// MOT: multi-object tracking.
-    Mot = 1,
-    /// PLAN: environment model and trajectory planning.
-    Plan = 2,
-}
-
-/// What happens; the comment says which further fields of MufasaEvent it uses.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MufasaEventType {
-    /// A station offers groups: station, groups.
-    Offer = 1,
-    /// A station withdraws its offer: station.
-    Withdraw = 2,
-    /// A station can no longer be reached: station.
-    Lost = 3,
-    /// These groups may be offloaded here: groups.
-    Area = 4,
-    /// Time passes.
-    Tick = 5,
-    /// A station confirms: station, group, session.
-    Confirm = 6,
-    /// A station rejects: station, group, session.
-    Reject = 7,
-    /// A result arrives: station, group, session, generated_ns.
-    Data = 8,
-    /// A cycle ended: safe, and groups whose data it used.
-    Verdict = 9,
-}
-
-/// Something that happens at a time. Fields that its type does not use may be anything.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct MufasaEvent {
-    /// The CAV's monotonic clock.
-    pub t_ns: i64,
-    /// A MufasaEventType.
-    pub event_type: u32,
-    /// A MufasaGroup.
-    pub group: u32,
-    /// Sum of MufasaGroup.
-    pub groups: u32,
-    /// Not 0: the cycle was safe. One that ended with the verdict ERROR was not.
-    pub safe: u32,
-    /// Id of the station, at least 1.
-    pub station: i64,
-    /// The session that the message names.
-    pub session: i64,
-    /// When the result was generated, on the CAV's clock.
-    pub generated_ns: i64,
-}
-
-/// What the requester does; the comment says which fields of MufasaAction it uses.
-#[repr(u32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MufasaActionType {
-    /// Ask a station to run a group: station, group, session.
-    Request = 1,
-    /// Tell a station that a session has ended: station, group, session.
-    Release = 2,
-    /// Start the local services: group.
-    Activate = 3,
-    /// Stop the local services: group.
-    Deactivate = 4,
-    /// Do not use the element that arrived: group.
-    Drop = 5,
-}
-
-/// Something to be done.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct MufasaAction {
-    /// What.
-    pub action_type: MufasaActionType,
-    /// Which group.
-    pub group: MufasaGroup,
-    /// Id of the station, or 0.
-    pub station: i64,
-    /// The session, or 0.
-    pub session: i64,
-}
-
-/// One event never makes more actions than this.
-pub const MUFASA_MAX_ACTIONS: usize = 8;
 
 /// Times of a requester in ns, each at least 0.
 #[repr(C)]
@@ -253,7 +164,7 @@ pub unsafe extern "C" fn mufasa_requester_step(
         // places or more (checked; that it has `capacity` of them is the caller's duty).
         let place = unsafe { actions.add(len) };
         // SAFETY: as above.
-        if let Err(status) = unsafe { put(place, action(*taken)) } {
+        if let Err(status) = unsafe { put(place, event::action(*taken)) } {
             return status;
         }
         len = len.saturating_add(1);
@@ -354,7 +265,7 @@ unsafe fn step(
     event: *const MufasaEvent,
 ) -> Result<Actions, MufasaStatus> {
     // SAFETY: the caller's duty.
-    let event = self::event(unsafe { required(event) }?)?;
+    let event = event::event(unsafe { required(event) }?)?;
     // SAFETY: the caller's duty.
     let &MufasaRequester { suspended, stations } = unsafe { required(requester) }?;
     // SAFETY: the requester was not null (checked), so it comes from `init`, which was given memory
@@ -391,79 +302,5 @@ fn refused(error: RequesterError) -> MufasaStatus {
         RequesterError::NegativeParameter { .. } => MufasaStatus::NegativeParameter,
         RequesterError::Station { .. } => MufasaStatus::InvalidStation,
         RequesterError::TableFull { .. } => MufasaStatus::TableFull,
-    }
-}
-
-fn event(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
-    let &MufasaEvent { t_ns, event_type, station, session, generated_ns, .. } = raw;
-    let kinds = [
-        MufasaEventType::Offer,
-        MufasaEventType::Withdraw,
-        MufasaEventType::Lost,
-        MufasaEventType::Area,
-        MufasaEventType::Tick,
-        MufasaEventType::Confirm,
-        MufasaEventType::Reject,
-        MufasaEventType::Data,
-        MufasaEventType::Verdict,
-    ];
-    let kind = kinds.into_iter().find(|&kind| kind as u32 == event_type);
-    let kind = match kind.ok_or(MufasaStatus::UnknownValue)? {
-        MufasaEventType::Offer => EventKind::Offer { station, groups: groups(raw.groups)? },
-        MufasaEventType::Withdraw => EventKind::Withdraw { station },
-        MufasaEventType::Lost => EventKind::Lost { station },
-        MufasaEventType::Area => EventKind::Area { groups: groups(raw.groups)? },
-        MufasaEventType::Tick => EventKind::Tick,
-        MufasaEventType::Confirm => {
-            EventKind::Confirm { station, group: group(raw.group)?, session }
-        }
-        MufasaEventType::Reject => EventKind::Reject { station, group: group(raw.group)?, session },
-        MufasaEventType::Data => {
-            EventKind::Data { station, group: group(raw.group)?, session, generated_ns }
-        }
-        MufasaEventType::Verdict => {
-            EventKind::Verdict { safe: raw.safe != 0, groups: groups(raw.groups)? }
-        }
-    };
-    Ok(Event { t_ns, kind })
-}
-
-fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
-    let (mot, plan) = (MufasaGroup::Mot as u32, MufasaGroup::Plan as u32);
-    if raw & !(mot | plan) != 0 {
-        return Err(MufasaStatus::UnknownValue);
-    }
-    Ok(Groups { mot: raw & mot != 0, plan: raw & plan != 0 })
-}
-
-fn group(raw: u32) -> Result<Group, MufasaStatus> {
-    let found = Group::ALL.into_iter().find(|&group| group_number(group) as u32 == raw);
-    found.ok_or(MufasaStatus::UnknownValue)
-}
-
-const fn group_number(group: Group) -> MufasaGroup {
-    match group {
-        Group::Mot => MufasaGroup::Mot,
-        Group::Plan => MufasaGroup::Plan,
-    }
-}
-
-fn action(action: Action) -> MufasaAction {
-    let message = |action_type, station, group, session| MufasaAction {
-        action_type,
-        group: group_number(group),
-        station,
-        session,
-    };
-    match action {
-        Action::Request { station, group, session } => {
-            message(MufasaActionType::Request, station, group, session)
-        }
-        Action::Release { station, group, session } => {
-            message(MufasaActionType::Release, station, group, session)
-        }
-        Action::Activate(group) => message(MufasaActionType::Activate, 0, group, 0),
-        Action::Deactivate(group) => message(MufasaActionType::Deactivate, 0, group, 0),
-        Action::Drop(group) => message(MufasaActionType::Drop, 0, group, 0),
     }
 }

@@ -12,10 +12,11 @@ use mufasa_capi::cycle::{
     MufasaProfile, MufasaRoute, MufasaStation, MufasaTrack, MufasaTrackList, MufasaTrajectory,
     MufasaTrajectoryPoint,
 };
+use mufasa_capi::event::{MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent, MufasaEventType};
 use mufasa_capi::report::{MufasaFailedStage, MufasaReport, MufasaVerdict};
 use mufasa_capi::requester::{
-    MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent, MufasaEventType, mufasa_requester_bytes,
-    mufasa_requester_init, mufasa_requester_parameters_default, mufasa_requester_step,
+    mufasa_requester_bytes, mufasa_requester_init, mufasa_requester_parameters_default,
+    mufasa_requester_step,
 };
 use mufasa_capi::status::MufasaStatus;
 
