@@ -188,7 +188,7 @@ fn part(problem: &InvalidInput) -> &str {
 
 /// Whether the model with this margin could fail at this stage: it lies between the strict and
 /// the lax reading.
-fn is_within(cycle: &Cycle, said: Option<FailedStage>, margin_m: f64) -> bool {
+pub fn is_within(cycle: &Cycle, said: Option<FailedStage>, margin_m: f64) -> bool {
     let mut cycle = cycle.clone();
     cycle.parameters.delta = margin_m;
     let at = |reading| check(&cycle, reading).map(|report| rank(report.failed_stage));

@@ -10,9 +10,9 @@ use serde_json::Value;
 
 use super::answer;
 use super::class::Breach;
-use super::examine::{Examined, Expected, index};
+use super::examine::{Examined, Expected, index, is_within};
 use super::question::{Question, event_type};
-use super::subject::excerpt;
+use super::subject::{Broken, excerpt};
 use crate::check::words;
 use crate::json::answer::decimal;
 use crate::json::offloading_answer::OffloadingAnswer;
@@ -23,6 +23,9 @@ const MARGINS_M: [f64; 7] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 
 /// Most characters of an expected answer that are shown.
 const MOST: usize = 600;
+
+/// The line that came back, or what came instead.
+type Answered = Result<Vec<u8>, Broken>;
 
 /// What is told of a disagreement.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,17 +82,22 @@ pub fn explain(question: &Question, examined: &Examined) -> Told {
     }
 }
 
-/// The stage at which the program fails, if it gave a verdict.
-fn said(answered: &Result<Vec<u8>, super::subject::Broken>) -> Option<FailedStage> {
+/// The program's verdict, if it gave one.
+fn answer_of(answered: &Answered) -> Option<Option<FailedStage>> {
     let object = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
     match answer::said(&object) {
-        Ok(answer::Said::Verdict(failed)) => failed,
+        Ok(answer::Said::Verdict(failed)) => Some(failed),
         Ok(answer::Said::Error) | Err(_) => None,
     }
 }
 
+/// The stage at which the program fails, if it does.
+fn said(answered: &Answered) -> Option<FailedStage> {
+    answer_of(answered).flatten()
+}
+
 /// The exact answer, and what became of the stage at which the program fails.
-fn verdict(exact: &Answer, answered: &Result<Vec<u8>, super::subject::Broken>) -> String {
+fn verdict(exact: &Answer, answered: &Answered) -> String {
     let text = match exact {
         Ok(report) if report.failed_stage.is_some() => format!("unsafe: {}", words::answer(exact)),
         Ok(_) => String::from("safe"),
@@ -116,19 +124,22 @@ fn verdict(exact: &Answer, answered: &Result<Vec<u8>, super::subject::Broken>) -
 
 /// The numbers of the exact model's witness; where it passes, those of the comparison that a
 /// growing margin first makes fail.
-fn decide(
-    cycle: &Cycle,
-    exact: &Answer,
-    answered: &Result<Vec<u8>, super::subject::Broken>,
-) -> Option<Numbers> {
+fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers> {
     let report = exact.as_ref().ok()?;
     if let Some(witness) = words::failed_witness(report) {
         let [left, right] = witness.compared;
+        // A witness compares two numbers of several: the centres, not the sides, of rectangles.
+        let near = answer_of(answered)
+            .and_then(|said| MARGINS_M.into_iter().find(|it| is_within(cycle, said, *it)));
+        let margin = match near {
+            Some(near) => format!("at most {near}: with it the model could answer the same"),
+            None => decimal((left - right).abs()),
+        };
         return Some(Numbers {
             what: words::witness(witness),
             left: decimal(left),
             right: decimal(right),
-            margin: decimal((left - right).abs()),
+            margin,
         });
     }
     let stage = said(answered)?;
@@ -166,7 +177,7 @@ fn strictly(cycle: &Cycle, margin_m: f64, stage: FailedStage) -> Option<Numbers>
 fn first_difference(
     trace: &Trace,
     expected: &OffloadingAnswer,
-    answered: &Result<Vec<u8>, super::subject::Broken>,
+    answered: &Answered,
 ) -> Option<(String, Numbers)> {
     let object: Value = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
     let states = object.get("states")?.as_array()?;

@@ -54,6 +54,13 @@ pub const CASES: u64 = 10_000;
 /// So often a program may break in one class before its kind of record is given up.
 const RESTARTS: u64 = 5;
 
+/// A case is small when it has so many objects; of a class without a small one further cases are
+/// shrunk, too.
+const SMALL: usize = 3;
+
+/// So many cases of a class are shrunk at most.
+const SHRUNK: u64 = 6;
+
 /// No disagreement.
 const CONFORMS: u8 = 0;
 /// Some disagreement.
@@ -318,14 +325,23 @@ impl<'a> Course<'a> {
         bar: &ProgressBar,
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
-        if let Some(found) = self.classes.get_mut(class) {
-            found.count += 1;
-        } else {
+        let known = self.classes.get(class);
+        let known = known.map(|found| (found.count, found.size, found.shrunk, found.first));
+        let enough = known.is_some_and(|(count, size, shrunk, _)| {
+            (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
+        });
+        if !enough {
             bar.set_message(format!("shrinking: {class}"));
             let found = self.shrunk(class, case, name, question, examined)?;
-            bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
+            let (count, size, shrunk, first) = known.unwrap_or((0, usize::MAX, false, case));
+            if (found.shrunk, size) > (shrunk, found.size) {
+                bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
+                self.classes.insert(class.clone(), Found { count, first, ..found });
+            }
             bar.set_message("");
-            self.classes.insert(class.clone(), found);
+        }
+        if let Some(found) = self.classes.get_mut(class) {
+            found.count += 1;
         }
         if class.breach.is_broken() {
             let times = self.broken.entry((class.breach, class.kind)).or_default();
@@ -379,7 +395,8 @@ impl<'a> Course<'a> {
         })
     }
 
-    fn summary(self) -> Summary {
+    fn summary(mut self) -> Summary {
+        self.given_up.sort();
         let Settings { command, profile, seed, time_limit, shard, drives, tolerance, .. } =
             self.settings;
         let (at, of) = shard.unwrap_or((0, 1));

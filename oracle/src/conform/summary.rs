@@ -87,9 +87,9 @@ pub struct Found {
     pub id: String,
     /// How many cases of it.
     pub count: u64,
-    /// The first case, by its number in the campaign and by name.
+    /// Number of the first case in the campaign.
     pub first: u64,
-    /// Its name.
+    /// Name of the case that was shrunk: the first, or a later one that led to fewer objects.
     pub name: String,
     /// What was answered and what is right, in the shrunk case.
     pub told: Told,
@@ -180,15 +180,15 @@ impl Summary {
         for found in self.classes.into_iter().chain(other.classes) {
             let class = found.class.clone();
             let better = |one: &Found, two: &Found| {
-                let key = |it: &Found| (!it.shrunk, it.size, it.record.get().len(), it.first);
+                let key = |it: &Found| (!it.shrunk, it.size, it.first);
                 key(one) < key(two)
             };
             let joined = match classes.remove(&class) {
                 None => found,
                 Some(known) => {
-                    let count = known.count + found.count;
+                    let (count, first) = (known.count + found.count, known.first.min(found.first));
                     let smaller = if better(&known, &found) { known } else { found };
-                    Found { count, ..smaller }
+                    Found { count, first, ..smaller }
                 }
             };
             classes.insert(class, joined);
