@@ -23,7 +23,7 @@ const ROUNDING_M: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub enum Expected {
     /// Of a cycle, exactly.
-    Cycle(Answer),
+    Cycle(Box<Answer>),
     /// Of a trace.
     Offloading(OffloadingAnswer),
     /// Of a composition; `Err` is invalid input.
@@ -89,7 +89,7 @@ pub fn examine(
 /// The model's answer to a record with this id.
 pub fn expect(id: &str, question: &Question) -> Expected {
     match question {
-        Question::Cycle(cycle) => Expected::Cycle(check(cycle, Reading::Exact)),
+        Question::Cycle(cycle) => Expected::Cycle(Box::new(check(cycle, Reading::Exact))),
         Question::Offloading(trace) => {
             Expected::Offloading(OffloadingAnswer::run(id.to_owned(), trace))
         }
@@ -105,8 +105,8 @@ pub fn expect(id: &str, question: &Question) -> Expected {
 struct Differs {
     breach: Breach,
     place: String,
-    /// The failing stage of a cycle that was answered.
-    said: Option<Option<FailedStage>>,
+    /// The answer to a cycle, if it was a verdict.
+    said: Option<Said>,
 }
 
 impl Differs {
@@ -173,7 +173,7 @@ fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
             (Breach::Stage, format!("{} instead of {}", name(said), name(exact)))
         }
     };
-    Some(Differs { breach, place, said: Some(said) })
+    Some(Differs { breach, place, said: Some(Said::Verdict(said)) })
 }
 
 /// Place of a stage in a report.
@@ -188,7 +188,8 @@ fn part(problem: &InvalidInput) -> &str {
 
 /// Whether the model with this margin could fail at this stage: it lies between the strict and
 /// the lax reading.
-pub fn is_within(cycle: &Cycle, said: Option<FailedStage>, margin_m: f64) -> bool {
+pub fn is_within(cycle: &Cycle, said: Said, margin_m: f64) -> bool {
+    let Said::Verdict(said) = said else { return false };
     let mut cycle = cycle.clone();
     cycle.parameters.delta = margin_m;
     let at = |reading| check(&cycle, reading).map(|report| rank(report.failed_stage));

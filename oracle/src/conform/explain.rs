@@ -8,7 +8,7 @@ use mufasa_props::conformance::{Answer, name};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::answer;
+use super::answer::{self, Said};
 use super::class::Breach;
 use super::examine::{Examined, Expected, index, is_within};
 use super::question::{Question, event_type};
@@ -83,17 +83,17 @@ pub fn explain(question: &Question, examined: &Examined) -> Told {
 }
 
 /// The program's verdict, if it gave one.
-fn answer_of(answered: &Answered) -> Option<Option<FailedStage>> {
+fn answer_of(answered: &Answered) -> Option<Said> {
     let object = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
-    match answer::said(&object) {
-        Ok(answer::Said::Verdict(failed)) => Some(failed),
-        Ok(answer::Said::Error) | Err(_) => None,
-    }
+    answer::said(&object).ok()
 }
 
 /// The stage at which the program fails, if it does.
 fn said(answered: &Answered) -> Option<FailedStage> {
-    answer_of(answered).flatten()
+    match answer_of(answered)? {
+        Said::Verdict(failed) => failed,
+        Said::Error => None,
+    }
 }
 
 /// The exact answer, and what became of the stage at which the program fails.

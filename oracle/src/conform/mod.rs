@@ -300,8 +300,10 @@ impl<'a> Course<'a> {
 
     fn count(&mut self, question: &Question, examined: &Examined) {
         let expected = match &examined.expected {
-            Expected::Cycle(Ok(report)) => stage_name(report.failed_stage),
-            Expected::Cycle(Err(_)) | Expected::Composition(Err(_)) => "error",
+            Expected::Cycle(answer) => {
+                answer.as_ref().as_ref().map_or("error", |report| stage_name(report.failed_stage))
+            }
+            Expected::Composition(Err(_)) => "error",
             Expected::Composition(Ok(answer)) if answer.none.is_some() => "none",
             Expected::Composition(Ok(_)) => "some",
             Expected::Offloading(_) => "",

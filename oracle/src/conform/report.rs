@@ -135,7 +135,7 @@ impl Files {
     /// Writes the files, the summary last. Errors: one cannot be written.
     pub fn write(&self, summary: &Summary) -> Result<(), ConformError> {
         let lines: String =
-            summary.classes.iter().map(|found| format!("{}\n", found.record.get())).collect();
+            summary.classes.iter().flat_map(|found| [found.record.get(), "\n"]).collect();
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
         let all = [

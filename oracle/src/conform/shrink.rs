@@ -18,6 +18,9 @@ const TRIES_OF_CHOICES: usize = 1500;
 /// Records tried while the record itself is made smaller.
 const TRIES_OF_RECORDS: usize = 4000;
 
+/// How choices become a record.
+pub type Read<'a> = dyn Fn(&[u32]) -> Question + 'a;
+
 /// A case that shows a class, and the program that is asked whether a smaller one does.
 #[derive(Debug)]
 pub struct Hunt<'a> {
@@ -72,7 +75,7 @@ impl<'a> Hunt<'a> {
     pub fn run(
         mut self,
         question: &Question,
-        tape: Option<(Vec<u32>, &dyn Fn(&[u32]) -> Question)>,
+        tape: Option<(Vec<u32>, &Read<'_>)>,
     ) -> Result<Option<Question>, ConformError> {
         let mut smallest = None;
         if self.shows(question) {
@@ -113,7 +116,7 @@ impl<'a> Hunt<'a> {
     }
 
     /// Zeroes as many choices as possible, in chunks, then lowers the others one by one.
-    fn choices(&mut self, mut tape: Vec<u32>, read: &dyn Fn(&[u32]) -> Question) -> Vec<u32> {
+    fn choices(&mut self, mut tape: Vec<u32>, read: &Read<'_>) -> Vec<u32> {
         for size in [160, 64, 32, 16, 8, 4, 2, 1] {
             for start in (0..tape.len()).step_by(size) {
                 let end = (start + size).min(tape.len());

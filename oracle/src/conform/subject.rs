@@ -144,12 +144,11 @@ impl Subject {
     }
 
     fn ensure(&mut self) -> Result<&mut Running, ConformError> {
-        let running = match self.running.take() {
-            Some(running) => running,
-            None => {
-                self.starts += 1;
-                Running::start(&self.command)?
-            }
+        let running = if let Some(running) = self.running.take() {
+            running
+        } else {
+            self.starts += 1;
+            Running::start(&self.command)?
         };
         Ok(self.running.insert(running))
     }

@@ -108,7 +108,9 @@ fn times(case: &mut Case<'_, Cycle>) {
     case.change(|cycle| {
         let shift = |t_ns: i64| t_ns.saturating_sub(cycle.now_ns).saturating_add(NOW_NS);
         let mut moved = cycle.clone();
-        stamps(&mut moved).into_iter().for_each(|t_ns| *t_ns = shift(*t_ns));
+        for t_ns in stamps(&mut moved) {
+            *t_ns = shift(*t_ns);
+        }
         for point in moved.trajectory.iter_mut().flat_map(|list| &mut list.points) {
             point.t_ns = shift(point.t_ns);
         }
@@ -227,7 +229,9 @@ fn rounded(case: &mut Case<'_, Cycle>) {
     };
     for decimals in DECIMALS {
         let all = case.change(|cycle| {
-            numbers(cycle).into_iter().for_each(|number| *number = to(*number, decimals));
+            for number in numbers(cycle) {
+                *number = to(*number, decimals);
+            }
         });
         if all {
             break;

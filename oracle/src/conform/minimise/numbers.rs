@@ -74,7 +74,7 @@ pub fn numbers(cycle: &mut Cycle) -> Vec<&mut f64> {
         all.extend([&mut station.x, &mut station.y]);
         all.extend(station.left.iter_mut().chain(&mut station.right));
     }
-    for grid in cycle.grid.iter_mut() {
+    if let Some(grid) = &mut cycle.grid {
         all.extend([&mut grid.x, &mut grid.y, &mut grid.cos, &mut grid.sin]);
         all.push(&mut grid.resolution);
     }
