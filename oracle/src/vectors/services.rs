@@ -57,14 +57,31 @@ fn rules(book: &mut Book) {
     let note = "Every requirement of every member is provided: the members are all three.";
     let expected = compositions(1).that("/compositions/0/members", vec!["goal", "mot", "near"]);
     book.composition(CLOSED, "closed", note, &chain(0), &expected);
+    let note = "What nobody provides leaves no composition.";
+    let mut open = chain(0);
+    open.services.pop();
+    book.composition(CLOSED, "not-closed", note, &open, &compositions(0));
     let note = "A second tracker provides nothing that is chosen: it is in another composition.";
     let mut two = chain(0);
     two.services.push(service("other", "", "tracks", 0));
     let expected = compositions(2).that("/compositions/1/members", vec!["goal", "other"]);
     book.composition(MINIMAL, "minimal", note, &two, &expected);
+    let note = "A member beside the one choice would provide nothing.";
+    let mut idle = chain(0);
+    idle.services.push(service("idle", "", "map", 0));
+    let expected = compositions(1).that("/compositions/0/members", vec!["goal", "mot", "near"]);
+    book.composition(MINIMAL, "idle", note, &idle, &expected);
     let note = "A service that provides for itself makes a cycle; the other choice is none.";
     let looped = task(vec![service("goal", "x", "x", 0), service("other", "", "x", 0)]);
     book.composition(ACYCLIC, "self", note, &looped, &compositions(1));
+    let note = "A diamond is no cycle: one provider for two members.";
+    let diamond = task(vec![
+        service("goal", "x y", "", 0),
+        service("left", "z", "x", 0),
+        service("right", "z", "y", 0),
+        service("top", "", "z", 0),
+    ]);
+    book.composition(ACYCLIC, "diamond", note, &diamond, &compositions(1));
     let note = "No switch, not distributed.";
     let expected = compositions(1).that("/compositions/0/distributed", false);
     book.composition(SWITCHES, "local", note, &chain(0), &expected);
