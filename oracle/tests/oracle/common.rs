@@ -22,7 +22,7 @@ pub fn answer(line: &str) -> Value {
 /// The answers to an input.
 pub fn answers(input: &[u8]) -> Vec<Value> {
     let mut output = Vec::new();
-    oracle::run(input, &mut output).expect("memory can be written");
+    oracle::run(input, &mut output, oracle::by_model).expect("memory can be written");
     let text = String::from_utf8(output).expect("answers are UTF-8");
     assert!(text.is_empty() || text.ends_with('\n'));
     text.lines().map(|line| serde_json::from_str(line).expect("answers are JSON")).collect()

@@ -16,7 +16,7 @@ fn each_of_100_000_damaged_lines_has_one_answer_in_order() {
     let mut random = Random(SEED);
     let lines: Vec<Vec<u8>> = (0..LINES).map(|number| line(&mut random, number)).collect();
     let mut output = Vec::new();
-    oracle::run(lines.join(&b'\n').as_slice(), &mut output).unwrap();
+    oracle::run(lines.join(&b'\n').as_slice(), &mut output, oracle::by_model).unwrap();
     let output = String::from_utf8(output).expect("answers are UTF-8");
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let mut answers = output.lines();

@@ -62,7 +62,7 @@ fn a_line_beyond_the_limit_is_an_error_and_the_next_one_is_answered() {
     let long = io::repeat(b' ').take(limit + 1).chain(Cursor::new(format!("\n{CYCLE}\n")));
     let longest = io::repeat(b' ').take(limit - 1).chain(Cursor::new("x\n"));
     let mut output = Vec::new();
-    oracle::run(BufReader::new(long.chain(longest)), &mut output).unwrap();
+    oracle::run(BufReader::new(long.chain(longest)), &mut output, oracle::by_model).unwrap();
     let lines: Vec<Value> = String::from_utf8(output)
         .unwrap()
         .lines()
@@ -109,7 +109,7 @@ fn each_answer_is_flushed_before_the_next_line_is_read() {
     }
     let (sender, answered) = mpsc::channel();
     let client = Client { lines: vec!["1\n", "2\n", "{}\n"], answered, open: false };
-    oracle::run(BufReader::new(client), Flushed(sender, 0)).unwrap();
+    oracle::run(BufReader::new(client), Flushed(sender, 0), oracle::by_model).unwrap();
 }
 
 #[test]
@@ -123,6 +123,6 @@ fn an_output_that_cannot_be_written_ends_the_program_with_its_error() {
             Ok(())
         }
     }
-    let error = oracle::run(&b"{}\n"[..], Closed).unwrap_err();
+    let error = oracle::run(&b"{}\n"[..], Closed, oracle::by_model).unwrap_err();
     assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);
 }
