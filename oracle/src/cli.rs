@@ -79,6 +79,7 @@ struct CheckArguments {
     #[arg(long, default_value = "AllRemote", value_parser = configuration(), ignore_case = true)]
     configuration: Configuration,
     /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
+    /// It must change some cycle of every drive.
     /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
     /// frozen, late, too-fast.
     #[arg(long, value_name = "ATTACK")]
@@ -315,9 +316,12 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
         },
         pictures: arguments.svg.clone(),
     };
-    let attacked = |drive| arguments.inject.iter().fold(drive, |drive, it| inject(&drive, it));
+    let attacked = |drive: drive::Drive| {
+        let injections = &mut arguments.inject.iter();
+        injections.try_fold(drive, |drive, it| inject(&drive, it).map_err(|error| error.of(&drive)))
+    };
     let drives = drive::read(&arguments.files, &options);
-    let drives: Vec<_> = drives.into_iter().map(|drive| drive.map(attacked)).collect();
+    let drives: Vec<_> = drives.into_iter().map(|drive| drive.and_then(attacked)).collect();
     let findings = check::run(&drives, &settings, out, &mut io::stderr())?;
     Ok(findings.exit_code())
 }

@@ -77,7 +77,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     let mut lines = Vec::new();
     let mut sentences = Vec::new();
     for case in &CASES {
-        let drive = case.drive(paper);
+        let drive = case.drive(paper)?;
         let checked = demo.check(&drive);
         lines.push(report::line(&checked));
         sentences.push(format!(
@@ -125,12 +125,12 @@ impl Case {
         self.attack.map_or("clean", Attack::name)
     }
 
-    fn drive(&self, clean: &Drive) -> Drive {
+    fn drive(&self, clean: &Drive) -> io::Result<Drive> {
         match self.attack {
-            None => clean.clone(),
+            None => Ok(clean.clone()),
             Some(attack) => {
                 let injection = Injection { attack, from_s: ATTACKED_FROM_S, to_s: f64::INFINITY };
-                drive::inject(clean, &injection)
+                drive::inject(clean, &injection).map_err(io::Error::other)
             }
         }
     }
@@ -151,7 +151,7 @@ struct Demo<'a> {
 
 impl Demo<'_> {
     fn case(&mut self, case: &Case, clean: &Drive, out: &mut impl Write) -> io::Result<()> {
-        let drive = case.drive(clean);
+        let drive = case.drive(clean)?;
         let checked = self.check(&drive);
         self.draw(&checked);
         let [model, implementation] = checked.tallies();

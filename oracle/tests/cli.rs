@@ -134,6 +134,8 @@ fn arguments_that_make_no_sense_are_refused() {
         &["check", &good, "--seed", "x"],
         &["check", &good, "--inject", "nothing"],
         &["check", &good, "--inject", "wrong-map@x..2"],
+        &["check", &good, "--inject", "wrong-map@3..2"],
+        &["check", &good, "--inject", "wrong-map@2..2"],
         &["check", &good, "--json", "--summary"],
         &["compose"],
     ] {
@@ -263,6 +265,36 @@ fn an_attack_is_injected_and_caught() {
     assert_eq!(code(&output), 1, "{text}");
     assert!(text.contains("6 cycles, AllRemote, hardened: 4 safe, 2 unsafe"), "{text}");
     assert!(text.contains("at 0.2 s: stage i"), "{text}");
+}
+
+#[test]
+fn an_attack_that_changes_nothing_is_bad_input() {
+    let folder = folder("inject_nothing");
+    let file = lines(&folder, "a", 6, &[]);
+    let mut local = common::cycle(0, false);
+    local.configuration = mufasa_model::configuration::Configuration::PlanRemote;
+    let local = write(&folder, "local.jsonl", cycle_to_line("local", &local));
+    for (file, attack, problem) in [
+        (&file, "ghost-tracks@90..100", "the drive ends at 0.5 s"),
+        (&local, "ghost-tracks", "received tracks, which are local in PlanRemote"),
+    ] {
+        let output = mufasa(["check", file, "--inject", attack]);
+        let message = stderr(&output);
+        assert_eq!(code(&output), 2, "{message}");
+        assert!(message.contains(file.as_str()) && message.contains(problem), "{message}");
+        assert!(!stdout(&output).contains("1 safe"), "{}", stdout(&output));
+    }
+}
+
+#[test]
+fn files_are_counted_and_not_their_lines() {
+    let folder = folder("wrong_lines");
+    let file = write(&folder, "wrong.jsonl", "{}\n".repeat(30));
+    let output = mufasa(["check", &file]);
+    let message = stderr(&output);
+    assert_eq!((code(&output), message.lines().count()), (2, 11), "{message}");
+    assert!(message.trim_end().ends_with("and 20 more lines"), "{message}");
+    assert!(stdout(&output).contains("1 file that could not be read"), "{}", stdout(&output));
 }
 
 #[test]

@@ -100,9 +100,12 @@ fn variant(drive: &Drive, index: usize, variant: usize) -> (String, Cycle) {
                 notes: Vec::new(),
             };
             let injection = Injection { attack, from_s: 0.0, to_s: f64::INFINITY };
-            let attacked = inject(&part, &injection).cycles.pop();
-            let cycle = attacked.map_or_else(|| found.cycle.clone(), |it| it.cycle);
-            (format!("{name}+{}", attack.name()), cycle)
+            // Where the attack changes nothing, or ends before this cycle, the cycle is as it was.
+            let attacked = inject(&part, &injection).ok();
+            match attacked.and_then(|it| it.cycles.into_iter().nth(index - from)) {
+                Some(it) => (format!("{name}+{}", attack.name()), it.cycle),
+                None => (name, found.cycle.clone()),
+            }
         }
     }
 }

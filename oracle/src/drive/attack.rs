@@ -2,6 +2,12 @@
 //! `spec/3-stages.md#findings`). An attack changes what the CAV receives, never what it measures
 //! itself: detections, route and grid stay as they are, and so do ego and lead unless the CAV is
 //! shown driving what it is sent.
+//!
+//! Data are received where the configuration of the cycle says that their group is remote: tracks
+//! in `AllRemote` and `MotRemote`, the trajectory in `AllRemote` and `PlanRemote`. Local data of
+//! the other group may change in one way: in `MotRemote` the local planner plans with the received
+//! tracks, so where those hide objects the local trajectory believes them, too. In `PlanRemote`
+//! the tracks are the CAV's own, and an attack on tracks is none.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,6 +15,7 @@ use std::str::FromStr;
 use mufasa_model::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 
 use super::Drive;
+use super::error::{InjectError, ParseInjectionError};
 use super::planner::Planner;
 
 /// What an attacker does to the received data.
@@ -17,8 +24,8 @@ pub enum Attack {
     /// The planner is given another map: its trajectory leads off to the left by the width of
     /// the corridor (the paper's first attack).
     WrongMap,
-    /// Track lists are emptied, and the trajectory, planned without them, goes on at speed (the
-    /// paper's second attack).
+    /// Track lists are emptied, and the trajectory, planned without them wherever the planner is,
+    /// goes on at speed (the paper's second attack).
     EmptyTracks,
     /// Three tracks of objects that are not there, ahead on the path and on both sides (the
     /// paper's third attack).
@@ -32,7 +39,7 @@ pub enum Attack {
     Backwards,
     /// The trajectory of the first attacked cycle again and again, under fresh stamps (F-16).
     Frozen,
-    /// Trajectory and tracks arrive 300 ms late, with true stamps.
+    /// Trajectory and tracks, as far as they are remote, arrive 300 ms late, with true stamps.
     Late,
     /// The points of the trajectory come three times too soon (F-22).
     TooFast,
@@ -67,6 +74,45 @@ impl Attack {
         }
     }
 
+    /// What it changes, in words.
+    pub fn data(self) -> &'static str {
+        match (self.is_on_tracks(), self.is_on_trajectory()) {
+            (true, true) => "tracks and trajectories",
+            (true, false) => "tracks",
+            (false, _) => "trajectories",
+        }
+    }
+
+    /// Whether it changes received tracks.
+    fn is_on_tracks(self) -> bool {
+        match self {
+            Self::EmptyTracks
+            | Self::GhostTracks
+            | Self::FalseVelocities
+            | Self::FalseSizes
+            | Self::Late => true,
+            Self::WrongMap | Self::Backwards | Self::Frozen | Self::TooFast => false,
+        }
+    }
+
+    /// Whether it changes received trajectories, other than by way of the tracks.
+    fn is_on_trajectory(self) -> bool {
+        !self.is_on_tracks() || self == Self::Late
+    }
+
+    /// Whether its data are remote in the cycle.
+    fn is_remote(self, cycle: &Cycle) -> bool {
+        let remote = cycle.configuration.remote();
+        (self.is_on_tracks() && remote.mot) || (self.is_on_trajectory() && remote.plan)
+    }
+
+    /// Whether the cycle has remote data for it to change.
+    fn reaches(self, cycle: &Cycle) -> bool {
+        let remote = cycle.configuration.remote();
+        (self.is_on_tracks() && remote.mot && cycle.tracks.is_some())
+            || (self.is_on_trajectory() && remote.plan && cycle.trajectory.is_some())
+    }
+
     /// Whether the CAV is shown driving what the attack makes of the trajectory.
     fn is_driven(self) -> bool {
         match self {
@@ -82,13 +128,11 @@ impl Attack {
 }
 
 impl FromStr for Attack {
-    type Err = String;
+    type Err = ParseInjectionError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|a| a.name() == text).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name).join(", ");
-            format!("`{text}` is no attack; known are {names}")
-        })
+    fn from_str(text: &str) -> Result<Self, ParseInjectionError> {
+        let unknown = || ParseInjectionError::UnknownAttack(text.to_owned());
+        Self::ALL.into_iter().find(|a| a.name() == text).ok_or_else(unknown)
     }
 }
 
@@ -103,26 +147,29 @@ pub struct Injection {
     pub to_s: f64,
 }
 
-/// `NAME@FROM..TO`, such as `wrong-map@2..3.5`; either bound may be left out.
+/// `NAME@FROM..TO`, such as `wrong-map@2..3.5`, with FROM < TO; either bound may be left out.
 impl FromStr for Injection {
-    type Err = String;
+    type Err = ParseInjectionError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, ParseInjectionError> {
         let (name, span) = text.split_once('@').unwrap_or((text, ".."));
         let attack = name.parse()?;
-        let (from, to) = span
-            .split_once("..")
-            .ok_or_else(|| format!("`{span}` is not of the form FROM..TO, in seconds"))?;
+        let (from, to) =
+            span.split_once("..").ok_or_else(|| ParseInjectionError::Form(span.to_owned()))?;
         let bound = |text: &str, open: f64| {
             if text.is_empty() {
                 return Ok(open);
             }
             match text.parse::<f64>() {
                 Ok(s) if s >= 0.0 => Ok(s),
-                _ => Err(format!("`{text}` is no time in seconds")),
+                _ => Err(ParseInjectionError::Time(text.to_owned())),
             }
         };
-        Ok(Self { attack, from_s: bound(from, 0.0)?, to_s: bound(to, f64::INFINITY)? })
+        let (from_s, to_s) = (bound(from, 0.0)?, bound(to, f64::INFINITY)?);
+        if from_s >= to_s {
+            return Err(ParseInjectionError::EmptySpan { from_s, to_s });
+        }
+        Ok(Self { attack, from_s, to_s })
     }
 }
 
@@ -140,36 +187,62 @@ impl fmt::Display for Injection {
 /// attacked cycle, and the drive ends with the last one, because nobody recorded what comes then.
 /// The true `previous_tracks` stay: H-09 keeps the last list that was found good, which an
 /// attacked one is not taken to be.
-#[must_use]
-pub fn inject(drive: &Drive, injection: &Injection) -> Drive {
+///
+/// Errors: no cycle is changed, because none is in the span, or the data of the attack are local,
+/// absent, or as it would make them. An attacked drive that is safe is so in spite of the attack.
+pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError> {
     let mut attacked = drive.clone();
     attacked.name = format!("{}+{}", drive.name, injection.attack.name());
     let start_ns = drive.cycles.first().map_or(0, |c| c.cycle.now_ns);
+    let since_s = |cycle: &Cycle| seconds(cycle.now_ns.saturating_sub(start_ns));
+    let is_driven = injection.attack.is_driven();
     let mut onset: Option<Onset> = None;
     let mut count = 0;
     let mut end = attacked.cycles.len();
     for (i, cycle) in attacked.cycles.iter_mut().map(|c| &mut c.cycle).enumerate() {
-        let since_s = seconds(cycle.now_ns.saturating_sub(start_ns));
-        if (injection.from_s..=injection.to_s).contains(&since_s) {
+        let in_span = (injection.from_s..=injection.to_s).contains(&since_s(cycle));
+        if in_span && injection.attack.reaches(cycle) {
             let onset = onset.get_or_insert_with(|| Onset {
                 now_ns: cycle.now_ns,
                 trajectory: cycle.trajectory.clone(),
                 planner: Planner::new(cycle),
             });
             attack(cycle, injection.attack, onset);
-            count += 1;
-            end = i + 1;
+            count += usize::from(*cycle != drive.cycles[i].cycle);
+        } else if is_driven && onset.is_some() {
+            end = i;
+            break;
         }
     }
+    if count == 0 {
+        return Err(unchanged(drive, injection, since_s));
+    }
     attacked.notes.push(format!("attack {injection} s changes {count} cycles"));
-    if injection.attack.is_driven() && count > 0 {
+    if is_driven {
         attacked.cycles.truncate(end);
         attacked.notes.push(String::from(
             "from its first attacked cycle on the CAV drives what it is sent; the drive ends with \
              the attack",
         ));
     }
-    attacked
+    Ok(attacked)
+}
+
+/// Why the attack changed no cycle.
+fn unchanged(drive: &Drive, injection: &Injection, since_s: impl Fn(&Cycle) -> f64) -> InjectError {
+    let injection = *injection;
+    let cycles = || drive.cycles.iter().map(|c| &c.cycle);
+    let span = injection.from_s..=injection.to_s;
+    let mut in_span = cycles().filter(|cycle| span.contains(&since_s(cycle))).peekable();
+    match in_span.peek().map(|first| first.configuration) {
+        None => {
+            InjectError::Outside { injection, end_s: cycles().next_back().map_or(0.0, &since_s) }
+        }
+        Some(configuration) if !in_span.any(|cycle| injection.attack.is_remote(cycle)) => {
+            InjectError::Local { injection, configuration }
+        }
+        Some(_) => InjectError::Unchanged { injection },
+    }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "drives last minutes")]
@@ -220,10 +293,11 @@ fn attack(cycle: &mut Cycle, attack: Attack, onset: &Onset) {
         Attack::Backwards => Planner::new(cycle).replan(cycle, true, 0.0),
         Attack::Frozen => freeze(cycle, onset.trajectory.as_ref()),
         Attack::Late => {
-            if let Some(list) = &mut cycle.tracks {
+            let remote = cycle.configuration.remote();
+            if let Some(list) = cycle.tracks.as_mut().filter(|_| remote.mot) {
                 list.stamp_ns = list.stamp_ns.saturating_sub(LATE_NS);
             }
-            if let Some(trajectory) = &mut cycle.trajectory {
+            if let Some(trajectory) = cycle.trajectory.as_mut().filter(|_| remote.plan) {
                 trajectory.stamp_ns = trajectory.stamp_ns.saturating_sub(LATE_NS);
             }
         }

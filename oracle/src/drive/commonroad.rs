@@ -115,9 +115,7 @@ impl Parts {
         let recording = Recording { name, source, dt_ns, ego, size, objects, route, notes };
         let drive = scene::drive(recording, options, 1);
         if drive.cycles.is_empty() {
-            let message = "the recording of the CAV is shorter than braking takes (v / a_b); keep \
-                           the tail to have its cycles all the same";
-            return Err(ReadError::file(file, message));
+            return Err(ReadError::no_cycle(file));
         }
         Ok(drive)
     }

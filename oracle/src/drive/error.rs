@@ -1,13 +1,18 @@
-//! What can be wrong with a file, and where.
+//! What can be wrong with a file, and where; what can be wrong with an attack.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use mufasa_model::configuration::Configuration;
+
+use super::Drive;
+use super::attack::{Attack, Injection};
 
 /// Why a file gives no drive: the place as precisely as it is known, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReadError {
     /// The file.
-    pub file: PathBuf,
+    pub file: Box<Path>,
     /// Line of the file, from 1; `None` for binary files and for errors of the whole file.
     pub line: Option<u32>,
     /// The element, as a path of tag names with ids, such as `commonRoad/lanelet[12]/leftBound`.
@@ -18,19 +23,54 @@ pub struct ReadError {
     pub index: Option<usize>,
     /// What is wrong and what would be right.
     pub message: String,
+    /// More lines of the same file that are wrong, too; `None` when there are none.
+    pub others: Option<Box<OtherLines>>,
 }
+
+/// What is wrong with further lines of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OtherLines {
+    /// The first of them, in their order.
+    pub errors: Vec<ReadError>,
+    /// How many more there are.
+    pub more: usize,
+}
+
+/// Errors of one file that are told one by one.
+const LINES_MAX: usize = 10;
 
 impl ReadError {
     /// An error about a file as a whole.
     pub fn file(file: &Path, message: impl Into<String>) -> Self {
         Self {
-            file: file.to_path_buf(),
+            file: file.into(),
             line: None,
             element: String::new(),
             field: String::new(),
             index: None,
             message: message.into(),
+            others: None,
         }
+    }
+
+    /// The error of a recording, or of a drive along a map, that gives no cycle.
+    pub(super) fn no_cycle(file: &Path) -> Self {
+        let message = "the drive of the CAV is shorter than braking takes (v / a_b); keep the \
+                       tail to have its cycles all the same";
+        Self::file(file, message)
+    }
+
+    /// The errors of the lines of one file as one error; `None` when there are none.
+    pub(super) fn of_lines(mut errors: Vec<Self>) -> Option<Self> {
+        let more = errors.len().saturating_sub(LINES_MAX);
+        errors.truncate(LINES_MAX);
+        let mut errors = errors.into_iter();
+        let mut first = errors.next()?;
+        let errors: Vec<Self> = errors.collect();
+        if !errors.is_empty() {
+            first.others = Some(Box::new(OtherLines { errors, more }));
+        }
+        Some(first)
     }
 
     /// The same error at an element of the file.
@@ -71,8 +111,109 @@ impl fmt::Display for ReadError {
         if let Some(index) = self.index {
             write!(f, "[{index}]")?;
         }
-        write!(f, ": {}", self.message)
+        write!(f, ": {}", self.message)?;
+        let Some(others) = &self.others else { return Ok(()) };
+        for error in &others.errors {
+            write!(f, "\n{error}")?;
+        }
+        match others.more {
+            0 => Ok(()),
+            1 => write!(f, "\n{}: and 1 more line", self.file.display()),
+            more => write!(f, "\n{}: and {more} more lines", self.file.display()),
+        }
     }
 }
 
 impl std::error::Error for ReadError {}
+
+/// Why a text is no injection.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ParseInjectionError {
+    /// The name is none of [`Attack::ALL`].
+    UnknownAttack(String),
+    /// The span is not of the form `FROM..TO`.
+    Form(String),
+    /// A bound is no time, 0 s or later.
+    Time(String),
+    /// The span does not begin before it ends.
+    EmptySpan {
+        /// Its begin, s.
+        from_s: f64,
+        /// Its end, s.
+        to_s: f64,
+    },
+}
+
+impl fmt::Display for ParseInjectionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownAttack(name) => {
+                let names = Attack::ALL.map(Attack::name).join(", ");
+                write!(f, "`{name}` is no attack; known are {names}")
+            }
+            Self::Form(span) => write!(f, "`{span}` is not of the form FROM..TO, in seconds"),
+            Self::Time(bound) => write!(f, "`{bound}` is no time in seconds"),
+            Self::EmptySpan { from_s, to_s } => {
+                write!(f, "the span {from_s}..{to_s} is empty: FROM must be less than TO")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ParseInjectionError {}
+
+/// Why an attack leaves a drive as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum InjectError {
+    /// No cycle is within its span.
+    Outside {
+        /// The attack and its span.
+        injection: Injection,
+        /// Time of the last cycle, s since the first.
+        end_s: f64,
+    },
+    /// The data that it changes are local wherever it would.
+    Local {
+        /// The attack and its span.
+        injection: Injection,
+        /// Configuration of the first cycle in the span.
+        configuration: Configuration,
+    },
+    /// There is nothing that it could change: the data are absent, or are as it would make them.
+    Unchanged {
+        /// The attack and its span.
+        injection: Injection,
+    },
+}
+
+impl InjectError {
+    /// The same as an error of the files of that drive.
+    #[must_use]
+    pub fn of(&self, drive: &Drive) -> ReadError {
+        ReadError::file(Path::new(&drive.source), self.to_string())
+    }
+}
+
+impl fmt::Display for InjectError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Outside { injection, end_s } => {
+                write!(f, "attack {injection} s changes no cycle: the drive ends at {end_s} s")
+            }
+            Self::Local { injection, configuration } => write!(
+                f,
+                "attack {injection} s changes no cycle: it is on received {}, which are local in \
+                 {configuration:?}",
+                injection.attack.data()
+            ),
+            Self::Unchanged { injection } => write!(
+                f,
+                "attack {injection} s changes no cycle: the received {} are absent, or as it \
+                 would make them",
+                injection.attack.data()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for InjectError {}

@@ -70,6 +70,9 @@ pub(super) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     // Clutter would be all there is to see.
     let sensor = Sensor { clutter: 0.0, ..options.sensor.clone() };
     let mut drive = scene::drive(recording, &Options { sensor, ..options.clone() }, every);
+    if drive.cycles.is_empty() {
+        return Err(ReadError::no_cycle(file));
+    }
     if !closed {
         let [behind, ahead] = WINDOW;
         drive.notes.push(format!(

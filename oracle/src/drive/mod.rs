@@ -24,7 +24,7 @@ mod solution;
 mod xml;
 
 pub use attack::{Attack, Injection, inject};
-pub use error::ReadError;
+pub use error::{InjectError, OtherLines, ParseInjectionError, ReadError};
 pub use options::{GridSize, Options, Sensor, Tail};
 
 use std::collections::BTreeMap;
@@ -41,7 +41,8 @@ pub struct Drive {
     pub name: String,
     /// Files that it was read from.
     pub source: String,
-    /// Cycles in order of time.
+    /// Cycles: of recordings and maps in order of time, of records in the order of their lines,
+    /// whatever times they have.
     pub cycles: Vec<DriveCycle>,
     /// Decisions of the reader that a judgement of this drive depends on.
     pub notes: Vec<String>,
@@ -50,7 +51,8 @@ pub struct Drive {
 /// One cycle of a drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveCycle {
-    /// Identity of the cycle, unique within the drive.
+    /// Name of the cycle: of recordings and maps unique within the drive, of records the id that
+    /// they have, even if others have it as well.
     pub id: String,
     /// The record.
     pub cycle: Cycle,
@@ -63,8 +65,8 @@ pub struct DriveCycle {
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
 /// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark
 /// id. The results are in the order of the files; an error names
-/// file, place and value, and does not stop the others. Every line of JSON that is no cycle is an
-/// error of its own.
+/// file, place and value, and does not stop the others. A file gives one error at most: the lines
+/// of JSON that are no cycles are in it together, and come before the drive of those that are.
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
@@ -152,9 +154,9 @@ fn load(path: &Path) -> Result<Content, ReadError> {
     }
 }
 
-/// The cycles of JSON Lines as one drive, after the errors of those that are none.
+/// The cycles of JSON Lines as one drive, after the error of the lines that are none.
 fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
-    let mut results = Vec::new();
+    let mut errors = Vec::new();
     let mut cycles = Vec::new();
     for line in crate::json::cycles_from_lines(text) {
         match line {
@@ -165,14 +167,25 @@ fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
                     .line(u32::try_from(error.line).unwrap_or(u32::MAX));
                 let mut read = read.at(element, error.field);
                 read.index = error.index;
-                results.push(Err(read));
+                errors.push(read);
             }
         }
     }
+    if cycles.is_empty() && is_one_document(text) {
+        let message = "one JSON document spread over lines; JSON Lines have every record on a \
+                       line of its own, as `jq -c . FILE` writes it";
+        errors = vec![ReadError::file(path, message)];
+    }
+    let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
     if !cycles.is_empty() {
         let notes = vec![format!("{} cycles as recorded", cycles.len())];
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         results.push(Ok(Drive { name, source: path.display().to_string(), cycles, notes }));
     }
     results
+}
+
+/// Whether a text of several lines is JSON as a whole.
+fn is_one_document(text: &str) -> bool {
+    text.trim().lines().nth(1).is_some() && serde_json::from_str::<serde_json::Value>(text).is_ok()
 }

@@ -261,3 +261,20 @@ fn a_wrong_row_of_a_map_is_named() {
     let point = folder.write("p.npy", map(5, |_| [1.0, 1.0, 2.0, 2.0, 10.0, 0.0]));
     assert!(one(&[point], &Options::default()).unwrap_err().message.contains("two different"));
 }
+
+/// A drive too short for a cycle is one error, be it recorded or made up along a map.
+#[test]
+fn a_drive_without_a_cycle_is_refused() {
+    let folder = Scratch::new();
+    let row = |i: u32| [f64::from(i) * 1e-9, 0.0, 2.0, 2.0, 10.0, 0.0];
+    let tiny = folder.write("tiny.npy", map(2, row));
+    let of_map = one(std::slice::from_ref(&tiny), &Options::default()).unwrap_err();
+    let fast = text("readers/small-2020a.xml")
+        .replace("<velocity><exact>10</exact>", "<velocity><exact>100</exact>");
+    let fast = folder.write("fast.xml", fast);
+    let options = Options { ego: Some(7), ..Options::default() };
+    let recorded = one(std::slice::from_ref(&fast), &options).unwrap_err();
+    assert_eq!((&*of_map.file, &*recorded.file), (&*tiny, &*fast));
+    assert!(of_map.message.contains("shorter than braking takes"), "{of_map}");
+    assert_eq!(of_map.message, recorded.message);
+}

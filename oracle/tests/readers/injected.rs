@@ -2,10 +2,13 @@
 
 use std::str::FromStr;
 
+use mufasa_model::configuration::Configuration;
 use mufasa_model::cycle::Profile;
 use mufasa_model::schedule::check;
 use mufasa_model::verdict::{FailedStage, Reading, Rule, Stage};
-use mufasa_oracle::drive::{Attack, Drive, Injection, Options, inject};
+use mufasa_oracle::drive::{
+    Attack, Drive, InjectError, Injection, Options, ParseInjectionError, inject,
+};
 
 use super::files::demo;
 
@@ -58,7 +61,7 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
     for (attack, in_paper, in_hardened) in cases {
         let injection = Injection { attack, from_s: 2.0, to_s: f64::INFINITY };
         for (clean, expected) in [(&paper, in_paper), (&hardened, in_hardened)] {
-            let attacked = inject(clean, &injection);
+            let attacked = inject(clean, &injection).unwrap();
             let found = first_failure(&attacked);
             assert_eq!(
                 found.map(|f| f.1),
@@ -76,11 +79,11 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
 #[test]
 fn false_velocities_are_found_at_the_impact_or_at_once() {
     let injection = "false-velocities@2..".parse::<Injection>().unwrap();
-    let attacked = inject(&demo(&options(Profile::Paper)), &injection);
+    let attacked = inject(&demo(&options(Profile::Paper)), &injection).unwrap();
     let (found, _) = first_failure(&attacked).unwrap();
     let lead = attacked.cycles[found].cycle.lead.as_ref().unwrap();
     assert!(lead.gap <= 0.0, "{lead:?}");
-    let attacked = inject(&demo(&options(Profile::Hardened)), &injection);
+    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
     assert_eq!(first_failure(&attacked), Some((20, FailedStage::Stage(Stage::I))));
 }
 
@@ -89,7 +92,7 @@ fn false_velocities_are_found_at_the_impact_or_at_once() {
 #[test]
 fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     let injection = "empty-tracks@2..".parse::<Injection>().unwrap();
-    let attacked = inject(&demo(&options(Profile::Hardened)), &injection);
+    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
     let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
     let (found, _) = first_failure(&attacked).unwrap();
     let report = check(&attacked.cycles[found].cycle, Reading::Exact).unwrap();
@@ -106,14 +109,14 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     assert!(gap(found).unwrap() > speed * speed / 16.0, "it can still stop");
     let crash = (found..attacked.cycles.len()).find(|i| gap(*i) == Some(0.0));
     assert!(crash.is_some(), "without the monitor it would hit the lead");
-    assert_eq!(first_failure(&inject(&demo(&options(Profile::Paper)), &injection)), None);
+    assert_eq!(first_failure(&inject(&demo(&options(Profile::Paper)), &injection).unwrap()), None);
 }
 
 #[test]
 fn an_injection_changes_what_is_received_in_its_time_and_nothing_else() {
     let clean = demo(&Options::default());
     for attack in Attack::ALL {
-        let attacked = inject(&clean, &Injection { attack, from_s: 3.0, to_s: 4.0 });
+        let attacked = inject(&clean, &Injection { attack, from_s: 3.0, to_s: 4.0 }).unwrap();
         for (i, (a, c)) in attacked.cycles.iter().zip(&clean.cycles).enumerate() {
             // A frozen trajectory is the true one the first time.
             let changed = (30..=40).contains(&i) && !(attack == Attack::Frozen && i == 30);
@@ -129,14 +132,80 @@ fn an_injection_changes_what_is_received_in_its_time_and_nothing_else() {
 
 #[test]
 fn injections_are_written_as_they_are_read() {
-    for text in ["wrong-map@2..3.5", "ghost-tracks@0..", "late@1..1"] {
+    for text in ["wrong-map@2..3.5", "ghost-tracks@0..", "late@1..1.5"] {
         assert_eq!(Injection::from_str(text).unwrap().to_string(), text);
     }
     assert_eq!(Injection::from_str("frozen").unwrap().to_string(), "frozen@0..");
     for attack in Attack::ALL {
         assert_eq!(attack.name().parse(), Ok(attack));
     }
-    for text in ["", "wrongmap", "late@1", "late@-1..2", "late@a..b", "late@nan.."] {
+    for text in ["", "wrongmap", "late@1", "late@-1..2", "late@a..b", "late@nan..", "late@2..x"] {
         assert!(Injection::from_str(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn an_empty_span_is_refused() {
+    for text in ["wrong-map@3..2", "wrong-map@2..2", "late@..0", "late@inf.."] {
+        let error = Injection::from_str(text).unwrap_err();
+        assert!(matches!(error, ParseInjectionError::EmptySpan { .. }), "{text}: {error}");
+    }
+}
+
+#[test]
+fn an_injection_that_changes_nothing_is_an_error_of_the_drive() {
+    let drive = demo(&Options::default());
+    let refused = |drive: &Drive, text: &str| inject(drive, &text.parse().unwrap()).unwrap_err();
+    let late = refused(&drive, "ghost-tracks@90..100");
+    assert!(matches!(late, InjectError::Outside { .. }), "{late}");
+    // The first of the frozen trajectories is the true one.
+    let same = refused(&drive, "frozen@2..2.05");
+    assert!(matches!(same, InjectError::Unchanged { .. }), "{same}");
+    let mut bare = drive.clone();
+    for cycle in &mut bare.cycles {
+        cycle.cycle.tracks = None;
+    }
+    for attack in ["empty-tracks", "ghost-tracks", "false-sizes"] {
+        let absent = refused(&bare, attack);
+        assert!(matches!(absent, InjectError::Unchanged { .. }), "{absent}");
+    }
+    let error = late.of(&drive);
+    assert_eq!((error.file.to_str(), &error.message), (Some(&*drive.source), &late.to_string()));
+}
+
+/// Only what is received is changed, or what is made from it: the trajectory of a local planner
+/// that believes the received tracks.
+#[test]
+fn attacks_change_remote_data_only() {
+    use Attack::{EmptyTracks, FalseSizes, FalseVelocities, GhostTracks, Late};
+    for configuration in [
+        Configuration::Local,
+        Configuration::MotRemote,
+        Configuration::PlanRemote,
+        Configuration::AllRemote,
+    ] {
+        let clean = demo(&Options { configuration, ..Options::default() });
+        let remote = configuration.remote();
+        for attack in Attack::ALL {
+            let on_tracks = [EmptyTracks, FalseSizes, FalseVelocities, GhostTracks, Late];
+            let on_tracks = on_tracks.contains(&attack) && remote.mot;
+            let on_trajectory = match attack {
+                EmptyTracks | FalseSizes | FalseVelocities => remote.mot,
+                GhostTracks => false,
+                _ => remote.plan,
+            };
+            let injection = Injection { attack, from_s: 3.0, to_s: 4.0 };
+            let attacked = match inject(&clean, &injection) {
+                Ok(attacked) => attacked,
+                Err(error) => {
+                    let local = InjectError::Local { injection, configuration };
+                    assert_eq!((error, on_tracks || on_trajectory), (local, false));
+                    continue;
+                }
+            };
+            let [a, c] = [&attacked, &clean].map(|drive| &drive.cycles[35].cycle);
+            assert_eq!(a.tracks != c.tracks, on_tracks, "{attack:?} {configuration:?}");
+            assert_eq!(a.trajectory != c.trajectory, on_trajectory, "{attack:?} {configuration:?}");
+        }
     }
 }

@@ -159,3 +159,18 @@ fn every_map_gives_a_safe_drive() {
     );
     assert!(outside.len() <= 1);
 }
+
+#[test]
+fn a_test_without_recordings_says_so_aloud() {
+    let program = std::env::current_exe().expect("the path of this program");
+    let output = std::process::Command::new(program)
+        .arg("every_map_gives_a_safe_drive")
+        .env("MUFASA_DATA", "/no such folder")
+        .output()
+        .expect("this program starts");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success() && text.contains("NOT RUN: no recordings in /no such"),
+        "{text}"
+    );
+}

@@ -175,7 +175,13 @@ fn files_pair_in_their_order() {
     assert_eq!(names(&alone), ["small-2018b", "small.KS2.solution"]);
     let twice = [scenario.clone(), scenario.clone()];
     assert_eq!(names(&twice), ["small-2018b", "small-2018b (2)"]);
-    assert_eq!(names(&[ks, scenario]), ["error", "small-2018b"]);
+    // A solution finds its scenario by the benchmark id, whichever is named first.
+    assert_eq!(names(&[ks.clone(), scenario.clone()]), ["small.KS2.solution"]);
+    assert_eq!(names(&[ks.clone(), scenario, st]), ["small.KS2.solution", "small.ST1.solution"]);
+    // Without it there is nothing to find, and the scenario of another benchmark is none for it.
+    let alone = read(std::slice::from_ref(&ks), &Options::default()).remove(0).unwrap_err();
+    assert_eq!((&*alone.file, alone.message.contains("no scenario")), (&*ks, true), "{alone}");
+    assert_eq!(names(&[ks, own("demo/urban.xml")]), ["error", "urban"]);
 }
 
 #[test]
@@ -192,4 +198,49 @@ fn json_lines_come_back_as_they_were() {
     let error = results.next().unwrap().unwrap_err();
     assert_eq!(error.line, Some(2), "{error}");
     assert_eq!(results.next().unwrap().unwrap().cycles, drive.cycles[..2]);
+}
+
+/// A file is one error, however many of its lines are wrong.
+#[test]
+fn wrong_lines_of_a_file_are_one_error() {
+    let folder = Scratch::new();
+    let lines = |count: usize| {
+        let file = folder.write("wrong.jsonl", "{}\n".repeat(count));
+        one(&[file], &Options::default()).unwrap_err().to_string()
+    };
+    let text = lines(2);
+    assert!(text.contains("wrong.jsonl:1: ") && text.contains("wrong.jsonl:2: "), "{text}");
+    assert_eq!((text.lines().count(), lines(10).lines().count()), (2, 10));
+    assert!(!lines(10).contains("more line"), "{}", lines(10));
+    assert!(lines(11).ends_with("wrong.jsonl: and 1 more line"), "{}", lines(11));
+    assert!(lines(300).ends_with("wrong.jsonl: and 290 more lines"), "{}", lines(300));
+    assert_eq!(lines(300).lines().count(), 11);
+}
+
+#[test]
+fn a_json_document_spread_over_lines_is_told_from_json_lines() {
+    let drive = small("2018b", Some("KS2"), &Options::default());
+    let line = cycle_to_line("the id", &drive.cycles[0].cycle);
+    let value: serde_json::Value = serde_json::from_str(&line).unwrap();
+    let pretty = serde_json::to_string_pretty(&value).unwrap();
+    assert!(pretty.lines().count() > 100);
+    let folder = Scratch::new();
+    let error = one(&[folder.write("pretty.json", &pretty)], &Options::default()).unwrap_err();
+    assert_eq!((error.line, &error.others), (None, &None), "{error}");
+    assert!(error.message.contains("one JSON document spread over lines"), "{error}");
+    // What is not even that is told line by line.
+    let cut = &pretty[..pretty.len() - 2];
+    let error = one(&[folder.write("cut.json", cut)], &Options::default()).unwrap_err();
+    assert_eq!(error.line, Some(1), "{error}");
+}
+
+/// Records keep ids and order, sensible or not.
+#[test]
+fn records_are_taken_as_given() {
+    let drive = small("2018b", Some("KS2"), &Options::default());
+    let lines = [1, 0].map(|i| cycle_to_line("same", &drive.cycles[i].cycle));
+    let folder = Scratch::new();
+    let back = one(&[folder.write("back.jsonl", lines.join("\n"))], &Options::default()).unwrap();
+    let found: Vec<_> = back.cycles.iter().map(|c| (c.id.as_str(), &c.cycle)).collect();
+    assert_eq!(found, [1, 0].map(|i| ("same", &drive.cycles[i].cycle)));
 }

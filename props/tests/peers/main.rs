@@ -6,6 +6,7 @@ mod kinematics;
 mod morphology;
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The folder of the data: `MUFASA_DATA`, or `../shared/data` beside the workspace.
@@ -22,8 +23,22 @@ fn read(name: &str) -> Option<String> {
     match fs::read_to_string(&path) {
         Ok(text) => Some(text),
         Err(error) => {
-            println!("NOT RUN: {}: {error}; set MUFASA_DATA", path.display());
+            let line = format!("NOT RUN: {}: {error}; set MUFASA_DATA\n", path.display());
+            // The macros' output is captured, and nobody would see it.
+            io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
             None
         }
     }
+}
+
+#[test]
+fn a_test_without_data_says_so_aloud() {
+    let program = std::env::current_exe().expect("the path of this program");
+    let output = std::process::Command::new(program)
+        .arg("braking_distances_are_those_of_ad_rss_lib")
+        .env("MUFASA_DATA", "/no such folder")
+        .output()
+        .expect("this program starts");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && text.contains("NOT RUN: /no such folder"), "{text}");
 }
