@@ -437,7 +437,11 @@ fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
         return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
     }
     let lines = |(name, text): (&String, &String)| {
-        if name.ends_with(".jsonl") { text.lines().count() } else { 0 }
+        if Path::new(name).extension().is_some_and(|kind| kind == "jsonl") {
+            text.lines().count()
+        } else {
+            0
+        }
     };
     let count: usize = contents.iter().map(lines).sum();
     writeln!(out, "{}: {} files, {count} vectors", folder.display(), contents.len())?;

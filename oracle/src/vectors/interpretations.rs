@@ -161,7 +161,7 @@ fn doubles(book: &mut Book) {
     let note = "A mean of exactly the double nearest to 0.2 fails.";
     let cycle =
         with(stage_i(Paper, vec![track(1, 60.0, 0.0)], vec![detection(60.0, 0.2)]), |cycle| {
-            cycle.parameters.theta_tr = 0.2
+            cycle.parameters.theta_tr = 0.2;
         });
     book.cycle(topic, "equal", note, &cycle, &fails_by("i", "mean_cost"));
 }
