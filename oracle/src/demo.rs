@@ -77,8 +77,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     let mut lines = Vec::new();
     let mut sentences = Vec::new();
     for case in &CASES {
-        let drive = case.drive(paper)?;
-        let checked = demo.check(&drive);
+        let checked = demo.check(case.drive(paper)?);
         lines.push(report::line(&checked));
         sentences.push(format!(
             "{}: {}",
@@ -151,8 +150,7 @@ struct Demo<'a> {
 
 impl Demo<'_> {
     fn case(&mut self, case: &Case, clean: &Drive, out: &mut impl Write) -> io::Result<()> {
-        let drive = case.drive(clean)?;
-        let checked = self.check(&drive);
+        let checked = self.check(case.drive(clean)?);
         self.draw(&checked);
         let [model, implementation] = checked.tallies();
         match case.attack {
@@ -167,7 +165,7 @@ impl Demo<'_> {
     }
 
     /// Draws the cycles that started a fallback.
-    fn draw(&mut self, checked: &Checked<'_>) {
+    fn draw(&mut self, checked: &Checked) {
         let started = |index: usize| {
             let cycles = &checked.courses[0].unsafe_cycles;
             let starts = |hold| matches!(hold, Hold::Started { .. });
@@ -180,7 +178,7 @@ impl Demo<'_> {
     }
 
     /// Judges a drive.
-    fn check<'d>(&mut self, drive: &'d Drive) -> Checked<'d> {
+    fn check(&mut self, drive: Drive) -> Checked {
         let progress = check::progress(drive.cycles.len());
         let checked = Checked::new(drive, &Parameters::default(), false, || progress.inc(1));
         progress.finish_and_clear();
@@ -189,7 +187,7 @@ impl Demo<'_> {
     }
 
     /// What became of a case in a sentence; notes what is not as it should be.
-    fn outcome(&mut self, case: &Case, checked: &Checked<'_>, profile: Profile) -> String {
+    fn outcome(&mut self, case: &Case, checked: &Checked, profile: Profile) -> String {
         let unsafe_cycles = &checked.courses[0].unsafe_cycles;
         let first = unsafe_cycles.first().map(|cycle| cycle.index);
         let early = first.is_some_and(|index| checked.seconds(index) < ATTACKED_FROM_S);

@@ -6,16 +6,16 @@ use mufasa_model::requester::{Parameters, Requester};
 use mufasa_props::conformance::Answer;
 
 use super::fallback::{Course, follow};
-use super::judge::{Judged, in_parallel, is_safe};
+use super::judge::{Judged, is_safe, judge};
 use super::sides::with_implementation;
 use super::tally::Tally;
 use crate::drive::{Drive, DriveCycle};
 use crate::json::names;
 
 /// A drive, judged.
-pub struct Checked<'a> {
-    /// The drive.
-    pub drive: &'a Drive,
+pub struct Checked {
+    /// The drive, its cycles as they were judged: with the `previous_tracks` that were carried.
+    pub drive: Drive,
     /// One judgement per cycle.
     pub judged: Vec<Judged>,
     /// The fallbacks by the model's requester and verdicts, and by the implementation's.
@@ -24,18 +24,12 @@ pub struct Checked<'a> {
     pub protocol: Option<String>,
 }
 
-impl<'a> Checked<'a> {
-    /// Judges every cycle, with `readings` by the strict and the lax model too, and runs both
-    /// requesters over the verdicts. `done` is called after each cycle.
-    pub fn new(
-        drive: &'a Drive,
-        requester: &Parameters,
-        readings: bool,
-        done: impl Fn() + Sync,
-    ) -> Self {
-        let job = |index: usize| Judged::new(&drive.cycles[index].cycle, readings);
-        let judged = in_parallel(drive.cycles.len(), job, done);
-        let (courses, protocol) = courses(drive, &judged, requester);
+impl Checked {
+    /// Judges every cycle in order, with `readings` by the strict and the lax model too, and runs
+    /// both requesters over the verdicts. `done` is called after each cycle.
+    pub fn new(mut drive: Drive, requester: &Parameters, readings: bool, done: impl Fn()) -> Self {
+        let judged = judge(&mut drive, readings, done);
+        let (courses, protocol) = courses(&drive, &judged, requester);
         Self { drive, judged, courses, protocol }
     }
 

@@ -1,14 +1,17 @@
-//! One cycle, judged by the exact model and by the implementation.
+//! Cycles, judged by the exact model and by the implementation.
 
-use std::panic;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
 use std::thread;
 
-use mufasa_model::cycle::Cycle;
+use mufasa_model::cycle::{Cycle, TrackList};
 use mufasa_model::schedule;
-use mufasa_model::verdict::{Reading, Report};
+use mufasa_model::verdict::{Outcome, Reading, Report};
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
+
+use crate::drive::{Drive, DriveCycle, PreviousTracks};
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +46,10 @@ impl Judged {
     pub fn is_safe(&self) -> bool {
         is_safe(&self.model)
     }
+
+    fn passed_stage_i(&self) -> bool {
+        self.model.as_ref().is_ok_and(|report| report.stages[0] == Outcome::Passed)
+    }
 }
 
 /// Whether an answer is the verdict safe; an error is not (`spec/2-offloading.md#fallback`).
@@ -64,40 +71,68 @@ pub fn compare(
     }
 }
 
-/// Runs `job` for every index below `count` on all processors and returns the results in order;
-/// `done` is called after each.
-pub fn in_parallel<T: Send>(
+/// Judges the cycles of a drive in their order, because each may change what the next is judged
+/// by: where `previous_tracks` are carried, the list of a cycle that the exact model finds safe and
+/// in which stage i passed becomes that of the cycles after it (H-09). The drive keeps the cycles
+/// as judged. `done` is called after each.
+pub fn judge(drive: &mut Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
+    let carried = drive.previous_tracks == PreviousTracks::Carried;
+    let mut held: Option<TrackList> = None;
+    let each = |DriveCycle { cycle, .. }: &mut DriveCycle| {
+        if carried {
+            cycle.previous_tracks.clone_from(&held);
+        }
+        let judged = Judged::new(cycle, readings);
+        if judged.is_safe() && judged.passed_stage_i() {
+            held.clone_from(&cycle.tracks);
+        }
+        done();
+        judged
+    };
+    drive.cycles.iter_mut().map(each).collect()
+}
+
+/// Runs `job` for every index below `count` on all processors and hands the results to `take` in
+/// their order, each as soon as those before it are there. The first error of `take` ends the work.
+pub fn in_order<T: Send, E>(
     count: usize,
     job: impl Fn(usize) -> T + Sync,
-    done: impl Fn() + Sync,
-) -> Vec<T> {
+    mut take: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
     let next = AtomicUsize::new(0);
-    let worker = || {
-        let mut results = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            if index >= count {
-                return results;
-            }
-            results.push((index, job(index)));
-            done();
+    let workers = thread::available_parallelism().map_or(1, usize::from).min(count);
+    let (sender, results) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            let (sender, next, job) = (sender.clone(), &next, &job);
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    // The results are dropped when they are no longer wanted.
+                    if index >= count || sender.send((index, job(index))).is_err() {
+                        return;
+                    }
+                }
+            });
         }
-    };
-    let workers = thread::available_parallelism().map_or(1, usize::from).min(count.max(1));
-    let mut results: Vec<(usize, T)> = thread::scope(|scope| {
-        let handles: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();
-        let join = |handle: thread::ScopedJoinHandle<'_, _>| {
-            handle.join().unwrap_or_else(|panic| panic::resume_unwind(panic))
-        };
-        handles.into_iter().flat_map(join).collect()
-    });
-    results.sort_by_key(|(index, _)| *index);
-    results.into_iter().map(|(_, result)| result).collect()
+        drop(sender);
+        let mut early = BTreeMap::new();
+        let mut wanted = 0;
+        // Moved, so that an error drops it and the workers notice.
+        for (index, result) in results {
+            early.insert(index, result);
+            while let Some(result) = early.remove(&wanted) {
+                take(result)?;
+                wanted += 1;
+            }
+        }
+        Ok(())
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use mufasa_model::verdict::{FailedStage, Outcome, Stage};
+    use mufasa_model::verdict::{FailedStage, Stage};
 
     use super::*;
 
@@ -150,16 +185,31 @@ mod tests {
 
     #[test]
     fn results_of_parallel_work_keep_their_order() {
-        let done = AtomicUsize::new(0);
-        let squares = in_parallel(
+        let mut squares = Vec::new();
+        let taken: Result<(), ()> = in_order(
             100,
             |index| index * index,
-            || {
-                done.fetch_add(1, Ordering::Relaxed);
+            |square| {
+                squares.push(square);
+                Ok(())
             },
         );
+        assert_eq!(taken, Ok(()));
         assert_eq!(squares, (0..100).map(|index| index * index).collect::<Vec<_>>());
-        assert_eq!(done.into_inner(), 100);
-        assert!(in_parallel(0, |index| index, || {}).is_empty());
+        assert_eq!(in_order(0, |index| index, |_| Err("nothing to take")), Ok(()));
+    }
+
+    #[test]
+    fn an_error_ends_parallel_work() {
+        let mut seen = 0;
+        let taken = in_order(
+            1000,
+            |index| index,
+            |index| {
+                seen += 1;
+                if index == 3 { Err(index) } else { Ok(()) }
+            },
+        );
+        assert_eq!((taken, seen), (Err(3), 4));
     }
 }

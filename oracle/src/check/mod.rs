@@ -18,6 +18,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use mufasa_model::requester::Parameters;
 
 use self::course::Checked;
+use self::judge::in_order;
 use self::tally::Tally;
 use crate::drive::{Drive, ReadError};
 use crate::table;
@@ -78,7 +79,7 @@ impl Findings {
     }
 
     /// Adds what was found on a drive.
-    pub fn add(&mut self, checked: &Checked<'_>) {
+    pub fn add(&mut self, checked: &Checked) {
         self.drives += 1;
         self.tally.merge(&checked.tallies()[0]);
         self.disagreements += checked.disagreements();
@@ -116,8 +117,8 @@ impl Findings {
     }
 }
 
-/// Checks the drives in order and writes what is found to `out`, what is wrong with the input to
-/// `err`. Errors are those of writing to `out`.
+/// Checks the drives, several at a time, and writes in their order what is found to `out`, what
+/// is wrong with the input to `err`. Errors are those of writing to `out`.
 pub fn run(
     drives: &[Result<Drive, ReadError>],
     settings: &Settings,
@@ -127,10 +128,16 @@ pub fn run(
     let mut findings = Findings::default();
     let mut lines = Vec::new();
     let progress = progress(drives.iter().flatten().map(|drive| drive.cycles.len()).sum());
-    for drive in drives {
-        match drive {
-            Ok(drive) => {
-                let checked = check(drive, settings, &progress, &mut findings, err);
+    let readings = settings.format == Format::Json;
+    let judge = |index: usize| {
+        let drive = drives[index].as_ref()?;
+        let done = || progress.inc(1);
+        Ok(Checked::new(drive.clone(), &settings.requester, readings, done))
+    };
+    in_order(drives.len(), judge, |checked: Result<Checked, &ReadError>| {
+        match checked {
+            Ok(checked) => {
+                note(&checked, settings, &mut findings, err);
                 progress.suspend(|| write_drive(out, settings.format, &checked))?;
                 lines.push(report::line(&checked));
             }
@@ -139,7 +146,8 @@ pub fn run(
                 complain(err, &error.to_string());
             }
         }
-    }
+        io::Result::Ok(())
+    })?;
     progress.finish_and_clear();
     match settings.format {
         Format::Text if lines.len() > 1 => writeln!(out, "{}", table::by_drive(&lines))?,
@@ -154,17 +162,10 @@ pub fn run(
     Ok(findings)
 }
 
-/// Judges one drive, draws its pictures and adds it to the findings.
-fn check<'a>(
-    drive: &'a Drive,
-    settings: &Settings,
-    progress: &ProgressBar,
-    findings: &mut Findings,
-    err: &mut impl Write,
-) -> Checked<'a> {
-    let readings = settings.format == Format::Json;
-    let checked = Checked::new(drive, &settings.requester, readings, || progress.inc(1));
-    findings.add(&checked);
+/// Adds a drive to the findings, names its errors and draws its pictures.
+fn note(checked: &Checked, settings: &Settings, findings: &mut Findings, err: &mut impl Write) {
+    let drive = &checked.drive;
+    findings.add(checked);
     let errors = checked.judged.iter().zip(&drive.cycles).filter_map(|(judged, cycle)| {
         judged.model.as_ref().err().map(|problem| (problem, &cycle.id))
     });
@@ -172,7 +173,7 @@ fn check<'a>(
         complain(err, &format!("{}: cycle {id}: {}", drive.source, words::invalid(problem)));
     }
     if let Some(folder) = &settings.pictures {
-        match pictures::write(folder, &checked, |_| true) {
+        match pictures::write(folder, checked, |_| true) {
             Ok(written) => findings.pictures.extend(written),
             Err((file, error)) => {
                 findings.unreadable += 1;
@@ -180,10 +181,9 @@ fn check<'a>(
             }
         }
     }
-    checked
 }
 
-fn write_drive(out: &mut impl Write, format: Format, checked: &Checked<'_>) -> io::Result<()> {
+fn write_drive(out: &mut impl Write, format: Format, checked: &Checked) -> io::Result<()> {
     match format {
         Format::Text => report::write(out, checked)?,
         Format::Summary => {}

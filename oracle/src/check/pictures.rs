@@ -12,7 +12,7 @@ use crate::svg::{Scene, picture};
 /// that exists; returns their paths. An error names the file.
 pub fn write(
     folder: &Path,
-    checked: &Checked<'_>,
+    checked: &Checked,
     wanted: impl Fn(usize) -> bool,
 ) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
     let mut written = Vec::new();

@@ -113,7 +113,7 @@ struct LastRecord {
 }
 
 /// The records of a drive, each on a line: its cycles, then the drive.
-pub fn lines(checked: &Checked<'_>) -> serde_json::Result<Vec<String>> {
+pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
     let mut lines = Vec::new();
     for (index, (judged, cycle)) in checked.judged.iter().zip(&checked.drive.cycles).enumerate() {
         lines.push(serde_json::to_string(&CycleRecord {
@@ -183,7 +183,7 @@ fn implementation_answer(answer: &Answer) -> ImplementationAnswer {
 }
 
 fn side(
-    checked: &Checked<'_>,
+    checked: &Checked,
     tally: &Tally,
     course: &Course,
     answer: impl Fn(&Judged) -> &Answer,

@@ -16,7 +16,7 @@ use crate::table;
 const DISAGREEMENTS: usize = 10;
 
 /// Writes a drive: its setting, the table by stage, the fallbacks, disagreements.
-pub fn write(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()> {
+pub fn write(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
     let [model, implementation] = checked.tallies();
     writeln!(out, "{} ({})", checked.drive.name, checked.drive.source)?;
     for note in &checked.drive.notes {
@@ -45,7 +45,7 @@ pub fn write(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()> {
 }
 
 /// The line of a drive in the table over all drives.
-pub fn line(checked: &Checked<'_>) -> table::Line {
+pub fn line(checked: &Checked) -> table::Line {
     let [tally, _] = checked.tallies();
     table::Line {
         name: checked.drive.name.clone(),
@@ -56,7 +56,7 @@ pub fn line(checked: &Checked<'_>) -> table::Line {
     }
 }
 
-fn write_fallbacks(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()> {
+fn write_fallbacks(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
     let [model, implementation] = &checked.courses;
     if model == implementation {
         return write_course(out, checked, model, "", |judged| &judged.model);
@@ -69,7 +69,7 @@ fn write_fallbacks(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()
 
 fn write_course(
     out: &mut impl Write,
-    checked: &Checked<'_>,
+    checked: &Checked,
     course: &Course,
     whose: &str,
     answer: impl Fn(&super::judge::Judged) -> &Answer,
@@ -133,7 +133,7 @@ fn rank(failed: Option<FailedStage>) -> u8 {
     mufasa_props::conformance::rank(failed)
 }
 
-fn write_disagreements(out: &mut impl Write, checked: &Checked<'_>) -> io::Result<()> {
+fn write_disagreements(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
     let breaches = checked
         .judged
         .iter()

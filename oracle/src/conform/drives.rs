@@ -7,7 +7,9 @@ use mufasa_model::cycle::Cycle;
 
 use super::error::ConformError;
 use super::generate::mix;
-use crate::drive::{self, Attack, Drive, Injection, Options, ReadError, inject};
+use crate::drive::{
+    self, Attack, Drive, DriveCycle, Injection, Options, PreviousTracks, ReadError, inject,
+};
 
 /// Cycles before an attacked one that are attacked, too.
 const ATTACKED_BEFORE: usize = 10;
@@ -39,7 +41,7 @@ impl Pool {
         let (mut drives, mut errors) = (Vec::new(), Vec::new());
         for read in drive::read(files, options) {
             match read {
-                Ok(drive) => drives.push(drive),
+                Ok(drive) => drives.push(with_previous_tracks(drive)),
                 Err(error) => errors.push(error),
             }
         }
@@ -80,6 +82,20 @@ impl Pool {
     }
 }
 
+/// Every cycle is a case of its own, whatever became of the one before it: where `previous_tracks`
+/// are to be carried, each takes the list of the cycle before it, as if that was safe. Under an
+/// attack they stay true.
+fn with_previous_tracks(mut drive: Drive) -> Drive {
+    if drive.previous_tracks == PreviousTracks::Carried {
+        let mut last = None;
+        for DriveCycle { cycle, .. } in &mut drive.cycles {
+            cycle.previous_tracks = last.replace(cycle.tracks.clone()).flatten();
+        }
+        drive.previous_tracks = PreviousTracks::AsGiven;
+    }
+    drive
+}
+
 fn variant(drive: &Drive, index: usize, variant: usize) -> (String, Cycle) {
     let found = &drive.cycles[index];
     let name = format!("{}#{}", drive.name, found.id);
@@ -97,6 +113,7 @@ fn variant(drive: &Drive, index: usize, variant: usize) -> (String, Cycle) {
                 cycles: drive.cycles[from..=index].to_vec(),
                 name: drive.name.clone(),
                 source: String::new(),
+                previous_tracks: drive.previous_tracks,
                 notes: Vec::new(),
             };
             let injection = Injection { attack, from_s: 0.0, to_s: f64::INFINITY };

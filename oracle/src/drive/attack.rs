@@ -185,8 +185,8 @@ impl fmt::Display for Injection {
 /// Attacks that hide objects (empty tracks, false velocities and sizes) are dangerous only when
 /// the CAV drives what it is sent, so in these it does: it leaves its recorded motion at the first
 /// attacked cycle, and the drive ends with the last one, because nobody recorded what comes then.
-/// The true `previous_tracks` stay: H-09 keeps the last list that was found good, which an
-/// attacked one is not taken to be.
+/// `previous_tracks` stay as given, or are carried when the attacked drive is judged: an attacked
+/// list that is not found becomes the one that the next is compared with (H-09).
 ///
 /// Errors: no cycle is changed, because none is in the span, or the data of the attack are local,
 /// absent, or as it would make them. An attacked drive that is safe is so in spite of the attack.

@@ -5,6 +5,8 @@
 //! made 20 ms ago and starts now; lead and grid are 10 ms old. Tracks and detections belong to
 //! the same scan because stage i compares their positions as they are: 20 ms between them are
 //! 0.6 m at 30 m/s, three times `theta_tr`.
+//!
+//! `previous_tracks` stay `None`: they depend on verdicts (H-09), hence [`PreviousTracks::Carried`].
 
 use mufasa_model::cycle::{Cycle, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint};
 
@@ -14,7 +16,7 @@ use super::object::{Object, Seen, State, state_before};
 use super::options::{Options, Sensor, Tail};
 use super::route::in_corridor;
 use super::sensor::{grid, scan};
-use super::{Drive, DriveCycle};
+use super::{Drive, DriveCycle, PreviousTracks};
 
 /// The first cycle's time, ns.
 const START_NS: i64 = 1_000_000_000;
@@ -48,9 +50,8 @@ pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
     let mut cycles: Vec<DriveCycle> = Vec::new();
     let count = self::cycles(&recording.ego, recording.dt_ns, options);
     for i in (0..count).step_by(every.max(1)) {
-        let previous = cycles.last().and_then(|c| c.cycle.tracks.clone());
         let id = format!("{}#{}", recording.name, recording.ego[i].step);
-        cycles.push(DriveCycle { id, cycle: maker.cycle(i, previous) });
+        cycles.push(DriveCycle { id, cycle: maker.cycle(i) });
     }
     let mut notes = recording.notes.clone();
     notes.push(format!("{} cycles from {} states", cycles.len(), recording.ego.len()));
@@ -75,7 +76,7 @@ pub(super) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
         ));
     }
     let Recording { name, source, .. } = recording;
-    Drive { name, source, cycles, notes }
+    Drive { name, source, cycles, previous_tracks: PreviousTracks::Carried, notes }
 }
 
 /// States of a recording that give a cycle: all, or those up to the last that is followed by as
@@ -106,7 +107,7 @@ impl Maker<'_> {
         self.recording.dt_ns as f64 / 1e9
     }
 
-    fn cycle(&self, i: usize, previous_tracks: Option<TrackList>) -> Cycle {
+    fn cycle(&self, i: usize) -> Cycle {
         let Recording { ego, size, dt_ns, route, .. } = self.recording;
         let state = ego[i];
         let now_ns = START_NS + i64::try_from(i).unwrap_or(0).saturating_mul(*dt_ns);
@@ -151,7 +152,7 @@ impl Maker<'_> {
             lead: lead(route, grid_ns, &cav, &recent, options.sensor.range_m),
             route: route.clone(),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
-            previous_tracks,
+            previous_tracks: None,
         }
     }
 

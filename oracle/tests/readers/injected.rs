@@ -4,8 +4,9 @@ use std::str::FromStr;
 
 use mufasa_model::configuration::Configuration;
 use mufasa_model::cycle::Profile;
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::{FailedStage, Reading, Rule, Stage};
+use mufasa_model::requester::Parameters;
+use mufasa_model::verdict::{FailedStage, Rule, Stage};
+use mufasa_oracle::check::course::Checked;
 use mufasa_oracle::drive::{
     Attack, Drive, InjectError, Injection, Options, ParseInjectionError, inject,
 };
@@ -14,10 +15,14 @@ use super::files::demo;
 
 /// What failed first, and at which cycle.
 fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
-    drive.cycles.iter().enumerate().find_map(|(i, c)| {
-        let report = check(&c.cycle, Reading::Exact).expect("local input is valid");
+    checked(drive).judged.iter().enumerate().find_map(|(i, judged)| {
+        let report = judged.model.as_ref().expect("local input is valid");
         report.failed_stage.map(|stage| (i, stage))
     })
+}
+
+fn checked(drive: &Drive) -> Checked {
+    Checked::new(drive.clone(), &Parameters::default(), false, || {})
 }
 
 fn options(profile: Profile) -> Options {
@@ -95,7 +100,8 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
     let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
     let (found, _) = first_failure(&attacked).unwrap();
-    let report = check(&attacked.cycles[found].cycle, Reading::Exact).unwrap();
+    let checked = checked(&attacked);
+    let report = checked.judged[found].model.as_ref().unwrap();
     let rules: Vec<Rule> = report
         .stages
         .iter()

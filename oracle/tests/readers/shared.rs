@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::{FailedStage, Reading};
-use mufasa_oracle::drive::{Drive, Options, read};
+use mufasa_model::cycle::{Cycle, Profile, TrackList};
+use mufasa_model::requester::Parameters;
+use mufasa_model::verdict::{FailedStage, Outcome};
+use mufasa_oracle::check::course::Checked;
+use mufasa_oracle::drive::{Drive, DriveCycle, Options, PreviousTracks, read};
 
 use super::files::shared;
 
@@ -41,9 +42,11 @@ fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
 fn assert_sane(drive: &Drive) {
     let name = &drive.name;
     assert!(!drive.cycles.is_empty(), "{name} has no cycle");
+    assert_eq!(drive.previous_tracks, PreviousTracks::Carried, "{name}");
     let mut last: Option<&Cycle> = None;
     for cycle in drive.cycles.iter().map(|c| &c.cycle) {
         let now = cycle.now_ns;
+        assert_eq!(cycle.previous_tracks, None, "{name}");
         let fresh = |stamp: i64| (0..=100_000_000).contains(&(now - stamp));
         let trajectory = cycle.trajectory.as_ref().expect("a trajectory");
         let tracks = cycle.tracks.as_ref().expect("tracks");
@@ -67,21 +70,31 @@ fn assert_sane(drive: &Drive) {
         }
         if let Some(last) = last {
             assert!(now > last.now_ns);
-            assert_eq!(cycle.previous_tracks, last.tracks, "{name}");
         }
         last = Some(cycle);
     }
 }
 
-/// Judges every `every`th cycle in both profiles and counts what comes of it. The model refuses
-/// none of them as invalid.
+/// Judges the drive of every `every`th cycle in both profiles and counts what comes of it. The
+/// model refuses none of them as invalid, and every list that is carried is the right one.
 fn judge(drive: &Drive, every: usize) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
     for profile in [Profile::Paper, Profile::Hardened] {
-        for cycle in drive.cycles.iter().step_by(every) {
-            let cycle = Cycle { profile, ..cycle.cycle.clone() };
-            let report = check(&cycle, Reading::Exact);
+        let cycles = drive.cycles.iter().step_by(every).map(|it| DriveCycle {
+            id: it.id.clone(),
+            cycle: Cycle { profile, ..it.cycle.clone() },
+        });
+        let thinned = Drive { cycles: cycles.collect(), ..drive.clone() };
+        let checked = Checked::new(thinned, &Parameters::default(), false, || {});
+        assert_eq!(checked.disagreements(), 0, "{}", drive.name);
+        let mut held: Option<&TrackList> = None;
+        for (judged, DriveCycle { cycle, .. }) in checked.judged.iter().zip(&checked.drive.cycles) {
+            assert_eq!(cycle.previous_tracks.as_ref(), held, "{}", drive.name);
+            let report = judged.model.as_ref();
             let report = report.unwrap_or_else(|e| panic!("{}: {e:?}", drive.name));
+            if report.failed_stage.is_none() && report.stages[0] == Outcome::Passed {
+                held = cycle.tracks.as_ref();
+            }
             assert_ne!(report.failed_stage, Some(FailedStage::Input), "{}", drive.name);
             let verdict = report.failed_stage.map_or("safe".into(), |s| format!("{s:?}"));
             *counts.entry(format!("{profile:?} {verdict}")).or_insert(0) += 1;
