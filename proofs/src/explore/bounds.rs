@@ -191,6 +191,19 @@ const SMALL: &[World] = &[
         attacker: true,
     },
     World {
+        name: "shared",
+        why: "two CAVs on one station with a place for each, so that what one does could reach \
+              the session of the other; without an attacker, because nobody forges what a \
+              station receives",
+        requesters: 2,
+        stations: &[StationBounds { offers: &[MOT], capacity: 2 }],
+        areas: &[],
+        in_flight: 2,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: false,
+    },
+    World {
         name: "honest",
         why: "one station, one group and no attacker, so that what is found needs none and can \
               be drawn as it comes about",

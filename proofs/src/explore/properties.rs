@@ -68,6 +68,8 @@ pub enum Sight {
     FullBecauseOfAnother,
     /// A station crashes while it runs a session that the CAV is in.
     CrashWhileRemote,
+    /// A station that runs sessions of two requesters hears one of them.
+    TwoServedAtOnce,
 }
 
 impl Law {
@@ -154,7 +156,7 @@ impl Law {
                 Sight::ConfirmedAfterTimeout,
             ],
             Self::NoMoreThanCapacity => &[Sight::FullBecauseOfAnother, Sight::LaterReplaces],
-            Self::OthersKeepTheirSessions => &[Sight::FullBecauseOfAnother],
+            Self::OthersKeepTheirSessions => &[Sight::TwoServedAtOnce, Sight::FullBecauseOfAnother],
             Self::PartsValid => &[],
         }
     }
@@ -162,7 +164,7 @@ impl Law {
 
 impl Sight {
     /// All of them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::TwoStationsAtOnce,
         Self::FallbackRemoteAndRequested,
         Self::FallbackFromRemote,
@@ -179,6 +181,7 @@ impl Sight {
         Self::LaterReplaces,
         Self::FullBecauseOfAnother,
         Self::CrashWhileRemote,
+        Self::TwoServedAtOnce,
     ];
 
     /// Its words.
@@ -202,6 +205,7 @@ impl Sight {
             Self::LaterReplaces => "later session replaces an older one",
             Self::FullBecauseOfAnother => "rejected because of another requester",
             Self::CrashWhileRemote => "station crashes while in use",
+            Self::TwoServedAtOnce => "two requesters served at once",
         }
     }
 

@@ -111,9 +111,15 @@ impl StationPart {
         stimuli
     }
 
+    /// A number for a message. Where none of this requester and group runs, one that runs of
+    /// another, if there is: the numbers of one requester mean nothing for another.
     fn number(&self, cav: u8, group: Group, order: Order) -> Option<i64> {
         match (self.provider.session(cav.into(), group), order) {
-            (None, Order::Free) => Some(self.now),
+            (None, Order::Free) => {
+                let all = (0..).take(REQUESTERS).flat_map(|it| Group::ALL.map(|g| (it, g)));
+                let mut running = all.filter_map(|(it, group)| self.provider.session(it, group));
+                Some(running.next().unwrap_or(self.now))
+            }
             (Some(running), Order::Older) => Some(running - 1),
             (Some(running), Order::Same) => Some(running),
             (Some(running), Order::Newer) => Some(running + 1),

@@ -260,9 +260,11 @@ impl System {
         let older = order == Order::Older;
         found.seen.note(Sight::EndedMeetsLaterAtStation, older);
         found.broken.note(Law::EndedSessionChangesNothing, older && before != after);
-        for cav in 0..self.world.requesters {
-            let others = cav != letter.cav && before.ages[cav] != after.ages[cav];
-            found.broken.note(Law::OthersKeepTheirSessions, others);
+        for cav in (0..self.world.requesters).filter(|cav| *cav != letter.cav) {
+            let changed = before.ages[cav] != after.ages[cav];
+            found.broken.note(Law::OthersKeepTheirSessions, changed);
+            let runs = |cav: usize| before.ages[cav].iter().any(Option::is_some);
+            found.seen.note(Sight::TwoServedAtOnce, runs(cav) && runs(letter.cav));
         }
     }
 
