@@ -12,6 +12,7 @@ use mufasa_proofs::explore::system::System;
 use super::{chart, title, vector};
 use crate::check::files;
 use crate::json::{Trace, names};
+use crate::vectors::flag;
 
 /// A counterexample, told with real numbers.
 pub struct Story<'a> {
@@ -42,9 +43,9 @@ fn story(law: Law, profile: Profile, outcomes: &[Outcome]) -> Option<Story<'_>> 
     })?;
     let scenes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat()).ok()?;
     let name = if law.is_claimed(profile) {
-        format!("{}-{}", law.name(), names::profile(profile))
+        format!("explored-{}-{}", law.name(), names::profile(profile))
     } else {
-        String::from("F-12")
+        String::from("explored-F-12")
     };
     Some(Story { name, law, system, scenes })
 }
@@ -74,15 +75,15 @@ impl Story<'_> {
         let events = vector::events(&self.scenes, 0);
         let profile = self.system.profile();
         let mut lines = String::new();
-        for profile in [profile, other(profile)] {
+        for profile in [profile, flag::other(profile)] {
             let trace = Trace {
                 profile,
                 parameters: self.system.world().parameters(),
                 events: events.clone(),
             };
             let id = format!("{}-{}", self.name, names::profile(profile));
-            lines += &vector::line(&id, self.requirement(), self.note(profile), &trace)?;
-            lines.push('\n');
+            let vector = vector::of_trace(&id, self.requirement(), self.note(profile), &trace)?;
+            lines.extend([vector.to_string().as_str(), "\n"]);
         }
         Ok(lines)
     }
@@ -112,12 +113,5 @@ impl Story<'_> {
             }
             _ => "Shortest trace that the exploration found",
         }
-    }
-}
-
-fn other(profile: Profile) -> Profile {
-    match profile {
-        Profile::Paper => Profile::Hardened,
-        Profile::Hardened => Profile::Paper,
     }
 }

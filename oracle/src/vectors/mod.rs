@@ -6,6 +6,7 @@ pub mod book;
 pub mod edge;
 pub mod expected;
 pub mod flag;
+pub mod record;
 pub mod schema;
 pub mod story;
 
@@ -15,7 +16,6 @@ mod interpretations;
 mod lines;
 mod offloading;
 mod random;
-mod record;
 mod services;
 mod stages;
 
