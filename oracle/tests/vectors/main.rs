@@ -1,7 +1,7 @@
 //! The vectors of `vectors/`: `spec/5-interfaces.md#vectors`.
 
 mod implementation;
-
+mod mutants;
 mod published;
 mod schemas;
 
