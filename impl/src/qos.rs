@@ -47,6 +47,12 @@ impl Arrivals {
         Self { last_arrival_ns: now_ns, last_used_ns: None }
     }
 
+    /// The arrivals of a session that was stored. Times in ns: of the last arrival (or of the
+    /// activation), and of generation of the last element used since the activation.
+    pub const fn from_parts(last_arrival_ns: i64, last_used_ns: Option<i64>) -> Self {
+        Self { last_arrival_ns, last_used_ns }
+    }
+
     /// Time of the last arrival, or of the activation, in ns.
     pub const fn last_arrival_ns(&self) -> i64 {
         self.last_arrival_ns

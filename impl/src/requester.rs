@@ -12,6 +12,7 @@
 mod event;
 mod inspect;
 mod per_group;
+mod restore;
 mod slot;
 mod stations;
 mod steps;
@@ -21,6 +22,7 @@ mod tests;
 
 pub use self::event::{Action, Actions, Event, EventKind};
 pub use self::inspect::{Running, Suspended};
+pub use self::restore::{GroupRecord, Parts};
 pub use self::slot::GroupState;
 pub use self::stations::StationRecord;
 pub use crate::configuration::{Group, Groups, Source};

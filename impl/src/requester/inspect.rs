@@ -24,13 +24,13 @@ pub struct Running {
 /// All of a requester but its table.
 #[derive(Clone, Copy, Debug)]
 pub struct Suspended {
-    profile: Profile,
-    parameters: Parameters,
-    slots: PerGroup<Slot>,
-    hold_until_ns: Option<i64>,
-    area: Groups,
-    sessions: i64,
-    dropped: PerGroup<u64>,
+    pub(super) profile: Profile,
+    pub(super) parameters: Parameters,
+    pub(super) slots: PerGroup<Slot>,
+    pub(super) hold_until_ns: Option<i64>,
+    pub(super) area: Groups,
+    pub(super) sessions: i64,
+    pub(super) dropped: PerGroup<u64>,
 }
 
 impl<'a> Requester<'a> {

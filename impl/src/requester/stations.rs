@@ -10,12 +10,12 @@ use crate::configuration::{Group, Groups};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StationRecord {
     /// The station's id, or 0 in a free place.
-    station: i64,
+    pub(super) station: i64,
     /// What it offers; nothing, once it has withdrawn.
-    offer: Groups,
+    pub(super) offer: Groups,
     /// The session of its last request for each group; 0 is never. Sessions are numbered in the
     /// order of the requests.
-    last_request: PerGroup<i64>,
+    pub(super) last_request: PerGroup<i64>,
 }
 
 impl StationRecord {
