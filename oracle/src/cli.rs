@@ -245,8 +245,8 @@ struct ExploreArguments {
     /// Threads of the second engine, stateright; 0 leaves it out. By default all.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Folder for the vectors and charts of what fails.
-    #[arg(long, value_name = "DIR", default_value = "counterexamples")]
+    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails.
+    #[arg(long, value_name = "DIR", default_value = "exploration")]
     out: PathBuf,
     /// Serve stateright's explorer page for a world at this address instead.
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:3000")]

@@ -3,11 +3,12 @@
 
 pub mod chart;
 pub mod findings;
+pub mod report;
 pub mod tables;
 pub mod vector;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -22,6 +23,7 @@ use mufasa_proofs::explore::search::Progress;
 use mufasa_proofs::explore::second;
 use mufasa_proofs::explore::system::System;
 
+use self::report::Report;
 use crate::check::{complain, files};
 use crate::json::names;
 
@@ -61,8 +63,8 @@ impl End {
     }
 }
 
-/// Explores, writes tables to `out`, and what is wrong to `err`. Errors are those of writing to
-/// `out`.
+/// Explores, writes tables to `out`, what is wrong to `err`, and into the folder vectors and charts
+/// of what fails, `exploration.json` and `exploration.md`. Errors are those of writing to `out`.
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
     let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
         return Ok(End::BadInput);
@@ -71,7 +73,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         complain(err, &format!("{}: cannot be written to: {error}", settings.folder.display()));
         return Ok(End::BadInput);
     }
-    let mut end = End::default();
+    let (mut end, mut reports) = (End::default(), Vec::new());
     for profile in &settings.profiles {
         let mut outcomes = Vec::new();
         for world in &worlds {
@@ -90,20 +92,43 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
         }
-        match findings::write(&settings.folder, *profile, &outcomes) {
-            Ok(written) => {
-                for file in written {
-                    writeln!(out, "{}", file.display())?;
-                }
-            }
-            Err((file, error)) => {
-                complain(err, &format!("{}: cannot be written: {error}", file.display()));
-                end = end.max(End::BadInput);
-            }
-        }
+        reports.push(Report::new(*profile, settings.bounds, &outcomes));
+        let written = findings::write(&settings.folder, *profile, &outcomes);
+        end = end.max(say_written(written, out, err)?);
         out.flush()?;
     }
+    end = end.max(say_written(write(&settings.folder, &reports), out, err)?);
     Ok(end)
+}
+
+type Written = Result<Vec<PathBuf>, (PathBuf, io::Error)>;
+
+/// Names the files written, or the one that cannot be.
+fn say_written(written: Written, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
+    match written {
+        Ok(files) => {
+            files.iter().try_for_each(|file| writeln!(out, "{}", file.display()))?;
+            Ok(End::Holds)
+        }
+        Err((file, error)) => {
+            complain(err, &format!("{}: cannot be written: {error}", file.display()));
+            Ok(End::BadInput)
+        }
+    }
+}
+
+/// Writes all tables, for programs and for documents.
+fn write(folder: &Path, reports: &[Report]) -> Written {
+    let json = serde_json::to_string_pretty(reports).map_err(io::Error::from);
+    let markdown = Ok(reports.iter().map(Report::markdown).collect());
+    let mut written = Vec::new();
+    for (name, content) in [("exploration.json", json), ("exploration.md", markdown)] {
+        let file = folder.join(name);
+        let done = content.and_then(|content: String| files::write(&file, &content));
+        done.map_err(|error| (file.clone(), error))?;
+        written.push(file);
+    }
+    Ok(written)
 }
 
 /// Serves the explorer page of stateright for one world, until the program is ended.
@@ -195,6 +220,16 @@ fn judge(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
             let (first, second) = (outcome.states, second.states);
             complain(err, &format!("{name}: {first} states, stateright says {second}"));
             end = end.max(End::Disagree);
+        }
+        if let Some((second, _)) = &outcome.second {
+            let broken = |law: &Law| second.broken.contains(&law.name());
+            for finding in outcome.results.iter().filter(|finding| broken(&finding.law)) {
+                if finding.counterexample.is_none() {
+                    let law = finding.law.name();
+                    complain(err, &format!("{name}: stateright alone says that {law} fails"));
+                    end = end.max(End::Disagree);
+                }
+            }
         }
         let fails = outcome
             .results

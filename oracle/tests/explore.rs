@@ -111,7 +111,18 @@ fn nothing_is_found_in_the_hardened_profile() {
     let output = explore(&folder, &arguments);
     assert_eq!(output.status.code(), Some(0));
     assert!(!String::from_utf8(output.stdout).unwrap().contains("fails"));
-    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 0);
+    let files = fs::read_dir(&folder.0).unwrap().map(|file| file.unwrap().file_name());
+    let mut files: Vec<_> = files.collect();
+    files.sort();
+    assert_eq!(files, ["exploration.json", "exploration.md"], "no counterexample");
+    let json = fs::read_to_string(folder.0.join("exploration.json")).unwrap();
+    let reports: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(reports[0]["profile"], "hardened");
+    assert_eq!(reports[0]["worlds"][0]["states"], 3773);
+    assert_eq!(reports[0]["worlds"][0]["stateright_states"], Value::Null, "it was not asked");
+    for property in reports[0]["properties"].as_array().unwrap() {
+        assert_eq!(property["fails_in"], 0, "{property}");
+    }
 }
 
 #[test]

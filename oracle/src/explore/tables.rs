@@ -5,6 +5,8 @@ use mufasa_model::cycle::Profile;
 use mufasa_proofs::explore::properties::{Law, Sight};
 use mufasa_proofs::explore::run::Outcome;
 
+use super::report::Property;
+
 /// Width of a table, characters.
 const WIDTH: u16 = 118;
 
@@ -56,36 +58,14 @@ pub fn properties(profile: Profile, outcomes: &[Outcome]) -> String {
     table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
     table.set_header(["property", "", "verdict", "shown by"]);
     for law in Law::ALL {
-        let kind = if law.is_safety() { "always" } else { "eventually" };
-        table.add_row([
-            &law.name().replace('_', " "),
-            kind,
-            &verdict(law, profile, outcomes),
-            &evidence(law, profile, outcomes),
-        ]);
+        let property = Property::new(law, profile, outcomes);
+        table.add_row([&property.name, property.kind, &property.verdict(), &property.shown_by]);
     }
     format!("{table}\n")
 }
 
-/// Where a property holds or fails.
-pub fn verdict(law: Law, profile: Profile, outcomes: &[Outcome]) -> String {
-    let asked: Vec<_> = outcomes
-        .iter()
-        .filter_map(|outcome| outcome.results.iter().find(|finding| finding.law == law))
-        .collect();
-    let failures = asked.iter().filter_map(|finding| finding.counterexample.as_ref());
-    let shortest = failures.map(|it| it.trace.len() + it.circle.len()).min();
-    match shortest {
-        Some(moves) if law.is_claimed(profile) => format!("FAILS after {moves} moves"),
-        Some(moves) => format!("fails after {moves} moves (F-12)"),
-        None if asked.is_empty() => String::from("not asked"),
-        None if asked.len() == 1 => String::from("holds in 1 world"),
-        None => format!("holds in {} worlds", asked.len()),
-    }
-}
-
 /// Sights with the length of a shortest trace to them, and the reach of endless runs.
-fn evidence(law: Law, profile: Profile, outcomes: &[Outcome]) -> String {
+pub fn evidence(law: Law, profile: Profile, outcomes: &[Outcome]) -> String {
     let mut parts = Vec::new();
     let reaches = outcomes.iter().flat_map(|outcome| &outcome.results);
     let reaches = reaches.filter(|finding| finding.law == law).filter_map(|finding| finding.ahead);

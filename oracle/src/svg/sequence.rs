@@ -176,7 +176,11 @@ struct Page<'a> {
 impl Page<'_> {
     fn width(&self) -> f64 {
         let gaps = self.chart.partners.len().saturating_sub(1);
-        (LEFT + SPACING * count(gaps) + 260.0).max(700.0)
+        let [title, subtitle] =
+            [&self.chart.title, &self.chart.subtitle].map(|it| count(it.chars().count()));
+        let partners = LEFT + SPACING * count(gaps) + 260.0;
+        // Mean widths of a letter in the two sizes.
+        [700.0, 40.0 + 12.0 * title, 40.0 + 8.4 * subtitle].into_iter().fold(partners, f64::max)
     }
 
     fn height(&self) -> f64 {
