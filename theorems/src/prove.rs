@@ -1,0 +1,79 @@
+//! Proves a claim on every path of its execution.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use crate::real::formula::{Formula, not};
+use crate::real::path;
+use crate::solver::{Answer, Solver};
+
+/// Longest time for the claim on one path, ms.
+const CLAIM_MS: u32 = 60_000;
+
+/// How a proof ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// True of all real numbers on every path.
+    Proved,
+    /// False of these.
+    Refuted(Vec<(String, f64)>),
+    /// The solver does not know, or took too long.
+    Unknown,
+}
+
+/// A proof or its failure.
+#[derive(Clone, Debug)]
+pub struct Proof {
+    /// How it ended.
+    pub verdict: Verdict,
+    /// Paths executed.
+    pub paths: usize,
+    /// Questions to the solver.
+    pub questions: usize,
+    /// Time taken.
+    pub time: Duration,
+}
+
+/// Runs `claim` on every path that its comparisons take, and asks the solver for a
+/// counterexample on each, up to the first path where there is one. Errors are those of talking to
+/// the solver.
+pub fn prove(claim: &dyn Fn() -> Formula) -> io::Result<Proof> {
+    let start = Instant::now();
+    path::exchange_solver(Some(Solver::start()?));
+    path::first();
+    let (mut verdict, mut paths) = (Verdict::Proved, 0);
+    loop {
+        paths += 1;
+        match on_this_path(claim) {
+            Verdict::Proved => {}
+            Verdict::Unknown => verdict = Verdict::Unknown,
+            refuted @ Verdict::Refuted(_) => {
+                verdict = refuted;
+                break;
+            }
+        }
+        if !path::next() {
+            break;
+        }
+    }
+    let solver = path::exchange_solver(None);
+    path::first();
+    let questions = solver.as_ref().map_or(0, |solver| solver.questions);
+    match solver.and_then(|mut solver| solver.error.take()) {
+        Some(error) => Err(error),
+        None => Ok(Proof { verdict, paths, questions, time: start.elapsed() }),
+    }
+}
+
+fn on_this_path(claim: &dyn Fn() -> Formula) -> Verdict {
+    let claim = claim();
+    if let Formula::Known(true) = claim {
+        return Verdict::Proved;
+    }
+    let assertion = path::with(|path| not(claim).text(path));
+    match path::ask(&assertion, CLAIM_MS) {
+        Answer::Unsat => Verdict::Proved,
+        Answer::Sat(values) => Verdict::Refuted(values),
+        Answer::Unknown => Verdict::Unknown,
+    }
+}

@@ -1,0 +1,123 @@
+//! z3 as a process that reads and writes SMT-LIB.
+
+use std::io::{self, BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use crate::real::path::Path;
+
+/// What the solver says of an assertion on a path.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// No values of the variables satisfy it.
+    Unsat,
+    /// These do, by name.
+    Sat(Vec<(String, f64)>),
+    /// It does not know.
+    Unknown,
+}
+
+/// A running solver.
+#[derive(Debug)]
+pub struct Solver {
+    process: Child,
+    input: ChildStdin,
+    output: BufReader<ChildStdout>,
+    /// Questions asked.
+    pub questions: usize,
+    /// The first error of reading or writing; no answer is given after it.
+    pub error: Option<io::Error>,
+}
+
+/// The version line of z3, or nothing where there is none.
+pub fn version() -> Option<String> {
+    let output = Command::new("z3").arg("--version").output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
+impl Solver {
+    /// Starts z3.
+    pub fn start() -> io::Result<Self> {
+        let mut process =
+            Command::new("z3").arg("-in").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+        let missing = || io::Error::other("the solver has no pipes");
+        let input = process.stdin.take().ok_or_else(missing)?;
+        let output = BufReader::new(process.stdout.take().ok_or_else(missing)?);
+        Ok(Self { process, input, output, questions: 0, error: None })
+    }
+
+    /// Whether the assertion can be satisfied on the path.
+    pub fn check(&mut self, path: &Path, assertion: &str, limit_ms: u32) -> Answer {
+        self.questions += 1;
+        self.try_check(path, assertion, limit_ms).unwrap_or_else(|error| {
+            self.error.get_or_insert(error);
+            Answer::Unknown
+        })
+    }
+
+    fn try_check(&mut self, path: &Path, assertion: &str, limit_ms: u32) -> io::Result<Answer> {
+        writeln!(self.input, "(reset)(set-option :timeout {limit_ms})")?;
+        writeln!(self.input, "(set-option :pp.decimal true)(set-option :pp.decimal_precision 20)")?;
+        for name in &path.names {
+            writeln!(self.input, "(declare-const |{name}| Real)")?;
+        }
+        for line in &path.script {
+            writeln!(self.input, "(assert {line})")?;
+        }
+        writeln!(self.input, "(assert {assertion})(check-sat)")?;
+        self.input.flush()?;
+        match self.line()?.as_str() {
+            "unsat" => Ok(Answer::Unsat),
+            "sat" => Ok(Answer::Sat(self.values(path)?)),
+            "unknown" | "timeout" => Ok(Answer::Unknown),
+            other => Err(io::Error::other(format!("z3 says: {other}"))),
+        }
+    }
+
+    fn values(&mut self, path: &Path) -> io::Result<Vec<(String, f64)>> {
+        let mut values = Vec::new();
+        for name in &path.names {
+            writeln!(self.input, "(eval |{name}|)")?;
+            self.input.flush()?;
+            let line = self.line()?;
+            values.push((name.clone(), number(&line)));
+        }
+        Ok(values)
+    }
+
+    fn line(&mut self) -> io::Result<String> {
+        let mut line = String::new();
+        if self.output.read_line(&mut line)? == 0 {
+            return Err(io::Error::other("z3 ended"));
+        }
+        Ok(line.trim().to_owned())
+    }
+}
+
+impl Drop for Solver {
+    fn drop(&mut self) {
+        // It may have ended by itself; either way it is gone afterwards.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// A number as z3 writes it: `1.5`, `(- 1.5)`, `(/ 1.0 3.0)`, `1.4142?`; NaN of anything else.
+pub fn number(text: &str) -> f64 {
+    let words: Vec<&str> =
+        text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').collect();
+    let mut sign = 1.0;
+    let mut numbers = Vec::new();
+    for word in words {
+        match word {
+            "-" => sign = -sign,
+            "" | "/" => {}
+            other => numbers.push(other.trim_end_matches('?').parse().unwrap_or(f64::NAN)),
+        }
+    }
+    match numbers.as_slice() {
+        [value] => sign * value,
+        [numerator, denominator] => sign * numerator / denominator,
+        _ => f64::NAN,
+    }
+}

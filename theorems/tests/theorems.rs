@@ -1,0 +1,43 @@
+//! Every theorem is proved and its wrong variant refuted, where z3 is there; the mutants still fit
+//! the source.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use mufasa_theorems::prove::{Verdict, prove};
+use mufasa_theorems::solver;
+use mufasa_theorems::theorem;
+
+#[test]
+fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
+    let Some(version) = solver::version() else {
+        println!("NOT RUN: no z3 here");
+        return;
+    };
+    println!("{version}");
+    for theorem in theorem::all() {
+        let proof = prove(&theorem.claim).expect("z3 answers");
+        println!("{}: {} paths, {:.1?}", theorem.id, proof.paths, proof.time);
+        assert_eq!(proof.verdict, Verdict::Proved, "{}", theorem.id);
+        let wrong = prove(&theorem.wrong.claim).expect("z3 answers");
+        assert!(matches!(wrong.verdict, Verdict::Refuted(_)), "{}: {wrong:?}", theorem.id);
+    }
+}
+
+#[test]
+fn every_mutant_fits_one_place_of_its_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for theorem in theorem::all() {
+        let mutant = &theorem.mutant;
+        let text = fs::read_to_string(root.join(mutant.file)).expect(mutant.file);
+        assert_eq!(text.matches(mutant.from).count(), 1, "{}: {mutant:?}", theorem.id);
+        assert_ne!(mutant.from, mutant.to, "{}", theorem.id);
+    }
+}
+
+#[test]
+fn ids_are_unique() {
+    let ids: BTreeSet<&str> = theorem::all().map(|theorem| theorem.id).collect();
+    assert_eq!(ids.len(), theorem::all().count());
+}
