@@ -1,0 +1,299 @@
+//! The arguments of every command, and how their values are read.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Subcommand};
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::bounds::Bounds;
+
+use crate::conform::Kind;
+use crate::demo;
+use crate::drive::{GridSize, Injection, Options, Sensor, Tail};
+use crate::json::names;
+
+#[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are still checked),
+3 model and implementation disagree; the highest that applies.")]
+pub(super) struct CheckArguments {
+    /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
+    /// as .npy; recognised by their content.
+    #[arg(required = true)]
+    pub(super) files: Vec<PathBuf>,
+    /// Profile of recorded drives; records name their own.
+    #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
+    pub(super) profile: Profile,
+    /// Parameters as lines `name = value` (TOML); records name their own of the stages.
+    #[arg(long, value_name = "FILE")]
+    pub(super) parameters: Option<PathBuf>,
+    /// Which groups of a recorded drive are remote.
+    #[arg(long, default_value = "AllRemote", value_parser = configuration(), ignore_case = true)]
+    pub(super) configuration: Configuration,
+    /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
+    /// It must change some cycle of every drive.
+    /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
+    /// frozen, late, too-fast.
+    #[arg(long, value_name = "ATTACK")]
+    pub(super) inject: Vec<Injection>,
+    /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
+    #[arg(long, conflicts_with = "summary")]
+    pub(super) json: bool,
+    /// Write the table over all drives only.
+    #[arg(long)]
+    pub(super) summary: bool,
+    /// Draw every unsafe cycle into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(super) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) recording: RecordingArguments,
+}
+
+/// What a recording does not say.
+#[derive(Args)]
+#[command(next_help_heading = "Recorded drives")]
+pub(super) struct RecordingArguments {
+    /// Recorded vehicle that is the CAV; by default one is picked.
+    #[arg(long, value_name = "ID")]
+    pub(super) ego: Option<i64>,
+    /// Length of the planned trajectories, s.
+    #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.1, 60.0))]
+    pub(super) horizon: f64,
+    /// Keep the last cycles, whose trajectories end before the CAV could stand (H-12 rejects them).
+    #[arg(long)]
+    pub(super) keep_tail: bool,
+    /// Range of the local detectors, m.
+    #[arg(long, value_name = "M", default_value = "80", value_parser = number(0.0, 1e4))]
+    pub(super) sensor_range: f64,
+    /// Standard deviation of detected positions per axis, m.
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = number(0.0, 100.0))]
+    pub(super) sensor_sigma: f64,
+    /// Probability that an object in range is detected.
+    #[arg(long, value_name = "P", default_value = "1", value_parser = number(0.0, 1.0))]
+    pub(super) sensor_probability: f64,
+    /// Mean number of clutter detections in a scan.
+    #[arg(long, value_name = "N", default_value = "0.5", value_parser = number(0.0, 100.0))]
+    pub(super) sensor_clutter: f64,
+    /// Seed of noise and clutter.
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(super) seed: u64,
+    /// Side of a cell of the grid map, m.
+    #[arg(long, value_name = "M", default_value = "0.2", value_parser = number(0.01, 10.0))]
+    pub(super) grid_resolution: f64,
+    /// Cells of the grid map along the CAV.
+    #[arg(long, value_name = "N", default_value = "500", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) grid_width: u32,
+    /// Cells of the grid map across.
+    #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub(super) grid_height: u32,
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 the clean drive is safe and the attacks are caught, 1 not so, 2 the folder cannot
+be written, 3 model and implementation disagree.")]
+pub(super) struct DemoArguments {
+    /// Folder of the drive's files and the pictures.
+    #[arg(long, value_name = "DIR", default_value = demo::FOLDER)]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct OracleArguments {
+    /// Answer with the implementation in place of the exact model: fast and cautious, without the
+    /// strict and the lax verdict, and without compositions.
+    #[arg(long)]
+    pub(super) implementation: bool,
+}
+
+#[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true,
+    after_help = "\
+Exit codes: 0 the program conforms in every case, 1 it disagrees in some, 2 bad input, nothing was
+compared, or (merge) a shard is missing."
+)]
+pub(super) struct ConformArguments {
+    #[command(subcommand)]
+    pub(super) merge: Option<MergeCommand>,
+    /// Profile of generated cases and of recorded drives.
+    #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
+    pub(super) profile: Profile,
+    /// Number of cases, all shards together; by default 10000, or all that the drives give.
+    #[arg(long, value_name = "N")]
+    pub(super) cases: Option<u64>,
+    /// Seed of the cases.
+    #[arg(long, value_name = "S", default_value = "0")]
+    pub(super) seed: u64,
+    /// Longest time that an answer may take, ms.
+    #[arg(long, value_name = "MS", default_value = "1000", value_parser = clap::value_parser!(u64).range(1..=3_600_000))]
+    pub(super) time_limit: u64,
+    /// Kinds of generated records.
+    #[arg(
+        long,
+        value_name = "KINDS",
+        value_delimiter = ',',
+        default_value = "cycle,offloading,composition"
+    )]
+    pub(super) kinds: Vec<Kind>,
+    /// Ask only the cases whose number leaves I when divided by N, such as 0/8.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub(super) shard: Option<(u64, u64)>,
+    /// Take the cycles of drives, clean and attacked, in place of generated ones.
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "kinds")]
+    pub(super) drives: Vec<PathBuf>,
+    /// Let a disagreement pass that a margin of so many metres explains (rounding), 1e-8 to 1e-2.
+    #[arg(long, value_name = "M", value_parser = number(1e-8, 1e-2))]
+    pub(super) tolerance: Option<f64>,
+    /// Folder for the summary (JSON), the report (JUnit XML) and the shrunk records.
+    #[arg(long, value_name = "DIR", default_value = "mufasa-conform")]
+    pub(super) out: PathBuf,
+    /// The program under test and its arguments.
+    #[arg(last = true, required = true)]
+    pub(super) command: Vec<OsString>,
+}
+
+#[derive(Subcommand)]
+pub(super) enum MergeCommand {
+    /// Join the summaries of shards.
+    Merge {
+        /// Summaries of all shards of one campaign.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Folder for the joined files.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 there is a composition, 1 there is none, 2 bad input.")]
+pub(super) struct ComposeArguments {
+    /// A composition record (JSON).
+    pub(super) file: PathBuf,
+    /// Write the graph in the language of Graphviz.
+    #[arg(long, conflicts_with = "svg")]
+    pub(super) dot: bool,
+    /// Draw the graph into this file.
+    #[arg(long, value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+}
+
+/// Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model
+/// and implementation disagree, or the two engines do.
+#[derive(Args)]
+pub(super) struct ExploreArguments {
+    /// Profile; by default both.
+    #[arg(long, value_parser = profile(), ignore_case = true)]
+    pub(super) profile: Option<Profile>,
+    /// How much: small takes minutes, large hours.
+    #[arg(long, default_value = "small", value_parser = bounds(), ignore_case = true)]
+    pub(super) bounds: Bounds,
+    /// Only this world.
+    #[arg(long, value_name = "NAME")]
+    pub(super) world: Option<String>,
+    /// Threads of the second engine, stateright; 0 leaves it out. By default all.
+    #[arg(long, value_name = "N")]
+    pub(super) threads: Option<usize>,
+    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails.
+    #[arg(long, value_name = "DIR", default_value = "exploration")]
+    pub(super) out: PathBuf,
+    /// Serve stateright's explorer page for a world at this address instead.
+    #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:3000")]
+    pub(super) serve: Option<String>,
+}
+
+/// Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.
+#[derive(Args)]
+pub(super) struct VectorsArguments {
+    /// Folder; files of other names there stay.
+    #[arg(long, value_name = "DIR", default_value = "vectors")]
+    pub(super) out: PathBuf,
+}
+
+impl CheckArguments {
+    /// How recordings become drives, with the parameters of the stages at their defaults.
+    pub(super) fn options(&self) -> Options {
+        let recording = &self.recording;
+        Options {
+            profile: self.profile,
+            configuration: self.configuration,
+            ego: recording.ego,
+            horizon_s: recording.horizon,
+            tail: if recording.keep_tail { Tail::Keep } else { Tail::Stop },
+            sensor: Sensor {
+                range_m: recording.sensor_range,
+                sigma_m: recording.sensor_sigma,
+                probability: recording.sensor_probability,
+                clutter: recording.sensor_clutter,
+                seed: recording.seed,
+            },
+            grid: GridSize {
+                resolution_m: recording.grid_resolution,
+                width: recording.grid_width,
+                height: recording.grid_height,
+            },
+            ..Options::default()
+        }
+    }
+}
+
+fn profile() -> impl TypedValueParser<Value = Profile> {
+    one_of([Profile::Paper, Profile::Hardened], names::profile)
+}
+
+fn configuration() -> impl TypedValueParser<Value = Configuration> {
+    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    one_of([Local, MotRemote, AllRemote, PlanRemote], names::configuration)
+}
+
+fn bounds() -> impl TypedValueParser<Value = Bounds> {
+    one_of([Bounds::Small, Bounds::Large], Bounds::name)
+}
+
+/// One of these values by its name in the records.
+fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(values.map(name)).try_map(move |given| {
+        let same = |value: &T| name(*value).eq_ignore_ascii_case(&given);
+        values.into_iter().find(same).ok_or("unknown name")
+    })
+}
+
+/// `I/N` with I below N.
+fn shard(text: &str) -> Result<(u64, u64), String> {
+    let (at, of) = text.split_once('/').ok_or("must be I/N, such as 0/8")?;
+    match (at.parse(), of.parse()) {
+        (Ok(at), Ok(of)) if at < of => Ok((at, of)),
+        (Ok(_), Ok(_)) => Err(String::from("I must be below N; shards are counted from 0")),
+        (_, _) => Err(String::from("must be two whole numbers I/N, such as 0/8")),
+    }
+}
+
+/// A number within limits; NaN is in none.
+fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
+    move |text| match f64::from_str(text) {
+        Ok(number) if (low..=high).contains(&number) => Ok(number),
+        Ok(_) | Err(_) => Err(format!("must be a number from {low} to {high}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_outside_their_limits_are_refused() {
+        for text in ["nan", "inf", "-1", "2", "", "x", "1e999"] {
+            assert!(number(0.0, 1.0)(text).is_err(), "{text}");
+        }
+        assert_eq!(number(0.0, 1.0)("0.5"), Ok(0.5));
+    }
+}
