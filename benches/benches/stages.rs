@@ -1,57 +1,63 @@
-//! Time per stage and per whole cycle, beside the obvious alternative on the same input.
-//!
-//! Stage ii runs with every trajectory, so the times of iii, iv and v include it, on both sides.
+//! Time per stage and per whole cycle, beside the peers on the same input (criterion). The table
+//! of ratios comes from the program `race`, which interleaves.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion};
-use mufasa::cycle::{Cycle, Profile};
-use mufasa_benches::alternative;
-use mufasa_benches::workload::{Inputs, Memory, SIZES, Workload};
+use mufasa::configuration::Configuration;
+use mufasa::cycle::Profile;
+use mufasa::verdict::Stage;
+use mufasa_benches::contestant::Memory;
+use mufasa_benches::peer;
+use mufasa_benches::workload::{SIZES, Variant, Workload};
 
-/// A stage's name, the inputs that make it run, and the plain program for it.
-type Contest = (&'static str, Inputs, fn(&Cycle<'_>) -> bool);
+const PROFILES: [(&str, Profile); 2] = [("paper", Profile::Paper), ("hardened", Profile::Hardened)];
 
 fn stages(criterion: &mut Criterion) {
-    let contests: [Contest; 5] = [
-        ("i", Inputs::StageI, alternative::stage_i),
-        ("ii", Inputs::StageIi, alternative::stage_ii),
-        ("iii", Inputs::StageIii, |c| alternative::stage_ii(c) && alternative::stage_iii(c)),
-        ("iv", Inputs::StageIv, |c| alternative::stage_ii(c) && alternative::stage_iv(c)),
-        ("v", Inputs::StageV, |c| alternative::stage_ii(c) && alternative::stage_v(c)),
-    ];
-    for (name, of, plain) in contests {
-        let mut group = criterion.benchmark_group(format!("stage {name}"));
-        for size in &SIZES[..2] {
-            let workload = Workload::new(*size);
-            let cycle = workload.cycle(Profile::Paper, of);
-            let mut memory = Memory::for_cycle(&cycle);
-            assert!(memory.check(&cycle).failed_stage.is_none() && plain(&cycle));
-            group.bench_function(BenchmarkId::new("mufasa", size.name), |bencher| {
-                bencher.iter(|| memory.check(black_box(&cycle)));
-            });
-            group.bench_function(BenchmarkId::new("plain", size.name), |bencher| {
-                bencher.iter(|| plain(black_box(&cycle)));
-            });
+    for stage in Stage::ALL {
+        let mut group = criterion.benchmark_group(format!("stage {stage:?}"));
+        for size in &SIZES {
+            let workload = Workload::new(size, Variant::Pass);
+            for (name, profile) in PROFILES {
+                let cycle = workload.cycle(profile, Configuration::AllRemote);
+                let mut memory = Memory::for_cycle(&cycle);
+                let valid = memory.valid(&cycle);
+                let id = BenchmarkId::new(format!("mufasa, {name}"), &workload.name);
+                group.bench_function(id, |bencher| {
+                    bencher.iter(|| memory.stage(black_box(&valid), stage));
+                });
+            }
+            let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+            for mut peer in peer::all(&cycle) {
+                if peer.stage == stage && !peer.slow {
+                    let id = BenchmarkId::new(peer.name, &workload.name);
+                    group.bench_function(id, |bencher| bencher.iter(|| (peer.decide)()));
+                }
+            }
         }
         group.finish();
     }
 }
 
 fn cycles(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("whole cycle");
-    for size in SIZES {
-        let workload = Workload::new(size);
-        for (name, profile) in [("paper", Profile::Paper), ("hardened", Profile::Hardened)] {
-            let cycle = workload.cycle(profile, Inputs::Whole);
-            let mut memory = Memory::for_cycle(&cycle);
-            assert!(memory.check(&cycle).failed_stage.is_none());
-            group.bench_function(BenchmarkId::new(name, size.name), |bencher| {
-                bencher.iter(|| memory.check(black_box(&cycle)));
-            });
+    let configurations =
+        [Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote];
+    for configuration in configurations {
+        let mut group = criterion.benchmark_group(format!("whole cycle {configuration:?}"));
+        for size in &SIZES {
+            let workload = Workload::new(size, Variant::Pass);
+            for (name, profile) in PROFILES {
+                let cycle = workload.cycle(profile, configuration);
+                let mut memory = Memory::for_cycle(&cycle);
+                assert_eq!(memory.check(&cycle).failed_stage, None, "{}", workload.name);
+                let id = BenchmarkId::new(name, &workload.name);
+                group.bench_function(id, |bencher| {
+                    bencher.iter(|| memory.check(black_box(&cycle)));
+                });
+            }
         }
+        group.finish();
     }
-    group.finish();
 }
 
 fn main() {

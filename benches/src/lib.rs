@@ -1,4 +1,7 @@
-//! Workloads of three sizes, and the plain programs that the implementation is timed against.
+//! The published workloads, and the libraries that the implementation is timed against.
 
-pub mod alternative;
+pub mod contestant;
+pub mod peer;
+pub mod race;
+pub mod table;
 pub mod workload;

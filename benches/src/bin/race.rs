@@ -1,0 +1,127 @@
+//! `race [--json FILE] [--quick]`: checks that implementation and peers come to the same verdicts,
+//! then times them in one process and prints the table of ratios as Markdown.
+
+use std::error::Error;
+use std::time::Instant;
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{Cycle, Profile};
+use mufasa::verdict::Stage;
+use mufasa_benches::contestant::Memory;
+use mufasa_benches::peer;
+use mufasa_benches::race::{Contestant, Rounds, race};
+use mufasa_benches::table::{OURS, Results, STAGES, hardened, json, markdown};
+use mufasa_benches::workload::recipe::Size;
+use mufasa_benches::workload::{SIZES, Variant, Workload};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut json_file = None;
+    let mut rounds = Rounds { warm: 31, cold: 21 };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--json" => json_file = Some(arguments.next().ok_or("--json needs a file")?),
+            "--quick" => rounds = Rounds { warm: 5, cold: 3 },
+            other => return Err(format!("unknown argument {other}").into()),
+        }
+    }
+    let mut results = Vec::new();
+    for size in &SIZES {
+        let start = Instant::now();
+        results.push(run(size, rounds));
+        eprintln!("W{}: {:.1} s", size.number, start.elapsed().as_secs_f64());
+    }
+    print!("{}", markdown(&results));
+    if let Some(file) = json_file {
+        std::fs::write(file, json(&results))?;
+    }
+    Ok(())
+}
+
+const VARIANTS: [(&str, Variant, Stage); 7] = [
+    ("ghost", Variant::Ghost, Stage::I),
+    ("drift", Variant::Drift, Stage::I),
+    ("fail i", Variant::Fail(Stage::I), Stage::I),
+    ("fail ii", Variant::Fail(Stage::Ii), Stage::Ii),
+    ("fail iii", Variant::Fail(Stage::Iii), Stage::Iii),
+    ("fail iv", Variant::Fail(Stage::Iv), Stage::Iv),
+    ("fail v", Variant::Fail(Stage::V), Stage::V),
+];
+
+/// Everything about one workload.
+fn run(size: &Size, rounds: Rounds) -> Results {
+    let workload = Workload::new(size, Variant::Pass);
+    let paper = workload.cycle(Profile::Paper, Configuration::AllRemote);
+    let strict = workload.cycle(Profile::Hardened, Configuration::AllRemote);
+    let mut contestants = Vec::new();
+    for (name, stage) in STAGES.into_iter().zip(Stage::ALL) {
+        contestants.push(ours(name, OURS.to_owned(), &paper, stage));
+        contestants.push(ours(name, hardened(), &strict, stage));
+    }
+    contestants.extend(peer::all(&paper).into_iter().map(|peer| {
+        let name = STAGES.into_iter().zip(Stage::ALL).find(|&(_, stage)| stage == peer.stage);
+        by_peer(name.map_or("", |(name, _)| name), peer)
+    }));
+    for (name, cycle) in [(OURS.to_owned(), &paper), (hardened(), &strict)] {
+        let mut memory = Memory::for_cycle(cycle);
+        let run = move || memory.all_stages(cycle);
+        contestants.push(contestant("all", name.clone(), false, Box::new(run)));
+        let mut memory = Memory::for_cycle(cycle);
+        let run = move || memory.validate(cycle);
+        contestants.push(contestant("validation", name, false, Box::new(run)));
+    }
+    for (configuration, task) in [
+        (Configuration::MotRemote, "check MotRemote"),
+        (Configuration::AllRemote, "check AllRemote"),
+        (Configuration::PlanRemote, "check PlanRemote"),
+    ] {
+        for (name, profile) in [(OURS.to_owned(), Profile::Paper), (hardened(), Profile::Hardened)]
+        {
+            let cycle = workload.cycle(profile, configuration);
+            let mut memory = Memory::for_cycle(&cycle);
+            let run = move || memory.check(&cycle).failed_stage.is_none();
+            contestants.push(contestant(task, name, false, Box::new(run)));
+        }
+    }
+    agree(&mut contestants, true);
+    let mut times = race(&mut contestants, rounds);
+    for (task, variant, stage) in VARIANTS {
+        let workload = Workload::new(size, variant);
+        let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+        let mut contestants = vec![ours(task, OURS.to_owned(), &cycle, stage)];
+        let peers = peer::all(&cycle).into_iter();
+        let peers = peers.filter(|peer| peer.stage == stage && !peer.slow);
+        contestants.extend(peers.map(|peer| by_peer(task, peer)));
+        agree(&mut contestants, false);
+        times.extend(race(&mut contestants, Rounds { warm: (rounds.warm / 3) | 1, cold: 0 }));
+    }
+    Results { workload: workload.name.clone(), times }
+}
+
+/// Wrong answers are not timed.
+fn agree(contestants: &mut [Contestant<'_>], expected: bool) {
+    for it in contestants {
+        assert_eq!((it.run)(), expected, "{} {}", it.task, it.name);
+    }
+}
+
+fn contestant<'a>(
+    task: &str,
+    name: String,
+    slow: bool,
+    run: Box<dyn FnMut() -> bool + 'a>,
+) -> Contestant<'a> {
+    Contestant { task: task.to_owned(), name, slow, run }
+}
+
+/// A stage of the implementation alone, after validation.
+fn ours<'a>(task: &str, name: String, cycle: &'a Cycle<'a>, stage: Stage) -> Contestant<'a> {
+    let mut memory = Memory::for_cycle(cycle);
+    let valid = memory.valid(cycle);
+    let run = move || memory.stage(std::hint::black_box(&valid), stage);
+    contestant(task, name, false, Box::new(run))
+}
+
+fn by_peer<'a>(task: &str, peer: peer::Peer<'a>) -> Contestant<'a> {
+    contestant(task, peer.name.to_owned(), peer.slow, peer.decide)
+}

@@ -1,0 +1,58 @@
+//! Stage ii: containment in the corridor by `geo`'s interval tree, distance to the reference path
+//! by `rstar`. The trees are built once: the map changes rarely.
+
+use geo::indexed::IntervalTreeMultiPolygon;
+use geo::{Contains, Coord, LineString, MultiPolygon, Polygon};
+use mufasa::cycle::Cycle;
+use mufasa::verdict::Stage;
+use rstar::RTree;
+use rstar::primitives::Line;
+
+use super::Peer;
+
+/// What is built once for a route.
+pub struct Trees {
+    corridor: IntervalTreeMultiPolygon<f64>,
+    path: RTree<Line<[f64; 2]>>,
+}
+
+impl Trees {
+    /// From the stations of the cycle's route, which is open and does not cross itself.
+    pub fn new(cycle: &Cycle<'_>) -> Self {
+        let stations = cycle.route.stations;
+        let ring = stations.iter().map(|s| s.left).chain(stations.iter().rev().map(|s| s.right));
+        let ring: Vec<Coord<f64>> = ring.map(|[x, y]| Coord { x, y }).collect();
+        let polygon = Polygon::new(LineString(ring), Vec::new());
+        let lines = stations.windows(2);
+        let lines = lines.map(|pair| Line::new([pair[0].x, pair[0].y], [pair[1].x, pair[1].y]));
+        Self {
+            corridor: IntervalTreeMultiPolygon::new(&MultiPolygon(vec![polygon])),
+            path: RTree::bulk_load(lines.collect()),
+        }
+    }
+
+    fn inside(&self, [x, y]: [f64; 2]) -> bool {
+        self.corridor.contains(&Coord { x, y })
+    }
+
+    fn near(&self, point: [f64; 2], theta_map: f64) -> bool {
+        self.path.locate_within_distance(point, theta_map * theta_map).next().is_some()
+    }
+}
+
+/// The path first, as the text has it, and the corridor first, which decides most points.
+pub fn peers<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
+    let peer = |name, passes: fn(&Trees, [f64; 2], f64) -> bool| {
+        let trees = Trees::new(cycle);
+        let decide = move || {
+            let points = cycle.trajectory.map_or(&[][..], |trajectory| trajectory.points);
+            let theta_map = std::hint::black_box(cycle).parameters.theta_map;
+            points.iter().all(|point| passes(&trees, [point.x, point.y], theta_map))
+        };
+        Peer { name, stage: Stage::Ii, slow: false, decide: Box::new(decide) }
+    };
+    vec![
+        peer("rstar, then geo", |it, p, theta_map| it.near(p, theta_map) || it.inside(p)),
+        peer("geo, then rstar", |it, p, theta_map| it.inside(p) || it.near(p, theta_map)),
+    ]
+}

@@ -1,0 +1,209 @@
+//! The table of ratios: the implementation against the best peer of each stage, and against the
+//! sum of the best.
+
+use std::fmt::Write as _;
+
+use crate::race::Time;
+
+/// The five stages by their names in the tables.
+pub const STAGES: [&str; 5] = ["i", "ii", "iii", "iv", "v"];
+/// Name of the implementation among the contestants, in the paper profile.
+pub const OURS: &str = "mufasa";
+/// A peer that is no library.
+pub const BY_HAND: &str = "loop around the disk centres";
+
+/// Warm or cold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cache {
+    /// Called again and again.
+    Warm,
+    /// Caches full of other data.
+    Cold,
+}
+
+impl Time {
+    fn us(&self, cache: Cache) -> Option<f64> {
+        match cache {
+            Cache::Warm => Some(self.warm_us),
+            Cache::Cold => self.cold_us,
+        }
+    }
+}
+
+/// The times of one workload.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// `W1`
+    pub workload: String,
+    /// Everything that was timed.
+    pub times: Vec<Time>,
+}
+
+impl Results {
+    /// A contestant's time, us.
+    pub fn time(&self, task: &str, name: &str, cache: Cache) -> Option<f64> {
+        let mut all = self.times.iter();
+        all.find(|time| time.task == task && time.name == name)?.us(cache)
+    }
+
+    /// The fastest peer of a task that `counts`, us.
+    fn best(&self, task: &str, cache: Cache, counts: fn(&str) -> bool) -> Option<(&str, f64)> {
+        let peers = self
+            .times
+            .iter()
+            .filter(|time| time.task == task && !time.name.starts_with(OURS) && counts(&time.name));
+        peers
+            .filter_map(|time| Some((time.name.as_str(), time.us(cache)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The sum of the fastest libraries of the five stages, us; `by_hand`: the loop counts too.
+    pub fn best_sum(&self, cache: Cache, by_hand: bool) -> Option<f64> {
+        let counts: fn(&str) -> bool = if by_hand { |_| true } else { |name| name != BY_HAND };
+        STAGES.iter().map(|stage| Some(self.best(stage, cache, counts)?.1)).sum()
+    }
+}
+
+/// The tables of all workloads as Markdown.
+pub fn markdown(results: &[Results]) -> String {
+    let mut text = String::new();
+    for cache in [Cache::Warm, Cache::Cold] {
+        let _ = writeln!(text, "{cache:?}, us per cycle (median), paper profile:\n");
+        head(&mut text, results);
+        for stage in STAGES {
+            line(&mut text, &format!("stage {stage}"), results, |it| {
+                let (name, best) = it.best(stage, cache, |_| true)?;
+                Some(ratio(name, best, it.time(stage, OURS, cache)?))
+            });
+        }
+        for (title, by_hand) in [
+            ("sum of the best libraries, validation and five stages", false),
+            ("the same with the loop by hand counted as a library", true),
+        ] {
+            line(&mut text, title, results, |it| {
+                Some(ratio("", it.best_sum(cache, by_hand)?, it.time("all", OURS, cache)?))
+            });
+        }
+        line(&mut text, "the same, ours in the hardened profile", results, |it| {
+            let ours = it.time("all", &hardened(), cache)?;
+            Some(ratio("", it.best_sum(cache, false)?, ours))
+        });
+        text.push('\n');
+    }
+    cycles(&mut text, results);
+    failures(&mut text, results);
+    text
+}
+
+/// Name of the implementation in the hardened profile.
+pub fn hardened() -> String {
+    format!("{OURS}, hardened")
+}
+
+fn head(text: &mut String, results: &[Results]) {
+    text.push_str("| |");
+    for it in results {
+        let _ = write!(text, " {}: best peer, us | ours, us | ratio |", it.workload);
+    }
+    text.push_str("\n|---|");
+    for _ in results {
+        text.push_str("---|---|---|");
+    }
+    text.push('\n');
+}
+
+fn line(
+    text: &mut String,
+    title: &str,
+    results: &[Results],
+    cells: impl Fn(&Results) -> Option<String>,
+) {
+    let _ = write!(text, "| {title} |");
+    for it in results {
+        let cells = cells(it).unwrap_or_else(|| " - | - | - |".to_owned());
+        text.push_str(&cells);
+    }
+    text.push('\n');
+}
+
+fn ratio(name: &str, peer: f64, ours: f64) -> String {
+    let name = if name.is_empty() { String::new() } else { format!("{name} ") };
+    format!(" {name}{} | {} | {} |", digits(peer), digits(ours), digits(peer / ours))
+}
+
+/// What a vehicle asks for: whole cycles as the schedule has them, and their share of a core.
+fn cycles(text: &mut String, results: &[Results]) {
+    text.push_str("| whole cycle, warm |");
+    for it in results {
+        let _ = write!(text, " {}, us | at 10 Hz | at 100 Hz |", it.workload);
+    }
+    text.push_str("\n|---|");
+    for _ in results {
+        text.push_str("---|---|---|");
+    }
+    text.push('\n');
+    for task in ["check MotRemote", "check AllRemote", "check PlanRemote"] {
+        for name in [OURS.to_owned(), hardened()] {
+            line(text, &format!("{task}, {name}"), results, |it| {
+                let us = it.time(task, &name, Cache::Warm)?;
+                let percent = |hertz: f64| format!("{:.4} %", us * hertz * 1e-4);
+                Some(format!(" {} | {} | {} |", digits(us), percent(10.0), percent(100.0)))
+            });
+        }
+    }
+    text.push('\n');
+}
+
+/// Cycles that must be rejected: time until the stage says so.
+fn failures(text: &mut String, results: &[Results]) {
+    text.push_str("Rejected inputs, warm, paper profile:\n\n");
+    head(text, results);
+    let tasks = ["ghost", "drift", "fail i", "fail ii", "fail iii", "fail iv", "fail v"];
+    for task in tasks {
+        line(text, task, results, |it| {
+            let (name, best) = it.best(task, Cache::Warm, |_| true)?;
+            Some(ratio(name, best, it.time(task, OURS, Cache::Warm)?))
+        });
+    }
+}
+
+/// Three significant digits.
+fn digits(value: f64) -> String {
+    let places = if value >= 100.0 {
+        0
+    } else if value >= 10.0 {
+        1
+    } else if value >= 1.0 {
+        2
+    } else {
+        3
+    };
+    format!("{value:.places$}")
+}
+
+/// Everything that was measured as one JSON value.
+pub fn json(results: &[Results]) -> String {
+    let number = |value: Option<f64>| value.map_or("null".to_owned(), |value| value.to_string());
+    let time = |time: &Time| {
+        format!(
+            "      {{\"task\": {:?}, \"name\": {:?}, \"warm_us\": {}, \"cold_us\": {}}}",
+            time.task,
+            time.name,
+            number(Some(time.warm_us)),
+            number(time.cold_us)
+        )
+    };
+    let workload = |it: &Results| {
+        let times: Vec<String> = it.times.iter().map(time).collect();
+        let sum = |cache, by_hand| number(it.best_sum(cache, by_hand));
+        format!(
+            "  {{\"workload\": {:?}, \"best_sum_warm_us\": {}, \"best_sum_cold_us\": {},\n    \"times\": [\n{}\n    ]}}",
+            it.workload,
+            sum(Cache::Warm, false),
+            sum(Cache::Cold, false),
+            times.join(",\n")
+        )
+    };
+    let all: Vec<String> = results.iter().map(workload).collect();
+    format!("[\n{}\n]\n", all.join(",\n"))
+}

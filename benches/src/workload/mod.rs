@@ -1,0 +1,235 @@
+//! The workloads W1 (urban), W2 (dense) and W3 (stress) as cycles. The base case passes every
+//! stage, which costs most.
+
+mod geometry;
+pub mod recipe;
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa::parameters::Parameters;
+use mufasa::verdict::Stage;
+
+use self::geometry::Pose;
+use self::recipe::{LENGTH, Numbers, Object, SPEED, Size, WIDTH};
+
+/// Time of every cycle, ns.
+const NOW_NS: i64 = 1_000_000_000;
+
+/// W1, W2, W3.
+pub const SIZES: [Size; 3] = [
+    Size {
+        number: 1,
+        tracks: 30,
+        detections: 40,
+        points: 50,
+        stations: 200,
+        step: 1.0,
+        cells: 600,
+        resolution: 0.2,
+        on_lanes: 6,
+    },
+    Size {
+        number: 2,
+        tracks: 200,
+        detections: 260,
+        points: 100,
+        stations: 1000,
+        step: 0.5,
+        cells: 2000,
+        resolution: 0.1,
+        on_lanes: 24,
+    },
+    Size {
+        number: 3,
+        tracks: 1000,
+        detections: 1200,
+        points: 200,
+        stations: 5000,
+        step: 0.2,
+        cells: 4000,
+        resolution: 0.1,
+        on_lanes: 60,
+    },
+];
+
+/// What is wrong with a workload.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// Nothing: every stage passes.
+    Pass,
+    /// A tenth of the tracks are somewhere else: stage i fails.
+    Ghost,
+    /// Every track is displaced by a metre or so: stage i fails.
+    Drift,
+    /// The last moment at which this stage can see it, there is something: it fails.
+    Fail(Stage),
+}
+
+/// The lists of a cycle, owned.
+#[derive(Clone, Debug)]
+pub struct Workload {
+    /// `W1`
+    pub name: String,
+    /// The numbers of the recipe.
+    pub numbers: Numbers,
+    ego: Ego,
+    points: Vec<TrajectoryPoint>,
+    tracks: Vec<Track>,
+    detections: Vec<Detection>,
+    stations: Vec<Station>,
+    resolution: f64,
+    cells: i64,
+    occupied: Vec<u8>,
+}
+
+impl Workload {
+    /// The same numbers in every run.
+    ///
+    /// # Panics
+    /// Never: sizes fit their types.
+    pub fn new(size: &Size, variant: Variant) -> Self {
+        let numbers = Numbers::new(size);
+        let points: Vec<_> =
+            numbers.trajectory.iter().map(|&(t, _, pose)| point(t, pose)).collect();
+        let first = points[0];
+        let ego = Ego {
+            x: first.x,
+            y: first.y,
+            cos: first.cos,
+            sin: first.sin,
+            speed: SPEED,
+            length: LENGTH,
+            width: WIDTH,
+            center_offset: 0.0,
+        };
+        let received = match variant {
+            Variant::Ghost => &numbers.ghost,
+            Variant::Drift => &numbers.drift,
+            Variant::Pass | Variant::Fail(_) => &numbers.tracks,
+        };
+        let tracks = received.iter().zip(1..).map(|(object, id)| track(object, id)).collect();
+        let detections = numbers.detections.iter().map(detection).collect();
+        let boundaries = numbers.left.iter().zip(&numbers.right);
+        let stations = numbers
+            .reference
+            .iter()
+            .zip(boundaries)
+            .map(|(&[x, y], (&left, &right))| Station { x, y, left, right });
+        let mut workload = Self {
+            name: format!("W{}", size.number),
+            ego,
+            points,
+            tracks,
+            detections,
+            stations: stations.collect(),
+            resolution: size.resolution,
+            cells: i64::try_from(size.cells).expect("a few thousand"),
+            occupied: bitmap(&numbers.occupied),
+            numbers,
+        };
+        if let Variant::Fail(stage) = variant {
+            workload.spoil(stage);
+        }
+        workload
+    }
+
+    /// Puts something where the stage has to see it, at the last point that every profile examines.
+    fn spoil(&mut self, stage: Stage) {
+        let braking = SPEED * SPEED / (2.0 * Parameters::default().a_b);
+        let horizon = match stage {
+            Stage::Iii => SPEED * Parameters::default().safety_time,
+            Stage::I | Stage::Ii | Stage::Iv | Stage::V => braking,
+        };
+        let arcs = self.numbers.trajectory.iter();
+        let last = arcs.take_while(|(_, arc, _)| *arc <= horizon - 0.5).count() - 1;
+        let (t, _, Pose { x, y, heading }) = self.numbers.trajectory[last];
+        let (cos, sin) = (heading.cos(), heading.sin());
+        match stage {
+            Stage::I => self.detections.truncate(self.detections.len() / 2),
+            Stage::Ii => {
+                if let Some(end) = self.points.last_mut() {
+                    (end.x, end.y) = (end.x - 3.0 * end.sin, end.y + 3.0 * end.cos);
+                }
+            }
+            Stage::Iii => {
+                if let Some(track) = self.tracks.last_mut() {
+                    (track.x, track.y) = (x - track.vx * t, y - track.vy * t);
+                }
+            }
+            Stage::Iv => {
+                self.detections.push(Detection { x, y, cos, sin, length: 0.5, width: 0.5 });
+            }
+            Stage::V => {
+                let [gx, gy] = self.numbers.origin;
+                let ahead = 0.5 * LENGTH;
+                let column = cell((x + ahead * cos - gx) / self.resolution);
+                let row = cell((y + ahead * sin - gy) / self.resolution);
+                let bit = row * cell(f64::from(u32::try_from(self.cells).unwrap_or(0))) + column;
+                self.occupied[bit / 8] |= 1 << (bit % 8);
+            }
+        }
+    }
+
+    /// The cycle. `MotRemote` runs stages i, ii, iv and v; `AllRemote` i, ii, iii (and iv in the
+    /// hardened profile); `PlanRemote` ii and iii (and iv).
+    pub fn cycle(&self, profile: Profile, configuration: Configuration) -> Cycle<'_> {
+        let stamp_ns = NOW_NS;
+        let [x, y] = self.numbers.origin;
+        Cycle {
+            profile,
+            parameters: Parameters::default(),
+            now_ns: NOW_NS,
+            configuration,
+            ego: self.ego,
+            trajectory: Some(Trajectory { stamp_ns, points: &self.points }),
+            tracks: Some(TrackList { stamp_ns, items: &self.tracks }),
+            detections: Some(DetectionList { stamp_ns, items: &self.detections }),
+            lead: None,
+            route: Route { closed: false, stations: &self.stations },
+            grid: Some(Grid {
+                stamp_ns,
+                x,
+                y,
+                cos: 1.0,
+                sin: 0.0,
+                resolution: self.resolution,
+                width: self.cells,
+                height: self.cells,
+                occupied: &self.occupied,
+                unknown: None,
+            }),
+            previous_tracks: None,
+        }
+    }
+}
+
+/// Row by row, least significant bit first.
+fn bitmap(cells: &[bool]) -> Vec<u8> {
+    let byte =
+        |cells: &[bool]| cells.iter().rev().fold(0, |byte, &cell| byte << 1 | u8::from(cell));
+    cells.chunks(8).map(byte).collect()
+}
+
+fn point(t: f64, Pose { x, y, heading }: Pose) -> TrajectoryPoint {
+    #[expect(clippy::cast_possible_truncation, reason = "at most 5e9")]
+    let t_ns = (t * 1e9).round() as i64;
+    TrajectoryPoint { t_ns: NOW_NS + t_ns, x, y, cos: heading.cos(), sin: heading.sin() }
+}
+
+fn track(object: &Object, id: i64) -> Track {
+    let &Object { pose: Pose { x, y, heading }, length, width, velocity: [vx, vy] } = object;
+    Track { id, x, y, cos: heading.cos(), sin: heading.sin(), vx, vy, length, width }
+}
+
+fn detection(object: &Object) -> Detection {
+    let &Object { pose: Pose { x, y, heading }, length, width, .. } = object;
+    Detection { x, y, cos: heading.cos(), sin: heading.sin(), length, width }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the grid")]
+fn cell(coordinate: f64) -> usize {
+    coordinate as usize
+}

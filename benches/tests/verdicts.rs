@@ -1,0 +1,46 @@
+//! A race between programs that answer differently is worth nothing: implementation and peers
+//! come to the same verdict on every variant of the workloads.
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::Profile;
+use mufasa::verdict::Stage;
+use mufasa_benches::contestant::Memory;
+use mufasa_benches::peer;
+use mufasa_benches::workload::{SIZES, Variant, Workload};
+
+#[test]
+fn peers_and_implementation_agree() {
+    let fails = Stage::ALL.map(|stage| (Variant::Fail(stage), Some(stage)));
+    let others =
+        [(Variant::Pass, None), (Variant::Ghost, Some(Stage::I)), (Variant::Drift, Some(Stage::I))];
+    for size in &SIZES {
+        for (variant, failing) in others.into_iter().chain(fails) {
+            let workload = Workload::new(size, variant);
+            let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+            let mut memory = Memory::for_cycle(&cycle);
+            let valid = memory.valid(&cycle);
+            for stage in failing.map_or(Stage::ALL.to_vec(), |stage| vec![stage]) {
+                let expected = failing.is_none();
+                assert_eq!(memory.stage(&valid, stage), expected, "{} {variant:?}", workload.name);
+                let peers = peer::all(&cycle).into_iter().filter(|peer| peer.stage == stage);
+                for mut peer in peers.filter(|peer| !peer.slow || size.number == 1) {
+                    assert_eq!((peer.decide)(), expected, "{} {variant:?}", peer.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn whole_cycles_pass_in_every_configuration_and_profile() {
+    for size in &SIZES {
+        let workload = Workload::new(size, Variant::Pass);
+        for profile in [Profile::Paper, Profile::Hardened] {
+            for configuration in Configuration::ALL {
+                let cycle = workload.cycle(profile, configuration);
+                let report = Memory::for_cycle(&cycle).check(&cycle);
+                assert_eq!(report.failed_stage, None, "{} {report:?}", workload.name);
+            }
+        }
+    }
+}
