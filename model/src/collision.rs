@@ -43,8 +43,8 @@ pub fn llcc(scene: &Scene, point: &Point, object: &Object) -> Option<Collision> 
     collides.then_some(Collision { distance, limit })
 }
 
-/// H-03: half the diagonal times (1 + 1e-6), because directions need not be exactly of length 1.
-fn circumradius(length: &Real, width: &Real) -> Real {
+/// H-03: half the diagonal times (1 + 1e-6), because directions need not be exactly of length 1, m.
+pub fn circumradius(length: &Real, width: &Real) -> Real {
     let diagonal = (length.square() + width.square()).sqrt();
     diagonal / Real::from_integer(2) * (Real::from_integer(1) + Real::from_double(1e-6))
 }

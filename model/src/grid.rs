@@ -53,22 +53,34 @@ pub fn grid(
     }
 }
 
-/// The centres of the n disks at (2i+1) L/(2n) - L/2 on the long axis of the CAV's rectangle.
+/// The centres of the n disks on the long axis of the CAV's rectangle.
 fn disks(scene: &Scene, point: &Point) -> Vec<Vector> {
     let rectangle = centre(scene, point);
-    let two_n = Real::from_integer(2 * i128::from(scene.parameters.n));
-    let length = &scene.ego.length;
     let offset = |i: i64| {
-        Real::from_integer(2 * i128::from(i) + 1) * length / &two_n - length / Real::from_integer(2)
+        let [i, n] = [i, scene.parameters.n].map(|number| Real::from_integer(number.into()));
+        disk_offset(&i, &n, &scene.ego.length)
     };
     (0..scene.parameters.n).map(|i| rectangle.point(&offset(i), &Real::zero())).collect()
 }
 
-/// r = sqrt((L/n)^2 + W^2) / 2
-fn radius(scene: &Scene) -> Real {
-    let n = Real::from_integer(scene.parameters.n.into());
-    let along = &scene.ego.length / &n;
-    (along.square() + scene.ego.width.square()).sqrt() / Real::from_integer(2)
+/// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.
+pub fn disk_offset(i: &Real, n: &Real, length: &Real) -> Real {
+    let two = Real::from_integer(2);
+    (&two * i + Real::from_integer(1)) * length / (&two * n) - length / two
+}
+
+/// r = sqrt((L/n)^2 + W^2) / 2, m.
+pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
+    ((length / n).square() + width.square()).sqrt() / Real::from_integer(2)
+}
+
+/// Distance of a point in the frame of the grid to the closed square of a cell, m.
+pub fn distance_to_cell(point: &Vector, [column, row]: [&Real; 2], resolution: &Real) -> Real {
+    let outside = |coordinate: &Real, cell: &Real| {
+        let (near, far) = (cell * resolution, (cell + Real::from_integer(1)) * resolution);
+        (near - coordinate).max(coordinate - far).max(Real::zero())
+    };
+    (outside(&point.x, column).square() + outside(&point.y, row).square()).sqrt()
 }
 
 /// A disk in the frame of the grid.
@@ -87,7 +99,8 @@ struct Hit {
 
 impl<'a> Disk<'a> {
     fn new(scene: &Scene, grid: &'a Grid, centre: &Vector) -> Self {
-        let r = radius(scene);
+        let n = Real::from_integer(scene.parameters.n.into());
+        let r = disk_radius(&scene.ego.length, &scene.ego.width, &n);
         let reach = &r + &scene.m;
         Self { grid, centre: grid.frame.coordinates(centre), r, reach }
     }
@@ -159,16 +172,10 @@ impl<'a> Disk<'a> {
             |c: &Real| self.floor(&(c - &self.reach)) - 1..=self.floor(&(c + &self.reach)) + 1;
         let (columns, rows) = (range(&self.centre.x), range(&self.centre.y));
         cells(self.grid, columns, rows, is_kind).find_map(|(i, k)| {
-            let (dx, dy) = (self.outside(&self.centre.x, i), self.outside(&self.centre.y, k));
-            let distance = (dx.square() + dy.square()).sqrt();
+            let cell = [i, k].map(|number| Real::from_integer(number.into()));
+            let distance = distance_to_cell(&self.centre, cell.each_ref(), &self.grid.resolution);
             (distance <= self.reach).then_some(Hit { cell: Some((i, k)), distance })
         })
-    }
-
-    /// Distance of a coordinate to the closed interval from i to i + 1 cells.
-    fn outside(&self, coordinate: &Real, i: i64) -> Real {
-        let border = |i: i64| Real::from_integer(i.into()) * &self.grid.resolution;
-        (border(i) - coordinate).max(coordinate - border(i + 1)).max(Real::zero())
     }
 
     /// H-06: a place outside the grid is at distance <= r.

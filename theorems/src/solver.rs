@@ -77,7 +77,7 @@ impl Solver {
     fn values(&mut self, path: &Path) -> io::Result<Vec<(String, f64)>> {
         let mut values = Vec::new();
         for name in &path.names {
-            writeln!(self.input, "(eval |{name}|)")?;
+            writeln!(self.input, "(eval |{name}| :completion true)")?;
             self.input.flush()?;
             let line = self.line()?;
             values.push((name.clone(), number(&line)));

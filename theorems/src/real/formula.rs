@@ -54,6 +54,11 @@ pub fn iff(a: &Formula, b: &Formula) -> Formula {
     Formula::All(vec![implies(a.clone(), b.clone()), implies(b.clone(), a.clone())])
 }
 
+/// From here on the solver knows of a root only that it is >= 0, and what lemmas say of it.
+pub fn forget_of_what_roots_are() {
+    path::with(|path| path.roots_are_any_numbers = true);
+}
+
 /// Assumes the formula on this path.
 pub fn given(formula: Formula) {
     match formula {

@@ -4,6 +4,7 @@
 //! either. A comparison that the path does not decide forks it (`path::branch`).
 
 pub mod formula;
+pub mod hole;
 pub mod path;
 pub mod polynomial;
 
@@ -15,7 +16,7 @@ use dashu_base::SquareRoot;
 use dashu_ratio::RBig;
 
 use path::{Operation, Signs};
-use polynomial::Polynomial;
+use polynomial::{Polynomial, Variable};
 
 /// A symbolic number: a polynomial in the variables of the path.
 #[derive(Clone, Debug)]
@@ -28,6 +29,15 @@ impl Real {
     /// A new variable.
     pub fn variable(name: &str) -> Self {
         Self::of(Polynomial::variable(path::with(|path| path.variable(name))))
+    }
+
+    /// The variable of this name, new or not.
+    pub fn named(name: &str) -> Self {
+        let known = path::with(|path| path.names.iter().position(|other| other == name));
+        match known.map(Variable::try_from) {
+            Some(Ok(variable)) => Self::of(Polynomial::variable(variable)),
+            Some(Err(_)) | None => Self::variable(name),
+        }
     }
 
     /// cos and sin of a new unit vector.
@@ -43,11 +53,14 @@ impl Real {
         Self::from_integer(numerator.into()) / Self::from_integer(denominator.into())
     }
 
-    /// The exact value of a finite double.
+    /// The exact value of a finite double, or the variable of a hole.
     ///
     /// # Panics
-    /// If `value` is NaN or infinite.
+    /// If `value` is infinite, or NaN and no hole.
     pub fn from_double(value: f64) -> Self {
+        if let Some(name) = hole::name_of(value) {
+            return Self::named(&name);
+        }
         let exact = RBig::try_from(value).expect("a real number was made of no finite double");
         Self::of(Polynomial::constant(exact))
     }
@@ -75,7 +88,9 @@ impl Real {
         }
         self.made(Operation::Root, |root| {
             root.assume(Signs::AT_LEAST_ZERO);
-            root.set_square(self);
+            if !path::with(|path| path.roots_are_any_numbers) {
+                root.set_square(self);
+            }
         })
     }
 

@@ -69,6 +69,9 @@ pub struct Path {
     pub rules: Rules,
     /// Assumptions and branches, as assertions of SMT-LIB.
     pub script: Vec<String>,
+    /// Roots made from here on are any numbers >= 0: the solver is not told of what. Facts about
+    /// them have to be assumed, each a lemma. Fewer assumptions never prove more.
+    pub roots_are_any_numbers: bool,
     /// Roots, quotients, absolute values and roundings made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
     signs: BTreeMap<Polynomial, Signs>,

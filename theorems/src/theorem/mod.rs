@@ -1,8 +1,13 @@
 //! The theorems: statement, claim, a wrong variant that must be refuted, and a mutant of the
 //! source under which the theorem must fail.
 
+pub mod base;
+pub mod collision;
 pub mod distance;
+pub mod grid;
+pub mod lemma;
 pub mod rectangle;
+pub mod stop;
 
 use crate::real::formula::Formula;
 
@@ -45,5 +50,14 @@ pub struct Mutant {
 
 /// All theorems, in the order of `spec/`.
 pub fn all() -> impl Iterator<Item = &'static Theorem> {
-    [distance::THEOREMS, rectangle::THEOREMS].into_iter().flatten()
+    [
+        distance::THEOREMS,
+        lemma::THEOREMS,
+        rectangle::THEOREMS,
+        collision::THEOREMS,
+        stop::THEOREMS,
+        grid::THEOREMS,
+    ]
+    .into_iter()
+    .flatten()
 }
