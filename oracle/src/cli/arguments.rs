@@ -137,7 +137,7 @@ pub(super) struct ConformArguments {
         long,
         value_name = "KINDS",
         value_delimiter = ',',
-        default_value = "cycle,offloading,composition"
+        default_value = "cycle,offloading,composition,line"
     )]
     pub(super) kinds: Vec<Kind>,
     /// Ask only the cases whose number leaves I when divided by N, such as 0/8.

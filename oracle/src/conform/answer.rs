@@ -17,8 +17,9 @@ pub enum Said {
     Error,
 }
 
-/// The object on an answer's line, for the record with this id.
-pub fn object(line: &[u8], id: &str) -> Result<Map<String, Value>, Broken> {
+/// The object on an answer's line, for the record with this id. `is_record` is false for a line
+/// that is none: its id is null in the answer when it could not be read.
+pub fn object(line: &[u8], id: &str, is_record: bool) -> Result<Map<String, Value>, Broken> {
     let nonsense = |words: String| Broken::new(Breach::Nonsense, words);
     let value: Value = serde_json::from_slice(line)
         .map_err(|error| nonsense(format!("is not JSON ({error}): {}", excerpt(line))))?;
@@ -27,6 +28,7 @@ pub fn object(line: &[u8], id: &str) -> Result<Map<String, Value>, Broken> {
     };
     match object.get("id") {
         Some(Value::String(given)) if given == id => Ok(object),
+        Some(Value::Null) if !is_record => Ok(object),
         Some(Value::String(given)) => {
             Err(Broken::new(Breach::OutOfOrder, format!("answers {given:?}, but {id:?} was asked")))
         }
@@ -100,7 +102,9 @@ mod tests {
     use super::*;
 
     fn read(line: &str) -> Result<Said, Breach> {
-        object(line.as_bytes(), "c-1").and_then(|it| said(&it)).map_err(|broken| broken.breach)
+        object(line.as_bytes(), "c-1", true)
+            .and_then(|it| said(&it))
+            .map_err(|broken| broken.breach)
     }
 
     #[test]

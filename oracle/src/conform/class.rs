@@ -26,18 +26,24 @@ pub enum Kind {
     Offloading,
     /// A service set to compose.
     Composition,
+    /// A line that breaks the schema or is no JSON.
+    Line,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Cycle, Self::Offloading, Self::Composition];
+    pub const ALL: [Self; 4] = [Self::Cycle, Self::Offloading, Self::Composition, Self::Line];
 
-    /// The word in the records.
+    /// Those that are records.
+    pub const RECORDS: [Self; 3] = [Self::Cycle, Self::Offloading, Self::Composition];
+
+    /// The word in the records and in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Cycle => "cycle",
             Self::Offloading => "offloading",
             Self::Composition => "composition",
+            Self::Line => "line",
         }
     }
 }
@@ -59,6 +65,8 @@ pub enum Breach {
     States,
     /// The compositions differ.
     Compositions,
+    /// It takes a line that breaks the schema for a record, or names another place in it.
+    Schema,
     /// It ends, or closes its output, before it has answered.
     Dies,
     /// It does not answer in time.
@@ -81,6 +89,7 @@ impl Breach {
             Self::Input => "input",
             Self::States => "states",
             Self::Compositions => "compositions",
+            Self::Schema => "schema",
             Self::Dies => "dies",
             Self::Hangs => "hangs",
             Self::Floods => "floods",
@@ -98,7 +107,8 @@ impl Breach {
             | Self::Stage
             | Self::Input
             | Self::States
-            | Self::Compositions => false,
+            | Self::Compositions
+            | Self::Schema => false,
         }
     }
 }
@@ -123,7 +133,8 @@ pub struct Class {
     /// The rule of conformance that broke.
     pub breach: Breach,
     /// Stage and rule, such as `iii collision` or `ii instead of iv`; the field of a state and
-    /// the type of the event; empty where the program did not answer.
+    /// the type of the event; what is wrong with a line; otherwise empty where the program did not
+    /// answer.
     pub place: String,
     /// `paper` or `hardened`; empty where it plays no role.
     pub profile: String,

@@ -8,13 +8,14 @@ use mufasa_props::conformance::{Answer, Disagreement, name, rank, stage_conforms
 use serde_json::{Map, Value};
 
 use super::answer::{self, Said};
-use super::class::{Breach, Class, Scale};
+use super::class::{Breach, Class, Kind, Scale};
+use super::damage::Damaged;
 use super::error::ConformError;
 use super::question::{Question, event_type};
 use super::subject::{Broken, Subject};
 use crate::json::composition_answer::CompositionAnswer;
 use crate::json::offloading_answer::OffloadingAnswer;
-use crate::json::{Trace, compose, names};
+use crate::json::{self, LineError, Trace, compose, names};
 
 /// Margin within which a disagreement counts as one at the threshold, m.
 const ROUNDING_M: f64 = 1e-6;
@@ -28,6 +29,8 @@ pub enum Expected {
     Offloading(OffloadingAnswer),
     /// Of a composition; `Err` is invalid input.
     Composition(Result<CompositionAnswer, InvalidInput>),
+    /// What is wrong with a line; nothing, when it was made so small that nothing is.
+    Line(Option<LineError>),
 }
 
 /// A record, asked and compared.
@@ -43,6 +46,13 @@ pub struct Examined {
     pub tolerated: bool,
 }
 
+impl Examined {
+    /// Whether no answer came in time.
+    pub fn hangs(&self) -> bool {
+        matches!(&self.answered, Err(broken) if broken.breach == Breach::Hangs)
+    }
+}
+
 /// Asks a record under this id. A disagreement that a margin of `tolerance` m explains is none.
 /// Errors: the program cannot be started again.
 pub fn examine(
@@ -53,7 +63,7 @@ pub fn examine(
 ) -> Result<Examined, ConformError> {
     let (expected, answered) = subject.ask(&question.line(id), || expect(id, question))?;
     let compared = match &answered {
-        Ok(line) => answer::object(line, id)
+        Ok(line) => answer::object(line, id, question.kind() != Kind::Line)
             .and_then(|object| compare(question, &expected, &object))
             .map_err(|broken| subject.broke(broken)),
         Err(broken) => Err(broken.clone()),
@@ -80,7 +90,11 @@ pub fn examine(
             Examined { expected, answered, class: Some(class).filter(|_| !tolerated), tolerated }
         }
         Err(broken) => {
-            let class = class(broken.breach, String::new(), "", "", Scale::Clear);
+            let place = match question {
+                Question::Line(Damaged { damage, .. }) => damage.name(),
+                Question::Cycle(_) | Question::Offloading(_) | Question::Composition(_) => "",
+            };
+            let class = class(broken.breach, place.to_owned(), "", "", Scale::Clear);
             Examined { expected, answered: Err(broken), class: Some(class), tolerated: false }
         }
     })
@@ -97,6 +111,9 @@ pub fn expect(id: &str, question: &Question) -> Expected {
             let composed = compose(task);
             let answer = |(_, answer)| CompositionAnswer::new(id.to_owned(), answer);
             Expected::Composition(composed.map(answer))
+        }
+        Question::Line(damaged) => {
+            Expected::Line(json::parse(damaged.line(id).as_bytes(), 1).err())
         }
     }
 }
@@ -130,7 +147,10 @@ fn compare(
         (Question::Composition(_), Expected::Composition(expected)) => {
             compare_compositions(expected, object)
         }
-        // `expect` answers in kind.
+        (Question::Line(Damaged { damage, .. }), Expected::Line(Some(expected))) => {
+            Ok(compare_errors(damage.name(), expected, object))
+        }
+        // `expect` answers in kind; a line that was made smaller may have become a record.
         (_, _) => Ok(None),
     }
 }
@@ -249,4 +269,20 @@ fn compare_compositions(
         return differs("none");
     }
     Ok(None)
+}
+
+/// A line that is no record must be an error; whoever says where must say so rightly.
+fn compare_errors(
+    wrong: &str,
+    expected: &LineError,
+    object: &Map<String, Value>,
+) -> Option<Differs> {
+    if !answer::is_error(object) {
+        return Some(Differs::new(Breach::Schema, wrong));
+    }
+    let error = object.get("error")?;
+    let field = error.get("field")?;
+    let index = error.get("index").unwrap_or(&Value::Null);
+    let same = *field == expected.field.as_str() && *index == Value::from(expected.index);
+    (!same).then(|| Differs::new(Breach::Schema, format!("{wrong} at another place")))
 }

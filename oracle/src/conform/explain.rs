@@ -77,6 +77,14 @@ pub fn explain(question: &Question, examined: &Examined) -> Told {
             let expected = format!("error: {}", words::invalid(problem));
             Told { answered, expected, numbers: None }
         }
+        (_, Expected::Line(Some(error))) => {
+            let place = match error.index {
+                Some(index) => format!("field {:?}, index {index}", error.field),
+                None => format!("field {:?}", error.field),
+            };
+            let expected = format!("error: {place}: {}", error.message);
+            Told { answered, expected, numbers: None }
+        }
         // `expect` answers in kind.
         (_, _) => Told { answered, expected: String::new(), numbers: None },
     }

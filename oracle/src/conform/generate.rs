@@ -8,6 +8,7 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::class::Kind;
+use super::damage::{Damage, Damaged};
 use super::question::Question;
 use crate::json::Trace;
 
@@ -28,11 +29,11 @@ impl Generator {
         self.read(self.kind(case), &self.tape(case))
     }
 
-    /// The kind of a case: with all three, eight of ten are cycles.
+    /// The kind of a case: with all four, eight of eleven are cycles.
     pub fn kind(&self, case: u64) -> Kind {
         let weight = |kind: &Kind| match kind {
             Kind::Cycle => 8,
-            Kind::Offloading | Kind::Composition => 1,
+            Kind::Offloading | Kind::Composition | Kind::Line => 1,
         };
         let total: u64 = self.kinds.iter().map(weight).sum();
         let mut drawn = mix(self.seed ^ mix(case)) % total.max(1);
@@ -54,7 +55,9 @@ impl Generator {
         let config = Config { failure_persistence: None, ..Config::default() };
         let mut runner = TestRunner::new_with_rng(config, rng);
         let drawn = match self.kind(case) {
-            Kind::Cycle | Kind::Composition => tape().new_tree(&mut runner).map(|t| t.current()),
+            Kind::Cycle | Kind::Composition | Kind::Line => {
+                tape().new_tree(&mut runner).map(|t| t.current())
+            }
             Kind::Offloading => long_tape().new_tree(&mut runner).map(|t| t.current()),
         };
         // Vectors of any numbers reject nothing; an empty tape is the simplest case.
@@ -81,6 +84,18 @@ impl Generator {
                 Question::Offloading(Trace { profile, parameters, events })
             }
             Kind::Composition => Question::Composition(composition::task(&mut Draw::new(tape))),
+            Kind::Line => {
+                let mut draw = Draw::new(tape);
+                let damage = draw.pick(&Damage::ALL);
+                let at = draw.below(1 << 20);
+                // Records that the program is asked about anyhow.
+                let mut records = self.kinds.clone();
+                records.retain(|kind| *kind != Kind::Line);
+                let records = if records.is_empty() { &Kind::RECORDS[..] } else { &records };
+                let record = draw.pick(records);
+                let rest = tape.get(3..).unwrap_or_default();
+                Question::Line(Damaged::new(self.read(record, rest), damage, at))
+            }
         }
     }
 }

@@ -2,7 +2,9 @@
 
 mod cycle;
 mod numbers;
+mod pair;
 
+use super::damage::Damaged;
 use super::question::Question;
 use crate::json::Trace;
 use mufasa_model::orchestrator::Task;
@@ -34,6 +36,14 @@ pub fn question(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -
             };
             task.until_stable(smaller_task);
             Question::Composition(task.value)
+        }
+        Question::Line(Damaged { record, damage, at }) => {
+            let damaged = |record: Question| {
+                let record = Box::new(record);
+                Question::Line(Damaged { record, damage: *damage, at: *at })
+            };
+            let smallest = self::question(record, &mut |it| shows(&damaged(it.clone())));
+            damaged(smallest)
         }
     }
 }

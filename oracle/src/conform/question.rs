@@ -8,6 +8,7 @@ use mufasa_model::requester::{Event, EventKind, Group, Groups, Parameters};
 use serde_json::json;
 
 use super::class::Kind;
+use super::damage::Damaged;
 use crate::json::{Trace, cycle_to_line, names};
 
 /// The content of a record; the id is given when it is sent.
@@ -19,6 +20,8 @@ pub enum Question {
     Offloading(Trace),
     /// A composition.
     Composition(Task),
+    /// A line that is none of them.
+    Line(Damaged),
 }
 
 impl Question {
@@ -28,6 +31,7 @@ impl Question {
             Self::Cycle(_) => Kind::Cycle,
             Self::Offloading(_) => Kind::Offloading,
             Self::Composition(_) => Kind::Composition,
+            Self::Line(_) => Kind::Line,
         }
     }
 
@@ -38,7 +42,7 @@ impl Question {
                 (names::profile(cycle.profile), names::configuration(cycle.configuration))
             }
             Self::Offloading(trace) => (names::profile(trace.profile), ""),
-            Self::Composition(_) => ("", ""),
+            Self::Composition(_) | Self::Line(_) => ("", ""),
         }
     }
 
@@ -48,6 +52,7 @@ impl Question {
             Self::Cycle(cycle) => cycle_to_line(id, cycle),
             Self::Offloading(trace) => trace_to_line(id, trace),
             Self::Composition(task) => task_to_line(id, task),
+            Self::Line(damaged) => damaged.line(id),
         }
     }
 
@@ -68,6 +73,7 @@ impl Question {
             }
             Self::Offloading(trace) => trace.events.len(),
             Self::Composition(task) => task.services.len(),
+            Self::Line(damaged) => damaged.record.objects(),
         }
     }
 
@@ -77,6 +83,7 @@ impl Question {
             Self::Cycle(_) => "object",
             Self::Offloading(_) => "event",
             Self::Composition(_) => "service",
+            Self::Line(damaged) => damaged.record.unit(),
         }
     }
 }
@@ -199,7 +206,8 @@ mod tests {
     fn the_line_of_a_question_reads_back_to_it() {
         let mut seen = [0; 3];
         for case in 0..600 {
-            let generator = Generator { seed: 3, profile: Profile::Paper, kinds: Kind::ALL.into() };
+            let generator =
+                Generator { seed: 3, profile: Profile::Paper, kinds: Kind::RECORDS.into() };
             let question = generator.question(case);
             let line = question.line("c-\"1\"");
             let record = parse(line.as_bytes(), 1).unwrap_or_else(|e| panic!("{e}\n{line}"));

@@ -59,6 +59,10 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     if summary.skipped > 0 {
         write!(out, ", {} left out", summary.skipped)?;
     }
+    if summary.late > 0 {
+        let limit = summary.campaign.time_limit_ms;
+        write!(out, ", {} answered only when asked again, not within {limit} ms", summary.late)?;
+    }
     if summary.tolerated > 0 {
         write!(out, ", {} agree within the tolerance only", summary.tolerated)?;
     }
@@ -134,8 +138,7 @@ impl Files {
 
     /// Writes the files, the summary last. Errors: one cannot be written.
     pub fn write(&self, summary: &Summary) -> Result<(), ConformError> {
-        let lines: String =
-            summary.classes.iter().flat_map(|found| [found.record.get(), "\n"]).collect();
+        let lines: String = summary.classes.iter().map(|found| found.line() + "\n").collect();
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
         let all = [

@@ -55,7 +55,8 @@ impl<'a> Hunt<'a> {
             | Breach::Stage
             | Breach::Input
             | Breach::States
-            | Breach::Compositions => 200,
+            | Breach::Compositions
+            | Breach::Schema => 200,
         };
         Self {
             subject,

@@ -77,6 +77,11 @@ impl Subject {
         Ok(subject)
     }
 
+    /// How long an answer may take from now on.
+    pub fn set_time_limit(&mut self, time_limit: Duration) {
+        self.time_limit = time_limit;
+    }
+
     /// How often the program was started.
     pub fn starts(&self) -> u64 {
         self.starts

@@ -25,6 +25,8 @@ pub struct Summary {
     pub skipped: u64,
     /// Cases that only the tolerance makes agree.
     pub tolerated: u64,
+    /// Answers that came too late and, when the case was asked again, in time.
+    pub late: u64,
     /// Starts of the program.
     pub starts: u64,
     /// Kinds that were given up after too many restarts.
@@ -99,8 +101,16 @@ pub struct Found {
     pub size: usize,
     /// What `size` counts.
     pub unit: String,
-    /// The shrunk record.
+    /// The shrunk record; a line that is no JSON as a string.
     pub record: Box<RawValue>,
+}
+
+impl Found {
+    /// The line that was asked.
+    pub fn line(&self) -> String {
+        let text = self.record.get();
+        serde_json::from_str(text).unwrap_or_else(|_| text.to_owned())
+    }
 }
 
 impl Summary {
@@ -155,6 +165,7 @@ impl Summary {
         self.asked += other.asked;
         self.skipped += other.skipped;
         self.tolerated += other.tolerated;
+        self.late += other.late;
         self.starts += other.starts;
         self.given_up.extend(other.given_up);
         self.given_up.sort();

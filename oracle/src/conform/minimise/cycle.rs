@@ -5,6 +5,7 @@ use mufasa_model::parameters::Parameters;
 
 use super::Case;
 use super::numbers::{directions, numbers, places, stamps, vectors};
+use super::pair::pair;
 
 /// When the shrunk cycle is decided, ns.
 const NOW_NS: i64 = 1_000_000_000;
@@ -15,6 +16,7 @@ pub fn smaller(case: &mut Case<'_, Cycle>) {
     lists(case);
     parameters(case);
     frame(case);
+    pair(case);
     times(case);
     cells(case);
     rounded(case);

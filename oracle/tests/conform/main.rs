@@ -1,0 +1,71 @@
+//! `mufasa conform` against programs that are right, and against programs that misbehave in every
+//! way that `spec/5-interfaces.md#programs-under-test` names. The latter are shell scripts of a
+//! few lines; where there is no `sh` the tests say NOT RUN.
+
+mod batch;
+mod broken;
+mod campaign;
+mod right;
+mod wrong;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use mufasa_oracle::conform::Summary;
+
+const MUFASA: &str = env!("CARGO_BIN_EXE_mufasa");
+
+/// Reads a line and takes its id, as every script does.
+const EACH: &str = r#"while IFS= read -r line; do id=${line#*'"id": "'}; id=${id%%'"'*}; "#;
+
+/// Answers that the cycle is safe.
+const SAFE: &str = r#"printf '{"id": "%s", "verdict": "safe", "failed_stage": null}\n' "$id""#;
+
+/// A folder of its own for a test, empty.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conform-{test}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn conform(folder: &Path, options: &[&str], command: &[&str]) -> Output {
+    let mut mufasa = Command::new(MUFASA);
+    mufasa.arg("conform").args(options).arg("--out").arg(folder).arg("--").args(command);
+    mufasa.output().expect("mufasa runs")
+}
+
+fn text(output: &Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    format!("{}{errors}", String::from_utf8_lossy(&output.stdout))
+}
+
+fn summary(folder: &Path) -> Summary {
+    Summary::read(&folder.join("summary.json")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Runs a script as the program under test; `None` without a shell. The exit code must be 1 and
+/// the three files must hold what the summary says.
+fn script(test: &str, options: &[&str], script: &str) -> Option<(Summary, String)> {
+    if Command::new("sh").args(["-c", "exit 0"]).status().is_err() {
+        eprintln!("NOT RUN: {test}: there is no `sh` here");
+        return None;
+    }
+    let folder = folder(test);
+    let output = conform(&folder, options, &["sh", "-c", script]);
+    let told = text(&output);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    let summary = summary(&folder);
+    let reproducers = fs::read_to_string(folder.join("reproducers.jsonl")).expect("reproducers");
+    assert_eq!(reproducers.lines().count(), summary.classes.len());
+    for (line, found) in reproducers.lines().zip(&summary.classes) {
+        assert_eq!(line, found.line());
+        assert!(told.contains(&format!("DISAGREES  {}", found.class)), "{told}");
+    }
+    let junit = fs::read_to_string(folder.join("junit.xml")).expect("JUnit XML");
+    let document = roxmltree::Document::parse(&junit).expect("XML");
+    let failures = document.descendants().filter(|node| node.has_tag_name("failure")).count();
+    assert_eq!(failures, summary.classes.len());
+    Some((summary, told))
+}

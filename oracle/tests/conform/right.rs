@@ -1,0 +1,54 @@
+//! Programs that are right.
+
+use mufasa_oracle::conform::Kind;
+
+use crate::{MUFASA, conform, folder, summary, text};
+
+#[test]
+fn the_model_conforms_in_both_profiles() {
+    for profile in ["paper", "hardened"] {
+        let folder = folder(&format!("model-{profile}"));
+        let options = ["--profile", profile, "--cases", "1500", "--seed", "7"];
+        let output = conform(&folder, &options, &[MUFASA, "oracle"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        let summary = summary(&folder);
+        assert_eq!((summary.asked, summary.disagreements(), summary.starts), (1500, 0, 1));
+        // A campaign of nothing would conform, too.
+        for verdict in ["safe", "error", "input", "i", "ii", "iii", "iv", "v"] {
+            let reached = summary.groups.iter().any(|group| group.expected == verdict);
+            assert!(reached, "{profile}: no case is {verdict}");
+        }
+        for kind in Kind::ALL {
+            assert!(summary.groups.iter().any(|group| group.kind == kind));
+        }
+    }
+}
+
+#[test]
+fn the_implementation_conforms_in_both_profiles() {
+    for profile in ["paper", "hardened"] {
+        let folder = folder(&format!("implementation-{profile}"));
+        let options = ["--profile", profile, "--cases", "1500", "--kinds", "cycle,offloading"];
+        let output = conform(&folder, &options, &[MUFASA, "oracle", "--implementation"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+    }
+}
+
+/// The answers to lines that are no records need no place; nobody has to answer every kind.
+#[test]
+fn three_keys_are_enough() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        printf '%s\n' "$line" | sed 's/,"\(error\|stages\)":{{.*}}/}}/'; done"#
+    );
+    let folder = folder("three-keys");
+    let options = ["--kinds", "cycle,line", "--cases", "500"];
+    let output = conform(&folder, &options, &["sh", "-c", &program]);
+    if output.status.code() == Some(2) {
+        eprintln!("NOT RUN: three keys: there is no `sh` here");
+        return;
+    }
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+    let lines = summary(&folder).groups.into_iter().find(|group| group.kind == Kind::Line);
+    assert!(lines.is_some_and(|group| group.cases > 20));
+}

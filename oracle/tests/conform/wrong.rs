@@ -1,0 +1,146 @@
+//! Programs that answer wrongly.
+
+use mufasa_oracle::conform::{Breach, Found, Scale};
+
+use crate::{EACH, MUFASA, SAFE, script};
+
+#[test]
+fn who_always_says_safe_is_unsound() {
+    let options = ["--kinds", "cycle", "--cases", "150", "--profile", "paper"];
+    let program = format!("{EACH} {SAFE}; done");
+    let Some((summary, told)) = script("safe", &options, &program) else { return };
+    for found in &summary.classes {
+        // Invalid local input has a rule of its own.
+        let breaches = [Breach::Soundness, Breach::Input];
+        assert!(breaches.contains(&found.class.breach), "{told}");
+        assert!(found.shrunk && found.size <= 3, "{told}");
+    }
+    let collision = |scale| {
+        let place = |place: &str| place == "iii collision" || place == "iv collision";
+        summary
+            .classes
+            .iter()
+            .find(|found| place(&found.class.place) && found.class.scale == scale)
+            .unwrap_or_else(|| panic!("no collision: {told}"))
+    };
+    let numbers = collision(Scale::Clear).told.numbers.as_ref().expect("numbers");
+    let value = |text: &str| text.parse::<f64>().expect("a number");
+    assert!(value(&numbers.left) < value(&numbers.right), "{numbers:?}");
+    let apart = value(&numbers.right) - value(&numbers.left);
+    assert_eq!(value(&numbers.margin).to_bits(), apart.to_bits());
+    // Around a threshold lie half of the cases.
+    assert!(collision(Scale::Threshold).count > 0);
+}
+
+#[test]
+fn who_always_says_unsafe_is_incomplete_or_names_the_wrong_stage() {
+    let program = format!(
+        r#"{EACH} printf '{{"id": "%s", "verdict": "unsafe", "failed_stage": "ii"}}\n' "$id"; done"#
+    );
+    let options = ["--kinds", "cycle", "--cases", "100"];
+    let Some((summary, told)) = script("unsafe", &options, &program) else { return };
+    let has = |breach, place: &str| {
+        let same = |it: &&_| matches_class(it, breach, place);
+        assert!(summary.classes.iter().any(|found| same(&found)), "{breach:?} {place}: {told}");
+    };
+    has(Breach::Completeness, "ii");
+    has(Breach::Stage, "ii instead of i");
+    assert!(summary.classes.iter().all(|found| found.class.breach != Breach::Soundness), "{told}");
+}
+
+fn matches_class(found: &Found, breach: Breach, place: &str) -> bool {
+    found.class.breach == breach && found.class.place == place
+}
+
+#[test]
+fn who_names_another_stage_is_told_which() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        case $line in
+        *'"failed_stage":"iii"'*) id=${{line#*'"id":"'}}; id=${{id%%'"'*}};
+          printf '{{"id": "%s", "verdict": "unsafe", "failed_stage": "iv"}}\n' "$id";;
+        *) printf '%s\n' "$line";;
+        esac; done"#
+    );
+    let options = ["--kinds", "cycle", "--cases", "200", "--profile", "paper"];
+    let Some((summary, told)) = script("stage", &options, &program) else { return };
+    for found in &summary.classes {
+        assert!(matches_class(found, Breach::Stage, "iv instead of iii"), "{told}");
+        assert!(found.size <= 3, "{told}");
+        assert!(found.told.expected.contains("stage iv skipped (after_failure)"), "{told}");
+    }
+}
+
+#[test]
+fn who_forgets_the_hold_is_found_in_few_events() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        printf '%s\n' "$line" | sed 's/"hold_until_ns":-*[0-9][0-9]*/"hold_until_ns":null/g'; done"#
+    );
+    let options = ["--kinds", "offloading", "--cases", "20"];
+    let Some((summary, told)) = script("hold", &options, &program) else { return };
+    let verdict = "hold_until_ns after verdict";
+    let found = summary.classes.iter().find(|it| matches_class(it, Breach::States, verdict));
+    assert_eq!(found.unwrap_or_else(|| panic!("{told}")).size, 1, "{told}");
+}
+
+#[test]
+fn who_misses_a_composition_is_found() {
+    let program = format!(
+        r#"{EACH} printf '{{"id": "%s", "compositions": [], "none": {{"rule": "acyclic"}}}}\n' "$id"; done"#
+    );
+    let options = ["--kinds", "composition", "--cases", "40"];
+    let Some((summary, told)) = script("composition", &options, &program) else { return };
+    let missing = "one is missing";
+    let found = summary.classes.iter().find(|it| matches_class(it, Breach::Compositions, missing));
+    assert_eq!(found.unwrap_or_else(|| panic!("{told}")).size, 1, "{told}");
+}
+
+#[test]
+fn a_tolerance_lets_only_what_it_explains_pass() {
+    let options = ["--kinds", "cycle", "--cases", "120", "--profile", "paper"];
+    let tolerant = [&options[..], &["--tolerance", "1e-6"]].concat();
+    let program = format!("{EACH} {SAFE}; done");
+    let Some((all, _)) = script("no-tolerance", &options, &program) else { return };
+    let Some((clear, told)) = script("tolerance", &tolerant, &program) else { return };
+    let of = |scale| all.classes.iter().filter(move |found| found.class.scale == scale);
+    let threshold: u64 = of(Scale::Threshold).map(|found| found.count).sum();
+    assert!(threshold > 0);
+    assert_eq!(clear.tolerated, threshold, "{told}");
+    assert_eq!(clear.classes.len(), of(Scale::Clear).count(), "{told}");
+}
+
+/// `spec/3-stages.md#invalid-input.1`, `spec/5-interfaces.md#cycle.2`
+#[test]
+fn who_takes_a_line_that_is_no_record_for_one_is_found() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        printf '%s\n' "$line" | sed 's/"verdict":"error"/"verdict":"safe"/'; done"#
+    );
+    let options = ["--kinds", "cycle,line", "--cases", "500"];
+    let Some((summary, told)) = script("lenient", &options, &program) else { return };
+    for wrong in ["blank", "no JSON", "unknown field", "field twice", "integer with fraction"] {
+        let found = summary.classes.iter().find(|it| matches_class(it, Breach::Schema, wrong));
+        let found = found.unwrap_or_else(|| panic!("{wrong}: {told}"));
+        assert!(found.shrunk && found.size <= 3, "{told}");
+        assert!(found.told.expected.starts_with("error: field"), "{told}");
+    }
+    // Invalid values are another matter than lines that cannot be read.
+    assert!(summary.classes.iter().any(|it| it.class.breach == Breach::Input), "{told}");
+}
+
+/// `spec/5-interfaces.md#cycle.1`
+#[test]
+fn who_names_another_place_in_a_line_is_found() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        printf '%s\n' "$line" | sed 's/"index":0/"index":null/'; done"#
+    );
+    let options = ["--kinds", "line", "--cases", "300"];
+    let Some((summary, told)) = script("another-place", &options, &program) else { return };
+    for found in &summary.classes {
+        assert_eq!(found.class.breach, Breach::Schema, "{told}");
+        assert!(found.class.place.ends_with("at another place"), "{told}");
+        assert!(found.told.expected.contains("index 0"), "{told}");
+    }
+}
