@@ -12,7 +12,7 @@ use mufasa::schedule::check;
 use mufasa::scratch::Scratch;
 use mufasa::verdict::{Outcome, Report};
 use mufasa_proofs::law::distance::{
-    a_faster_lead_is_never_worse, a_larger_gap_is_never_worse, failed_by_gap,
+    a_faster_lead_is_never_worse, a_larger_gap_is_never_worse, failed_by_gap, next_below,
     s_follow_never_below_s_cav,
 };
 
@@ -59,11 +59,15 @@ fn speeds() -> impl Iterator<Item = f64> {
     (0..=60_i32).map(|i| 2.5 * f64::from(i))
 }
 
+fn next_above(value: f64) -> f64 {
+    f64::from_bits(value.to_bits() + 1)
+}
+
 /// Gaps at `s_CAV`, at the braking distances' difference above it, and one place beside.
 fn gaps(v_now: f64, v_lead: f64) -> [f64; 6] {
     let s_cav = 1.8 * v_now;
     let s_follow = ((v_now * v_now - v_lead * v_lead) / 16.0).max(0.0) + s_cav;
-    [0.0, s_cav.next_down().max(0.0), s_cav, s_cav.next_up(), s_follow, s_follow.next_up() + 1e-9]
+    [0.0, next_below(s_cav), s_cav, next_above(s_cav), s_follow, s_follow + 2e-9]
 }
 
 #[test]

@@ -7,8 +7,7 @@ use mufasa::verdict::{Outcome, Report, Rule};
 /// speed. Of cycles in which nothing before the gap fails and the gap is compared.
 pub fn s_follow_never_below_s_cav(cycle: &Cycle<'_>, report: &Report) -> bool {
     let Some(lead) = cycle.lead else { return true };
-    // One place down: the product may have been rounded up.
-    let s_cav = (cycle.parameters.safety_time * cycle.ego.speed).next_down();
+    let s_cav = next_below(cycle.parameters.safety_time * cycle.ego.speed);
     lead.gap > s_cav || failed_by_gap(report)
 }
 
@@ -18,8 +17,8 @@ pub fn a_larger_gap_is_never_worse(nearer: &Report, farther: &Report) -> bool {
     failed_by_gap(nearer) || !failed_by_gap(farther)
 }
 
-/// Behind a faster lead one may follow as near as behind a slower one; the two differ in nothing
-/// but the lead's speed.
+/// Behind a faster lead one may follow as near as behind a slower one, to within the bound on the
+/// rounding error; the two differ in nothing but the lead's speed, and in the gap by that bound.
 pub fn a_faster_lead_is_never_worse(slower: &Report, faster: &Report) -> bool {
     failed_by_gap(slower) || !failed_by_gap(faster)
 }
@@ -27,4 +26,10 @@ pub fn a_faster_lead_is_never_worse(slower: &Report, faster: &Report) -> bool {
 /// Whether stage iv failed because of the gap.
 pub fn failed_by_gap(report: &Report) -> bool {
     matches!(&report.stages[3], Outcome::Failed(witness) if witness.rule == Rule::Gap)
+}
+
+/// The largest double below a positive one; any other one itself. The product of which it is taken may have been
+/// rounded up.
+pub fn next_below(value: f64) -> f64 {
+    if value > 0.0 { f64::from_bits(value.to_bits() - 1) } else { value }
 }

@@ -31,8 +31,8 @@ impl Seen {
 }
 
 /// One event, what was done about it, and what was seen before and after.
-#[derive(Clone, Debug)]
-pub struct Step {
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
     /// Profile in force.
     pub profile: Profile,
     /// Times in force.
@@ -42,13 +42,13 @@ pub struct Step {
     /// The event.
     pub event: Event,
     /// What the requester did.
-    pub actions: Vec<Action>,
+    pub actions: &'a [Action],
     /// After the event.
     pub after: Seen,
 }
 
 /// A law of one step.
-pub type Law = fn(&Step) -> bool;
+pub type Law = fn(&Step<'_>) -> bool;
 
 /// All laws with their names.
 pub const LAWS: [(&str, Law); 9] = [
@@ -64,24 +64,24 @@ pub const LAWS: [(&str, Law); 9] = [
 ];
 
 /// Every state that events can lead to satisfies the invariant of the requester.
-pub fn every_reachable_state_is_valid(step: &Step) -> bool {
+pub fn every_reachable_state_is_valid(step: &Step<'_>) -> bool {
     step.after.valid
 }
 
 /// No request is sent before `hold_until` (`spec/2-offloading.md#fallback`, I-08).
-pub fn t_wait_blocks_offloading(step: &Step) -> bool {
+pub fn t_wait_blocks_offloading(step: &Step<'_>) -> bool {
     let held = step.before.hold_until_ns.is_some_and(|until_ns| step.event.t_ns < until_ns);
     !held || !step.actions.iter().any(is_request)
 }
 
 /// `spec/2-offloading.md#requester`: requests are decided at ticks only.
-pub fn requests_are_decided_at_ticks_only(step: &Step) -> bool {
+pub fn requests_are_decided_at_ticks_only(step: &Step<'_>) -> bool {
     step.event.kind == EventKind::Tick || !step.actions.iter().any(is_request)
 }
 
 /// After a safety issue every group is local, its source too, and nothing is asked for before now
 /// + `t_wait` (`spec/2-offloading.md#fallback`).
-pub fn a_safety_issue_ends_every_remote_service(step: &Step) -> bool {
+pub fn a_safety_issue_ends_every_remote_service(step: &Step<'_>) -> bool {
     if !matches!(step.event.kind, EventKind::Verdict { safe: false, .. }) {
         return true;
     }
@@ -92,14 +92,14 @@ pub fn a_safety_issue_ends_every_remote_service(step: &Step) -> bool {
 }
 
 /// Whatever happens, and whatever time does, the end of a hold only moves later.
-pub fn a_hold_is_never_shortened(step: &Step) -> bool {
+pub fn a_hold_is_never_shortened(step: &Step<'_>) -> bool {
     step.after.hold_until_ns >= step.before.hold_until_ns
 }
 
 /// Whoever was asked or ran a group and does so no more gets one release of that session, except
 /// for one that rejected or was lost, who gets none. Before that it gets none, but for the one
 /// that answers a confirmation that comes too late.
-pub fn a_session_left_is_released_exactly_once(step: &Step) -> bool {
+pub fn a_session_left_is_released_exactly_once(step: &Step<'_>) -> bool {
     let silent = matches!(step.event.kind, EventKind::Lost { .. } | EventKind::Reject { .. });
     Group::ALL.into_iter().zip(step.before.states).zip(step.after.states).all(
         |((group, before), after)| {
@@ -116,7 +116,7 @@ pub fn a_session_left_is_released_exactly_once(step: &Step) -> bool {
 }
 
 /// Drops, releases, activations and deactivations, requests; MOT before PLAN within each.
-pub fn actions_come_in_their_order(step: &Step) -> bool {
+pub fn actions_come_in_their_order(step: &Step<'_>) -> bool {
     let place = |action: &Action| match *action {
         Action::Drop(group) => (0, group),
         Action::Release { group, .. } => (1, group),
@@ -128,7 +128,7 @@ pub fn actions_come_in_their_order(step: &Step) -> bool {
 
 /// Local services stop at the confirmation in the paper profile, at a safe verdict that names the
 /// group in the hardened one (H-08).
-pub fn local_services_stop_when_the_profile_says(step: &Step) -> bool {
+pub fn local_services_stop_when_the_profile_says(step: &Step<'_>) -> bool {
     step.actions.iter().all(|action| {
         let Action::Deactivate(stopped) = *action else { return true };
         match (step.profile, step.event.kind) {
@@ -154,7 +154,7 @@ pub fn local_services_stop_when_the_profile_says(step: &Step) -> bool {
 
 /// A group that is remote now and was not is the one whose requested session this event confirms,
 /// before its deadline.
-pub fn a_group_becomes_remote_by_confirmation_only(step: &Step) -> bool {
+pub fn a_group_becomes_remote_by_confirmation_only(step: &Step<'_>) -> bool {
     Group::ALL.into_iter().zip(step.before.states).zip(step.after.states).all(
         |((of, before), after)| match (before, after) {
             (_, GroupState::Local | GroupState::Requested { .. })

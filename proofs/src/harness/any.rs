@@ -1,0 +1,86 @@
+//! Arbitrary values of the types that a harness needs. Finite choices are bytes below a bound, so
+//! that an engine that enumerates can.
+
+#[cfg(not(kani))]
+use crate::kani;
+use mufasa::configuration::{Configuration, Group, Groups};
+use mufasa::cycle::Profile;
+
+#[cfg(not(kani))]
+pub use crate::kani::{below, near, near_integer};
+
+/// A byte below `limit`.
+#[cfg(kani)]
+pub fn below(limit: u8) -> u8 {
+    let value: u8 = kani::any();
+    kani::assume(value < limit);
+    value
+}
+
+/// Any double. The range is a hint for engines that sample.
+#[cfg(kani)]
+pub fn near(_least: f64, _most: f64) -> f64 {
+    kani::any()
+}
+
+/// Any integer. The range is a hint for engines that sample.
+#[cfg(kani)]
+pub fn near_integer(_least: i64, _most: i64) -> i64 {
+    kani::any()
+}
+
+/// Any double of the closed range.
+pub fn within(least: f64, most: f64) -> f64 {
+    let value = near(least, most);
+    kani::assume(least <= value && value <= most);
+    value
+}
+
+/// Any integer of the closed range.
+pub fn integer_within(least: i64, most: i64) -> i64 {
+    let value = near_integer(least, most);
+    kani::assume(least <= value && value <= most);
+    value
+}
+
+/// An index below `limit`, which is at most 255.
+pub fn index(limit: usize) -> usize {
+    usize::from(below(u8::try_from(limit).unwrap_or(u8::MAX)))
+}
+
+/// A time, with the limits of 64 bits as likely as a value near 0.
+pub fn time_ns() -> i64 {
+    near_integer(-20, 20)
+}
+
+/// A duration >= 0.
+pub fn duration_ns() -> i64 {
+    let value = near_integer(0, 20);
+    kani::assume(value >= 0);
+    value
+}
+
+/// `None`, or the value.
+pub fn option<T>(value: impl FnOnce() -> T) -> Option<T> {
+    if kani::any() { Some(value()) } else { None }
+}
+
+/// One of the two profiles.
+pub fn profile() -> Profile {
+    if kani::any() { Profile::Paper } else { Profile::Hardened }
+}
+
+/// One of the four configurations.
+pub fn configuration() -> Configuration {
+    Configuration::of(groups())
+}
+
+/// One of the two groups.
+pub fn group() -> Group {
+    if kani::any() { Group::Mot } else { Group::Plan }
+}
+
+/// Any set of groups.
+pub fn groups() -> Groups {
+    Groups { mot: kani::any(), plan: kani::any() }
+}

@@ -1,0 +1,178 @@
+//! The assignment of stage i (`spec/3-stages.md#stage-i-track-validation`) against all there are.
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{Cycle, Detection, DetectionList, Profile, Route, Track, TrackList};
+use mufasa::parameters::Parameters;
+use mufasa::schedule::check;
+use mufasa::scratch::{Column, Row, Scratch};
+use mufasa::verdict::Outcome;
+
+use super::any::{below, index};
+use super::bounds::{COLUMNS, PLACES, TRACKS};
+use super::scene::{EGO, NOW_NS, STATIONS};
+#[cfg(not(kani))]
+use crate::kani;
+
+/// `theta_tr`, m. With places a metre apart every comparison is one of integers.
+const THETA_TR: u8 = 1;
+/// `theta_track_max`, m: pairs have to be closer.
+const CLOSER_THAN: u8 = 2;
+
+/// Paper: stage i passes exactly when no assignment of min(gated tracks, detections) pairs costs
+/// less than the cheapest, and that one has a mean below `theta_tr`.
+///
+/// Domain: up to 2 tracks and 3 detections on 4 places of a line. Not covered: larger lists,
+/// distances that are no integers.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_mean_cost_is_minimal() {
+    let (tracks, detections) = (places::<TRACKS>(), places::<COLUMNS>());
+    let (tracks, detections) = (shown(&tracks), shown(&detections));
+    let passed = passes(Profile::Paper, 0, tracks, detections);
+    let radius = detections.iter().copied().max().unwrap_or(0);
+    let mut gated = [0; TRACKS];
+    let gated = gate(tracks, radius, &mut gated);
+    let pairs = gated.len().min(detections.len());
+    let cheapest = cheapest(gated, detections, pairs, u8::MAX);
+    let expected = pairs == 0 || cheapest.is_some_and(|sum| below_mean(sum, pairs));
+    assert!(passed == expected);
+    kani::cover!(passed && pairs == 2, "two pairs pass");
+    kani::cover!(!passed && pairs == 2, "two pairs fail");
+    kani::cover!(passed && pairs == 0, "nothing to compare");
+    kani::cover!(gated.len() > detections.len() && pairs == 1, "more tracks than detections");
+}
+
+/// H-01: stage i passes exactly when some one-to-one assignment of all gated tracks but
+/// `miss_budget` has only pairs closer than `theta_track_max` and a mean below `theta_tr`.
+///
+/// Domain: up to 2 tracks and 3 detections on 4 places of a line, a budget of 0 or 1. Not covered:
+/// larger lists, distances that are no integers.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_matched_cost_is_minimal() {
+    let (tracks, detections) = (places::<TRACKS>(), places::<COLUMNS>());
+    let (tracks, detections) = (shown(&tracks), shown(&detections));
+    let budget = below(2);
+    let passed = passes(Profile::Hardened, budget, tracks, detections);
+    let radius = detections.iter().copied().max().unwrap_or(0);
+    let mut gated = [0; TRACKS];
+    let gated = gate(tracks, radius, &mut gated);
+    let pairs = gated.len().saturating_sub(usize::from(budget));
+    let cheapest = cheapest(gated, detections, pairs, CLOSER_THAN);
+    let expected = pairs == 0 || cheapest.is_some_and(|sum| below_mean(sum, pairs));
+    assert!(passed == expected);
+    kani::cover!(passed && pairs == 2, "two pairs pass");
+    kani::cover!(!passed && cheapest.is_some(), "near enough and too far on average");
+    kani::cover!(!passed && cheapest.is_none(), "no assignment");
+    kani::cover!(passed && budget == 1 && pairs == 1, "one track is missed");
+}
+
+fn below_mean(sum: u8, pairs: usize) -> bool {
+    usize::from(sum) < pairs * usize::from(THETA_TR)
+}
+
+fn places<const N: usize>() -> ([u8; N], usize) {
+    ([(); N].map(|()| below(PLACES)), index(N + 1))
+}
+
+fn shown<const N: usize>((places, count): &([u8; N], usize)) -> &[u8] {
+    &places[..*count]
+}
+
+/// Tracks at most as far from place 0 as the farthest detection.
+fn gate<'a>(tracks: &[u8], radius: u8, gated: &'a mut [u8; TRACKS]) -> &'a [u8] {
+    let mut count = 0;
+    for &track in tracks.iter().filter(|&&track| track <= radius) {
+        gated[count] = track;
+        count += 1;
+    }
+    &gated[..count]
+}
+
+/// The least sum of `pairs` distances of pairs closer than `limit`, over all ways to leave tracks
+/// out and to give the others different detections; written out for at most two tracks.
+fn cheapest(tracks: &[u8], detections: &[u8], pairs: usize, limit: u8) -> Option<u8> {
+    let cost = |track: u8, detection: u8| {
+        let apart = track.abs_diff(detection);
+        (apart < limit).then_some(apart)
+    };
+    let mut least: Option<u8> = None;
+    let mut offer = |sum: Option<u8>| {
+        if let Some(sum) = sum {
+            least = Some(least.map_or(sum, |least| least.min(sum)));
+        }
+    };
+    for (i, &first) in tracks.iter().enumerate() {
+        for (j, &one) in detections.iter().enumerate() {
+            if pairs == 1 {
+                offer(cost(first, one));
+            }
+            for &second in tracks.iter().skip(i + 1) {
+                for (_, &other) in detections.iter().enumerate().filter(|&(k, _)| k != j) {
+                    if pairs == 2 {
+                        offer(cost(first, one).zip(cost(second, other)).map(|(a, b)| a + b));
+                    }
+                }
+            }
+        }
+    }
+    least
+}
+
+/// Whether stage i passes with tracks and detections on these places.
+fn passes(profile: Profile, budget: u8, tracks: &[u8], detections: &[u8]) -> bool {
+    let track = |at: usize| Track {
+        id: at.try_into().unwrap_or(0),
+        x: f64::from(tracks.get(at).copied().unwrap_or(0)),
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        vx: 0.0,
+        vy: 0.0,
+        length: 1.0,
+        width: 1.0,
+    };
+    let detection = |at: usize| Detection {
+        x: f64::from(detections.get(at).copied().unwrap_or(0)),
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        length: 1.0,
+        width: 1.0,
+    };
+    let track_items: [Track; TRACKS] = core::array::from_fn(track);
+    let detection_items: [Detection; COLUMNS] = core::array::from_fn(detection);
+    let parameters = Parameters {
+        theta_tr: f64::from(THETA_TR),
+        theta_track_max: f64::from(CLOSER_THAN),
+        miss_budget: i64::from(budget),
+        ..Parameters::default()
+    };
+    let cycle = Cycle {
+        profile,
+        parameters,
+        now_ns: NOW_NS,
+        configuration: Configuration::MotRemote,
+        ego: EGO,
+        trajectory: None,
+        tracks: Some(TrackList { stamp_ns: NOW_NS, items: &track_items[..tracks.len()] }),
+        detections: Some(DetectionList {
+            stamp_ns: NOW_NS,
+            items: &detection_items[..detections.len()],
+        }),
+        lead: None,
+        route: Route { closed: false, stations: &STATIONS },
+        grid: None,
+        previous_tracks: None,
+    };
+    let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 5]);
+    let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
+    let Ok(report) = report else { unreachable!("the input is valid") };
+    match report.stages[0] {
+        Outcome::Passed => true,
+        Outcome::Failed(_) => false,
+        Outcome::Skipped(_) | Outcome::NotApplicable(_) | Outcome::NotScheduled => {
+            unreachable!("stage i runs")
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Invalid input (`spec/3-stages.md#invalid-input`): one bad value in a valid cycle is always found
+//! and never safe.
+
+use mufasa::configuration::{Configuration, Group};
+use mufasa::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Station, Track, TrackList, Trajectory,
+    TrajectoryPoint,
+};
+use mufasa::parameters::Parameters;
+use mufasa::schedule::check;
+use mufasa::scratch::{Column, Row, Scratch};
+use mufasa::verdict::{FailedStage, Outcome, Reason};
+
+use super::any::{below, configuration, profile};
+use super::scene::{BESIDE, EGO, FREE, NOW_NS, SEEN_BESIDE, STATIONS, STRAIGHT};
+#[cfg(not(kani))]
+use crate::kani;
+
+/// A number that is NaN, infinite or outside every domain makes local input an error to the caller
+/// and remote data an unsafe cycle in which no stage ran.
+///
+/// Domain: each of the 53 numbers of a valid cycle, 5 bad values, all configurations, both
+/// profiles. Not covered: two bad values at once (`stages` has any).
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_bad_number_is_never_safe() {
+    const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300];
+    let mut lists = Lists::valid();
+    let mut single = Single::valid();
+    let place = below(NUMBERS);
+    let (number, owner) = number(&mut lists, &mut single, place);
+    *number = BAD[usize::from(below(5))];
+    refused(&lists, &single, owner);
+}
+
+/// An integer outside its domain, a repeated id, a time that does not increase, two
+/// equal reference points, a list that is too short or a bitmap of the wrong length makes local
+/// input an error to the caller and remote data an unsafe cycle in which no stage ran.
+///
+/// Domain: 26 such defects, all configurations, both profiles. Not covered: two defects at once.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_bad_structure_is_never_safe() {
+    let mut lists = Lists::valid();
+    let mut single = Single::valid();
+    let owner = spoil(&mut lists, &mut single, below(DEFECTS));
+    refused(&lists, &single, owner);
+}
+
+/// Whose fault a value is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Owner {
+    Vehicle,
+    /// Whoever runs this group.
+    Group(Group),
+}
+
+fn refused(lists: &Lists, single: &Single, owner: Owner) {
+    let configuration = configuration();
+    let cycle = single.cycle(lists, configuration);
+    let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 4]);
+    let answer = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
+    let remote = match owner {
+        Owner::Vehicle => false,
+        Owner::Group(group) => configuration.is_remote(group),
+    };
+    match answer {
+        Err(_) => assert!(!remote),
+        Ok(report) => {
+            assert!(remote && report.input.is_some());
+            assert!(report.failed_stage == Some(FailedStage::Input));
+            let ran = |outcome: &Outcome| {
+                !matches!(outcome, Outcome::Skipped(Reason::AfterFailure) | Outcome::NotScheduled)
+            };
+            assert!(!report.stages.iter().any(ran));
+        }
+    }
+    kani::cover!(answer.is_err() && owner == Owner::Vehicle, "an error of the vehicle");
+    kani::cover!(answer.is_err() && owner != Owner::Vehicle, "an error of a local service");
+    kani::cover!(answer.is_ok() && owner == Owner::Group(Group::Mot), "unsafe by its tracks");
+    kani::cover!(answer.is_ok() && owner == Owner::Group(Group::Plan), "unsafe by its trajectory");
+}
+
+/// The items of all lists.
+struct Lists {
+    points: [TrajectoryPoint; 4],
+    tracks: [Track; 2],
+    previous: [Track; 1],
+    detections: [Detection; 2],
+    stations: [Station; 3],
+}
+
+impl Lists {
+    fn valid() -> Self {
+        let [track] = BESIDE;
+        let other = Track { id: 2, x: 90.0, ..track };
+        Self {
+            points: STRAIGHT,
+            tracks: [track, other],
+            previous: [Track { id: 3, ..track }],
+            detections: SEEN_BESIDE,
+            stations: STATIONS,
+        }
+    }
+}
+
+/// Everything else.
+struct Single {
+    parameters: Parameters,
+    ego: Ego,
+    lead: Lead,
+    grid: Grid<'static>,
+    /// Stamps of trajectory, tracks, previous tracks and detections.
+    stamps_ns: [i64; 4],
+    /// Points and stations that are given.
+    counts: [usize; 2],
+}
+
+impl Single {
+    fn valid() -> Self {
+        Self {
+            parameters: Parameters::default(),
+            ego: EGO,
+            lead: Lead { stamp_ns: NOW_NS, gap: 100.0, speed: 2.0 },
+            grid: Grid {
+                stamp_ns: NOW_NS,
+                x: -20.0,
+                y: -20.0,
+                cos: 1.0,
+                sin: 0.0,
+                resolution: 1.0,
+                width: 40,
+                height: 40,
+                occupied: &FREE,
+                unknown: Some(&FREE),
+            },
+            stamps_ns: [NOW_NS, NOW_NS, NOW_NS - 1, NOW_NS],
+            counts: [4, 3],
+        }
+    }
+
+    fn cycle<'a>(&self, lists: &'a Lists, configuration: Configuration) -> Cycle<'a> {
+        let [trajectory, tracks, previous, detections] = self.stamps_ns;
+        let [points, stations] = self.counts;
+        Cycle {
+            profile: profile(),
+            parameters: self.parameters,
+            now_ns: NOW_NS,
+            configuration,
+            ego: self.ego,
+            trajectory: Some(Trajectory { stamp_ns: trajectory, points: &lists.points[..points] }),
+            tracks: Some(TrackList { stamp_ns: tracks, items: &lists.tracks }),
+            detections: Some(DetectionList { stamp_ns: detections, items: &lists.detections }),
+            lead: Some(self.lead),
+            route: Route { closed: false, stations: &lists.stations[..stations] },
+            grid: Some(self.grid),
+            previous_tracks: Some(TrackList { stamp_ns: previous, items: &lists.previous }),
+        }
+    }
+}
+
+/// Places of `number`.
+const NUMBERS: u8 = 53;
+
+/// The number at a place, and whose it is.
+fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a mut f64, Owner) {
+    let Single { parameters: p, ego, lead, grid, .. } = single;
+    let [_, point, ..] = &mut lists.points;
+    let [_, track] = &mut lists.tracks;
+    let [previous] = &mut lists.previous;
+    let [_, detection] = &mut lists.detections;
+    let [_, station, _] = &mut lists.stations;
+    let value = match place {
+        0 => &mut p.theta_tr,
+        1 => &mut p.theta_map,
+        2 => &mut p.theta_obj,
+        3 => &mut p.a_b,
+        4 => &mut p.safety_time,
+        5 => &mut p.theta_track_max,
+        6 => &mut p.tau,
+        7 => &mut p.a_max,
+        8 => &mut p.start_tolerance,
+        9 => &mut p.v_max,
+        10 => &mut p.theta_velocity,
+        11 => &mut p.delta,
+        12 => &mut ego.x,
+        13 => &mut ego.y,
+        14 => &mut ego.cos,
+        15 => &mut ego.sin,
+        16 => &mut ego.speed,
+        17 => &mut ego.length,
+        18 => &mut ego.width,
+        19 => &mut ego.center_offset,
+        20 => &mut lead.gap,
+        21 => &mut lead.speed,
+        22 => &mut station.x,
+        23 => &mut station.y,
+        24 => &mut station.left[0],
+        25 => &mut station.right[1],
+        26 => &mut grid.x,
+        27 => &mut grid.y,
+        28 => &mut grid.cos,
+        29 => &mut grid.sin,
+        30 => &mut grid.resolution,
+        31 => &mut detection.x,
+        32 => &mut detection.y,
+        33 => &mut detection.cos,
+        34 => &mut detection.sin,
+        35 => &mut detection.length,
+        36 => &mut detection.width,
+        37 => &mut previous.x,
+        38 => &mut previous.vy,
+        39 => &mut previous.width,
+        40 => &mut track.x,
+        41 => &mut track.y,
+        42 => &mut track.cos,
+        43 => &mut track.sin,
+        44 => &mut track.vx,
+        45 => &mut track.vy,
+        46 => &mut track.length,
+        47 => &mut track.width,
+        48 => &mut point.x,
+        49 => &mut point.y,
+        50 => &mut point.cos,
+        51 => &mut point.sin,
+        _ => &mut previous.cos,
+    };
+    let owner = match place {
+        40..=47 => Owner::Group(Group::Mot),
+        48..=51 => Owner::Group(Group::Plan),
+        _ => Owner::Vehicle,
+    };
+    (value, owner)
+}
+
+/// Places of `spoil`.
+const DEFECTS: u8 = 26;
+
+/// Makes one defect, and says whose it is.
+fn spoil(lists: &mut Lists, single: &mut Single, place: u8) -> Owner {
+    const LATER_NS: i64 = NOW_NS + 60_000_000_001;
+    const OLDER_NS: i64 = NOW_NS - 60_000_000_001;
+    let Single { parameters, lead, grid, stamps_ns, counts, .. } = single;
+    match place {
+        0 => parameters.max_age_ns = -1,
+        1 => parameters.max_age_ns = i64::MAX,
+        2 => parameters.n = 0,
+        3 => parameters.n = 65,
+        4 => parameters.miss_budget = -1,
+        5 => parameters.miss_budget = 65,
+        6 => parameters.step_max_ns = -1,
+        7 => lead.stamp_ns = LATER_NS,
+        8 => grid.stamp_ns = i64::MAX,
+        9 => grid.width = 0,
+        10 => grid.height = i64::MAX,
+        11 => grid.width = 41,
+        12 => grid.occupied = &[],
+        13 => grid.unknown = Some(&[0]),
+        14 => stamps_ns[2] = LATER_NS,
+        15 => stamps_ns[3] = LATER_NS,
+        16 => counts[1] = 1,
+        17 => lists.stations[1] = lists.stations[0],
+        18 => stamps_ns[1] = LATER_NS,
+        19 => lists.tracks[1].id = lists.tracks[0].id,
+        20 => stamps_ns[0] = LATER_NS,
+        21 => counts[0] = 0,
+        22 => lists.points[2].t_ns = lists.points[1].t_ns,
+        23 => lists.points[3].t_ns = i64::MIN,
+        24 => lists.points[3].t_ns = LATER_NS,
+        _ => lists.points[0].t_ns = OLDER_NS,
+    }
+    match place {
+        18 | 19 => Owner::Group(Group::Mot),
+        20..DEFECTS => Owner::Group(Group::Plan),
+        _ => Owner::Vehicle,
+    }
+}

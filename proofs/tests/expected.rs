@@ -1,0 +1,46 @@
+//! `proofs/expected.toml`, the source of the harnesses and the list of them say the same.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mufasa_proofs::harness::ALL;
+
+#[path = "support/expected.rs"]
+mod expected;
+#[path = "support/source.rs"]
+mod source;
+
+#[test]
+fn file_and_source_list_the_same_harnesses() {
+    let (written, covers) = source::written();
+    let expected = expected::expected();
+    assert!(written.len() > 20);
+    let listed: Vec<&str> = ALL.iter().map(|(id, _)| *id).collect();
+    assert_eq!(written.iter().map(|one| one.id.as_str()).collect::<Vec<_>>(), listed);
+    assert_eq!(expected.iter().map(|one| one.id.as_str()).collect::<Vec<_>>(), listed);
+    for (written, expected) in written.iter().zip(&expected) {
+        let id = &written.id;
+        assert!(!written.not_covered.is_empty(), "{id}: the doc does not say what is not covered");
+        assert_eq!(written.statement, expected.statement, "{id}");
+        assert_eq!(written.domain, expected.domain, "{id}");
+        assert_eq!(written.unwind, expected.unwind.map(|most| most.to_string()), "{id}");
+        assert_eq!(written.solver, expected.solver, "{id}");
+        assert!(!expected.covers.is_empty(), "{id}");
+    }
+    let mut named: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for one in expected {
+        let (module, _) = one.id.split_once("::").expect("a path");
+        named.entry(module.to_owned()).or_default().extend(one.covers);
+    }
+    assert_eq!(named, covers, "covers of the file and of the source");
+}
+
+#[test]
+fn every_entry_says_which_engines_take_it() {
+    for one in expected::expected() {
+        let is_known = ["quick", "slow", "no"].contains(&one.cbmc.as_str());
+        assert!(is_known, "{}: cbmc is {}", one.id, one.cbmc);
+        assert_eq!(one.cbmc == "no", one.reason.is_some(), "{}: a reason for `no` alone", one.id);
+        assert!(["every", "some"].contains(&one.stand_in.as_str()), "{}", one.id);
+        assert!((1..=5).contains(&one.shard), "{}: the workflow has shards 1 to 5", one.id);
+    }
+}
