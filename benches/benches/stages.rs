@@ -1,13 +1,11 @@
 //! Time per stage and per whole cycle, beside the peers on the same input (criterion). The table
 //! of ratios comes from the program `race`, which interleaves.
 
-use std::hint::black_box;
-
 use criterion::{BenchmarkId, Criterion};
 use mufasa::configuration::Configuration;
 use mufasa::cycle::Profile;
 use mufasa::verdict::Stage;
-use mufasa_benches::contestant::Memory;
+use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
@@ -20,11 +18,10 @@ fn stages(criterion: &mut Criterion) {
             let workload = Workload::new(size, Variant::Pass);
             for (name, profile) in PROFILES {
                 let cycle = workload.cycle(profile, Configuration::AllRemote);
-                let mut memory = Memory::for_cycle(&cycle);
-                let valid = memory.valid(&cycle);
+                let mut it = Contestant::new(&cycle);
                 let id = BenchmarkId::new(format!("mufasa, {name}"), &workload.name);
                 group.bench_function(id, |bencher| {
-                    bencher.iter(|| memory.stage(black_box(&valid), stage));
+                    bencher.iter(|| it.stage(stage));
                 });
             }
             let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
@@ -48,11 +45,11 @@ fn cycles(criterion: &mut Criterion) {
             let workload = Workload::new(size, Variant::Pass);
             for (name, profile) in PROFILES {
                 let cycle = workload.cycle(profile, configuration);
-                let mut memory = Memory::for_cycle(&cycle);
-                assert_eq!(memory.check(&cycle).failed_stage, None, "{}", workload.name);
+                let mut it = Contestant::new(&cycle);
+                assert_eq!(it.check().failed_stage, None, "{}", workload.name);
                 let id = BenchmarkId::new(name, &workload.name);
                 group.bench_function(id, |bencher| {
-                    bencher.iter(|| memory.check(black_box(&cycle)));
+                    bencher.iter(|| it.check());
                 });
             }
         }

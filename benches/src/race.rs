@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 /// Something to be timed.
-pub struct Contestant<'a> {
+pub struct Entry<'a> {
     /// What it decides: contestants of one task are compared with each other.
     pub task: String,
     /// Who it is.
@@ -19,9 +19,9 @@ pub struct Contestant<'a> {
 /// The medians of one contestant.
 #[derive(Clone, Debug)]
 pub struct Time {
-    /// As in `Contestant`.
+    /// As in `Entry`.
     pub task: String,
-    /// As in `Contestant`.
+    /// As in `Entry`.
     pub name: String,
     /// Called again and again, us.
     pub warm_us: f64,
@@ -38,13 +38,13 @@ pub struct Rounds {
     pub cold: usize,
 }
 
-/// As long as one contestant runs in a round.
+/// As long as one entry runs in a round.
 const SLICE: Duration = Duration::from_micros(400);
 /// Larger than the last level of cache.
 const EVICTION_BYTES: usize = 96 << 20;
 
 /// Runs all contestants, round after round.
-pub fn race(contestants: &mut [Contestant<'_>], rounds: Rounds) -> Vec<Time> {
+pub fn race(contestants: &mut [Entry<'_>], rounds: Rounds) -> Vec<Time> {
     let calls: Vec<u32> = contestants.iter_mut().map(|it| calls_in_slice(&mut it.run)).collect();
     let mut warm = vec![Vec::new(); contestants.len()];
     for round in 0..rounds.warm {
@@ -117,13 +117,13 @@ mod tests {
     #[test]
     fn the_slower_one_is_the_slower_one() {
         let work = |turns: u64| move || (0..black_box(turns)).fold(0, u64::wrapping_add) > 0;
-        let contestant = |name: &str, turns| Contestant {
+        let contestant = |name: &str, turns| Entry {
             task: String::new(),
             name: name.to_owned(),
             slow: false,
             run: Box::new(work(turns)) as Box<dyn FnMut() -> bool>,
         };
-        let sleep = Contestant {
+        let sleep = Entry {
             run: Box::new(|| {
                 std::thread::sleep(Duration::from_millis(1));
                 true

@@ -4,7 +4,7 @@
 use mufasa::configuration::Configuration;
 use mufasa::cycle::Profile;
 use mufasa::verdict::Stage;
-use mufasa_benches::contestant::Memory;
+use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
@@ -17,11 +17,10 @@ fn peers_and_implementation_agree() {
         for (variant, failing) in others.into_iter().chain(fails) {
             let workload = Workload::new(size, variant);
             let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
-            let mut memory = Memory::for_cycle(&cycle);
-            let valid = memory.valid(&cycle);
+            let mut it = Contestant::new(&cycle);
             for stage in failing.map_or(Stage::ALL.to_vec(), |stage| vec![stage]) {
                 let expected = failing.is_none();
-                assert_eq!(memory.stage(&valid, stage), expected, "{} {variant:?}", workload.name);
+                assert_eq!(it.stage(stage), expected, "{} {variant:?}", workload.name);
                 let peers = peer::all(&cycle).into_iter().filter(|peer| peer.stage == stage);
                 for mut peer in peers.filter(|peer| !peer.slow || size.number == 1) {
                     assert_eq!((peer.decide)(), expected, "{} {variant:?}", peer.name);
@@ -38,7 +37,7 @@ fn whole_cycles_pass_in_every_configuration_and_profile() {
         for profile in [Profile::Paper, Profile::Hardened] {
             for configuration in Configuration::ALL {
                 let cycle = workload.cycle(profile, configuration);
-                let report = Memory::for_cycle(&cycle).check(&cycle);
+                let report = Contestant::new(&cycle).check();
                 assert_eq!(report.failed_stage, None, "{} {report:?}", workload.name);
             }
         }

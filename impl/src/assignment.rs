@@ -6,7 +6,7 @@
 //! column that no row has taken has potential 0, so that a path is at most as long as one edge to
 //! it (or, where edges are missing, as 1024 edges of at most 2^42), and potentials add up paths.
 
-use crate::scratch::{Column, Row};
+use crate::scratch::{Column, NONE, Row, UNKNOWN, short};
 
 /// Assigns the first `count` rows one after the other; `cost` of a row and a column is `None` where
 /// the two must not be paired. The result is in `Column::row`; returned is how many rows have got a
@@ -18,11 +18,12 @@ pub(crate) fn assign(
     cost: impl Fn(&[Row], usize, usize) -> Option<i64>,
 ) -> usize {
     for row in rows.iter_mut() {
-        row.column = None;
+        row.column = NONE;
         row.potential = 0;
     }
     for column in columns.iter_mut() {
-        *column = Column::default();
+        column.row = NONE;
+        column.potential = 0;
     }
     (0..count).filter(|&start| augment(rows, columns, start, &cost).is_some()).count()
 }
@@ -36,7 +37,7 @@ fn augment(
     cost: &impl Fn(&[Row], usize, usize) -> Option<i64>,
 ) -> Option<()> {
     for column in columns.iter_mut() {
-        column.distance = None;
+        column.distance = UNKNOWN;
         column.scanned = false;
     }
     let mut from = start;
@@ -46,25 +47,26 @@ fn augment(
         length = distance;
         let column = columns.get_mut(nearest)?;
         column.scanned = true;
-        match column.row {
-            Some(row) => from = row,
-            None => break nearest,
+        if column.row == NONE {
+            break nearest;
         }
+        from = usize::from(column.row);
     };
     for column in columns.iter_mut().filter(|column| column.scanned) {
-        let slack = length.saturating_sub(column.distance?);
+        let slack = length.saturating_sub(column.distance);
         column.potential = column.potential.saturating_sub(slack);
-        if let Some(row) = column.row.and_then(|row| rows.get_mut(row)) {
+        if let Some(row) = rows.get_mut(usize::from(column.row)) {
             row.potential = row.potential.saturating_add(slack);
         }
     }
     let row = rows.get_mut(start)?;
     row.potential = row.potential.saturating_add(length);
-    let mut next = Some(sink);
-    while let Some(index) = next {
-        let column = columns.get_mut(index)?;
-        column.row = Some(column.before);
-        next = rows.get_mut(column.before)?.column.replace(index);
+    let mut next = short(sink);
+    while next != NONE {
+        let column = columns.get_mut(usize::from(next))?;
+        column.row = column.before;
+        let row = rows.get_mut(usize::from(column.before))?;
+        next = core::mem::replace(&mut row.column, next);
     }
     Some(())
 }
@@ -83,13 +85,15 @@ fn reach(
     for (index, column) in columns.iter_mut().enumerate().filter(|(_, column)| !column.scanned) {
         if let Some(cost) = cost(rows, from, index) {
             let distance = base.saturating_add(cost).saturating_sub(column.potential);
-            if column.distance.is_none_or(|known| distance < known) {
-                column.distance = Some(distance);
-                column.before = from;
+            if distance < column.distance {
+                column.distance = distance;
+                column.before = short(from);
             }
         }
-        let Some(distance) = column.distance else { continue };
-        let candidate = (distance, column.row.is_some(), index);
+        if column.distance == UNKNOWN {
+            continue;
+        }
+        let candidate = (column.distance, column.row != NONE, index);
         if nearest.is_none_or(|known| candidate < known) {
             nearest = Some(candidate);
         }

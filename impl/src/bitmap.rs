@@ -17,6 +17,9 @@ pub(crate) struct Near {
     pub(crate) squared: i64,
 }
 
+/// So many bits of eight bytes are left when up to seven are not wanted.
+const WHOLE: i64 = 57;
+
 impl Bitmap<'_> {
     /// The first set cell of the row with from <= column <= to; columns outside the array are not
     /// set.
@@ -29,15 +32,26 @@ impl Bitmap<'_> {
         let last = start.saturating_add(to);
         let mut bit = start.saturating_add(from);
         while bit <= last {
-            let byte = *self.bits.get(usize::try_from(bit >> 3).ok()?)?;
-            let rest = byte >> (bit & 7);
-            if rest != 0 {
-                let found = bit.saturating_add(i64::from(rest.trailing_zeros()));
+            let word = self.bits_from(bit)?;
+            let found = bit.saturating_add(i64::from(word.trailing_zeros()));
+            if word != 0 {
                 return (found <= last).then(|| found.saturating_sub(start));
             }
-            bit = (bit | 7).saturating_add(1);
+            bit = bit.saturating_add(WHOLE);
         }
         None
+    }
+
+    /// `WHOLE` bits from this one on, in a word whose other bits are not set; beyond the end of the
+    /// bitmap none are.
+    fn bits_from(&self, bit: i64) -> Option<u64> {
+        let rest = self.bits.get(usize::try_from(bit >> 3).ok()?..)?;
+        let word = rest.first_chunk().copied().unwrap_or_else(|| {
+            let mut bytes = [0; 8];
+            bytes.iter_mut().zip(rest).for_each(|(byte, &given)| *byte = given);
+            bytes
+        });
+        Some((u64::from_le_bytes(word) >> (bit & 7)) & ((1 << WHOLE) - 1))
     }
 
     /// The first set cell, by row, then column, whose centre is at most the root of `most` cells

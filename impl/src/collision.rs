@@ -3,17 +3,11 @@
 
 use crate::cycle::{Cycle, Ego, Profile, TrajectoryPoint};
 use crate::distance::s_stop;
+use crate::input::elapsed_ns;
 use crate::plane::{Vector, distance};
 use crate::rectangle::{Rectangle, possibly_touch};
 use crate::rounding::Real;
-
-/// The CAV's rectangle at a trajectory point: shifted forward by `center_offset`.
-pub(crate) fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Rectangle {
-    let direction = Vector::new(point.cos, point.sin);
-    let shift = direction.times(Real::new(ego.center_offset));
-    let centre = Vector::new(point.x, point.y) + shift;
-    Rectangle { centre, direction, length: ego.length, width: ego.width }
-}
+use crate::sweep::{Moving, Sweep};
 
 /// How many of the points may have an arc length <= s; H-04: <= max(s, `s_stop`), and one more.
 pub(crate) fn examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint], s: Real) -> usize {
@@ -26,49 +20,137 @@ pub(crate) fn examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint], s: Real) -
     }
 }
 
-/// Whether the check may find a collision: the distance of the centres and the limit below which
-/// (H-03: up to which) the object is examined.
-pub(crate) fn collision(
-    cycle: &Cycle<'_>,
-    cav: &Rectangle,
-    object: &Rectangle,
-) -> Option<[f64; 2]> {
-    let theta_obj = cycle.parameters.theta_obj;
-    if certainly_far(theta_obj, cav, object) {
-        return None;
+/// A collision: the point, the object, both as indices, and the distance of the centres with the
+/// limit below which (H-03: up to which) the object is examined.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Collision {
+    pub(crate) point: usize,
+    pub(crate) object: usize,
+    pub(crate) compared: [f64; 2],
+}
+
+/// The CAV at the points that are examined, with the time from which objects are moved on.
+pub(crate) struct Course<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    points: &'c [TrajectoryPoint],
+    stamp_ns: i64,
+    sweep: Sweep,
+}
+
+impl<'c, 'a> Course<'c, 'a> {
+    pub(crate) fn new(cycle: &'c Cycle<'a>, points: &'c [TrajectoryPoint], stamp_ns: i64) -> Self {
+        let time = |point: Option<&TrajectoryPoint>| {
+            point.map_or(0.0, |point| seconds(elapsed_ns(stamp_ns, point.t_ns)))
+        };
+        let times = [time(points.first()), time(points.last())];
+        Self { cycle, points, stamp_ns, sweep: Sweep::new(&cycle.ego, points, times) }
     }
-    let apart = (object.centre - cav.centre).norm();
-    let theta_obj = Real::new(theta_obj);
-    let (limit, examined) = match cycle.profile {
-        Profile::Paper => (theta_obj, apart.possibly_below(theta_obj)),
-        Profile::Hardened => {
-            let limit = theta_obj.max(cav.circumradius() + object.circumradius());
-            (limit, apart.possibly_at_most(limit))
+
+    /// The first collision in the order of points, then objects. Object after object, looking
+    /// only at the points before that of the first collision so far.
+    pub(crate) fn first(
+        &self,
+        objects: impl Iterator<Item = Moving>,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<Collision> {
+        let mut points = self.points;
+        let mut found = None;
+        for (object, moving) in objects.enumerate() {
+            if self.sweep.misses(&moving) {
+                continue;
+            }
+            let hit = points.iter().enumerate().find_map(|(point, at)| {
+                let compared = self.collision(at, &moving)?;
+                counts(object).then_some(Collision { point, object, compared })
+            });
+            if let Some(hit) = hit {
+                points = points.get(..hit.point).unwrap_or_default();
+                found = Some(hit);
+            }
         }
-    };
-    (examined && possibly_touch(cav, object)).then(|| [apart.value(), limit.value()])
+        found
+    }
+
+    /// Whether the check may find a collision at a point.
+    fn collision(&self, at: &TrajectoryPoint, object: &Moving) -> Option<[f64; 2]> {
+        let ego = &self.cycle.ego;
+        let dt_ns = elapsed_ns(self.stamp_ns, at.t_ns);
+        let cav = Moving::footprint(ego, at);
+        let theta_obj = self.cycle.parameters.theta_obj;
+        let published = self.cycle.profile == Profile::Paper;
+        if cav.certainly_apart(object, seconds(dt_ns))
+            || published && cav.certainly_far(object, seconds(dt_ns), theta_obj)
+        {
+            return None;
+        }
+        let (cav, object) = (footprint(ego, at), moved(object, Real::seconds(dt_ns)));
+        let apart = (object.centre - cav.centre).norm();
+        let theta_obj = Real::new(theta_obj);
+        let (limit, examined) = match self.cycle.profile {
+            Profile::Paper => (theta_obj, apart.possibly_below(theta_obj)),
+            Profile::Hardened => {
+                let limit = theta_obj.max(cav.circumradius() + object.circumradius());
+                (limit, apart.possibly_at_most(limit))
+            }
+        };
+        (examined && possibly_touch(&cav, &object)).then(|| [apart.value(), limit.value()])
+    }
+}
+
+/// The CAV's rectangle at a trajectory point: shifted forward by `center_offset`.
+fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Rectangle {
+    let direction = Vector::new(point.cos, point.sin);
+    let shift = direction.times(Real::new(ego.center_offset));
+    let centre = Vector::new(point.x, point.y) + shift;
+    Rectangle { centre, direction, length: ego.length, width: ego.width }
+}
+
+/// The rectangle of an object after `dt` seconds with unchanged velocity and direction.
+fn moved(object: &Moving, dt: Real) -> Rectangle {
+    let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
+    let [length, width] = object.size;
+    let centre = vector(object.centre) + vector(object.velocity).times(dt);
+    Rectangle { centre, direction: vector(object.direction), length, width }
+}
+
+/// A time in s, with two roundings; times are below 2^38 ns.
+fn seconds(time_ns: i64) -> f64 {
+    Real::integer(time_ns).value() * 1e-9
 }
 
 /// Points form a prefix, since arc lengths do not decrease; the first point always counts.
 fn within(points: &[TrajectoryPoint], s: Real) -> usize {
-    let mut arc = Real::ZERO;
+    plainly_within(points, s).unwrap_or_else(|| {
+        let mut arc = Real::ZERO;
+        let mut count = 1_usize;
+        for (a, b) in points.iter().zip(points.iter().skip(1)) {
+            arc = arc + distance([a.x, a.y], [b.x, b.y]);
+            if !arc.possibly_at_most(s) {
+                break;
+            }
+            count = count.saturating_add(1);
+        }
+        count.min(points.len())
+    })
+}
+
+/// The same in plain doubles, unless they cannot tell. A distance errs by less than 2^-51 of
+/// itself and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-42
+/// of itself more.
+fn plainly_within(points: &[TrajectoryPoint], s: Real) -> Option<usize> {
+    let [least, most] = s.bounds();
+    let mut arc = 0.0;
     let mut count = 1_usize;
     for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        arc = arc + distance([a.x, a.y], [b.x, b.y]);
-        if !arc.possibly_at_most(s) {
-            break;
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        arc += libm::sqrt(dx * dx + dy * dy);
+        if arc * (1.0 - 1e-12) - 1e-140 > most {
+            return Some(count);
+        }
+        if arc * (1.0 + 1e-12) + 1e-140 > least {
+            return None;
         }
         count = count.saturating_add(1);
     }
-    count.min(points.len())
-}
-
-/// Plain doubles err by less than 1e-6 m here; 1 m covers that and the factor of the circumradii.
-fn certainly_far(theta_obj: f64, cav: &Rectangle, object: &Rectangle) -> bool {
-    let limit = theta_obj + cav.length + cav.width + object.length + object.width + 1.0;
-    let far = |a: Real, b: Real| {
-        let apart = a.value() - b.value();
-        apart > limit || apart < -limit
-    };
-    far(cav.centre.x, object.centre.x) || far(cav.centre.y, object.centre.y)
+    Some(count.min(points.len()))
 }

@@ -1,11 +1,10 @@
 //! Stage iv: trajectory with detections (`spec/3-stages.md#stage-iv-trajectory-with-detections`).
 
-use crate::collision::{collision, examined, footprint};
-use crate::cycle::{Cycle, Detection, DetectionList, Lead, Trajectory};
+use crate::collision::{Collision, Course, examined};
+use crate::cycle::{Cycle, DetectionList, Lead, Trajectory};
 use crate::distance::{s_follow, s_valid};
-use crate::plane::Vector;
-use crate::rectangle::Rectangle;
 use crate::rounding::Real;
+use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
 
 /// Why the gap to the current leading vehicle may be <= `s_follow`, if it may.
@@ -24,22 +23,11 @@ pub(crate) fn detections(
 ) -> Option<Witness> {
     let s = s_valid(&cycle.parameters, cycle.ego.speed, lead);
     let count = examined(cycle, trajectory.points, s);
-    trajectory.points.iter().take(count).enumerate().find_map(|(index, point)| {
-        let cav = footprint(&cycle.ego, point);
-        detections.items.iter().enumerate().find_map(|(item, detection)| {
-            let compared = collision(cycle, &cav, &standing(detection))?;
-            let witness = Witness::of(Rule::Collision, compared).at_point(index);
-            Some(Witness { detection: Some(item), ..witness })
-        })
+    let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
+    let course = Course::new(cycle, points, detections.stamp_ns);
+    let standing = detections.items.iter().map(Moving::detection);
+    course.first(standing, |_| true).map(|Collision { point, object, compared }| {
+        let witness = Witness::of(Rule::Collision, compared).at_point(point);
+        Witness { detection: Some(object), ..witness }
     })
-}
-
-/// A detection stands still.
-fn standing(detection: &Detection) -> Rectangle {
-    Rectangle {
-        centre: Vector::new(detection.x, detection.y),
-        direction: Vector::new(detection.cos, detection.sin),
-        length: detection.length,
-        width: detection.width,
-    }
 }

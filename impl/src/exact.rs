@@ -34,10 +34,28 @@ pub(crate) fn compare(left: &[Product], right: &[Product]) -> Ordering {
 
 /// On which side of the line from `a` to `b` the point `c` is: `Greater` is left.
 pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+    let area = certain_orientation(a, b, c);
+    if area > 0.0 {
+        return Ordering::Greater;
+    }
+    if area < 0.0 {
+        return Ordering::Less;
+    }
     let [ax, ay] = a;
     let [bx, by] = b;
     let [cx, cy] = c;
     compare(&[Product([bx, ax], [cy, ay])], &[Product([by, ay], [cx, ax])])
+}
+
+/// The same in plain doubles: a number of the sign of the area of the triangle, or 0 when rounding
+/// leaves the sign open (Shewchuk 1997, bound A of "orient2d", which is 3.3e-16 of the sum).
+pub(crate) fn certain_orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let ([ax, ay], [bx, by], [cx, cy]) = (a, b, c);
+    let (one, other) = ((bx - ax) * (cy - ay), (by - ay) * (cx - ax));
+    let area = one - other;
+    // 1e-300 is more than products lose to underflow.
+    let bound = (one.abs() + other.abs()) * 4e-16 + 1e-300;
+    if area > bound || area < -bound { area } else { 0.0 }
 }
 
 /// Compares the distance from `p` to `a` with the distance from `p` to `b`.

@@ -1,6 +1,7 @@
 //! Stage v: trajectory with grid map (`spec/3-stages.md#stage-v-trajectory-with-grid-map`), with
 //! H-06.
 
+use crate::band::{Band, Frame};
 use crate::bitmap::{Bitmap, Near};
 use crate::collision::examined;
 use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
@@ -19,23 +20,90 @@ pub(crate) fn grid(
     let s = s_b(&cycle.parameters, Real::new(cycle.ego.speed));
     let count = examined(cycle, trajectory.points, s);
     let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
-    let map = Map::new(cycle, grid);
+    let search = Search { cycle, grid, points, frame: Frame::new(cycle, grid) };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
-    let search = |rule, hit: &dyn Fn(&Disk) -> Option<Hit>| first(cycle, &map, points, rule, hit);
     if cycle.profile == Profile::Paper {
-        let steps = map.dilation();
-        return search(Rule::Occupied, &|disk| map.marked(disk, &occupied, steps));
+        return search.cells(Rule::Occupied, &occupied, |map, disk| {
+            map.marked(disk, &occupied, map.dilation())
+        });
     }
-    let found = search(Rule::Occupied, &|disk| map.touched(disk, &occupied));
+    let found = search.cells(Rule::Occupied, &occupied, |map, disk| map.touched(disk, &occupied));
     if unknown_is_free {
         return found;
     }
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
-    found
-        .or_else(|| {
-            unknown.and_then(|unknown| search(Rule::Unknown, &|disk| map.touched(disk, &unknown)))
+    let unknown = || {
+        unknown.and_then(|unknown| {
+            search.cells(Rule::Unknown, &unknown, |map, disk| map.touched(disk, &unknown))
         })
-        .or_else(|| search(Rule::Outside, &|disk| map.outside(disk)))
+    };
+    let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
+    let outside = || search.first(Rule::Outside, is_inside, Map::outside);
+    found.or_else(unknown).or_else(outside)
+}
+
+/// The points that are examined, on a grid.
+struct Search<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    grid: &'c Grid<'a>,
+    points: &'c [TrajectoryPoint],
+    frame: Frame,
+}
+
+impl Search<'_, '_> {
+    /// The first disk that `hit` says collides with a cell of the bitmap.
+    fn cells(
+        &self,
+        rule: Rule,
+        cells: &Bitmap<'_>,
+        hit: impl Fn(&Map, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        self.first(rule, |band| band.is_free(cells), hit)
+    }
+
+    /// The first hit in the order of points, then disks. As many points as possible are passed at
+    /// once; `is_free`: no disk in the band can hit.
+    fn first(
+        &self,
+        rule: Rule,
+        is_free: impl Fn(&Band) -> bool,
+        hit: impl Fn(&Map, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        let (mut at, mut size) = (0_usize, self.points.len());
+        while at < self.points.len() {
+            let end = at.saturating_add(size).min(self.points.len());
+            let points = self.points.get(at..end)?;
+            if is_free(&Band::new(&self.frame, points)) {
+                at = end;
+                size = size.saturating_mul(2);
+            } else if let [point] = points {
+                let found = self.at_point(rule, at, point, &hit);
+                if found.is_some() {
+                    return found;
+                }
+                at = end;
+            } else {
+                size = points.len() >> 1;
+            }
+        }
+        None
+    }
+
+    /// The first disk that hits.
+    fn at_point(
+        &self,
+        rule: Rule,
+        index: usize,
+        point: &TrajectoryPoint,
+        hit: impl Fn(&Map, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        let map = Map::new(self.cycle, self.grid);
+        (0..self.cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
+            let Hit { cell, distance } = hit(&map, &map.disk(self.cycle, point, i))?;
+            let witness = Witness::of(rule, [distance, map.radius.value()]).at_point(index);
+            Some(Witness { disk: Some(number), cell, ..witness })
+        })
+    }
 }
 
 /// A disk centre in the grid's frame, m.
@@ -48,23 +116,6 @@ struct Disk {
 struct Hit {
     cell: Option<(i64, i64)>,
     distance: f64,
-}
-
-/// The first hit in the order of points, then disks.
-fn first(
-    cycle: &Cycle<'_>,
-    map: &Map,
-    points: &[TrajectoryPoint],
-    rule: Rule,
-    hit: &dyn Fn(&Disk) -> Option<Hit>,
-) -> Option<Witness> {
-    points.iter().enumerate().find_map(|(index, point)| {
-        (0..cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
-            let Hit { cell, distance } = hit(&map.disk(cycle, point, i))?;
-            let witness = Witness::of(rule, [distance, map.radius.value()]).at_point(index);
-            Some(Witness { disk: Some(number), cell, ..witness })
-        })
-    })
 }
 
 /// The frame and the cells of a grid, and the disks' radius.

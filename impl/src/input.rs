@@ -5,11 +5,14 @@ use core::cmp::Ordering;
 
 use crate::configuration::Configuration;
 use crate::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Station, Track, TrackList, Trajectory,
+    TrajectoryPoint,
 };
 use crate::exact::{Product, compare};
 use crate::parameters::Parameters;
 use crate::plane::same_point;
+use crate::route_index::RouteIndex;
+use crate::screen::Screen;
 use crate::verdict::{InvalidInput, Problem};
 
 /// Whose data are invalid.
@@ -29,13 +32,13 @@ pub(crate) struct Usable {
 }
 
 /// Checks everything in the order of `spec/3-stages.md#invalid-input`; the first local problem
-/// goes before the first remote one.
-pub(crate) fn validate(cycle: &Cycle<'_>) -> Result<Usable, Fault> {
+/// goes before the first remote one. A route that is indexed has been checked before.
+pub(crate) fn validate(cycle: &Cycle<'_>, index: Option<&RouteIndex<'_>>) -> Result<Usable, Fault> {
     let remote_tracks =
         matches!(cycle.configuration, Configuration::MotRemote | Configuration::AllRemote);
     let remote_trajectory =
         matches!(cycle.configuration, Configuration::AllRemote | Configuration::PlanRemote);
-    let previous_tracks = local(cycle, remote_tracks).map_err(Fault::Local)?;
+    let previous_tracks = local(cycle, remote_tracks, index.is_some()).map_err(Fault::Local)?;
     let mut trajectory = true;
     if !remote_trajectory {
         trajectory = check_trajectory(cycle, false).map_err(Fault::Local)?;
@@ -66,13 +69,19 @@ const SIZE: [f64; 2] = [0.01, 100.0];
 const ANY: [f64; 2] = [f64::MIN, f64::MAX];
 
 /// All local input but the trajectory; whether `previous_tracks` can be used.
-fn local(cycle: &Cycle<'_>, remote_tracks: bool) -> Result<bool, InvalidInput> {
+fn local(
+    cycle: &Cycle<'_>,
+    remote_tracks: bool,
+    route_is_valid: bool,
+) -> Result<bool, InvalidInput> {
     check_parameters(&cycle.parameters)?;
     check_ego(&cycle.ego)?;
     if let Some(lead) = &cycle.lead {
         check_lead(lead, cycle.now_ns)?;
     }
-    check_route(&cycle.route)?;
+    if !route_is_valid {
+        check_route(&cycle.route)?;
+    }
     if let Some(grid) = &cycle.grid {
         check_grid(grid, cycle.now_ns)?;
     }
@@ -134,7 +143,6 @@ fn check_ego(ego: &Ego) -> Check {
     at.number("ego.cos", ego.cos, ANY)?;
     at.number("ego.sin", ego.sin, ANY)?;
     at.direction("ego.cos", ego.cos, ego.sin)?;
-    at.direction("ego.cos", ego.cos, ego.sin)?;
     at.number("ego.speed", ego.speed, SPEED)?;
     at.number("ego.length", ego.length, SIZE)?;
     at.number("ego.width", ego.width, SIZE)?;
@@ -148,8 +156,12 @@ fn check_lead(lead: &Lead, now_ns: i64) -> Check {
     at.number("lead.speed", lead.speed, SPEED)
 }
 
-fn check_route(route: &Route<'_>) -> Check {
+/// The rules for a route.
+pub(crate) fn check_route(route: &Route<'_>) -> Check {
     Place { index: None }.size("route.stations", route.stations.len(), [2, 8192])?;
+    if stations_are_fine(route.stations) {
+        return Ok(());
+    }
     let mut before: Option<[f64; 2]> = None;
     for (index, station) in route.stations.iter().enumerate() {
         let at = Place { index: Some(index) };
@@ -196,6 +208,9 @@ fn check_detections(list: &DetectionList<'_>, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("detections.stamp_ns", list.stamp_ns, now_ns, false)?;
     at.size("detections.items", list.items.len(), [0, 2048])?;
+    if detections_are_fine(list.items) {
+        return Ok(());
+    }
     for (index, item) in list.items.iter().enumerate() {
         let &Detection { x, y, cos, sin, length, width } = item;
         let at = Place { index: Some(index) };
@@ -264,13 +279,40 @@ fn check_tracks(
     let at = Place { index: None };
     let usable = at.stamp(fields.stamp_ns, list.stamp_ns, now_ns, remote)?;
     at.size(fields.items, list.items.len(), [0, 1024])?;
+    if tracks_are_fine(list.items) {
+        return Ok(usable);
+    }
+    let mut seen = Seen::default();
     for (index, track) in list.items.iter().enumerate() {
         check_track(track, Place { index: Some(index) }, fields)?;
-        if list.items.iter().take(index).any(|earlier| earlier.id == track.id) {
+        let mut earlier = list.items.iter().take(index);
+        if seen.perhaps(track.id) && earlier.any(|earlier| earlier.id == track.id) {
             Place { index: Some(index) }.problem(fields.id, Problem::DuplicateId)?;
         }
     }
     Ok(usable)
+}
+
+/// Bits of the ids so far; two ids may share one, so a set bit only says "perhaps".
+struct Seen([u64; 64]);
+
+impl Default for Seen {
+    fn default() -> Self {
+        Self([0; 64])
+    }
+}
+
+impl Seen {
+    /// Whether the id may have been here before; from now on it has. Ids counted up from anywhere
+    /// get a bit each.
+    fn perhaps(&mut self, id: i64) -> bool {
+        let place = usize::try_from(id >> 6 & 63).unwrap_or(0);
+        let Some(word) = self.0.get_mut(place) else { return true };
+        let bit = 1 << (id & 63);
+        let seen = *word & bit != 0;
+        *word |= bit;
+        seen
+    }
 }
 
 fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
@@ -292,6 +334,9 @@ fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInpu
     let at = Place { index: None };
     let usable = at.stamp("trajectory.stamp_ns", trajectory.stamp_ns, cycle.now_ns, remote)?;
     at.size("trajectory.points", trajectory.points.len(), [1, 1024])?;
+    if usable && points_are_fine(trajectory, cycle.now_ns) {
+        return Ok(usable);
+    }
     let mut before: Option<i64> = None;
     for (index, point) in trajectory.points.iter().enumerate() {
         let &TrajectoryPoint { t_ns, x, y, cos, sin } = point;
@@ -308,6 +353,73 @@ fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInpu
         before = Some(t_ns);
     }
     Ok(usable)
+}
+
+/// Whether all stations are clearly valid; here and below the checks of single values decide, and
+/// say what is wrong, when it is not so.
+fn stations_are_fine(stations: &[Station]) -> bool {
+    let [_, most] = POSITION;
+    let mut screen = Screen::default();
+    let mut before = [f64::NAN; 2];
+    for &Station { x, y, left: [lx, ly], right: [rx, ry] } in stations {
+        for value in [x, y, lx, ly, rx, ry] {
+            screen.size(value, most);
+        }
+        screen.holds(!same_point(before, [x, y]));
+        before = [x, y];
+    }
+    screen.passes()
+}
+
+fn detections_are_fine(items: &[Detection]) -> bool {
+    let [_, most] = POSITION;
+    let mut screen = Screen::default();
+    for &Detection { x, y, cos, sin, length, width } in items {
+        screen.size(x, most);
+        screen.size(y, most);
+        screen.direction(cos, sin);
+        screen.range(length, SIZE);
+        screen.range(width, SIZE);
+    }
+    screen.passes()
+}
+
+/// Ids that increase are different.
+fn tracks_are_fine(items: &[Track]) -> bool {
+    let ([_, farthest], [_, fastest]) = (POSITION, VELOCITY);
+    let mut screen = Screen::default();
+    let mut before = None;
+    for &Track { id, x, y, cos, sin, vx, vy, length, width } in items {
+        screen.size(x, farthest);
+        screen.size(y, farthest);
+        screen.direction(cos, sin);
+        screen.size(vx, fastest);
+        screen.size(vy, fastest);
+        screen.range(length, SIZE);
+        screen.range(width, SIZE);
+        screen.holds(before < Some(id));
+        before = Some(id);
+    }
+    screen.passes()
+}
+
+/// When times increase, the first and the last one say whether all are within 60 s of now.
+fn points_are_fine(trajectory: &Trajectory<'_>, now_ns: i64) -> bool {
+    let [_, most] = POSITION;
+    let mut screen = Screen::default();
+    let mut before = None;
+    for &TrajectoryPoint { t_ns, x, y, cos, sin } in trajectory.points {
+        screen.size(x, most);
+        screen.size(y, most);
+        screen.direction(cos, sin);
+        screen.holds(before < Some(t_ns));
+        before = Some(t_ns);
+    }
+    for end in [trajectory.points.first(), trajectory.points.last()].into_iter().flatten() {
+        let age_ns = elapsed_ns(end.t_ns, now_ns);
+        screen.holds((-HORIZON_NS..=HORIZON_NS).contains(&age_ns));
+    }
+    screen.passes()
 }
 
 /// Where in a list a value stands.
@@ -366,6 +478,11 @@ impl Place {
 
     /// The norm check is exact: abs(cos^2 + sin^2 - 1) <= 1e-6 in real numbers.
     fn direction(self, field: &'static str, cos: f64, sin: f64) -> Check {
+        let mut screen = Screen::default();
+        screen.direction(cos, sin);
+        if screen.passes() {
+            return Ok(());
+        }
         let near = |value: f64| (-2.0..=2.0).contains(&value);
         let square = [Product([cos, 0.0], [cos, 0.0]), Product([sin, 0.0], [sin, 0.0])];
         let one = Product([1.0, 0.0], [1.0, 0.0]);

@@ -6,37 +6,58 @@ use crate::input::elapsed_ns;
 use crate::plane::segment_distance;
 use crate::plane::{Vector, distance};
 use crate::rounding::Real;
-use crate::route::{apart, certainly_near, in_corridor, path_distance, segments};
+use crate::route::Way;
+use crate::route_index::RouteIndex;
 use crate::trajectory_rules::{arc_rules, step_rules};
 use crate::verdict::{Rule, Witness};
 
 /// Why stage ii fails, if it does.
-pub(crate) fn map_validation(cycle: &Cycle<'_>, trajectory: &Trajectory<'_>) -> Option<Witness> {
+pub(crate) fn map_validation<'a>(
+    cycle: &Cycle<'a>,
+    trajectory: &Trajectory<'_>,
+    index: Option<&RouteIndex<'a>>,
+) -> Option<Witness> {
     let points = trajectory.points;
-    let found = theta_map(cycle, points);
+    let way = Way::new(&cycle.route, index);
+    let (found, all_inside) = theta_map(cycle, way, points);
     if cycle.profile == Profile::Paper {
         return found;
     }
     found
         .or_else(|| start(cycle, points))
-        .or_else(|| corridor(cycle, points))
-        .or_else(|| direction(cycle, points))
+        .or_else(|| if all_inside { None } else { corridor(way, points) })
+        .or_else(|| direction(way, points))
         .or_else(|| step_rules(cycle, points))
         .or_else(|| arc_rules(cycle, points))
 }
 
-/// A point outside the corridor that is not certainly within `theta_map` of the reference path.
-fn theta_map(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+/// A point outside the corridor that is not certainly within `theta_map` of the reference path;
+/// and whether no point is outside the corridor.
+fn theta_map(
+    cycle: &Cycle<'_>,
+    way: Way<'_, '_>,
+    points: &[TrajectoryPoint],
+) -> (Option<Witness>, bool) {
     let limit = cycle.parameters.theta_map;
-    points.iter().enumerate().find_map(|(index, point)| {
+    let (mut hint, mut all_inside) = (0, true);
+    let found = points.iter().enumerate().find_map(|(index, point)| {
         let q = [point.x, point.y];
-        if in_corridor(&cycle.route, q) || certainly_near(&cycle.route, q, limit) {
+        if way.in_corridor(q, &mut hint) {
             return None;
         }
-        let (away, segment) = path_distance(&cycle.route, q, 0);
-        let witness = Witness::of(Rule::ThetaMap, [away.value(), limit]).at_point(index);
-        Some(Witness { segment: Some(segment), ..witness })
-    })
+        all_inside = false;
+        if way.certainly_near(q, limit) {
+            return None;
+        }
+        Some(away(way, q, hint, Rule::ThetaMap, limit).at_point(index))
+    });
+    (found, all_inside)
+}
+
+/// The witness that a place is too far from the reference path.
+fn away(way: Way<'_, '_>, q: [f64; 2], hint: usize, rule: Rule, limit: f64) -> Witness {
+    let (away, segment) = way.path_distance(q, hint);
+    Witness { segment: Some(segment), ..Witness::of(rule, [away.value(), limit]) }
 }
 
 /// H-07: time and place of the first point.
@@ -57,30 +78,28 @@ fn start(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
 }
 
 /// H-07: a point outside the corridor.
-fn corridor(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+fn corridor(way: Way<'_, '_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let mut hint = 0;
     points.iter().enumerate().find_map(|(index, point)| {
         let q = [point.x, point.y];
-        if in_corridor(&cycle.route, q) {
-            return None;
-        }
-        let (away, segment) = path_distance(&cycle.route, q, 0);
-        let witness = Witness::of(Rule::Corridor, [away.value(), 0.0]).at_point(index);
-        Some(Witness { segment: Some(segment), ..witness })
+        let inside = way.in_corridor(q, &mut hint);
+        (!inside).then(|| away(way, q, hint, Rule::Corridor, 0.0).at_point(index))
     })
 }
 
 /// H-07: a point at which the heading is not certainly along every segment that may be nearest.
-fn direction(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+fn direction(way: Way<'_, '_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let mut hint = 0;
     points.iter().enumerate().find_map(|(index, point)| {
         let q = [point.x, point.y];
+        hint = way.nearer(q, hint);
+        if certainly_along(way, point, hint) {
+            return None;
+        }
         let heading = Vector::new(point.cos, point.sin);
-        let (least, nearest) = path_distance(&cycle.route, q, hint);
+        let (least, nearest) = way.path_distance(q, hint);
         hint = nearest;
-        segments(&cycle.route).find_map(|segment| {
-            if apart(segment, q) > least.magnitude() {
-                return None;
-            }
+        way.segments(q, least.magnitude()).find_map(|segment| {
             let away = segment_distance(q, segment.from, segment.to);
             let along = heading.dot(Vector::between(segment.from, segment.to));
             if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
@@ -89,5 +108,18 @@ fn direction(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
             let witness = Witness::of(Rule::Direction, [along.value(), 0.0]).at_point(index);
             Some(Witness { segment: Some(segment.index), ..witness })
         })
+    })
+}
+
+/// Whether the heading is certainly along every segment that is at most as far as the one of the
+/// hint, of which the nearest is one. A dot product errs by less than 2^-50 of the sum of its
+/// summands' sizes.
+fn certainly_along(way: Way<'_, '_>, point: &TrajectoryPoint, hint: usize) -> bool {
+    let q = [point.x, point.y];
+    let reach = way.at_most(q, hint);
+    way.segments(q, reach).all(|segment| {
+        let ([ax, ay], [bx, by]) = (segment.from, segment.to);
+        let (x, y) = (point.cos * (bx - ax), point.sin * (by - ay));
+        x + y > (x.abs() + y.abs()) * 1e-15 + 1e-300
     })
 }

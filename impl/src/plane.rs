@@ -34,11 +34,6 @@ impl Vector {
         self.x * other.y - self.y * other.x
     }
 
-    /// Turned left by a right angle.
-    pub(crate) fn turned(self) -> Self {
-        Self { x: -self.y, y: self.x }
-    }
-
     pub(crate) fn times(self, factor: Real) -> Self {
         Self { x: self.x * factor, y: self.y * factor }
     }

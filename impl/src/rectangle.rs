@@ -24,20 +24,23 @@ impl Rectangle {
         let diagonal = (length.squared() + width.squared()).sqrt();
         diagonal * Real::new(0.5) * (Real::ONE + Real::new(1e-6))
     }
-
-    /// Half of the rectangle's extent along `axis`, times the length of `axis`.
-    fn extent(&self, axis: Vector) -> Real {
-        let along = self.direction.dot(axis).abs() * Real::new(0.5 * self.length);
-        along + self.direction.turned().dot(axis).abs() * Real::new(0.5 * self.width)
-    }
 }
 
 /// Whether the two rectangles may share a point: unless the extents along a side of one of them
 /// certainly leave a gap (separating axes of two convex sets whose sides are orthogonal).
 pub(crate) fn possibly_touch(a: &Rectangle, b: &Rectangle) -> bool {
     let apart = b.centre - a.centre;
-    let axes = [a.direction, a.direction.turned(), b.direction, b.direction.turned()];
-    !axes
-        .iter()
-        .any(|&axis| (a.extent(axis) + b.extent(axis)).certainly_below(apart.dot(axis).abs()))
+    let along = a.direction.dot(b.direction).abs();
+    let across = a.direction.cross(b.direction).abs();
+    let half = |length: f64| Real::new(0.5 * length);
+    let separated = |one: &Rectangle, other: &Rectangle| {
+        let own = one.direction.dot(one.direction);
+        let sides = [
+            (own * half(one.length), along * half(other.length) + across * half(other.width)),
+            (own * half(one.width), across * half(other.length) + along * half(other.width)),
+        ];
+        let gaps = [apart.dot(one.direction).abs(), one.direction.cross(apart).abs()];
+        sides.iter().zip(gaps).any(|(&(own, other), gap)| (own + other).certainly_below(gap))
+    };
+    !(separated(a, b) || separated(b, a))
 }

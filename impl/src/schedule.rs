@@ -6,6 +6,7 @@ use crate::detections::{detections, gap};
 use crate::grid::grid;
 use crate::input::{Fault, Usable, elapsed_ns, validate};
 use crate::map_validation::map_validation;
+use crate::route_index::RouteIndex;
 use crate::scratch::Scratch;
 use crate::track_validation::{previous_in_use, track_validation};
 use crate::tracks::tracks;
@@ -14,7 +15,25 @@ use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
-    match validate(cycle) {
+    decide(cycle, None, scratch)
+}
+
+/// As `check`, with the index of the cycle's route: the same stations in the same memory. An index
+/// of another route is not used. The answer is the same.
+pub fn check_indexed<'a>(
+    cycle: &Cycle<'a>,
+    index: &RouteIndex<'a>,
+    scratch: &mut Scratch<'_>,
+) -> Result<Report, InvalidInput> {
+    decide(cycle, Some(index).filter(|index| index.is_of(&cycle.route)), scratch)
+}
+
+fn decide<'a>(
+    cycle: &Cycle<'a>,
+    index: Option<&RouteIndex<'a>>,
+    scratch: &mut Scratch<'_>,
+) -> Result<Report, InvalidInput> {
+    match validate(cycle, index) {
         Err(Fault::Local(problem)) => Err(problem),
         Err(Fault::Remote(problem)) => {
             let stages = Stage::ALL.map(|stage| match duty(cycle, stage) {
@@ -25,7 +44,7 @@ pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, Inv
         }
         Ok(usable) => {
             scratch.fits(cycle)?;
-            Ok(run(cycle, usable, scratch))
+            Ok(run(cycle, usable, index, scratch))
         }
     }
 }
@@ -35,17 +54,24 @@ pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, Inv
 pub struct Valid<'c, 'a> {
     cycle: &'c Cycle<'a>,
     usable: Usable,
+    index: Option<&'c RouteIndex<'a>>,
 }
 
 impl<'c, 'a> Valid<'c, 'a> {
-    /// Checks all input, local and remote, and the size of the scratch.
+    /// Checks all input, local and remote, and the size of the scratch. `index`: as for
+    /// `check_indexed`.
     ///
     /// Errors: the first invalid value. Source: `spec/3-stages.md#invalid-input`.
-    pub fn new(cycle: &'c Cycle<'a>, scratch: &Scratch<'_>) -> Result<Self, InvalidInput> {
-        let usable =
-            validate(cycle).map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
+    pub fn new(
+        cycle: &'c Cycle<'a>,
+        index: Option<&'c RouteIndex<'a>>,
+        scratch: &Scratch<'_>,
+    ) -> Result<Self, InvalidInput> {
+        let index = index.filter(|index| index.is_of(&cycle.route));
+        let usable = validate(cycle, index)
+            .map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
         scratch.fits(cycle)?;
-        Ok(Self { cycle, usable })
+        Ok(Self { cycle, usable, index })
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
@@ -62,7 +88,7 @@ impl<'c, 'a> Valid<'c, 'a> {
                 let detections = current.detections.ok_or(Input::Detections)?;
                 Ok(track_validation(cycle, tracks, detections, previous, scratch))
             }),
-            Stage::Ii => current.trajectory().map(|path| map_validation(cycle, path)),
+            Stage::Ii => current.trajectory().map(|path| map_validation(cycle, path, self.index)),
             Stage::Iii => current.trajectory().and_then(|path| {
                 Ok(tracks(cycle, path, current.tracks.ok_or(Input::Tracks)?, previous))
             }),
@@ -180,7 +206,12 @@ impl Progress {
 }
 
 /// Runs the stages on valid input.
-fn run(cycle: &Cycle<'_>, usable: Usable, scratch: &mut Scratch<'_>) -> Report {
+fn run<'a>(
+    cycle: &Cycle<'a>,
+    usable: Usable,
+    index: Option<&RouteIndex<'a>>,
+    scratch: &mut Scratch<'_>,
+) -> Report {
     let hardened = cycle.profile == Profile::Hardened;
     let all_remote = cycle.configuration == Configuration::AllRemote;
     let current = Current::new(cycle, usable);
@@ -201,7 +232,7 @@ fn run(cycle: &Cycle<'_>, usable: Usable, scratch: &mut Scratch<'_>) -> Report {
 
     let with_trajectory = (Input::Trajectory, current.trajectory.is_some());
     progress.settle(scheduled(Stage::Ii), false, lacks(&[with_trajectory]), || {
-        map_validation(cycle, current.trajectory?)
+        map_validation(cycle, current.trajectory?, index)
     });
 
     let missing = lacks(&[with_trajectory, (Input::Tracks, current.tracks.is_some())]);

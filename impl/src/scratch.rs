@@ -6,27 +6,41 @@ use crate::verdict::{InvalidInput, Problem};
 /// Working memory for one row of the assignment; its content between cycles means nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
-    /// Index of a gated track in the track list.
-    pub(crate) track: usize,
-    /// Column assigned to this row, if any.
-    pub(crate) column: Option<usize>,
     /// Dual potential.
     pub(crate) potential: i64,
+    /// Index of a gated track in the track list.
+    pub(crate) track: u16,
+    /// Column assigned to this row, or `NONE`.
+    pub(crate) column: u16,
 }
 
 /// Working memory for one column of the assignment; its content between cycles means nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Column {
-    /// Row assigned to this column, if any.
-    pub(crate) row: Option<usize>,
-    /// Row before this column on the shortest path.
-    pub(crate) before: usize,
     /// Dual potential.
     pub(crate) potential: i64,
-    /// Length of the shortest path that is known, if one is.
-    pub(crate) distance: Option<i64>,
+    /// Length of the shortest path that is known, or `UNKNOWN`.
+    pub(crate) distance: i64,
+    /// Row assigned to this column, or `NONE`.
+    pub(crate) row: u16,
+    /// Row before this column on the shortest path.
+    pub(crate) before: u16,
+    /// The first detection of a list, see `pairing`; `NONE` for an empty one.
+    pub(crate) head: u16,
+    /// The next detection of the list that this one is in.
+    pub(crate) next: u16,
     /// The shortest path is final.
     pub(crate) scanned: bool,
+}
+
+/// No row, column or detection: there are at most 2112.
+pub(crate) const NONE: u16 = u16::MAX;
+/// No path.
+pub(crate) const UNKNOWN: i64 = i64::MAX;
+
+/// An index as it is kept here.
+pub(crate) fn short(index: usize) -> u16 {
+    u16::try_from(index).unwrap_or(NONE)
 }
 
 /// How many elements of each kind a cycle needs.

@@ -6,9 +6,11 @@ use crate::assignment::assign;
 use crate::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use crate::exact::compare_distances;
 use crate::input::elapsed_ns;
+use crate::pairing::{Rules, certainly_pass};
+use crate::parameters::Parameters;
 use crate::plane::{Vector, distance};
 use crate::rounding::Real;
-use crate::scratch::{Column, Row, Scratch};
+use crate::scratch::{Column, NONE, Row, Scratch, short};
 use crate::verdict::{Rule, Witness};
 
 /// Why stage i fails, if it does. `previous`: the list for H-09, if it is in use.
@@ -19,12 +21,35 @@ pub(crate) fn track_validation(
     previous: Option<&TrackList<'_>>,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let gated = gate(cycle, tracks, detections, scratch.rows);
-    match cycle.profile {
-        Profile::Paper => mean_cost(cycle, tracks, detections, gated, scratch),
-        Profile::Hardened => matched_cost(cycle, tracks, detections, gated, scratch)
-            .or_else(|| previous.and_then(|previous| velocity(cycle, tracks, previous))),
+    let mut paired = None;
+    if !pairs_found(cycle, tracks, detections, scratch) {
+        let gated = gate(cycle, tracks, detections, scratch.rows);
+        paired = match cycle.profile {
+            Profile::Paper => mean_cost(cycle, tracks, detections, gated, scratch),
+            Profile::Hardened => matched_cost(cycle, tracks, detections, gated, scratch),
+        };
     }
+    paired.or_else(|| previous.and_then(|previous| velocity(cycle, tracks, previous)))
+}
+
+/// Whether a quick search finds pairs that keep the rules of the profile.
+fn pairs_found(
+    cycle: &Cycle<'_>,
+    tracks: &TrackList<'_>,
+    detections: &DetectionList<'_>,
+    scratch: &mut Scratch<'_>,
+) -> bool {
+    let Parameters { theta_tr, theta_track_max, miss_budget, .. } = cycle.parameters;
+    let rules = match cycle.profile {
+        Profile::Paper => Rules { theta_tr, limit: f64::MAX, spare: 0 },
+        Profile::Hardened => {
+            let spare = usize::try_from(miss_budget).unwrap_or(0);
+            Rules { theta_tr, limit: theta_track_max, spare }
+        }
+    };
+    let columns = first(scratch.columns, detections.items.len());
+    let p = [cycle.ego.x, cycle.ego.y];
+    certainly_pass(p, tracks.items, detections.items, rules, columns)
 }
 
 /// H-09: `previous_tracks` when the difference of stamps is in (0, 1 s] and they are not too old
@@ -60,7 +85,7 @@ fn gate(
     for (index, track) in tracks.items.iter().enumerate() {
         let is_gated = compare_distances(p, [track.x, track.y], farthest) != Ordering::Greater;
         if let (true, Some(row)) = (is_gated, rows.get_mut(gated)) {
-            row.track = index;
+            row.track = short(index);
             gated = gated.saturating_add(1);
         }
     }
@@ -124,7 +149,7 @@ fn matched_cost(
             pair.is_some_and(|pair| certainly_closer(pair.metres(), limit))
         })
     });
-    let track = lone.and_then(|row| tracks.items.get(scratch.rows.get(row)?.track));
+    let track = lone.and_then(|row| tracks.items.get(usize::from(scratch.rows.get(row)?.track)));
     let compared = [count(assigned.saturating_sub(spare)), count(k)];
     let witness = Witness::of(Rule::NoAssignment, compared);
     Some(Witness { track: track.map(|track| track.id), ..witness })
@@ -163,14 +188,15 @@ impl<'a> Pairs<'a> {
     /// The pair; `None` for a spare column.
     fn get(&self, rows: &[Row], row: usize, column: usize) -> Option<Pair<'a>> {
         let (track, detection) = if self.swapped { (column, row) } else { (row, column) };
-        let track = self.tracks.get(rows.get(track)?.track)?;
+        let track = self.tracks.get(usize::from(rows.get(track)?.track))?;
         Some(Pair(track, self.detections.get(detection)?))
     }
 
     /// The sum of the distances of all assigned pairs, m.
     fn sum(&self, rows: &[Row], columns: &[Column]) -> Real {
         columns.iter().enumerate().fold(Real::ZERO, |sum, (column, entry)| {
-            let pair = entry.row.and_then(|row| self.get(rows, row, column));
+            let row = usize::from(entry.row);
+            let pair = if entry.row == NONE { None } else { self.get(rows, row, column) };
             pair.map_or(sum, |Pair(t, d)| sum + distance([t.x, t.y], [d.x, d.y]))
         })
     }

@@ -1,13 +1,10 @@
 //! Stage iii: trajectory with tracks (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use crate::collision::{collision, examined, footprint};
+use crate::collision::{Collision, Course, examined};
 use crate::configuration::Configuration;
-use crate::cycle::{Cycle, Profile, Track, TrackList, Trajectory, TrajectoryPoint};
+use crate::cycle::{Cycle, Profile, TrackList, Trajectory};
 use crate::distance::s_cav;
-use crate::input::elapsed_ns;
-use crate::plane::Vector;
-use crate::rectangle::Rectangle;
-use crate::rounding::Real;
+use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
 
 /// Why stage iii fails, if it does. `held` is the list whose ids H-09 counts as held: the previous
@@ -21,47 +18,19 @@ pub(crate) fn tracks(
     let s = s_cav(&cycle.parameters, cycle.ego.speed);
     let count = examined(cycle, trajectory.points, s);
     let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
-    let predicted =
-        |point: &TrajectoryPoint| Real::seconds(elapsed_ns(tracks.stamp_ns, point.t_ns));
-    let is_held =
-        |track: &Track| held.is_some_and(|list| list.items.iter().any(|old| old.id == track.id));
-    let found = first(cycle, points, tracks, Rule::Collision, predicted, |_| true);
+    let course = Course::new(cycle, points, tracks.stamp_ns);
+    let witness = |rule, Collision { point, object, compared }| {
+        let track = tracks.items.get(object).map(|track| track.id);
+        Witness { track, ..Witness::of(rule, compared) }.at_point(point)
+    };
+    let predicted = tracks.items.iter().map(Moving::track);
+    let found = course.first(predicted, |_| true).map(|it| witness(Rule::Collision, it));
     if cycle.profile == Profile::Paper || cycle.configuration != Configuration::AllRemote {
         return found;
     }
-    let standing = |_: &TrajectoryPoint| Real::ZERO;
-    let rule = Rule::CollisionStanding;
-    found.or_else(|| first(cycle, points, tracks, rule, standing, |track| !is_held(track)))
-}
-
-/// The first collision in the order of points, then tracks; every track is moved on by the time
-/// of the point, and only those that `counts` holds for are examined.
-fn first(
-    cycle: &Cycle<'_>,
-    points: &[TrajectoryPoint],
-    tracks: &TrackList<'_>,
-    rule: Rule,
-    seconds: impl Fn(&TrajectoryPoint) -> Real,
-    counts: impl Fn(&Track) -> bool,
-) -> Option<Witness> {
-    points.iter().enumerate().find_map(|(index, point)| {
-        let cav = footprint(&cycle.ego, point);
-        let dt = seconds(point);
-        tracks.items.iter().find_map(|track| {
-            let compared = collision(cycle, &cav, &moved(track, dt))?;
-            let witness = Witness { track: Some(track.id), ..Witness::of(rule, compared) };
-            counts(track).then(|| witness.at_point(index))
-        })
-    })
-}
-
-/// The rectangle of a track after `dt` seconds with unchanged velocity and direction.
-fn moved(track: &Track, dt: Real) -> Rectangle {
-    let velocity = Vector::new(track.vx, track.vy);
-    Rectangle {
-        centre: Vector::new(track.x, track.y) + velocity.times(dt),
-        direction: Vector::new(track.cos, track.sin),
-        length: track.length,
-        width: track.width,
-    }
+    let is_held = |id: i64| held.is_some_and(|list| list.items.iter().any(|old| old.id == id));
+    let standing =
+        tracks.items.iter().map(|track| Moving { velocity: [0.0; 2], ..Moving::track(track) });
+    let counts = |index: usize| tracks.items.get(index).is_some_and(|track| !is_held(track.id));
+    found.or_else(|| course.first(standing, counts).map(|it| witness(Rule::CollisionStanding, it)))
 }

@@ -7,9 +7,9 @@ use std::time::Instant;
 use mufasa::configuration::Configuration;
 use mufasa::cycle::{Cycle, Profile};
 use mufasa::verdict::Stage;
-use mufasa_benches::contestant::Memory;
+use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
-use mufasa_benches::race::{Contestant, Rounds, race};
+use mufasa_benches::race::{Entry, Rounds, race};
 use mufasa_benches::table::{OURS, Results, STAGES, hardened, json, markdown};
 use mufasa_benches::workload::recipe::Size;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
@@ -63,11 +63,11 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         by_peer(name.map_or("", |(name, _)| name), peer)
     }));
     for (name, cycle) in [(OURS.to_owned(), &paper), (hardened(), &strict)] {
-        let mut memory = Memory::for_cycle(cycle);
-        let run = move || memory.all_stages(cycle);
+        let mut it = Contestant::new(cycle);
+        let run = move || it.all_stages();
         contestants.push(contestant("all", name.clone(), false, Box::new(run)));
-        let mut memory = Memory::for_cycle(cycle);
-        let run = move || memory.validate(cycle);
+        let mut it = Contestant::new(cycle);
+        let run = move || it.validate();
         contestants.push(contestant("validation", name, false, Box::new(run)));
     }
     for (configuration, task) in [
@@ -77,9 +77,9 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     ] {
         for (name, profile) in [(OURS.to_owned(), Profile::Paper), (hardened(), Profile::Hardened)]
         {
-            let cycle = workload.cycle(profile, configuration);
-            let mut memory = Memory::for_cycle(&cycle);
-            let run = move || memory.check(&cycle).failed_stage.is_none();
+            let cycle = Box::leak(Box::new(workload.cycle(profile, configuration)));
+            let mut it = Contestant::new(cycle);
+            let run = move || it.check().failed_stage.is_none();
             contestants.push(contestant(task, name, false, Box::new(run)));
         }
     }
@@ -99,7 +99,7 @@ fn run(size: &Size, rounds: Rounds) -> Results {
 }
 
 /// Wrong answers are not timed.
-fn agree(contestants: &mut [Contestant<'_>], expected: bool) {
+fn agree(contestants: &mut [Entry<'_>], expected: bool) {
     for it in contestants {
         assert_eq!((it.run)(), expected, "{} {}", it.task, it.name);
     }
@@ -110,18 +110,17 @@ fn contestant<'a>(
     name: String,
     slow: bool,
     run: Box<dyn FnMut() -> bool + 'a>,
-) -> Contestant<'a> {
-    Contestant { task: task.to_owned(), name, slow, run }
+) -> Entry<'a> {
+    Entry { task: task.to_owned(), name, slow, run }
 }
 
 /// A stage of the implementation alone, after validation.
-fn ours<'a>(task: &str, name: String, cycle: &'a Cycle<'a>, stage: Stage) -> Contestant<'a> {
-    let mut memory = Memory::for_cycle(cycle);
-    let valid = memory.valid(cycle);
-    let run = move || memory.stage(std::hint::black_box(&valid), stage);
+fn ours<'a>(task: &str, name: String, cycle: &'a Cycle<'a>, stage: Stage) -> Entry<'a> {
+    let mut it = Contestant::new(cycle);
+    let run = move || it.stage(stage);
     contestant(task, name, false, Box::new(run))
 }
 
-fn by_peer<'a>(task: &str, peer: peer::Peer<'a>) -> Contestant<'a> {
+fn by_peer<'a>(task: &str, peer: peer::Peer<'a>) -> Entry<'a> {
     contestant(task, peer.name.to_owned(), peer.slow, peer.decide)
 }

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use super::assign;
 use crate::random::Random;
-use crate::scratch::{Column, Row};
+use crate::scratch::{Column, NONE, Row};
 
 type Costs = Vec<Vec<Option<i64>>>;
 
@@ -14,7 +14,11 @@ fn run(costs: &Costs, columns: usize) -> (usize, i64) {
     let mut table = vec![Column::default(); columns];
     let assigned = assign(&mut rows, costs.len(), &mut table, |_, row, column| costs[row][column]);
     let mut seen = vec![false; costs.len()];
-    let pairs = table.iter().enumerate().filter_map(|(at, column)| Some((column.row?, at)));
+    let pairs = table
+        .iter()
+        .enumerate()
+        .filter(|(_, column)| column.row != NONE)
+        .map(|(at, column)| (usize::from(column.row), at));
     let total = pairs.map(|(row, column)| {
         assert!(!core::mem::replace(&mut seen[row], true), "a row has two columns");
         costs[row][column].expect("a pair that must not be")
@@ -94,11 +98,11 @@ fn potentials_prove_that_nothing_is_cheaper() {
             let count = assign(&mut lines, rows, &mut table, |_, row, column| costs[row][column]);
             assert_eq!(count, rows);
             for (at, column) in table.iter().enumerate() {
-                assert!(column.potential <= 0 && (column.row.is_some() || column.potential == 0));
+                assert!(column.potential <= 0 && (column.row != NONE || column.potential == 0));
                 for (row, line) in lines.iter().enumerate() {
                     let left = costs[row][at].map(|cost| cost - line.potential - column.potential);
                     assert!(left.is_some_and(|left| left >= 0), "{row} {at}");
-                    assert!(column.row != Some(row) || left == Some(0), "{row} {at}");
+                    assert!(usize::from(column.row) != row || left == Some(0), "{row} {at}");
                 }
             }
         }

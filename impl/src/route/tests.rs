@@ -1,10 +1,26 @@
 //! Borders and shared edges of the corridor, and the reference path.
 
-use super::{in_corridor, path_distance, segments};
+use super::{Segment, Way};
 use crate::cycle::{Route, Station};
+use crate::rounding::Real;
 
 fn station(x: f64, y: f64) -> Station {
     Station { x, y, left: [x, y + 2.0], right: [x, y - 2.0] }
+}
+
+fn in_corridor(route: &Route<'_>, q: [f64; 2]) -> bool {
+    // Whatever the hint, the answer is the same.
+    let answers = [0, 1, 7].map(|mut hint| Way::new(route, None).in_corridor(q, &mut hint));
+    assert!(answers.iter().all(|&answer| answer == answers[0]));
+    answers[0]
+}
+
+fn path_distance(route: &Route<'_>, q: [f64; 2], hint: usize) -> (Real, usize) {
+    Way::new(route, None).path_distance(q, hint)
+}
+
+fn segments<'a>(route: &'a Route<'_>) -> impl Iterator<Item = Segment> + 'a {
+    (0..route.stations.len()).filter_map(|index| Way::new(route, None).segment(index))
 }
 
 #[test]
