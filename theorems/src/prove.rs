@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::real::formula::{Formula, not};
 use crate::real::path;
 use crate::solver::{Answer, Solver};
+use crate::theorem::Theorem;
 
 /// Longest time for the claim on one path, ms.
 const CLAIM_MS: u32 = 60_000;
@@ -32,6 +33,32 @@ pub struct Proof {
     pub questions: usize,
     /// Time taken.
     pub time: Duration,
+}
+
+/// A theorem judged.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// Of its claim.
+    pub proof: Proof,
+    /// Of its wrong variant, which must be refuted.
+    pub control: Proof,
+}
+
+impl Judgement {
+    /// The claim's verdict; not known when the wrong variant is not refuted, because then the
+    /// claim may be one of nothing.
+    pub fn verdict(&self) -> &Verdict {
+        match (&self.proof.verdict, &self.control.verdict) {
+            (Verdict::Proved, Verdict::Proved | Verdict::Unknown) => &Verdict::Unknown,
+            (verdict, _) => verdict,
+        }
+    }
+}
+
+/// Proves a theorem and refutes its wrong variant. Errors are those of talking to the solver.
+pub fn judge(theorem: &Theorem) -> io::Result<Judgement> {
+    let proof = prove(&theorem.claim)?;
+    Ok(Judgement { proof, control: prove(&theorem.wrong.claim)? })
 }
 
 /// Runs `claim` on every path that its comparisons take, and asks the solver for a

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use mufasa_theorems::prove::{Verdict, prove};
+use mufasa_theorems::gappa;
+use mufasa_theorems::prove::{Verdict, judge};
 use mufasa_theorems::solver;
 use mufasa_theorems::theorem;
 
@@ -17,11 +18,23 @@ fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
     };
     println!("{version}");
     for theorem in theorem::all() {
-        let proof = prove(&theorem.claim).expect("z3 answers");
-        println!("{}: {} paths, {:.1?}", theorem.id, proof.paths, proof.time);
-        assert_eq!(proof.verdict, Verdict::Proved, "{}", theorem.id);
-        let wrong = prove(&theorem.wrong.claim).expect("z3 answers");
-        assert!(matches!(wrong.verdict, Verdict::Refuted(_)), "{}: {wrong:?}", theorem.id);
+        let judgement = judge(theorem).expect("z3 answers");
+        println!("{}: {} paths", theorem.id, judgement.proof.paths);
+        assert_eq!(*judgement.verdict(), Verdict::Proved, "{}: {judgement:?}", theorem.id);
+    }
+}
+
+#[test]
+fn every_bound_is_proved_and_a_smaller_one_is_not() {
+    let Some(version) = gappa::version() else {
+        println!("NOT RUN: no Gappa here");
+        return;
+    };
+    println!("{version}");
+    for bound in &gappa::BOUNDS {
+        let (verdict, time) = bound.judge().expect("Gappa runs");
+        println!("{}: {time:.1?}", bound.id);
+        assert_eq!(verdict, Verdict::Proved, "{}", bound.id);
     }
 }
 

@@ -21,17 +21,17 @@ pub enum Formula {
 
 /// a < b
 pub fn less(a: &Real, b: &Real) -> Formula {
-    Formula::Sign(a - b, Signs::NEGATIVE)
+    Formula::Sign(a.minus(b), Signs::NEGATIVE)
 }
 
 /// a <= b
 pub fn at_most(a: &Real, b: &Real) -> Formula {
-    Formula::Sign(b - a, Signs::AT_LEAST_ZERO)
+    Formula::Sign(b.minus(a), Signs::AT_LEAST_ZERO)
 }
 
 /// a = b
 pub fn equal(a: &Real, b: &Real) -> Formula {
-    Formula::Sign(a - b, Signs::ZERO)
+    Formula::Sign(a.minus(b), Signs::ZERO)
 }
 
 /// Two points are the same.
@@ -52,6 +52,21 @@ pub fn implies(a: Formula, b: Formula) -> Formula {
 /// `a` exactly when `b`.
 pub fn iff(a: &Formula, b: &Formula) -> Formula {
     Formula::All(vec![implies(a.clone(), b.clone()), implies(b.clone(), a.clone())])
+}
+
+/// Two numbers and what a monotone function makes of them are in the same order.
+pub fn same_order([a, of_a]: [&Real; 2], [b, of_b]: [&Real; 2]) -> Formula {
+    Formula::All(vec![
+        implies(at_most(a, b), at_most(of_a, of_b)),
+        implies(at_most(b, a), at_most(of_b, of_a)),
+    ])
+}
+
+/// From here on every sum, difference, product and quotient is rounded, by one function of which
+/// only this is known: it is monotone and keeps 0. Rounding to doubles is such a function, in every
+/// direction and also where numbers overflow or underflow.
+pub fn round_every_result() {
+    path::with(|path| path.rounds = true);
 }
 
 /// From here on the solver knows of a root only that it is >= 0, and what lemmas say of it.

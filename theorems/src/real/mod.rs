@@ -106,24 +106,20 @@ impl Real {
         if *self < Self::zero() { -self } else { self.clone() }
     }
 
-    /// The number rounded by some monotone function, the same one on the whole path.
-    #[must_use]
-    pub fn rounded(&self) -> Self {
-        let before: Vec<(Self, Self)> = path::with(|path| {
-            let made =
-                path.made.iter().filter(|((operation, _), _)| *operation == Operation::Rounding);
+    /// The result of an operation: rounded by one monotone function that keeps 0, if this path
+    /// rounds (`formula::round_every_result`).
+    fn result(self) -> Self {
+        if !path::with(|path| path.rounds) || self.0.as_constant().is_some() {
+            return self;
+        }
+        let mut before: Vec<(Self, Self)> = path::with(|path| {
+            let made = path.made.iter().filter(|((kind, _), _)| *kind == Operation::Rounding);
             made.map(|((_, from), to)| (Self::of(from.clone()), Self::of(to.clone()))).collect()
         });
+        before.push((Self::zero(), Self::zero()));
         self.made(Operation::Rounding, |rounded| {
             for (other, other_rounded) in &before {
-                for (a, b, c, d) in
-                    [(self, other, rounded, other_rounded), (other, self, other_rounded, rounded)]
-                {
-                    formula::given(formula::implies(
-                        formula::at_most(a, b),
-                        formula::at_most(c, d),
-                    ));
-                }
+                formula::given(formula::same_order([&self, rounded], [other, other_rounded]));
             }
         })
     }
@@ -199,6 +195,15 @@ impl Real {
         made
     }
 
+    /// The exact difference: comparisons do not round.
+    pub(crate) fn minus(&self, other: &Self) -> Self {
+        Self::of(self.0.plus(&RBig::NEG_ONE, &other.0))
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Self::of(path::with(|path| self.0.times(&other.0, &path.rules)))
+    }
+
     fn rational_root(&self) -> Option<Self> {
         let value = self.0.as_constant()?;
         let (numerator, denominator) = (value.numerator().clone(), value.denominator().clone());
@@ -257,11 +262,11 @@ impl PartialOrd for Real {
     }
 
     fn lt(&self, other: &Self) -> bool {
-        path::branch(&(self - other).0, Signs::NEGATIVE)
+        path::branch(&self.minus(other).0, Signs::NEGATIVE)
     }
 
     fn le(&self, other: &Self) -> bool {
-        path::branch(&(other - self).0, Signs::AT_LEAST_ZERO)
+        path::branch(&other.minus(self).0, Signs::AT_LEAST_ZERO)
     }
 
     fn gt(&self, other: &Self) -> bool {
@@ -275,7 +280,7 @@ impl PartialOrd for Real {
 
 impl PartialEq for Real {
     fn eq(&self, other: &Self) -> bool {
-        path::branch(&(self - other).0, Signs::ZERO)
+        path::branch(&self.minus(other).0, Signs::ZERO)
     }
 }
 
@@ -331,7 +336,7 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)));
-operator!(Sub, sub, |a, b| Real::of(a.0.plus(&RBig::NEG_ONE, &b.0)));
-operator!(Mul, mul, |a, b| Real::of(path::with(|path| a.0.times(&b.0, &path.rules))));
-operator!(Div, div, |a, b| a * b.inverse());
+operator!(Add, add, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)).result());
+operator!(Sub, sub, |a, b| a.minus(b).result());
+operator!(Mul, mul, |a, b| a.times(b).result());
+operator!(Div, div, |a, b| a.times(&b.inverse()).result());

@@ -72,6 +72,8 @@ pub struct Path {
     /// Roots made from here on are any numbers >= 0: the solver is not told of what. Facts about
     /// them have to be assumed, each a lemma. Fewer assumptions never prove more.
     pub roots_are_any_numbers: bool,
+    /// Every sum, difference, product and quotient is rounded by some monotone function.
+    pub rounds: bool,
     /// Roots, quotients, absolute values and roundings made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
     signs: BTreeMap<Polynomial, Signs>,

@@ -1,12 +1,14 @@
 //! The theorems: statement, claim, a wrong variant that must be refuted, and a mutant of the
 //! source under which the theorem must fail.
 
+pub mod assignment;
 pub mod base;
 pub mod collision;
 pub mod distance;
 pub mod grid;
 pub mod lemma;
 pub mod rectangle;
+pub mod rounding;
 pub mod stop;
 
 use crate::real::formula::Formula;
@@ -57,6 +59,8 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         collision::THEOREMS,
         stop::THEOREMS,
         grid::THEOREMS,
+        assignment::THEOREMS,
+        rounding::THEOREMS,
     ]
     .into_iter()
     .flatten()
