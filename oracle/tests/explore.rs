@@ -26,7 +26,7 @@ fn honest() -> Vec<Outcome> {
 #[test]
 fn the_kept_vectors_and_chart_of_f_12_are_what_is_found() {
     let outcomes = honest();
-    let stories = findings::stories(Profile::Paper, &outcomes);
+    let stories = findings::stories(Profile::Paper, &outcomes).unwrap();
     let [story] = stories.as_slice() else { panic!("{} stories", stories.len()) };
     assert_eq!(story.name, "explored-F-12");
     assert_eq!(

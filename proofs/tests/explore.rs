@@ -11,33 +11,37 @@ use std::collections::BTreeSet;
 
 use mufasa_model::cycle::Profile;
 use mufasa_proofs::explore::bounds::Bounds;
-use mufasa_proofs::explore::properties::Law;
+use mufasa_proofs::explore::moves::Move;
+use mufasa_proofs::explore::properties::{Law, Sight};
 use mufasa_proofs::explore::replay;
 use mufasa_proofs::explore::run::{self, Outcome};
 
-/// Of a world: states of the requester, its steps compared, states of the system, moves.
-type Sizes = (&'static str, usize, usize, usize, u64);
+/// Of a world: states of the requester, its steps compared, states of the system, moves; states
+/// from which offloading, and the end of a left session, lie ahead, and the most ticks until then.
+type Sizes = (&'static str, usize, usize, usize, u64, [Option<(usize, u16)>; 2]);
 
 const PAPER: &[Sizes] = &[
-    ("anything", 10_400, 724_128, 19_648, 1_446_336),
-    ("qos-hold", 1_362, 61_376, 2_420, 111_664),
-    ("link", 114, 4_860, 1_330_746, 73_737_295),
-    ("choice", 64, 2_000, 242_804, 10_771_944),
-    ("fleet", 16, 344, 745_999, 41_714_655),
-    ("shared", 16, 236, 726_015, 17_729_804),
-    ("honest", 16, 236, 3_773, 57_905),
+    ("anything", 10_400, 724_128, 19_648, 1_446_336, [None, None]),
+    ("qos-hold", 1_362, 61_376, 2_420, 111_664, [None, None]),
+    ("link", 114, 4_860, 1_330_746, 73_737_295, [Some((2_048_418, 3)), Some((1_475_814, 2))]),
+    ("choice", 64, 2_000, 242_804, 10_771_944, [Some((785_304, 5)), Some((335_844, 2))]),
+    ("fleet", 16, 344, 745_999, 41_714_655, [None, Some((511_940, 2))]),
+    ("shared", 16, 236, 726_015, 17_729_804, [Some((846_278, 3)), Some((701_166, 2))]),
+    ("honest", 16, 236, 3_773, 57_905, [Some((2_398, 3)), Some((2_271, 2))]),
+    ("roam", 52, 1_148, 40_896, 1_320_506, [Some((24_728, 6)), Some((33_012, 3))]),
 ];
 
 /// The states of the system are as many as in the paper profile: where one has stopped the local
 /// services, the other remembers what a stop still waits for, which the observer does in both.
 const HARDENED: &[Sizes] = &[
-    ("anything", 19_648, 1_446_336, 19_648, 1_446_336),
-    ("qos-hold", 2_340, 109_424, 2_420, 111_664),
-    ("link", 245, 10_766, 1_330_746, 73_737_295),
-    ("choice", 84, 2_760, 242_804, 10_771_944),
-    ("fleet", 21, 474, 745_999, 41_714_655),
-    ("shared", 21, 321, 726_015, 17_729_804),
-    ("honest", 21, 321, 3_773, 57_905),
+    ("anything", 19_648, 1_446_336, 19_648, 1_446_336, [None, None]),
+    ("qos-hold", 2_340, 109_424, 2_420, 111_664, [None, None]),
+    ("link", 245, 10_766, 1_330_746, 73_737_295, [Some((2_048_418, 3)), Some((1_475_814, 2))]),
+    ("choice", 84, 2_760, 242_804, 10_771_944, [Some((785_304, 5)), Some((335_844, 2))]),
+    ("fleet", 21, 474, 745_999, 41_714_655, [None, Some((511_940, 2))]),
+    ("shared", 21, 321, 726_015, 17_729_804, [Some((846_278, 3)), Some((701_166, 2))]),
+    ("honest", 21, 321, 3_773, 57_905, [Some((2_398, 3)), Some((2_271, 2))]),
+    ("roam", 62, 1_438, 40_896, 1_320_506, [Some((24_728, 6)), Some((33_012, 3))]),
 ];
 
 fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
@@ -53,7 +57,9 @@ fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
             let name = outcome.system.world().name;
             let (states, moves) = (outcome.states, outcome.transitions);
             println!("{profile:?} {name}: {states} states, {moves} moves, {:?}", outcome.time);
-            (name, requesters.len(), requesters.reactions(), states, moves)
+            let endless = [Law::OffloadingReachedAgain, Law::LeftSessionEnds]
+                .map(|law| outcome.results.iter().find(|it| it.law == law).and_then(|it| it.ahead));
+            (name, requesters.len(), requesters.reactions(), states, moves, endless)
         })
         .collect();
     assert_eq!(sizes, expected, "the protocol or the bounds have changed");
@@ -84,9 +90,59 @@ fn no_property_is_empty(profile: Profile, outcomes: &[Outcome]) {
         let asked = outcomes.iter().flat_map(|it| &it.results).any(|it| it.law == law);
         assert!(asked, "{} was asked nowhere", law.name());
         for sight in law.companions().iter().filter(|sight| sight.is_expected(profile)) {
-            let seen = outcomes.iter().flat_map(|it| &it.seen).any(|(it, _)| it == sight);
+            let seen = outcomes.iter().any(|it| it.moves_to(law, *sight).is_some());
             assert!(seen, "{}: never seen: {}", law.name(), sight.name());
         }
+    }
+}
+
+/// Each shortest trace to a sight, and each to what fails, can be walked by the real parts, and
+/// comes by the explored states.
+fn traces_are_real(outcome: &Outcome) {
+    let sights = outcome.seen.iter().map(|(_, trace)| trace.clone());
+    let failures = outcome.results.iter().filter_map(|it| it.counterexample.as_ref());
+    for trace in sights.chain(failures.map(|it| [&it.trace[..], &it.circle].concat())) {
+        let walked = replay::replay(&outcome.system, &trace);
+        let name = outcome.system.world().name;
+        assert_eq!(walked.map(|it| it.len()), Ok(trace.len()), "{name}: {trace:?}");
+    }
+}
+
+/// A station that waits for a left session does so for its lease at most.
+fn left_sessions_end_within_the_lease(outcome: &Outcome) {
+    let lease = outcome.system.world().ticks.lease;
+    let finding = outcome.results.iter().find(|it| it.law == Law::LeftSessionEnds);
+    if let Some((_, ticks)) = finding.and_then(|it| it.ahead) {
+        assert!(i64::from(ticks) <= lease, "{}: {ticks}", outcome.system.world().name);
+    }
+}
+
+/// The companion "lost release ended by the lease" as one trace: the release is lost, and time
+/// alone ends the session.
+#[test]
+fn a_session_whose_release_is_lost_ends_with_its_lease() {
+    let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").expect("honest");
+    for profile in [Profile::Paper, Profile::Hardened] {
+        let outcome = run::run(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
+        let mut seen = outcome.seen.iter();
+        let (_, trace) = seen.find(|(it, _)| *it == Sight::ReleaseLost).expect("a lost release");
+        let mut trace = trace.clone();
+        let mut ticks = 0;
+        loop {
+            let mut state = outcome.system.start();
+            for by in &trace {
+                state = outcome.system.apply(&state, *by).expect("it was explored").state;
+            }
+            match state.stations[0].runs[0][0] {
+                0 => break,
+                session => assert!(session > 1, "the CAV has left it"),
+            }
+            trace.push(Move::TimePasses);
+            ticks += 1;
+        }
+        assert!((1..=world.ticks.lease).contains(&ticks), "{ticks} ticks");
+        let walked = replay::replay(&outcome.system, &trace);
+        assert_eq!(walked.map(|it| it.len()), Ok(trace.len()));
     }
 }
 
@@ -96,6 +152,8 @@ fn all_properties_hold_in_the_hardened_profile() {
     for outcome in &outcomes {
         both_engines_agree(outcome);
         claimed_properties_hold(Profile::Hardened, outcome);
+        traces_are_real(outcome);
+        left_sessions_end_within_the_lease(outcome);
     }
     no_property_is_empty(Profile::Hardened, &outcomes);
 }
@@ -108,6 +166,8 @@ fn all_properties_but_f_12_hold_in_the_paper_profile() {
     for outcome in &outcomes {
         both_engines_agree(outcome);
         claimed_properties_hold(Profile::Paper, outcome);
+        traces_are_real(outcome);
+        left_sessions_end_within_the_lease(outcome);
         let finding = outcome.results.iter().find(|it| it.law == Law::NoStopBeforeSafeCycle);
         let found = finding.and_then(|it| it.counterexample.as_ref()).expect("F-12");
         // Offer, tick, forged confirmation; or offer, tick, request and confirmation delivered.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use mufasa_model::cycle::Profile;
 use mufasa_proofs::explore::properties::Law;
-use mufasa_proofs::explore::replay::{self, Scene};
+use mufasa_proofs::explore::replay::{self, ReplayError, Scene};
 use mufasa_proofs::explore::run::{Counterexample, Outcome};
 use mufasa_proofs::explore::system::System;
 
@@ -27,12 +27,17 @@ pub struct Story<'a> {
 }
 
 /// The stories of all properties that fail: one without an attacker rather than one with, and
-/// the shortest. A story that cannot be told is left out; the tables still show it.
-pub fn stories(profile: Profile, outcomes: &[Outcome]) -> Vec<Story<'_>> {
-    Law::ALL.into_iter().filter_map(|law| story(law, profile, outcomes)).collect()
+/// the shortest. Errors: a counterexample cannot be walked by the real parts.
+pub fn stories(profile: Profile, outcomes: &[Outcome]) -> Result<Vec<Story<'_>>, ReplayError> {
+    let stories = Law::ALL.into_iter().filter_map(|law| story(law, profile, outcomes));
+    stories.collect()
 }
 
-fn story(law: Law, profile: Profile, outcomes: &[Outcome]) -> Option<Story<'_>> {
+fn story(
+    law: Law,
+    profile: Profile,
+    outcomes: &[Outcome],
+) -> Option<Result<Story<'_>, ReplayError>> {
     let failures = outcomes.iter().filter_map(|outcome| {
         let finding = outcome.results.iter().find(|finding| finding.law == law)?;
         Some((&*outcome.system, finding.counterexample.as_ref()?))
@@ -41,23 +46,19 @@ fn story(law: Law, profile: Profile, outcomes: &[Outcome]) -> Option<Story<'_>> 
     let (system, found) = failures.min_by_key(|(system, found)| {
         (system.world().attacker, system.world().requesters, length(found))
     })?;
-    let scenes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat()).ok()?;
     let name = if law.is_claimed(profile) {
         format!("explored-{}-{}", law.name(), names::profile(profile))
     } else {
         String::from("explored-F-12")
     };
-    Some(Story { name, law, system, scenes })
+    let scenes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat());
+    Some(scenes.map(|scenes| Story { name, law, system, scenes }))
 }
 
-/// Writes a vector and a chart of every property that fails. Errors name the file.
-pub fn write(
-    folder: &Path,
-    profile: Profile,
-    outcomes: &[Outcome],
-) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+/// Writes a vector and a chart of every story. Errors name the file.
+pub fn write(folder: &Path, stories: &[Story<'_>]) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
     let mut written = Vec::new();
-    for story in stories(profile, outcomes) {
+    for story in stories {
         let name = files::name(&story.name);
         for (ending, content) in [("jsonl", story.vectors()), ("svg", Ok(story.chart()))] {
             let file = folder.join(format!("{name}.{ending}"));

@@ -74,7 +74,7 @@ pub fn evidence(law: Law, profile: Profile, outcomes: &[Outcome]) -> String {
         parts.push(format!("from {} states within {ticks} ticks", grouped(wide(ahead))));
     }
     for sight in law.companions().iter().filter(|sight| sight.is_expected(profile)) {
-        parts.push(match moves_to(*sight, outcomes) {
+        parts.push(match moves_to(law, *sight, outcomes) {
             Some(moves) => format!("{} ({moves})", sight.name()),
             None => format!("not seen: {}", sight.name()),
         });
@@ -85,13 +85,12 @@ pub fn evidence(law: Law, profile: Profile, outcomes: &[Outcome]) -> String {
 /// What a property of the profile speaks of, was asked about, and was not seen.
 pub fn unseen(law: Law, profile: Profile, outcomes: &[Outcome]) -> Vec<Sight> {
     let sights = law.companions().iter().filter(|sight| sight.is_expected(profile));
-    sights.filter(|sight| moves_to(**sight, outcomes).is_none()).copied().collect()
+    sights.filter(|sight| moves_to(law, **sight, outcomes).is_none()).copied().collect()
 }
 
-/// Moves of a shortest trace that shows it.
-fn moves_to(sight: Sight, outcomes: &[Outcome]) -> Option<usize> {
-    let seen = outcomes.iter().flat_map(|outcome| &outcome.seen);
-    seen.filter(|(it, _)| *it == sight).map(|(_, moves)| *moves).min()
+/// Moves of a shortest trace that shows it, in a world that asks the property.
+fn moves_to(law: Law, sight: Sight, outcomes: &[Outcome]) -> Option<usize> {
+    outcomes.iter().filter_map(|outcome| outcome.moves_to(law, sight)).min()
 }
 
 /// A number with its thousands apart.

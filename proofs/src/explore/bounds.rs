@@ -64,8 +64,12 @@ pub struct Ticks {
 /// middle, so that what happens within it is not what happens at its ends.
 const SHORT: Ticks = Ticks { t_wait: 2, request_timeout: 1, l_max: 1, dt_max: 1, lease: 2 };
 
-/// No two are equal, so that no order of two ends is left out by chance.
+/// No two are equal, and the lease outlives a wait, so that a session left at a safety issue still
+/// runs when offloading is possible again.
 const LONG: Ticks = Ticks { t_wait: 5, request_timeout: 4, l_max: 2, dt_max: 3, lease: 6 };
+
+/// The order of the defaults: the wait outlives everything else.
+const LONG_WAIT: Ticks = Ticks { t_wait: 4, request_timeout: 2, l_max: 1, dt_max: 1, lease: 3 };
 
 /// A station of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,6 +127,13 @@ impl World {
         Group::ALL.into_iter().filter(move |group| all.contains(*group))
     }
 
+    /// Whether every station can run every group of every CAV at once, so that none has to wait
+    /// for the place of another.
+    pub fn has_room_for_all(&self) -> bool {
+        let needed = self.requesters * self.groups().count();
+        self.stations.iter().all(|station| station.capacity >= needed)
+    }
+
     /// Whether messages travel at all.
     pub fn has_network(&self) -> bool {
         self.in_flight > 0
@@ -170,7 +181,8 @@ const SMALL: &[World] = &[
     World {
         name: "choice",
         why: "two stations compete for one group, so that an old session on one meets a new one \
-              on the other, and a station that never confirms could starve the one that does",
+              on the other, and a station that never confirms could starve the one that does; \
+              two messages in flight are a question and an answer",
         requesters: 1,
         stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 2],
         areas: &[],
@@ -181,7 +193,8 @@ const SMALL: &[World] = &[
     },
     World {
         name: "fleet",
-        why: "two CAVs compete for one place on one station; more would only wait",
+        why: "two CAVs compete for one place on one station; more would only wait; two messages \
+              in flight, so that each CAV has one",
         requesters: 2,
         stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
         areas: &[],
@@ -215,16 +228,101 @@ const SMALL: &[World] = &[
         qos_hold: false,
         attacker: false,
     },
+    World {
+        name: "roam",
+        why: "areas, changing offers and holds after violations over a bad network, and a wait \
+              that outlives every lease; one station and one group, because what moves them is \
+              the world and not each other",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[MOT, NONE], capacity: 1 }],
+        areas: &[MOT, NONE],
+        in_flight: 2,
+        ticks: LONG_WAIT,
+        qos_hold: true,
+        attacker: true,
+    },
 ];
 
-const LARGE: &[World] = &[World {
-    name: "anything",
-    why: "as the small one, with three stations, every offer and area",
-    requesters: 1,
-    stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 2],
-    areas: &[ALL, MOT, PLAN, NONE],
-    in_flight: 0,
-    ticks: LONG,
-    qos_hold: false,
-    attacker: true,
-}];
+const LARGE: &[World] = &[
+    World {
+        name: "anything-3",
+        why: "the small world `anything` with a third station, which is neither asked nor in use \
+              while two are; shorter times, because three stations multiply the rest",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 3],
+        areas: &[ALL, MOT, PLAN, NONE],
+        in_flight: 0,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: true,
+    },
+    World {
+        name: "qos-hold-2",
+        why: "the small world `qos-hold` with a second station, to which a group could escape \
+              from a hold",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 2],
+        areas: &[ALL, MOT, PLAN, NONE],
+        in_flight: 0,
+        ticks: LONG,
+        qos_hold: true,
+        attacker: true,
+    },
+    World {
+        name: "link-4",
+        why: "one group with four messages in flight, so that one can be overtaken three times \
+              and generations of sessions meet",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
+        areas: &[],
+        in_flight: 4,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: true,
+    },
+    World {
+        name: "link-long",
+        why: "one group with times of which no two are equal, and a bad network",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
+        areas: &[],
+        in_flight: 2,
+        ticks: LONG,
+        qos_hold: false,
+        attacker: true,
+    },
+    World {
+        name: "choice-3",
+        why: "the small world `choice` with three stations",
+        requesters: 1,
+        stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 3],
+        areas: &[],
+        in_flight: 2,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: true,
+    },
+    World {
+        name: "fleet-2",
+        why: "two CAVs and two stations, so that a CAV can lose the place on one to the other and \
+              find the second",
+        requesters: 2,
+        stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 2],
+        areas: &[],
+        in_flight: 2,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: false,
+    },
+    World {
+        name: "shared-3",
+        why: "the small world `shared` with three messages in flight",
+        requesters: 2,
+        stations: &[StationBounds { offers: &[MOT], capacity: 2 }],
+        areas: &[],
+        in_flight: 3,
+        ticks: SHORT,
+        qos_hold: false,
+        attacker: false,
+    },
+];

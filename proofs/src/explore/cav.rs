@@ -26,6 +26,8 @@ use super::refine::{Difference, Pair};
 #[derive(Clone, Debug)]
 pub struct CavPart {
     pair: Pair,
+    /// Highest number of any request sent.
+    highest: i64,
     now: i64,
     ticks: Ticks,
     stations: usize,
@@ -89,6 +91,8 @@ pub struct CavLikeness {
     pub turns: [[u8; STATIONS]; 2],
     /// The source of MOT, ENV and TPL, as the requester says: a station, or `None` for local.
     pub sources: [Option<u8>; 3],
+    /// Whether the next number is above all that were sent.
+    pub numbers_rise: bool,
     /// Whether the requester finds its own state allowed.
     pub valid: bool,
 }
@@ -202,7 +206,8 @@ impl CavPart {
 
     /// A requester in any state, at a time in ns.
     pub fn standing_for(world: &World, pair: Pair, now: i64) -> Self {
-        Self { pair, now, ticks: world.ticks, stations: world.stations.len() }
+        let highest = pair.model().last_session();
+        Self { pair, highest, now, ticks: world.ticks, stations: world.stations.len() }
     }
 
     /// Everything that can happen in a world.
@@ -268,18 +273,20 @@ impl CavPart {
         };
         let Some(kind) = stimulus.event(self.now, number) else { return Ok(None) };
         let actions = next.pair.step(&Event { t_ns: self.now, kind })?;
-        let deeds = actions.into_iter().map(|action| self.deed(action)).collect();
+        let deeds = actions.into_iter().map(|action| next.deed(action, self)).collect();
         Ok(Some((next, deeds)))
     }
 
-    fn deed(&self, action: Action) -> Deed {
+    /// An action, and what it makes the highest number. `before`: the requester before the step.
+    fn deed(&mut self, action: Action, before: &Self) -> Deed {
         match action {
             Action::Request { station, group, session } => {
-                let fresh = session > self.pair.model().last_session();
+                let fresh = session > self.highest;
+                self.highest = self.highest.max(session);
                 Deed::Request { station: fit(station), group, fresh }
             }
             Action::Release { station, group, session } => {
-                let current = Some(session) == current(&self.pair, group);
+                let current = Some(session) == current(&before.pair, group);
                 Deed::Release { station: fit(station), group, current }
             }
             Action::Activate(group) => Deed::Activate(group),
@@ -355,6 +362,7 @@ impl Part for CavPart {
             area: model.in_area(),
             turns: Group::ALL.map(|group| self.turns(group)),
             sources: Offloadable::ALL.map(source),
+            numbers_rise: model.last_session() >= self.highest,
             valid,
         }
     }

@@ -3,7 +3,7 @@
 
 use mufasa_model::configuration::Offloadable;
 use mufasa_model::cycle::Profile;
-use mufasa_model::requester::Group;
+use mufasa_model::requester::{Group, Groups};
 
 use super::cav::{CavLikeness, Deed, Named, Stimulus, Use};
 use super::properties::{Law, Set, Sight};
@@ -24,6 +24,8 @@ pub struct CavStep<'a> {
     pub profile: Profile,
     /// Waiting time after a safety issue, ticks.
     pub t_wait: u8,
+    /// Whether violations start holds, too, which the observer does not follow.
+    pub qos_hold: bool,
     /// The state before.
     pub before: &'a CavLikeness,
     /// What happens.
@@ -40,9 +42,10 @@ impl CavStep<'_> {
         let barred = cav.blocked > 0;
         self.follow_services(cav, found);
         self.follow_proof(cav);
-        self.follow_wait(cav);
+        self.follow_wait(cav, found);
         self.judge_sources(*cav, found);
         self.judge_results(*cav, barred, found);
+        self.judge_requests(barred, found);
         self.judge_sessions(found);
         found.broken.note(Law::PartsValid, !self.after.valid);
         self.see(found);
@@ -87,9 +90,13 @@ impl CavStep<'_> {
         }
     }
 
-    fn follow_wait(&self, cav: &mut Cav) {
+    fn follow_wait(&self, cav: &mut Cav, found: &mut Findings) {
         match self.stimulus {
-            Stimulus::TimePasses => cav.blocked = cav.blocked.saturating_sub(1),
+            Stimulus::TimePasses => {
+                let offered = self.before.offers.iter().any(|offer| *offer != Groups::NONE);
+                found.seen.note(Sight::WaitEnds, cav.blocked == 1 && offered);
+                cav.blocked = cav.blocked.saturating_sub(1);
+            }
             Stimulus::Verdict { safe: false, .. } => cav.blocked = self.t_wait,
             _ => {}
         }
@@ -124,6 +131,23 @@ impl CavStep<'_> {
         found.broken.note(law, cav.blocked > 0 && remote);
     }
 
+    /// A tick asks for every local group that may be asked for, when no safety issue bars it.
+    fn judge_requests(&self, barred: bool, found: &mut Findings) {
+        if self.stimulus != Stimulus::Tick || barred || self.qos_hold && self.after.hold_left > 0 {
+            return;
+        }
+        for group in Group::ALL {
+            let local = self.before.groups[group as usize] == Use::Local;
+            let offered = self.before.offers.iter().any(|offer| offer.contains(group));
+            let asked = self
+                .deeds
+                .iter()
+                .any(|deed| matches!(deed, Deed::Request { group: of, .. } if *of == group));
+            let may = local && offered && self.before.area.contains(group);
+            found.broken.note(Law::AskedOnceAllowed, may && !asked);
+        }
+    }
+
     /// A message that names another session than the running or requested one changes nothing,
     /// and a new session has a number that no message of an older one can name.
     fn judge_sessions(&self, found: &mut Findings) {
@@ -133,14 +157,26 @@ impl CavStep<'_> {
         {
             let partner = self.before.groups[named.group as usize].partner();
             if !(named.current && partner == Some(named.station)) {
-                let used = matches!(self.stimulus, Stimulus::Data(..)) && self.is_used(named);
-                found.broken.note(law, used || self.before != self.after);
+                let answers = self.deeds == self.answer().as_slice();
+                found.broken.note(law, !answers || self.before != self.after);
                 found.seen.note(Sight::EndedMeetsLaterAtCav, partner.is_some());
             }
         }
         for deed in self.deeds {
             let stale = matches!(deed, Deed::Request { fresh: false, .. });
             found.broken.note(law, stale);
+        }
+    }
+
+    /// What a requester may do with a message that does not name the session of the group: drop
+    /// data, and release the session that a confirmation names, there and nothing else.
+    fn answer(&self) -> Vec<Deed> {
+        match self.stimulus {
+            Stimulus::Data(named, _) => vec![Deed::Drop(named.group)],
+            Stimulus::Confirm(Named { station, group, current }) => {
+                vec![Deed::Release { station, group, current }]
+            }
+            _ => vec![],
         }
     }
 
@@ -172,7 +208,7 @@ impl CavStep<'_> {
                 found.seen.note(Sight::StoppedAtConfirmation, stops);
                 let group = self.before.groups[named.group as usize];
                 let late = matches!(group, Use::Requested { left: 0, station } if station == named.station);
-                found.seen.note(Sight::ConfirmedAtDeadline, named.current && late && releases);
+                found.seen.note(Sight::ConfirmedAfterTimeout, named.current && late && releases);
             }
             Stimulus::Tick | Stimulus::Data(..) => {
                 let left = self.before.groups.iter().zip(&self.after.groups);

@@ -13,6 +13,8 @@ pub enum Law {
     OneSource,
     /// `spec/2-offloading.md#properties-of-the-whole-protocol.2`
     NoRemoteResultBeforeHoldUntil,
+    /// `spec/2-offloading.md#fallback.3`
+    AskedOnceAllowed,
     /// `spec/2-offloading.md#properties-of-the-whole-protocol.3`
     EnvAndTplTogether,
     /// `spec/2-offloading.md#properties-of-the-whole-protocol.4`
@@ -44,14 +46,20 @@ pub enum Sight {
     FallbackFromRemote,
     /// A result arrives while a safety issue bars it.
     ResultDuringWait,
+    /// A wait ends while a station offers something.
+    WaitEnds,
     /// A violation of quality of service while a hold runs.
     ViolationDuringHold,
-    /// A confirmation arrives at its deadline or later, but before a tick can tell.
-    ConfirmedAtDeadline,
-    /// A station's confirmation arrives when the requester has left the session.
+    /// A confirmation arrives at its deadline or later, before a tick could tell.
     ConfirmedAfterTimeout,
-    /// A session whose release is lost ends with its lease.
-    LostReleaseEndedByLease,
+    /// A station's confirmation arrives when the requester has left the session.
+    ConfirmedAfterLeaving,
+    /// A release is lost while its session runs.
+    ReleaseLost,
+    /// A session that the requester has left ends with the lease.
+    LeftSessionLapses,
+    /// A station hears an old message of a session that the requester has left.
+    LeftSessionKept,
     /// The local services compute beside a running session (H-08).
     RemoteBesideLocal,
     /// Local services stop at a safe verdict.
@@ -74,9 +82,10 @@ pub enum Sight {
 
 impl Law {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::OneSource,
         Self::NoRemoteResultBeforeHoldUntil,
+        Self::AskedOnceAllowed,
         Self::EnvAndTplTogether,
         Self::OffloadingReachedAgain,
         Self::LeftSessionWithinLease,
@@ -93,6 +102,7 @@ impl Law {
         match self {
             Self::OneSource => "each_group_has_exactly_one_source",
             Self::NoRemoteResultBeforeHoldUntil => "no_remote_result_before_hold_until",
+            Self::AskedOnceAllowed => "stations_are_asked_at_hold_until",
             Self::EnvAndTplTogether => "env_and_tpl_have_the_same_source",
             Self::OffloadingReachedAgain => "offloading_is_reached_again",
             Self::LeftSessionWithinLease => "a_left_session_is_not_held_beyond_the_lease",
@@ -111,6 +121,7 @@ impl Law {
             Self::NoMoreThanCapacity | Self::OthersKeepTheirSessions => {
                 "spec/2-offloading.md#provider"
             }
+            Self::AskedOnceAllowed => "spec/2-offloading.md#fallback",
             Self::PartsValid => "spec/2-offloading.md#requester",
             _ => "spec/2-offloading.md#properties-of-the-whole-protocol",
         }
@@ -140,10 +151,11 @@ impl Law {
             Self::NoRemoteResultBeforeHoldUntil => {
                 &[Sight::FallbackFromRemote, Sight::ResultDuringWait, Sight::ViolationDuringHold]
             }
+            Self::AskedOnceAllowed => &[Sight::FallbackFromRemote, Sight::WaitEnds],
             Self::EnvAndTplTogether => &[Sight::TwoStationsAtOnce],
             Self::OffloadingReachedAgain => &[Sight::FallbackFromRemote],
             Self::LeftSessionWithinLease | Self::LeftSessionEnds => {
-                &[Sight::LostReleaseEndedByLease, Sight::ConfirmedAtDeadline]
+                &[Sight::ReleaseLost, Sight::LeftSessionLapses, Sight::LeftSessionKept]
             }
             Self::NoStopBeforeSafeCycle => &[
                 Sight::RemoteBesideLocal,
@@ -154,6 +166,7 @@ impl Law {
                 Sight::EndedMeetsLaterAtCav,
                 Sight::EndedMeetsLaterAtStation,
                 Sight::ConfirmedAfterTimeout,
+                Sight::ConfirmedAfterLeaving,
             ],
             Self::NoMoreThanCapacity => &[Sight::FullBecauseOfAnother, Sight::LaterReplaces],
             Self::OthersKeepTheirSessions => &[Sight::TwoServedAtOnce, Sight::FullBecauseOfAnother],
@@ -164,15 +177,18 @@ impl Law {
 
 impl Sight {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 20] = [
         Self::TwoStationsAtOnce,
         Self::FallbackRemoteAndRequested,
         Self::FallbackFromRemote,
         Self::ResultDuringWait,
+        Self::WaitEnds,
         Self::ViolationDuringHold,
-        Self::ConfirmedAtDeadline,
         Self::ConfirmedAfterTimeout,
-        Self::LostReleaseEndedByLease,
+        Self::ConfirmedAfterLeaving,
+        Self::ReleaseLost,
+        Self::LeftSessionLapses,
+        Self::LeftSessionKept,
         Self::RemoteBesideLocal,
         Self::StoppedAtSafeVerdict,
         Self::StoppedAtConfirmation,
@@ -191,10 +207,13 @@ impl Sight {
             Self::FallbackRemoteAndRequested => "fallback, one group remote, the other requested",
             Self::FallbackFromRemote => "fallback from remote services",
             Self::ResultDuringWait => "result during the waiting time",
+            Self::WaitEnds => "wait ends while a station offers",
             Self::ViolationDuringHold => "violation during a hold",
-            Self::ConfirmedAtDeadline => "confirmation at the deadline",
             Self::ConfirmedAfterTimeout => "confirmation after the time-out",
-            Self::LostReleaseEndedByLease => "lost release ended by the lease",
+            Self::ConfirmedAfterLeaving => "confirmation of a session that was left",
+            Self::ReleaseLost => "release lost while its session runs",
+            Self::LeftSessionLapses => "left session ended by the lease",
+            Self::LeftSessionKept => "left session kept by an old message",
             Self::RemoteBesideLocal => "local services beside remote ones",
             Self::StoppedAtSafeVerdict => "local services stopped at a safe verdict",
             Self::StoppedAtConfirmation => "local services stopped at a confirmation",

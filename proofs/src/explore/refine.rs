@@ -116,6 +116,8 @@ impl Pair {
         same(event, "configuration", &model.configuration(), &configuration)?;
         same(event, "hold_until_ns", &model.hold_until_ns(), &twin.hold_until_ns())?;
         same(event, "area", &bridge::groups_to_impl(model.in_area()), &twin.area())?;
+        let dropped = Group::ALL.into_iter().map(|it| twin.dropped(bridge::group_to_impl(it)));
+        same(event, "count of foreign data", &model.foreign_data(), &dropped.sum())?;
         same(event, "last session", &model.last_session(), &twin.sessions())?;
         let known = twin.stations().iter().filter_map(twin::StationRecord::station);
         let named = event.and_then(|event| station(&event.kind));

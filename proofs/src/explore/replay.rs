@@ -111,6 +111,8 @@ pub enum ReplayError {
     Difference(Box<Difference>),
     /// The move cannot happen here.
     Impossible(Move),
+    /// After the move the state is another than the one explored.
+    OtherState(Move),
 }
 
 impl fmt::Display for ReplayError {
@@ -118,6 +120,7 @@ impl fmt::Display for ReplayError {
         match self {
             Self::Difference(difference) => difference.fmt(f),
             Self::Impossible(by) => write!(f, "{by:?} cannot happen here"),
+            Self::OtherState(by) => write!(f, "{by:?} leads to a state that was not explored"),
         }
     }
 }
@@ -130,11 +133,17 @@ impl From<Box<Difference>> for ReplayError {
     }
 }
 
-/// Walks a trace from the start, at 0 ns, one tick being 1 ns. Errors: model and implementation
-/// differ, or a move cannot happen.
+/// Walks a trace from the start, at 0 ns, one tick being 1 ns, beside the explored system. Errors:
+/// model and implementation differ, a move cannot happen, or the states differ.
 pub fn replay(system: &System, trace: &[Move]) -> Result<Vec<Scene>, ReplayError> {
-    let mut replay = Replay::new(system, 0)?;
-    trace.iter().map(|by| replay.go(*by)).collect()
+    let (mut replay, mut state) = (Replay::new(system, 0)?, system.start());
+    let walk = trace.iter().map(|by| {
+        let scene = replay.go(*by)?;
+        state = system.apply(&state, *by).ok_or(ReplayError::Impossible(*by))?.state;
+        let same = replay.state() == Some(state.parts());
+        same.then_some(scene).ok_or(ReplayError::OtherState(*by))
+    });
+    walk.collect()
 }
 
 impl<'a> Replay<'a> {

@@ -33,10 +33,19 @@ pub struct Outcome {
     pub time: Duration,
     /// The properties that the world can speak of.
     pub results: Vec<Finding>,
-    /// The sights seen, each with the length of a shortest trace to it.
-    pub seen: Vec<(Sight, usize)>,
+    /// The sights seen, each with a shortest trace to it.
+    pub seen: Vec<(Sight, Vec<Move>)>,
     /// What the second engine says, and its time, if it was asked.
     pub second: Option<(Confirmation, Duration)>,
+}
+
+impl Outcome {
+    /// Length of a shortest trace that shows it, if the world asks the property and shows it.
+    pub fn moves_to(&self, law: Law, sight: Sight) -> Option<usize> {
+        let asked = self.results.iter().any(|finding| finding.law == law);
+        let trace = self.seen.iter().find(|(it, _)| asked && *it == sight);
+        trace.map(|(_, trace)| trace.len())
+    }
 }
 
 /// A property in a world.
@@ -54,7 +63,7 @@ pub struct Finding {
 /// How a property fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Counterexample {
-    /// From the start; of a safety property a shortest one.
+    /// From the start; of a safety property a shortest one, of another the first that was found.
     pub trace: Vec<Move>,
     /// Round and round after it; empty for a safety property and for a run that ends.
     pub circle: Vec<Move>,
@@ -79,7 +88,7 @@ pub fn run(
     let seen = explored
         .seen
         .iter()
-        .map(|(sight, step)| (*sight, explored.trace_of(&system, *step).len()))
+        .map(|(sight, step)| (*sight, explored.trace_of(&system, *step)))
         .collect();
     let time = start.elapsed();
     let second = (threads > 0).then(|| {
@@ -99,17 +108,18 @@ pub fn run(
     })
 }
 
-/// Whether a world can break a property: without a network no station runs anything, and nobody
-/// starves a requester but its stations where it is alone.
+/// Whether a world can break a property: without a network no station runs anything, and a CAV
+/// that has to wait for the place of another may wait for ever.
 pub fn is_asked(law: Law, world: &World) -> bool {
     match law {
         Law::OneSource
         | Law::NoRemoteResultBeforeHoldUntil
+        | Law::AskedOnceAllowed
         | Law::EnvAndTplTogether
         | Law::NoStopBeforeSafeCycle
         | Law::EndedSessionChangesNothing
         | Law::PartsValid => true,
-        Law::OffloadingReachedAgain => world.requesters == 1 && world.has_network(),
+        Law::OffloadingReachedAgain => world.has_network() && world.has_room_for_all(),
         Law::LeftSessionWithinLease | Law::LeftSessionEnds | Law::NoMoreThanCapacity => {
             world.has_network()
         }
@@ -142,9 +152,12 @@ fn judge(system: &System, explored: &Explored, law: Law) -> Finding {
 /// In calm runs, for every choice of the stations' manners and for every group.
 fn offloading_is_reached_again(system: &System, explored: &Explored) -> Vec<lasso::Verdict> {
     let manners = runs::manners(system);
-    let cases = manners.iter().flat_map(|it| system.world().groups().map(move |g| (it, g)));
+    let cavs = 0..system.world().requesters;
+    let groups = cavs.flat_map(|cav| system.world().groups().map(move |group| (cav, group)));
+    let groups: Vec<_> = groups.collect();
+    let cases = manners.iter().flat_map(|it| groups.iter().map(move |group| (it, *group)));
     cases
-        .map(|(manners, group): (&Vec<Manner>, Group)| {
+        .map(|(manners, group): (&Vec<Manner>, (usize, Group))| {
             lasso::find(
                 system,
                 explored,

@@ -66,15 +66,21 @@ pub fn calm(system: &System, manners: &[Manner], packed: u128, out: &mut Vec<Lea
     }
 }
 
-/// In calm runs: a group that somebody who confirms offers here has to become remote.
-pub fn offloaded(system: &System, manners: &[Manner], group: Group, packed: u128) -> Aim {
+/// In calm runs: a group that somebody who confirms offers here has to become remote, on a
+/// station that does run it. That the CAV believes so is not enough.
+pub fn offloaded(
+    system: &System,
+    manners: &[Manner],
+    (place, group): (usize, Group),
+    packed: u128,
+) -> Aim {
     let state = system.layout().unpack(packed);
-    let cav = system.cav(&state, 0);
+    let cav = system.cav(&state, place);
     let offered = cav.offers.iter().zip(manners);
     let offered = offered
         .into_iter()
         .any(|(offer, manner)| offer.contains(group) && *manner == Manner::Confirms);
-    if cav.groups[group as usize].remote().is_some() {
+    if cav.groups[group as usize].remote().is_some_and(|it| runs(&state, it, place, group)) {
         Aim::Reached
     } else if offered && cav.area.contains(group) {
         Aim::Ahead
@@ -115,6 +121,12 @@ pub fn left_session_ended(
     }
 }
 
+/// Whether a station runs the current session of a CAV and group.
+fn runs(state: &State, station: u8, cav: usize, group: Group) -> bool {
+    let station = state.stations.get(usize::from(station) - 1);
+    station.is_some_and(|it| it.runs[cav][group as usize] == 1)
+}
+
 fn in_flight(state: &State) -> impl Iterator<Item = Message> {
     state.flight.into_iter().filter(|message| message.letter().is_some())
 }
@@ -153,13 +165,17 @@ impl Walk<'_> {
         (0..self.system.world().requesters).try_for_each(|cav| self.event(cav, Stimulus::Tick))
     }
 
-    /// A running session gets a sign of life and delivers a result, both at once.
+    /// The CAV gives a sign of life to the station of a session, which delivers a result at once
+    /// if it runs the session at all.
     fn session_works(&mut self, cav: usize, group: Group) -> Option<()> {
         let running = self.system.cav(&self.state, cav).groups[group as usize].remote();
         let Some(station) = running else { return Some(()) };
         self.go(Move::Alive { cav: fit(cav), group })?;
         let alive = in_flight(&self.state).next()?;
         self.go(Move::Deliver { message: alive, kept: false })?;
+        if !runs(&self.state, station, cav, group) {
+            return Some(());
+        }
         self.event(cav, Stimulus::Data(Named { station, group, current: true }, 0))
     }
 }

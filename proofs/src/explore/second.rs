@@ -115,6 +115,7 @@ impl Model for Twin {
         always!(
             OneSource,
             NoRemoteResultBeforeHoldUntil,
+            AskedOnceAllowed,
             EnvAndTplTogether,
             LeftSessionWithinLease,
             NoStopBeforeSafeCycle,

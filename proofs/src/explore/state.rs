@@ -25,6 +25,20 @@ pub struct State {
     pub flight: [Message; IN_FLIGHT],
 }
 
+impl State {
+    /// The state without what the observer remembers.
+    #[must_use]
+    pub fn parts(mut self) -> Self {
+        for cav in &mut self.cavs {
+            *cav = Cav { id: cav.id, ..Cav::default() };
+        }
+        for station in &mut self.stations {
+            station.unheard = Default::default();
+        }
+        self
+    }
+}
+
 /// A CAV.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cav {

@@ -114,7 +114,10 @@ impl System {
                 self.send(&mut next.state, Letter { kind: Kind::Reject, ..letter });
             }
             Move::Lose { message } => {
-                take(&mut next.state, message, false)?;
+                let Letter { kind, station, cav, group, rank } =
+                    take(&mut next.state, message, false)?;
+                let ends = next.state.stations[station].runs[cav][group] == rank + 1;
+                next.found.seen.note(Sight::ReleaseLost, kind == Kind::Release && ends);
             }
             Move::Crash { station } => self.crash(&mut next, usize::from(station))?,
             Move::Alive { cav, group } => {
@@ -162,6 +165,7 @@ impl System {
         let step = CavStep {
             profile: self.profile,
             t_wait: self.t_wait,
+            qos_hold: self.world.qos_hold,
             before: self.requesters.likeness(id),
             stimulus: self.requesters.stimuli()[place],
             deeds,
@@ -207,7 +211,7 @@ impl System {
             Kind::Confirm | Kind::Reject => {
                 let named = letter.named();
                 let confirms = letter.kind == Kind::Confirm;
-                next.found.seen.note(Sight::ConfirmedAfterTimeout, confirms && !named.current);
+                next.found.seen.note(Sight::ConfirmedAfterLeaving, confirms && !named.current);
                 let stimulus =
                     if confirms { Stimulus::Confirm(named) } else { Stimulus::Reject(named) };
                 let place = self.requesters.place(&stimulus)?;
@@ -232,10 +236,15 @@ impl System {
             let heard = kind == ToStation::Request || order == Order::Same;
             memory.runs[cav][group] = rank + 1;
             if heard {
+                next.found.seen.note(Sight::LeftSessionKept, order == Order::Same && rank > 0);
                 memory.unheard[cav][group] = 0;
             }
         }
+        let running = memory.runs.iter().flatten().filter(|session| **session > 0).count();
+        let full = self.world.stations[station].capacity;
+        next.found.broken.note(Law::NoMoreThanCapacity, running > full);
         if let Some(confirms) = effect.confirms {
+            next.found.broken.note(Law::NoMoreThanCapacity, confirms && !effect.runs);
             let kind = if confirms { Kind::Confirm } else { Kind::Reject };
             self.send(&mut next.state, Letter { kind, ..letter });
             let others = (0..self.world.requesters)
@@ -287,19 +296,17 @@ impl System {
         let (id, effect) = provider.react(next.state.stations[station].id, place)?;
         next.state.stations[station].id = id;
         let likeness = provider.likeness(id);
-        next.found.broken.note(Law::NoMoreThanCapacity, !likeness.valid);
+        next.found.broken.note(Law::PartsValid, !likeness.valid);
         for (cav, ages) in likeness.ages.iter().enumerate() {
             for (group, age) in ages.iter().enumerate() {
                 let memory = &mut next.state.stations[station];
                 if age.is_some() || memory.runs[cav][group] == 0 {
                     continue;
                 }
-                let rank = memory.runs[cav][group] - 1;
+                let left = memory.runs[cav][group] > 1;
                 (memory.runs[cav][group], memory.unheard[cav][group]) = (0, 0);
-                let release = Letter { kind: Kind::Release, station, cav, group, rank };
-                let lost = !next.state.flight.contains(&Message::new(release));
-                let lapsed = stimulus == StationStimulus::TimePasses && rank > 0;
-                next.found.seen.note(Sight::LostReleaseEndedByLease, lapsed && lost);
+                let lapsed = stimulus == StationStimulus::TimePasses && left;
+                next.found.seen.note(Sight::LeftSessionLapses, lapsed);
             }
         }
         Some(*effect)

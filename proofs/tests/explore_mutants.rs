@@ -1,0 +1,55 @@
+//! The mutants of `proofs/mutants` still fit the sources: `proofs/mutants/run`, which explores each
+//! of them, is for a night, and a patch that no longer applies would be noticed only there.
+#![cfg(feature = "explore")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mufasa_proofs::explore::properties::Law;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The lines that a hunk expects, and those that it puts in their place.
+fn hunk(body: &str) -> [String; 2] {
+    ['-', '+'].map(|sign| {
+        let lines = body.lines().skip(1).filter_map(|line| match line.split_at_checked(1) {
+            None => Some(""),
+            Some((" ", rest)) => Some(rest),
+            Some((it, rest)) => it.starts_with(sign).then_some(rest),
+        });
+        lines.flat_map(|line| [line, "\n"]).collect()
+    })
+}
+
+#[test]
+fn every_mutant_changes_the_sources_and_names_its_property() {
+    let mut laws = Vec::new();
+    let folder = fs::read_dir(root().join("proofs/mutants")).expect("the folder of the mutants");
+    for file in folder.map(|entry| entry.expect("a file").path()) {
+        if file.extension().is_none_or(|it| it != "patch") {
+            continue;
+        }
+        let name = file.display();
+        let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let property = text.lines().find_map(|line| line.strip_prefix("Property: "));
+        let law = Law::ALL.into_iter().find(|law| Some(law.name()) == property);
+        laws.push(law.unwrap_or_else(|| panic!("{name}: {property:?} is no property")));
+        let changes: Vec<_> = text.split("\n--- a/").skip(1).collect();
+        assert!(!changes.is_empty(), "{name} changes nothing");
+        for change in changes {
+            let (path, hunks) = change.split_once('\n').expect("a path");
+            let source = fs::read_to_string(root().join(path)).expect(path);
+            for body in hunks.split("\n@@ ").skip(1) {
+                let [old, new] = hunk(body);
+                assert_ne!(old, new, "{name}: a hunk changes nothing");
+                assert!(source.contains(&old), "{name} does not fit {path}:\n{old}");
+            }
+        }
+    }
+    for law in Law::ALL {
+        // Requester and provider are valid as long as the other properties hold.
+        assert!(laws.contains(&law) || law == Law::PartsValid, "{}: no mutant", law.name());
+    }
+}
