@@ -5,6 +5,7 @@ mod arithmetic;
 mod base;
 mod detections;
 mod distances;
+mod exact;
 mod grid;
 mod hardened;
 mod input;
