@@ -7,6 +7,9 @@ mod cells;
 mod distances;
 mod rectangles;
 
+use std::fs;
+use std::path::Path;
+
 /// A small linear congruential generator: the tests need no more than reproducible variety.
 pub struct Draw(pub u64);
 
@@ -19,4 +22,21 @@ impl Draw {
         let drawn = i64::try_from(self.0 >> 33).expect("31 bits") % count;
         low + i32::try_from(drawn).expect("below the count")
     }
+}
+
+/// The page that argues for exactness names tests that exist.
+#[test]
+fn the_tests_that_the_docs_name_are_there() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let docs = fs::read_to_string(root.join("docs/exactness.md")).expect("the page");
+    let mut named = 0;
+    for words in docs.split('`').skip(1).step_by(2) {
+        let Some((file, test)) = words.split_once(".rs::") else { continue };
+        let text = fs::read_to_string(root.join(format!("{file}.rs")));
+        let text = text.unwrap_or_else(|error| panic!("{words}: {error}"));
+        let mut lines = text.lines().map(str::trim).skip_while(|line| *line != "#[test]");
+        assert!(lines.any(|line| line == format!("fn {test}() {{")), "{words}");
+        named += 1;
+    }
+    assert!(named > 30, "{named}");
 }
