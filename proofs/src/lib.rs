@@ -3,7 +3,7 @@
 //!
 //! Without the feature `explore` this crate needs the implementation alone and builds with Rust
 //! 1.85, so that Kani and CBMC can read it (`proofs/HARNESSES.md`).
-#![cfg_attr(not(feature = "explore"), no_std)]
+#![cfg_attr(not(any(feature = "explore", kani)), no_std)]
 
 #[cfg(all(not(feature = "explore"), not(kani), not(target_family = "wasm")))]
 extern crate std;
