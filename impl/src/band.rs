@@ -8,6 +8,7 @@
 
 use crate::bitmap::Bitmap;
 use crate::cycle::{Cycle, Grid, TrajectoryPoint};
+use crate::range::{EMPTY, extend, larger, smaller};
 
 /// In cells.
 const MARGIN: f64 = 1e-3;
@@ -68,13 +69,12 @@ impl Band {
         let (dx, dy) = (x - origin[0], y - origin[1]);
         let length = libm::sqrt(dx * dx + dy * dy);
         let along = if length > 1e-3 { [dx / length, dy / length] } else { [1.0, 0.0] };
-        let mut ranges = [[f64::MAX, f64::MIN]; 2];
-        let mut upright = ranges;
+        let (mut ranges, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
         for [x, y] in points.iter().flat_map(|point| frame.centres(point)) {
             let (dx, dy) = (x - origin[0], y - origin[1]);
             let turned = [dx * along[0] + dy * along[1], dy * along[0] - dx * along[1]];
-            extend(&mut ranges, turned);
-            extend(&mut upright, [x, y]);
+            extend(&mut ranges, turned, [0.0; 2]);
+            extend(&mut upright, [x, y], [0.0; 2]);
         }
         let widen = |[least, most]: [f64; 2]| [least - frame.reach, most + frame.reach];
         Self { origin, along, ranges: ranges.map(widen), upright: upright.map(widen) }
@@ -93,7 +93,12 @@ impl Band {
         let [[back, front], [aside, beside]] = self.ranges;
         // back <= dx cos + dy sin <= front, and aside <= dy cos - dx sin <= beside
         let strips = [Strip::new(cos, sin, back, front), Strip::new(-sin, cos, aside, beside)];
-        (index(bottom, cells.height)..=index(top, cells.height)).all(|row| {
+        let (width, height) = (float(cells.width), float(cells.height));
+        if right < 0.0 || top < 0.0 || left > width || bottom > height {
+            return true;
+        }
+        let rows = integer(larger(bottom, 1.0) - 1.0)..integer(smaller(top, height));
+        rows.into_iter().all(|row| {
             let dy = float(row) + 0.5 - y;
             let (mut from, mut to) = (left, right);
             for strip in &strips {
@@ -101,9 +106,12 @@ impl Band {
                 from = larger(from, strip.least + shift);
                 to = smaller(to, strip.most + shift);
             }
-            // The cells whose centres are between, and one more on either side.
-            let (from, to) = (index(from - 0.5, cells.width), index(to + 0.5, cells.width));
-            cells.first_in_row(row, from, to).is_none()
+            if from > to || to < 0.0 {
+                return true;
+            }
+            // At least the columns whose centres are between.
+            let (from, to) = (larger(from, 1.0) - 1.0, smaller(to, width));
+            cells.row_is_free(row, integer(from), integer(to))
         })
     }
 }
@@ -127,33 +135,16 @@ impl Strip {
     }
 }
 
-fn extend(ranges: &mut [[f64; 2]; 2], place: [f64; 2]) {
-    for (range, at) in ranges.iter_mut().zip(place) {
-        let [least, most] = *range;
-        *range = [smaller(least, at), larger(most, at)];
-    }
-}
-
-/// The index of the column or row that a coordinate is in, within the grid or just beside it.
-#[allow(clippy::cast_possible_truncation, reason = "within 0 and 2^15 + 1")]
-fn index(coordinate: f64, count: i64) -> i64 {
-    let within = smaller(larger(coordinate, -1.0), float(count));
-    i64::from((within + 1.0) as i32).wrapping_sub(1)
+/// The nearest integer, for numbers from 0 to 2^51: 2^52 added leaves it in the lowest bits.
+fn integer(value: f64) -> i64 {
+    const SHIFT: f64 = 4_503_599_627_370_496.0;
+    let bits = (value + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits());
+    i64::try_from(bits).unwrap_or(i64::MAX)
 }
 
 /// Counts and indices of cells are below 2^24.
 fn float(count: i64) -> f64 {
     f64::from(i32::try_from(count).unwrap_or(i32::MAX))
-}
-
-/// `f64::max` for numbers: one instruction.
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// `f64::min` for numbers.
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 #[cfg(test)]

@@ -42,6 +42,23 @@ impl Bitmap<'_> {
         None
     }
 
+    /// Whether no cell of the row with from <= column < end is set; all of them have to be within
+    /// the array.
+    pub(crate) fn row_is_free(&self, row: i64, from: i64, end: i64) -> bool {
+        let start = row.wrapping_mul(self.width);
+        let (mut bit, end) = (start.wrapping_add(from), start.wrapping_add(end));
+        while bit < end {
+            let Some(word) = self.bits_from(bit) else { return false };
+            let left = end.wrapping_sub(bit);
+            let wanted = if left < WHOLE { (1_u64 << left).wrapping_sub(1) } else { u64::MAX };
+            if word & wanted != 0 {
+                return false;
+            }
+            bit = bit.wrapping_add(WHOLE);
+        }
+        true
+    }
+
     /// `WHOLE` bits from this one on, in a word whose other bits are not set; beyond the end of the
     /// bitmap none are.
     fn bits_from(&self, bit: i64) -> Option<u64> {

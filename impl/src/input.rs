@@ -384,11 +384,11 @@ fn detections_are_fine(items: &[Detection]) -> bool {
     screen.passes()
 }
 
-/// Ids that increase are different.
+/// Ids that increase are different. (A first id of -2^63 is left to the other check.)
 fn tracks_are_fine(items: &[Track]) -> bool {
     let ([_, farthest], [_, fastest]) = (POSITION, VELOCITY);
     let mut screen = Screen::default();
-    let mut before = None;
+    let mut before = i64::MIN;
     for &Track { id, x, y, cos, sin, vx, vy, length, width } in items {
         screen.size(x, farthest);
         screen.size(y, farthest);
@@ -397,8 +397,8 @@ fn tracks_are_fine(items: &[Track]) -> bool {
         screen.size(vy, fastest);
         screen.range(length, SIZE);
         screen.range(width, SIZE);
-        screen.holds(before < Some(id));
-        before = Some(id);
+        screen.holds(before < id);
+        before = id;
     }
     screen.passes()
 }
@@ -407,13 +407,13 @@ fn tracks_are_fine(items: &[Track]) -> bool {
 fn points_are_fine(trajectory: &Trajectory<'_>, now_ns: i64) -> bool {
     let [_, most] = POSITION;
     let mut screen = Screen::default();
-    let mut before = None;
+    let mut before = i64::MIN;
     for &TrajectoryPoint { t_ns, x, y, cos, sin } in trajectory.points {
         screen.size(x, most);
         screen.size(y, most);
         screen.direction(cos, sin);
-        screen.holds(before < Some(t_ns));
-        before = Some(t_ns);
+        screen.holds(before < t_ns);
+        before = t_ns;
     }
     for end in [trajectory.points.first(), trajectory.points.last()].into_iter().flatten() {
         let age_ns = elapsed_ns(end.t_ns, now_ns);

@@ -47,6 +47,7 @@ mod input;
 mod map_validation;
 mod pairing;
 mod plane;
+mod range;
 mod rectangle;
 mod rounding;
 mod route;

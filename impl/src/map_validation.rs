@@ -90,6 +90,10 @@ fn corridor(way: Way<'_, '_>, points: &[TrajectoryPoint]) -> Option<Witness> {
 /// H-07: a point at which the heading is not certainly along every segment that may be nearest.
 fn direction(way: Way<'_, '_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let mut hint = 0;
+    if let Some(first) = points.first() {
+        // Segments beside a point in the corridor are near it.
+        way.in_corridor([first.x, first.y], &mut hint);
+    }
     points.iter().enumerate().find_map(|(index, point)| {
         let q = [point.x, point.y];
         hint = way.nearer(q, hint);

@@ -54,6 +54,17 @@ impl<'c, 'a> Way<'c, 'a> {
             *hint = at;
             return true;
         }
+        self.search_corridor(q, hint)
+    }
+
+    /// As `in_corridor`, for a point that is not where it was expected; such points are few.
+    #[cold]
+    fn search_corridor(&self, q: [f64; 2], hint: &mut usize) -> bool {
+        let mut blocks = self.index.into_iter().flat_map(|index| index.near(q, 0.0));
+        if let Some(at) = blocks.find_map(|start| self.walk(q, start)) {
+            *hint = at;
+            return true;
+        }
         let found = candidates(self.index, self.pairs(), q, 0.0).find(|&index| {
             self.pair(index).is_some_and(|(a, b)| {
                 in_triangle([a.left, a.right, b.right], q)
@@ -168,8 +179,8 @@ fn is_beyond(station: &Station, [x, y]: [f64; 2]) -> bool {
 }
 
 /// Whether the point is certainly in one of the two triangles between the stations, when their
-/// corners turn left, as they do where left is left: two of the triangle's sides, and the
-/// diagonal that says which triangle.
+/// corners turn left, as they do where left is left: the diagonal says in which of the two, and
+/// two sides are left.
 fn certainly_between(a: &Station, b: &Station, q: [f64; 2]) -> bool {
     let diagonal = certain_orientation(a.left, b.right, q);
     if diagonal < 0.0 {

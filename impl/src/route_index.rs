@@ -93,7 +93,7 @@ impl<'a> RouteIndex<'a> {
     }
 
     /// The first station of each block that has a point at most `reach` away along both axes.
-    fn near(&self, point: [f64; 2], reach: f64) -> impl Iterator<Item = usize> {
+    pub(crate) fn near(&self, point: [f64; 2], reach: f64) -> impl Iterator<Item = usize> {
         let Self { leaves, groups, .. } = *self;
         let near = move |blocks: &[Block], at: usize| {
             blocks.get(at).is_some_and(|block| block.near(point, reach))

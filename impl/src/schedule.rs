@@ -53,7 +53,8 @@ fn decide<'a>(
 #[derive(Debug)]
 pub struct Valid<'c, 'a> {
     cycle: &'c Cycle<'a>,
-    usable: Usable,
+    current: Current<'c, 'a>,
+    previous: Option<&'c TrackList<'a>>,
     index: Option<&'c RouteIndex<'a>>,
 }
 
@@ -71,24 +72,22 @@ impl<'c, 'a> Valid<'c, 'a> {
         let usable = validate(cycle, index)
             .map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
         scratch.fits(cycle)?;
-        Ok(Self { cycle, usable, index })
+        let received = cycle.tracks.as_ref();
+        let previous =
+            received.and_then(|list| previous_in_use(cycle, list, usable.previous_tracks));
+        Ok(Self { cycle, current: Current::new(cycle, usable), previous, index })
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
     /// an input of it is not current. Stage iv includes the gap, stage v takes stage iv as run.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
-        let cycle = self.cycle;
-        let current = Current::new(cycle, self.usable);
-        let previous = cycle
-            .tracks
-            .as_ref()
-            .and_then(|list| previous_in_use(cycle, list, self.usable.previous_tracks));
+        let Self { cycle, ref current, previous, index } = *self;
         let found = match stage {
             Stage::I => cycle.tracks.as_ref().ok_or(Input::Tracks).and_then(|tracks| {
                 let detections = current.detections.ok_or(Input::Detections)?;
                 Ok(track_validation(cycle, tracks, detections, previous, scratch))
             }),
-            Stage::Ii => current.trajectory().map(|path| map_validation(cycle, path, self.index)),
+            Stage::Ii => current.trajectory().map(|path| map_validation(cycle, path, index)),
             Stage::Iii => current.trajectory().and_then(|path| {
                 Ok(tracks(cycle, path, current.tracks.ok_or(Input::Tracks)?, previous))
             }),
@@ -137,6 +136,7 @@ fn duty(cycle: &Cycle<'_>, stage: Stage) -> Duty {
 }
 
 /// The inputs that are current.
+#[derive(Debug)]
 struct Current<'c, 'a> {
     trajectory: Option<&'c Trajectory<'a>>,
     tracks: Option<&'c TrackList<'a>>,

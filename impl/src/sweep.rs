@@ -7,6 +7,7 @@
 //! is left to `collision`.
 
 use crate::cycle::{Detection, Ego, Track, TrajectoryPoint};
+use crate::range::{EMPTY, extend};
 
 /// m
 const MARGIN: f64 = 1e-6;
@@ -113,8 +114,7 @@ impl Sweep {
         let [x, y] = minus(points.last().map_or(origin, place), origin);
         let length = libm::sqrt(x * x + y * y);
         let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
-        let mut turned = [[f64::MAX, f64::MIN]; 2];
-        let mut upright = turned;
+        let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
         for point in points {
             let footprint = Moving::footprint(ego, point);
             let place = split(along, minus(footprint.centre, origin));
@@ -150,14 +150,6 @@ impl Sweep {
         let ([ca, cb], [ha, hb]) = (self.centre, self.half);
         (a - ca).abs() > ha + reach_a + va.abs() * spread + MARGIN
             || (b - cb).abs() > hb + reach_b + vb.abs() * spread + MARGIN
-    }
-}
-
-/// Extends the ranges by what reaches so far around a place.
-fn extend(ranges: &mut [[f64; 2]; 2], place: [f64; 2], reach: [f64; 2]) {
-    for ((range, at), reach) in ranges.iter_mut().zip(place).zip(reach) {
-        let [least, most] = *range;
-        *range = [least.min(at - reach), most.max(at + reach)];
     }
 }
 

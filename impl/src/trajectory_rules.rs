@@ -13,6 +13,9 @@ use crate::verdict::{Rule, Witness};
 
 /// H-11: the first rule that some step breaks, and the first step that breaks it.
 pub(crate) fn step_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    if steps_are_fine(cycle, points) {
+        return None;
+    }
     let rules: [(Rule, StepRule); 6] = [
         (Rule::StepTime, step_time),
         (Rule::StepLength, step_length),
@@ -34,6 +37,11 @@ pub(crate) fn step_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Optio
 /// H-12: arc length and end of the trajectory.
 pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (first, last) = (points.first()?, points.last()?);
+    let end_ns = elapsed_ns(first.t_ns, last.t_ns);
+    let stopped = || stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
+    if arcs_are_fine(cycle, first, points) && stopped() {
+        return None;
+    }
     let bounds = Bounds::new(cycle, first);
     let tolerance = Real::new(cycle.parameters.start_tolerance);
     let too_short = arcs(points).find_map(|(index, t_ns, arc)| {
@@ -49,12 +57,10 @@ pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option
         })
     };
     too_short.or_else(too_long).or_else(|| {
-        let end_ns = elapsed_ns(first.t_ns, last.t_ns);
-        let stopped = stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
         let needed = bounds.v_lo.over(Real::new(cycle.parameters.a_b)).min(Real::new(50.0));
         let compared = [Real::seconds(end_ns).value(), needed.value()];
         let index = points.len().saturating_sub(1);
-        (!stopped).then(|| Witness::of(Rule::EndsTooSoon, compared).at_point(index))
+        (!stopped()).then(|| Witness::of(Rule::EndsTooSoon, compared).at_point(index))
     })
 }
 
@@ -82,6 +88,60 @@ impl Step<'_> {
     fn is_empty(&self) -> bool {
         same_point([self.from.x, self.from.y], [self.to.x, self.to.y])
     }
+}
+
+/// More than plain doubles err in the comparisons of one step, m: its numbers are below 2^26 m,
+/// those that are compared below 2^11 m.
+const STEP_ERROR: f64 = 1e-9;
+
+/// Whether every step keeps all rules of H-11 by more than plain doubles err; else the rules
+/// decide, one after the other.
+fn steps_are_fine(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> bool {
+    let (v_max, step_max_ns) = (cycle.parameters.v_max, cycle.parameters.step_max_ns);
+    let (length, half_width) = (cycle.ego.length, 0.5 * cycle.ego.width);
+    points.iter().zip(points.iter().skip(1)).all(|(from, to)| {
+        let dt_ns = elapsed_ns(from.t_ns, to.t_ns);
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        let size = libm::sqrt(x * x + y * y) + STEP_ERROR;
+        let fits = |point: &TrajectoryPoint| {
+            let along = x * point.cos + y * point.sin;
+            let aside = x * point.sin - y * point.cos;
+            along > STEP_ERROR && aside.abs() + STEP_ERROR <= half_width
+        };
+        dt_ns <= step_max_ns
+            && size <= length
+            && size <= v_max * seconds(dt_ns)
+            && fits(from)
+            && fits(to)
+            && from.cos * to.cos + from.sin * to.sin >= 0.866 + STEP_ERROR
+    })
+}
+
+/// Whether every arc length keeps the bounds of H-12 by more than plain doubles err: the bounds
+/// are below 2^21 m.
+fn arcs_are_fine(cycle: &Cycle<'_>, first: &TrajectoryPoint, points: &[TrajectoryPoint]) -> bool {
+    let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
+    let (a_b, a_max) = (parameters.a_b, parameters.a_max);
+    let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
+    let (v_lo, v_hi) = ((v_now - a_max * d).max(0.0), v_now + a_b * d);
+    let tolerance = parameters.start_tolerance - 1e-6;
+    let (mut arc, mut before) = (0.0, first);
+    points.iter().all(|point| {
+        let (x, y) = (point.x - before.x, point.y - before.y);
+        before = point;
+        arc += libm::sqrt(x * x + y * y);
+        let t = seconds(elapsed_ns(first.t_ns, point.t_ns));
+        let left = (v_lo - a_b * t).max(0.0);
+        let least = (v_lo * v_lo - left * left) / (2.0 * a_b);
+        let most = v_hi * t + 0.5 * a_max * t * t;
+        let error = arc * 1e-11;
+        least - tolerance <= arc - error && arc + error <= most + tolerance
+    })
+}
+
+/// A time in s, with two roundings.
+fn seconds(time_ns: i64) -> f64 {
+    Real::integer(time_ns).value() * 1e-9
 }
 
 /// The two compared numbers when the rule is not certainly kept.
