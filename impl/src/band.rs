@@ -136,10 +136,10 @@ impl Strip {
 }
 
 /// The nearest integer, for numbers from 0 to 2^51: 2^52 added leaves it in the lowest bits.
+#[allow(clippy::cast_possible_wrap, reason = "below 2^52")]
 fn integer(value: f64) -> i64 {
     const SHIFT: f64 = 4_503_599_627_370_496.0;
-    let bits = (value + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits());
-    i64::try_from(bits).unwrap_or(i64::MAX)
+    (value + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits()) as i64
 }
 
 /// Counts and indices of cells are below 2^24.

@@ -6,6 +6,7 @@ use core::cmp::Ordering;
 use crate::cycle::{Route, Station};
 use crate::exact::{certain_orientation, orientation};
 use crate::plane::{same_point, segment_distance};
+use crate::range::{larger, smaller};
 use crate::rounding::Real;
 use crate::route_index::{RouteIndex, candidates};
 
@@ -167,9 +168,9 @@ pub(crate) fn apart(segment: Segment, q: [f64; 2]) -> f64 {
     let [ax, ay] = segment.from;
     let [bx, by] = segment.to;
     let [x, y] = q;
-    let dx = (ax.min(bx) - x).max(x - ax.max(bx));
-    let dy = (ay.min(by) - y).max(y - ay.max(by));
-    dx.max(dy).max(0.0) * (1.0 - 1e-15)
+    let dx = larger(smaller(ax, bx) - x, x - larger(ax, bx));
+    let dy = larger(smaller(ay, by) - y, y - larger(ay, by));
+    larger(larger(dx, dy), 0.0) * (1.0 - 1e-15)
 }
 
 /// Whether the point is in front of the line through the boundaries, up to rounding.
