@@ -25,7 +25,7 @@ pub mod world;
 pub type Harness = (&'static str, fn());
 
 /// All harnesses by their paths below this module.
-pub const ALL: [Harness; 24] = [
+pub const ALL: [Harness; 29] = [
     ("assignment::verify_mean_cost_is_minimal", assignment::verify_mean_cost_is_minimal),
     ("assignment::verify_matched_cost_is_minimal", assignment::verify_matched_cost_is_minimal),
     (
@@ -54,7 +54,30 @@ pub const ALL: [Harness; 24] = [
     ("qos::verify_silence_is_exact", qos::verify_silence_is_exact),
     ("qos::verify_arrivals_take_an_element", qos::verify_arrivals_take_an_element),
     ("requester::verify_requester_starts_valid", requester::verify_requester_starts_valid),
-    ("requester::verify_requester_keeps_every_law", requester::verify_requester_keeps_every_law),
+    (
+        "requester::verify_requester_keeps_every_law_at_offers",
+        requester::verify_requester_keeps_every_law_at_offers,
+    ),
+    (
+        "requester::verify_requester_keeps_every_law_at_areas",
+        requester::verify_requester_keeps_every_law_at_areas,
+    ),
+    (
+        "requester::verify_requester_keeps_every_law_at_ticks",
+        requester::verify_requester_keeps_every_law_at_ticks,
+    ),
+    (
+        "requester::verify_requester_keeps_every_law_at_answers",
+        requester::verify_requester_keeps_every_law_at_answers,
+    ),
+    (
+        "requester::verify_requester_keeps_every_law_at_data",
+        requester::verify_requester_keeps_every_law_at_data,
+    ),
+    (
+        "requester::verify_requester_keeps_every_law_at_verdicts",
+        requester::verify_requester_keeps_every_law_at_verdicts,
+    ),
     (
         "requester::verify_requester_refuses_without_a_trace",
         requester::verify_requester_refuses_without_a_trace,

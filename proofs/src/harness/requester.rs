@@ -8,7 +8,9 @@ use mufasa::requester::{
     Running, StationRecord, Suspended,
 };
 
-use super::any::{below, duration_ns, group, groups, near_integer, option, profile, time_ns};
+use super::any::{
+    below, duration_ns, group, groups, index, near_integer, option, profile, time_ns,
+};
 use super::bounds::STATIONS;
 #[cfg(not(kani))]
 use crate::kani;
@@ -31,24 +33,131 @@ pub fn verify_requester_starts_valid() {
     kani::cover!(!parameters.qos_hold, "a violation starts no hold");
 }
 
-/// Every event in every valid state keeps the laws of `law::requester` and leads to a valid state:
-/// no request before `hold_until`, a safety issue makes every group local and holds, no hold is
-/// ever shortened, whatever time does.
+/// From every valid state an offer, a withdrawal and a loss keep every law of `law::requester` and
+/// lead to a valid state.
 ///
-/// Domain: all valid states of a table of two stations, all events, all times of 64 bits. Not
-/// covered: larger tables.
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(10))]
-pub fn verify_requester_keeps_every_law() {
+pub fn verify_requester_keeps_every_law_at_offers() {
+    after_any_event(About::Offers, |step| {
+        let left = step.after.states != step.before.states;
+        let is_loss = matches!(step.event.kind, EventKind::Lost { .. });
+        kani::cover!(left && !is_loss, "a group in use is left with a release");
+        kani::cover!(left && is_loss, "a group in use is left without a release");
+        kani::cover!(!left, "nothing is left");
+    });
+}
+
+/// From every valid state a change of the area keeps every law of `law::requester` and leads to a
+/// valid state.
+///
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_requester_keeps_every_law_at_areas() {
+    after_any_event(About::Area, |step| {
+        let left = step.after.states != step.before.states;
+        kani::cover!(left && step.after.states == [GroupState::Local; 2], "a group in use is left");
+        kani::cover!(!left, "nothing is left");
+    });
+}
+
+/// From every valid state a tick keeps every law of `law::requester` and leads to a valid state: no
+/// request before `hold_until`, whatever time does.
+///
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_requester_keeps_every_law_at_ticks() {
+    after_any_event(About::Tick, |step| {
+        let was_local = step.before.states == [GroupState::Local; 2];
+        let is_local = step.after.states == [GroupState::Local; 2];
+        let held_ns = step.before.hold_until_ns;
+        kani::cover!(was_local && !is_local, "a request");
+        kani::cover!(held_ns == Some(step.event.t_ns) && was_local && !is_local, "a hold ends");
+        kani::cover!(!was_local && is_local, "what is overdue or silent ends");
+        kani::cover!(step.after.hold_until_ns != held_ns, "silence starts a hold");
+    });
+}
+
+/// From every valid state a confirmation and a rejection keep every law of `law::requester` and lead
+/// to a valid state.
+///
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_requester_keeps_every_law_at_answers() {
+    after_any_event(About::Answer, |step| {
+        let is_confirmation = matches!(step.event.kind, EventKind::Confirm { .. });
+        let changed = step.after.states != step.before.states;
+        kani::cover!(is_confirmation && changed, "a confirmation");
+        kani::cover!(!is_confirmation && changed, "a rejection");
+        kani::cover!(is_confirmation && !step.actions.is_empty() && !changed, "another session");
+        kani::cover!(step.after.sources != step.before.sources, "break before make");
+    });
+}
+
+/// From every valid state data keep every law of `law::requester` and lead to a valid state.
+///
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_requester_keeps_every_law_at_data() {
+    after_any_event(About::Data, |step| {
+        let left = step.after.states != step.before.states;
+        kani::cover!(left, "a violation of quality of service");
+        kani::cover!(!left && step.actions.is_empty(), "an element that is used");
+        kani::cover!(!left && !step.actions.is_empty(), "an element that is dropped");
+        kani::cover!(step.after.hold_until_ns != step.before.hold_until_ns, "a violation holds");
+    });
+}
+
+/// From every valid state a verdict keeps every law of `law::requester` and leads to a valid state:
+/// a safety issue makes every group local and holds, and no hold is ever shortened.
+///
+/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
+/// tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_requester_keeps_every_law_at_verdicts() {
+    after_any_event(About::Verdict, |step| {
+        let is_unsafe = matches!(step.event.kind, EventKind::Verdict { safe: false, .. });
+        let left = step.after.states != step.before.states;
+        kani::cover!(is_unsafe && left, "a fallback");
+        kani::cover!(is_unsafe && step.after.hold_until_ns == Some(i64::MAX), "a hold saturates");
+        kani::cover!(
+            is_unsafe && step.after.hold_until_ns == step.before.hold_until_ns,
+            "a later hold stays"
+        );
+        kani::cover!(!is_unsafe && !step.actions.is_empty(), "local services stop");
+    });
+}
+
+/// Kinds of events.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum About {
+    Offers,
+    Area,
+    Tick,
+    Answer,
+    Data,
+    Verdict,
+}
+
+/// Asserts all laws of any event of these kinds in any valid state.
+fn after_any_event(about: About, see: impl FnOnce(&Step<'_>)) {
     let (mut table, aside, profile, parameters) = any_state();
     let mut requester = Requester::resume(aside, &mut table);
     kani::assume(requester.is_valid());
     let before = Seen::of(&requester);
-    let event = any_event(&before);
-    let Ok(actions) = requester.step(&event) else {
-        kani::cover!(true, "an event that is refused");
-        return;
-    };
+    let event = any_event(&before, about);
+    let Ok(actions) = requester.step(&event) else { return };
     let after = Seen::of(&requester);
     let step = Step { profile, parameters, before, event, actions: &actions, after };
     assert!(law::every_reachable_state_is_valid(&step));
@@ -60,35 +169,14 @@ pub fn verify_requester_keeps_every_law() {
     assert!(law::actions_come_in_their_order(&step));
     assert!(law::local_services_stop_when_the_profile_says(&step));
     assert!(law::a_group_becomes_remote_by_confirmation_only(&step));
-    cover_steps(&step);
-}
-
-fn cover_steps(step: &Step<'_>) {
-    let is_tick = step.event.kind == EventKind::Tick;
-    let was_local = step.before.states == [GroupState::Local; 2];
-    let is_local = step.after.states == [GroupState::Local; 2];
-    let is_unsafe = matches!(step.event.kind, EventKind::Verdict { safe: false, .. });
-    kani::cover!(is_tick && was_local && !is_local, "a request");
-    kani::cover!(is_tick && !was_local && is_local, "a request or a session ends at a tick");
-    kani::cover!(is_unsafe && !was_local, "a fallback");
-    kani::cover!(is_unsafe && step.after.hold_until_ns == Some(i64::MAX), "a hold saturates");
-    kani::cover!(
-        matches!(step.event.kind, EventKind::Confirm { .. }) && step.after != step.before,
-        "a confirmation"
-    );
-    kani::cover!(
-        matches!(step.event.kind, EventKind::Data { .. })
-            && step.after.states != step.before.states,
-        "a violation of quality of service"
-    );
-    kani::cover!(step.after.sources != step.before.sources && !is_local, "a source changes");
+    see(&step);
 }
 
 /// An event that is refused changes nothing, and only a station below 1 or an offer without a
 /// place is refused.
 ///
-/// Domain: all valid states of a table of two stations, all events, all times of 64 bits. Not
-/// covered: larger tables.
+/// Domain: all valid states of a table of two stations, all events but verdicts, all times of 64
+/// bits. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_refuses_without_a_trace() {
@@ -97,7 +185,8 @@ pub fn verify_requester_refuses_without_a_trace() {
     let mut requester = Requester::resume(aside, &mut table);
     kani::assume(requester.is_valid());
     let before = Seen::of(&requester);
-    let event = any_event(&before);
+    let about = [About::Offers, About::Area, About::Tick, About::Answer, About::Data];
+    let event = any_event(&before, about[index(about.len())]);
     let Err(error) = requester.step(&event) else {
         kani::cover!(true, "an event that is taken");
         return;
@@ -160,52 +249,61 @@ fn any_state() -> ([StationRecord; STATIONS], Suspended, Profile, Parameters) {
     (table, Suspended::from_parts(&parts), profile, parameters)
 }
 
+/// Everything is drawn first and chosen from then; see `any::option`.
 fn any_group(table: &[StationRecord; STATIONS], group: Group) -> GroupRecord {
-    let place = if kani::any() { table[0] } else { table[1] };
-    let (station, session) = if kani::any() {
+    let ids = |place: &StationRecord| {
         (place.station().unwrap_or(0), place.last_request(group).unwrap_or(0))
-    } else {
-        (station(), session())
     };
-    match below(3) {
+    let (first, second, free) = (ids(&table[0]), ids(&table[1]), (station(), session()));
+    let (kind, place, deadline_ns) = (below(3), below(4), time_ns());
+    let (last_arrival_ns, last_used_ns) = (time_ns(), option(time_ns));
+    let local_computes = kani::any();
+    let (station, session) = match place {
+        0 => free,
+        1 => first,
+        _ => second,
+    };
+    match kind {
         0 => GroupRecord::Local,
-        1 => GroupRecord::Requested { station, session, deadline_ns: time_ns() },
+        1 => GroupRecord::Requested { station, session, deadline_ns },
         _ => GroupRecord::Remote(Running {
             station,
             session,
-            last_arrival_ns: time_ns(),
-            last_used_ns: option(time_ns),
-            local_computes: kani::any(),
+            last_arrival_ns,
+            last_used_ns,
+            local_computes,
         }),
     }
 }
 
-/// Any event; that it names what is in use is only one of the choices.
-fn any_event(before: &Seen) -> Event {
-    let group = group();
+/// Any event of these kinds; that it names what is in use is only one of the choices.
+fn any_event(before: &Seen, about: About) -> Event {
+    let (group, t_ns, generated_ns) = (group(), time_ns(), time_ns());
+    let (free, groups) = ((station(), session()), groups());
+    let (kind, named): (u8, bool) = (below(3), kani::any());
     let [mot, plan] = before.states;
     let state = if group == Group::Mot { mot } else { plan };
     let (station, session) = match state {
         GroupState::Requested { station, session, .. }
         | GroupState::Remote { station, session }
-            if kani::any() =>
+            if named =>
         {
             (station, session)
         }
-        GroupState::Local | GroupState::Requested { .. } | GroupState::Remote { .. } => {
-            (station(), session())
-        }
+        GroupState::Local | GroupState::Requested { .. } | GroupState::Remote { .. } => free,
     };
-    let kind = match below(9) {
-        0 => EventKind::Offer { station, groups: groups() },
-        1 => EventKind::Withdraw { station },
-        2 => EventKind::Lost { station },
-        3 => EventKind::Area { groups: groups() },
-        4 => EventKind::Tick,
-        5 => EventKind::Confirm { station, group, session },
-        6 => EventKind::Reject { station, group, session },
-        7 => EventKind::Data { station, group, session, generated_ns: time_ns() },
-        _ => EventKind::Verdict { safe: kani::any(), groups: groups() },
+    let kind = match about {
+        About::Offers => match kind {
+            0 => EventKind::Offer { station, groups },
+            1 => EventKind::Withdraw { station },
+            _ => EventKind::Lost { station },
+        },
+        About::Area => EventKind::Area { groups },
+        About::Tick => EventKind::Tick,
+        About::Answer if kind == 0 => EventKind::Confirm { station, group, session },
+        About::Answer => EventKind::Reject { station, group, session },
+        About::Data => EventKind::Data { station, group, session, generated_ns },
+        About::Verdict => EventKind::Verdict { safe: kind == 0, groups },
     };
-    Event { t_ns: time_ns(), kind }
+    Event { t_ns, kind }
 }
