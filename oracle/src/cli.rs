@@ -13,7 +13,7 @@ use mufasa_model::cycle::Profile;
 
 use self::arguments::{
     CheckArguments, ComposeArguments, ConformArguments, DemoArguments, ExploreArguments,
-    MergeCommand, OracleArguments, VectorsArguments,
+    MergeCommand, OracleArguments, ProveArguments, VectorsArguments,
 };
 use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
@@ -23,6 +23,7 @@ use crate::drive::{self, inject};
 use crate::explore;
 use crate::oracle;
 use crate::parameters_file;
+use crate::prove;
 use crate::vectors;
 
 /// Bad input or arguments.
@@ -58,6 +59,8 @@ enum Command {
     Vectors(VectorsArguments),
     /// Explore the offloading protocol state by state.
     Explore(ExploreArguments),
+    /// Prove what is claimed with every engine that is here, and list what is proved.
+    Prove(ProveArguments),
 }
 
 /// Runs the program with the arguments of the process.
@@ -83,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Compose(arguments) => compose(&arguments, &mut out),
         Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
+        Command::Prove(arguments) => prove(arguments, &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -165,6 +169,16 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
         None => explore::run(&settings, out, &mut io::stderr())?,
     };
     Ok(end.code())
+}
+
+fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
+    let settings = prove::Settings {
+        names: arguments.names,
+        cbmc: arguments.cbmc,
+        out: arguments.out,
+        markdown: arguments.markdown,
+    };
+    prove::run(&settings, out, &mut io::stderr()).map(prove::End::code)
 }
 
 fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> {

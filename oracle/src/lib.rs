@@ -12,6 +12,7 @@ pub mod implementation;
 pub mod json;
 pub mod oracle;
 pub mod parameters_file;
+pub mod prove;
 pub mod svg;
 pub mod table;
 pub mod vectors;

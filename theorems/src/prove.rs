@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use crate::real::formula::{Formula, not};
 use crate::real::path;
-use crate::solver::{Answer, Solver};
+use crate::solver::{Answer, Effort, Solver};
 use crate::theorem::Theorem;
 
-/// Longest time for the claim on one path, ms.
-const CLAIM_MS: u32 = 60_000;
+/// For the claim on one path.
+const CLAIM: Effort = Effort { steps: 100_000_000, limit_ms: 60_000 };
 
 /// How a proof ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +98,7 @@ fn on_this_path(claim: &dyn Fn() -> Formula) -> Verdict {
         return Verdict::Proved;
     }
     let assertion = path::with(|path| not(claim).text(path));
-    match path::ask(&assertion, CLAIM_MS) {
+    match path::ask(&assertion, CLAIM) {
         Answer::Unsat => Verdict::Proved,
         Answer::Sat(values) => Verdict::Refuted(values),
         Answer::Unknown => Verdict::Unknown,

@@ -16,6 +16,15 @@ pub enum Answer {
     Unknown,
 }
 
+/// How hard the solver tries before it says that it does not know.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// z3's own count of steps: the same on every machine, however busy.
+    pub steps: u32,
+    /// For what is not counted, ms.
+    pub limit_ms: u32,
+}
+
 /// A running solver.
 #[derive(Debug)]
 pub struct Solver {
@@ -35,6 +44,21 @@ pub fn version() -> Option<String> {
     output.status.success().then(|| text.trim().to_owned())
 }
 
+/// Whether z3 is here and at least 4.8, the oldest that the theorems were tried with.
+pub fn is_new_enough() -> bool {
+    version().is_some_and(|line| is_version_4_8(&line))
+}
+
+/// The line names version 4.8 or newer: `Z3 version 4.8.12 - 64 bit`.
+pub fn is_version_4_8(line: &str) -> bool {
+    let Some(rest) = line.strip_prefix("Z3 version ") else { return false };
+    let mut parts = rest.split(['.', ' ']).map(str::parse::<u32>);
+    match (parts.next(), parts.next()) {
+        (Some(Ok(major)), Some(Ok(minor))) => (major, minor) >= (4, 8),
+        _ => false,
+    }
+}
+
 impl Solver {
     /// Starts z3.
     pub fn start() -> io::Result<Self> {
@@ -47,16 +71,20 @@ impl Solver {
     }
 
     /// Whether the assertion can be satisfied on the path.
-    pub fn check(&mut self, path: &Path, assertion: &str, limit_ms: u32) -> Answer {
+    pub fn check(&mut self, path: &Path, assertion: &str, effort: Effort) -> Answer {
         self.questions += 1;
-        self.try_check(path, assertion, limit_ms).unwrap_or_else(|error| {
+        self.try_check(path, assertion, effort).unwrap_or_else(|error| {
             self.error.get_or_insert(error);
             Answer::Unknown
         })
     }
 
-    fn try_check(&mut self, path: &Path, assertion: &str, limit_ms: u32) -> io::Result<Answer> {
-        writeln!(self.input, "(reset)(set-option :timeout {limit_ms})")?;
+    fn try_check(&mut self, path: &Path, assertion: &str, effort: Effort) -> io::Result<Answer> {
+        let Effort { steps, limit_ms } = effort;
+        writeln!(
+            self.input,
+            "(reset)(set-option :rlimit {steps})(set-option :timeout {limit_ms})"
+        )?;
         writeln!(self.input, "(set-option :pp.decimal true)(set-option :pp.decimal_precision 20)")?;
         for name in &path.names {
             writeln!(self.input, "(declare-const |{name}| Real)")?;

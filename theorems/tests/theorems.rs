@@ -12,11 +12,10 @@ use mufasa_theorems::theorem;
 
 #[test]
 fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
-    let Some(version) = solver::version() else {
-        println!("NOT RUN: no z3 here");
+    if !solver::is_new_enough() {
+        println!("NOT RUN: no z3 4.8 here");
         return;
-    };
-    println!("{version}");
+    }
     for theorem in theorem::all() {
         let judgement = judge(theorem).expect("z3 answers");
         println!("{}: {} paths", theorem.id, judgement.proof.paths);

@@ -208,6 +208,25 @@ pub(super) struct ExploreArguments {
     pub(super) serve: Option<String>,
 }
 
+/// Exit codes: 0 whatever was run is proved, 1 something is refuted or not known, 2 bad input or an
+/// engine broke down. Engines: z3 (theorems over the reals), gappa (rounding errors), exploration
+/// (the protocol), cbmc-wasm (compiled code, by scripts/prove-wasm); those that are not here are
+/// listed as not run.
+#[derive(Args)]
+pub(super) struct ProveArguments {
+    /// Only claims with such a name, or of such an engine.
+    pub(super) names: Vec<String>,
+    /// What scripts/prove-wasm wrote.
+    #[arg(long, value_name = "FILE", default_value = "target/proofs/cbmc.json")]
+    pub(super) cbmc: PathBuf,
+    /// Write the claims with their verdicts as JSON Lines.
+    #[arg(long, value_name = "FILE", default_value = "target/proofs/prove.json")]
+    pub(super) out: PathBuf,
+    /// Print the table as Markdown.
+    #[arg(long)]
+    pub(super) markdown: bool,
+}
+
 /// Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.
 #[derive(Args)]
 pub(super) struct VectorsArguments {

@@ -8,11 +8,10 @@ use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
 
 use crate::real::polynomial::{Polynomial, Rules, Variable};
-use crate::solver::{Answer, Solver};
+use crate::solver::{Answer, Effort, Solver};
 
-/// Longest time that the solver may take to tell whether a branch can be reached, ms. Without an
-/// answer the branch is taken.
-const BRANCH_MS: u32 = 100;
+/// For telling whether a branch can be reached. Without an answer the branch is taken.
+const BRANCH: Effort = Effort { steps: 30_000, limit_ms: 1000 };
 
 /// A set of signs: which of negative, zero and positive a polynomial may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,8 +121,8 @@ pub fn exchange_solver(solver: Option<Solver>) -> Option<Solver> {
 }
 
 /// Asks the solver about the path in progress and one more assertion.
-pub fn ask(assertion: &str, limit_ms: u32) -> Answer {
-    EXECUTION.with_borrow_mut(|execution| execution.ask(assertion, limit_ms))
+pub fn ask(assertion: &str, effort: Effort) -> Answer {
+    EXECUTION.with_borrow_mut(|execution| execution.ask(assertion, effort))
 }
 
 /// Starts at the first path.
@@ -177,7 +176,7 @@ impl Execution {
         }
         let mut possible = |signs: Signs| {
             let assertion = self.path.assertion(key, signs);
-            !matches!(self.ask(&assertion, BRANCH_MS), Answer::Unsat)
+            !matches!(self.ask(&assertion, BRANCH), Answer::Unsat)
         };
         // Some answer is possible on a path that can be reached: without the one, the other is.
         let answer = possible(signs);
@@ -186,9 +185,9 @@ impl Execution {
         branch.answer
     }
 
-    fn ask(&mut self, assertion: &str, limit_ms: u32) -> Answer {
+    fn ask(&mut self, assertion: &str, effort: Effort) -> Answer {
         let Some(solver) = &mut self.solver else { return Answer::Unknown };
-        solver.check(&self.path, assertion, limit_ms)
+        solver.check(&self.path, assertion, effort)
     }
 }
 

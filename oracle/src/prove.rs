@@ -1,0 +1,98 @@
+//! What is proved, by which engine, of which inputs: all engines that are here are run, the others
+//! are listed as not run.
+
+pub mod engines;
+pub mod line;
+pub mod tables;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::check::{complain, files};
+use engines::Engine;
+use line::{Line, Verdict};
+
+/// What is run and where the answers go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Only lines whose id or engine contains one of these; all without any.
+    pub names: Vec<String>,
+    /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
+    pub cbmc: PathBuf,
+    /// Where the lines are written as JSON Lines.
+    pub out: PathBuf,
+    /// Print the table as Markdown.
+    pub markdown: bool,
+}
+
+/// How it ended; the worst that applies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum End {
+    /// Whatever was run is proved.
+    #[default]
+    Proved,
+    /// Something that should hold is refuted or not known.
+    NotProved,
+    /// No line has such a name, a file could not be read or written, or an engine broke down.
+    BadInput,
+}
+
+impl End {
+    /// The exit code.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Runs the engines, writes the table to `out` and what is wrong to `err`. Errors are those of
+/// writing to `out`.
+pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
+    let mut lines = Vec::new();
+    let mut end = End::default();
+    for engine in Engine::ALL {
+        match engine.lines(settings, &bar(engine)) {
+            Ok(more) => lines.extend(more),
+            Err(problem) => {
+                complain(err, &format!("{}: {problem}", engine.name()));
+                end = End::BadInput;
+            }
+        }
+    }
+    if lines.is_empty() {
+        complain(err, "nothing has such a name");
+        return Ok(End::BadInput);
+    }
+    if lines.iter().any(|line| matches!(line.verdict, Verdict::Refuted | Verdict::Unknown)) {
+        end = end.max(End::NotProved);
+    }
+    let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
+    write!(out, "{table}")?;
+    if let Err(error) = write_lines(settings, &lines) {
+        complain(err, &format!("{}: cannot be written: {error}", settings.out.display()));
+        end = End::BadInput;
+    }
+    Ok(end)
+}
+
+fn write_lines(settings: &Settings, lines: &[Line]) -> io::Result<()> {
+    let mut text = String::new();
+    for line in lines {
+        text.push_str(&serde_json::to_string(line)?);
+        text.push('\n');
+    }
+    if let Some(folder) = settings.out.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    files::write(&settings.out, &text)
+}
+
+fn bar(engine: Engine) -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    bar.set_prefix(engine.name());
+    bar
+}
