@@ -1,6 +1,7 @@
 //! What a program under test answers. Only `id`, `verdict` and `failed_stage` of a cycle,
-//! `states` of a trace, `compositions` and `none` of a composition are looked at
-//! (`spec/5-interfaces.md#programs-under-test`).
+//! `states` of a trace, `compositions` and `none` of a composition are needed
+//! (`spec/5-interfaces.md#programs-under-test`); the place of what is invalid is looked at where it
+//! is given.
 
 use mufasa_model::verdict::{FailedStage, Stage};
 use serde_json::{Map, Value};

@@ -59,7 +59,7 @@ pub enum Breach {
     Completeness,
     /// It fails at another stage.
     Stage,
-    /// It takes invalid local input for valid, or the other way round.
+    /// It takes invalid local input for valid, or the other way round, or names another place in it.
     Input,
     /// The states or actions of an offloading trace differ.
     States,

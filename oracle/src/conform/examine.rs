@@ -139,7 +139,8 @@ fn compare(
 ) -> Result<Option<Differs>, Broken> {
     match (question, expected) {
         (Question::Cycle(cycle), Expected::Cycle(exact)) => {
-            Ok(compare_cycle(cycle, exact, answer::said(object)?))
+            let differs = compare_cycle(cycle, exact, answer::said(object)?);
+            Ok(differs.or_else(|| compare_place(exact, object)))
         }
         (Question::Offloading(trace), Expected::Offloading(expected)) => {
             compare_states(trace, expected, object)
@@ -196,6 +197,23 @@ fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
     Some(Differs { breach, place, said: Some(Said::Verdict(said)) })
 }
 
+/// Invalid input: whoever says where must say so rightly.
+fn compare_place(exact: &Answer, object: &Map<String, Value>) -> Option<Differs> {
+    let (key, problem) = match exact {
+        Err(problem) => ("error", problem),
+        Ok(report) => ("input", report.input.as_ref()?),
+    };
+    let wrong = names_another(object.get(key), &problem.field, problem.index);
+    wrong.then(|| Differs::new(Breach::Input, format!("{} at another place", part(problem))))
+}
+
+/// Whether a place is named in an answer, but not this one.
+fn names_another(given: Option<&Value>, field: &str, index: Option<usize>) -> bool {
+    let named = given.and_then(|given| given.get("field"));
+    let at = given.and_then(|given| given.get("index")).unwrap_or(&Value::Null);
+    named.is_some_and(|named| *named != field || *at != Value::from(index))
+}
+
 /// Place of a stage in a report.
 pub fn index(stage: Stage) -> usize {
     Stage::ALL.iter().position(|it| *it == stage).unwrap_or(0)
@@ -248,7 +266,10 @@ fn compare_compositions(
 ) -> Result<Option<Differs>, Broken> {
     let differs = |place| Ok(Some(Differs::new(Breach::Compositions, place)));
     let expected = match (expected, answer::is_error(object)) {
-        (Err(_), true) => return Ok(None),
+        (Err(problem), true) => {
+            let wrong = names_another(object.get("error"), &problem.field, problem.index);
+            return if wrong { differs("error at another place") } else { Ok(None) };
+        }
         (Err(_), false) => return differs("invalid input taken for valid"),
         (Ok(_), true) => return differs("error"),
         (Ok(expected), false) => serde_json::to_value(expected).unwrap_or_default(),
@@ -280,9 +301,6 @@ fn compare_errors(
     if !answer::is_error(object) {
         return Some(Differs::new(Breach::Schema, wrong));
     }
-    let error = object.get("error")?;
-    let field = error.get("field")?;
-    let index = error.get("index").unwrap_or(&Value::Null);
-    let same = *field == expected.field.as_str() && *index == Value::from(expected.index);
-    (!same).then(|| Differs::new(Breach::Schema, format!("{wrong} at another place")))
+    names_another(object.get("error"), &expected.field, expected.index)
+        .then(|| Differs::new(Breach::Schema, format!("{wrong} at another place")))
 }

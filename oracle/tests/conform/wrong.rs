@@ -144,3 +144,23 @@ fn who_names_another_place_in_a_line_is_found() {
         assert!(found.told.expected.contains("index 0"), "{told}");
     }
 }
+
+/// `spec/3-stages.md#invalid-input.3`
+#[test]
+fn who_names_another_place_of_invalid_input_is_found() {
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        printf '%s\n' "$line" | sed 's/"field":"[a-z]*/"field":"elsewhere/'; done"#
+    );
+    let options = ["--kinds", "cycle,composition", "--cases", "500"];
+    let Some((summary, told)) = script("elsewhere", &options, &program) else { return };
+    for found in &summary.classes {
+        assert!([Breach::Input, Breach::Compositions].contains(&found.class.breach), "{told}");
+        assert!(found.class.place.ends_with("at another place"), "{told}");
+        assert!(found.size <= 3, "{told}");
+    }
+    for place in ["ego at another place", "tracks at another place"] {
+        let found = summary.classes.iter().any(|it| matches_class(it, Breach::Input, place));
+        assert!(found, "{place}: {told}");
+    }
+}
