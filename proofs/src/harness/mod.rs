@@ -25,7 +25,7 @@ pub mod world;
 pub type Harness = (&'static str, fn());
 
 /// All harnesses by their paths below this module.
-pub const ALL: [Harness; 29] = [
+pub const ALL: [Harness; 31] = [
     ("assignment::verify_mean_cost_is_minimal", assignment::verify_mean_cost_is_minimal),
     ("assignment::verify_matched_cost_is_minimal", assignment::verify_matched_cost_is_minimal),
     (
@@ -88,4 +88,6 @@ pub const ALL: [Harness; 29] = [
     ("stages::verify_stage_iii_never_panics", stages::verify_stage_iii_never_panics),
     ("stages::verify_stage_iv_never_panics", stages::verify_stage_iv_never_panics),
     ("stages::verify_stage_v_never_panics", stages::verify_stage_v_never_panics),
+    ("stages::verify_index_changes_nothing", stages::verify_index_changes_nothing),
+    ("stages::verify_stage_alone_says_the_same", stages::verify_stage_alone_says_the_same),
 ];

@@ -23,7 +23,7 @@ use crate::law::requester::{self as law, Seen, Step};
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_requester_starts_valid() {
     let parameters = parameters();
-    let mut table = [any_record(), any_record()];
+    let mut table = [(); STATIONS].map(|()| any_record());
     let requester = Requester::new(profile(), parameters, &mut table);
     let Ok(requester) = requester else { unreachable!("times are >= 0") };
     assert!(requester.is_valid());
@@ -235,7 +235,7 @@ fn any_record() -> StationRecord {
 /// Any state at all; `is_valid` has to be assumed. That a group in use names a station of the
 /// table and its last request is only one of the choices.
 fn any_state() -> ([StationRecord; STATIONS], Suspended, Profile, Parameters) {
-    let table = [any_record(), any_record()];
+    let table = [(); STATIONS].map(|()| any_record());
     let (profile, parameters) = (profile(), parameters());
     let parts = Parts {
         profile,
@@ -254,14 +254,14 @@ fn any_group(table: &[StationRecord; STATIONS], group: Group) -> GroupRecord {
     let ids = |place: &StationRecord| {
         (place.station().unwrap_or(0), place.last_request(group).unwrap_or(0))
     };
-    let (first, second, free) = (ids(&table[0]), ids(&table[1]), (station(), session()));
+    let (first, last, free) = (ids(&table[0]), ids(&table[STATIONS - 1]), (station(), session()));
     let (kind, place, deadline_ns) = (below(3), below(4), time_ns());
     let (last_arrival_ns, last_used_ns) = (time_ns(), option(time_ns));
     let local_computes = kani::any();
     let (station, session) = match place {
         0 => free,
         1 => first,
-        _ => second,
+        _ => last,
     };
     match kind {
         0 => GroupRecord::Local,

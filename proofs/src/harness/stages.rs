@@ -3,9 +3,10 @@
 
 use mufasa::configuration::Configuration;
 use mufasa::cycle::Cycle;
-use mufasa::schedule::check;
+use mufasa::route_index::{Block, RouteIndex};
+use mufasa::schedule::{Valid, check, check_indexed};
 use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{FailedStage, Input, Outcome, Problem, Report};
+use mufasa::verdict::{FailedStage, Input, InvalidInput, Outcome, Problem, Report, Stage};
 
 use super::any::{index, profile};
 use super::bounds::{DETECTIONS, DISKS, TRACKS};
@@ -13,6 +14,9 @@ use super::schedule::assert_scheduled;
 use super::world::World;
 #[cfg(not(kani))]
 use crate::kani;
+
+/// Columns of the largest assignment: a spare one for each track.
+const COLUMNS: usize = DETECTIONS + TRACKS;
 
 /// Stage i, with H-01 and H-09, panics at no input, refuses only what is invalid or does not fit
 /// the scratch, and reports what the schedule says.
@@ -100,10 +104,74 @@ pub fn verify_stage_v_never_panics() {
     kani::cover!(outcome.is_none(), "refused");
 }
 
+/// An index of the route is made of exactly the valid routes that fit its memory, and with it every
+/// cycle gets the same answer.
+///
+/// Domain: any numbers of 64 bits, lists up to the bounds, both profiles, `AllRemote` with a
+/// trajectory alone. Not covered: routes with more than one block.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_index_changes_nothing() {
+    let world = World::any();
+    let cycle = world.cycle(profile(), Configuration::AllRemote, &[Input::Trajectory]);
+    let mut memory = [Block::default(); 2];
+    let memory = &mut memory[..index(3)];
+    let fits = memory.len() >= Block::needed(cycle.route.stations.len());
+    let answer = check(&cycle, &mut Scratch::new(&mut [], &mut []));
+    let index = RouteIndex::new(cycle.route, memory);
+    if let Ok(index) = &index {
+        assert!(
+            fits && check_indexed(&cycle, index, &mut Scratch::new(&mut [], &mut [])) == answer
+        );
+    }
+    let of_the_route = |problem: &InvalidInput| problem.field.starts_with("route.");
+    assert!(index.is_ok() || !fits || answer.is_err());
+    kani::cover!(index.is_ok() && answer.is_ok_and(|report| report.failed_stage.is_none()), "safe");
+    kani::cover!(
+        index.is_ok() && answer.is_ok_and(|report| report.failed_stage.is_some()),
+        "unsafe"
+    );
+    kani::cover!(answer.as_ref().is_err_and(of_the_route), "an invalid route");
+    kani::cover!(!fits && answer.is_ok(), "too little memory");
+}
+
+/// A stage that is run alone says what it says in the schedule, if it ran there.
+///
+/// Domain: any numbers of 64 bits, lists up to the bounds, both profiles, `MotRemote`, stages i, ii
+/// and iv. Not covered: longer lists, other configurations.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(37))]
+pub fn verify_stage_alone_says_the_same() {
+    let world = World::any();
+    let holds = [Input::Trajectory, Input::Tracks, Input::Detections];
+    let cycle = world.cycle(profile(), Configuration::MotRemote, &holds);
+    let (mut rows, mut columns) = ([Row::default(); TRACKS], [Column::default(); COLUMNS]);
+    let mut scratch = Scratch::new(&mut rows, &mut columns);
+    let answer = check(&cycle, &mut scratch);
+    let Ok(valid) = Valid::new(&cycle, None, &scratch) else {
+        assert!(answer.is_err() || is_refused(&answer));
+        kani::cover!(is_refused(&answer), "invalid remote data");
+        return;
+    };
+    let Ok(report) = answer else { unreachable!("the input is valid") };
+    for (at, stage) in [(0, Stage::I), (1, Stage::Ii), (3, Stage::Iv)] {
+        let (alone, scheduled) = (valid.stage(stage, &mut scratch), report.stages[at]);
+        let ran = matches!(scheduled, Outcome::Passed | Outcome::Failed(_));
+        assert!(!ran || alone == scheduled || at == 3);
+        kani::cover!(at == 0 && alone == scheduled && ran, "stage i ran");
+        kani::cover!(at == 1 && alone == scheduled && ran, "stage ii ran");
+        kani::cover!(at == 3 && alone == scheduled && ran, "stage iv ran");
+        kani::cover!(!ran && alone == Outcome::Passed, "it would have passed");
+    }
+}
+
+fn is_refused(answer: &Result<Report, InvalidInput>) -> bool {
+    answer.is_ok_and(|report| report.failed_stage == Some(FailedStage::Input))
+}
+
 /// What is said of the cycle, which follows the schedule; `None` for invalid local input and for
 /// too little scratch, which is refused for no other reason.
 fn checked(cycle: &Cycle<'_>) -> Option<Report> {
-    const COLUMNS: usize = DETECTIONS + TRACKS;
     let (mut rows, mut columns) = ([Row::default(); TRACKS], [Column::default(); COLUMNS]);
     let rows = &mut rows[..index(TRACKS + 1)];
     let columns = &mut columns[..index(COLUMNS + 1)];
