@@ -7,7 +7,7 @@ mod cycles;
 mod others;
 
 use mufasa_model::schedule::check;
-use mufasa_model::verdict::{Outcome, Reading, Witness};
+use mufasa_model::verdict::{Outcome, Reading, Report, Witness};
 use mufasa_oracle::json::{Record, decide};
 use mufasa_oracle::vectors::book::{STAYS, Vector};
 use mufasa_props::bridge::{self, Answer};
@@ -15,15 +15,16 @@ use mufasa_props::bridge::{self, Answer};
 use crate::{ALL, record};
 
 /// Whether a mutant's answer to a cycle is told from a right one: by verdict, failed stage or
-/// place of invalid input; where strict and exact model agree, by an outcome or a witness, too.
+/// place of invalid input; where strict and exact model agree in all of them, by an outcome or a
+/// witness, too.
 fn told_apart(exact: &Answer, strict: &Answer, mutant: &Answer) -> bool {
     if bridge::conforms(exact, strict, mutant).is_err() {
         return true;
     }
     match (exact, strict, mutant) {
-        (Ok(exact), Ok(strict), Ok(mutant)) if exact.failed_stage == strict.failed_stage => {
-            let outcomes = exact.stages.iter().zip(&mutant.stages);
-            outcomes.into_iter().any(|(exact, mutant)| place(exact) != place(mutant))
+        (Ok(exact), Ok(strict), Ok(mutant)) => {
+            let places = |report: &Report| report.stages.each_ref().map(place);
+            places(exact) == places(strict) && places(exact) != places(mutant)
         }
         _ => false,
     }
