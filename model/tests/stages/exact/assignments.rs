@@ -65,6 +65,56 @@ fn all_assignments_up_to_7_by_7_have_the_least_cost_of_the_model() {
     }
 }
 
+/// The cheapest of all assignments of so many pairs, none of them forbidden; H-01 asks for fewer
+/// pairs than tracks.
+fn cheapest_of(costs: &[Vec<Option<f64>>], pairs: usize, used: u32) -> Option<f64> {
+    if pairs == 0 {
+        return Some(0.0);
+    }
+    let (row, rest) = costs.split_first()?;
+    let free = row.iter().enumerate().filter(|(column, _)| used >> column & 1 == 0);
+    let sums = free.filter_map(|(column, cost)| {
+        Some((*cost)? + cheapest_of(rest, pairs - 1, used | 1 << column)?)
+    });
+    sums.chain(cheapest_of(rest, pairs, used)).reduce(f64::min)
+}
+
+/// H-01
+#[test]
+fn fewer_pairs_some_of_them_forbidden_are_decided_as_by_trying_all() {
+    let mut draw = Draw(12);
+    let (mut possible, mut impossible) = (0, 0);
+    for case in 0..300 {
+        let (rows, columns) = (draw.between(1, 7), draw.between(1, 7));
+        let mut cost = || {
+            let (is_allowed, cost) = (draw.between(0, 9) >= case % 10, draw.between(0, 9));
+            is_allowed.then_some(f64::from(cost))
+        };
+        let costs: Vec<Vec<Option<f64>>> =
+            (0..rows).map(|_| (0..columns).map(|_| cost()).collect()).collect();
+        let exact = |cost: &Option<f64>| cost.map(Real::from_double);
+        let table: Costs = costs.iter().map(|row| row.iter().map(exact).collect()).collect();
+        let columns = costs[0].len();
+        for pairs in 1..=costs.len().min(columns) {
+            let less = |bound: f64| {
+                costs_less(&table, columns, pairs, &Real::from_double(bound)).map(|it| it.less)
+            };
+            if let Some(least) = cheapest_of(&costs, pairs, 0) {
+                assert_eq!(
+                    [least - TINY, least, least + TINY].map(less),
+                    [Ok(false), Ok(false), Ok(true)]
+                );
+                possible += 1;
+            } else {
+                let most = less(0.0).expect_err("there is no assignment of so many pairs");
+                assert!(most < pairs && cheapest_of(&costs, most, 0).is_some(), "{costs:?}");
+                impossible += 1;
+            }
+        }
+    }
+    assert!(possible > 100 && impossible > 50, "{possible} {impossible}");
+}
+
 /// Roots, which doubles round: on the least sum itself only exact numbers can tell.
 #[test]
 fn a_bound_that_is_the_least_sum_of_roots_is_not_undercut() {
