@@ -206,6 +206,7 @@ enum MufasaRule
   MUFASA_RULE_OCCUPIED = 21,
   MUFASA_RULE_UNKNOWN = 22,
   MUFASA_RULE_OUTSIDE = 23,
+  MUFASA_RULE_WORK_LIMIT = 24,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -375,6 +376,7 @@ typedef struct MufasaParameters {
   double v_max;
   int64_t step_max_ns;
   double theta_velocity;
+  int64_t work_limit;
   double delta;
 } MufasaParameters;
 

@@ -222,6 +222,7 @@ fn parameters(raw: &MufasaParameters) -> Parameters {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     } = *raw;
     Parameters {
@@ -240,6 +241,7 @@ fn parameters(raw: &MufasaParameters) -> Parameters {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     }
 }
@@ -262,6 +264,7 @@ pub(crate) fn parameters_of(parameters: &Parameters) -> MufasaParameters {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     } = *parameters;
     MufasaParameters {
@@ -280,6 +283,7 @@ pub(crate) fn parameters_of(parameters: &Parameters) -> MufasaParameters {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     }
 }

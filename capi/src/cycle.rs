@@ -45,6 +45,7 @@ pub struct MufasaParameters {
     pub v_max: f64,
     pub step_max_ns: i64,
     pub theta_velocity: f64,
+    pub work_limit: i64,
     pub delta: f64,
 }
 

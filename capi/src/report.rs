@@ -113,6 +113,7 @@ pub enum MufasaRule {
     Occupied = 21,
     Unknown = 22,
     Outside = 23,
+    WorkLimit = 24,
 }
 
 /// Why a stage failed. Indices that mean nothing for the rule are -1.
@@ -286,6 +287,7 @@ fn witness(witness: &Witness) -> MufasaWitness {
 const fn rule(rule: Rule) -> MufasaRule {
     match rule {
         Rule::MeanCost => MufasaRule::MeanCost,
+        Rule::WorkLimit => MufasaRule::WorkLimit,
         Rule::NoAssignment => MufasaRule::NoAssignment,
         Rule::Velocity => MufasaRule::Velocity,
         Rule::ThetaMap => MufasaRule::ThetaMap,

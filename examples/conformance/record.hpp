@@ -30,7 +30,8 @@ struct Parameters {
   double theta_tr = 0.2, theta_map = 0.3, theta_obj = 5.0, a_b = 8.0, safety_time = 1.8;
   double theta_track_max = 1.0, tau = 0.1, a_max = 3.0, start_tolerance = 2.0, v_max = 150.0;
   double theta_velocity = 2.0, delta = 1e-6;
-  std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 0, step_max_ns = 200000000;
+  std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 0, step_max_ns = 200000000,
+               work_limit = 10000000000;
 };
 struct Cycle {
   Parameters parameters;
@@ -136,8 +137,8 @@ std::optional<Stamped<T>> read_list(const Value* v, const char* key, T (*read)(c
 inline void read_parameters(const Value& v, Parameters& p) {
   v.only({"theta_tr", "theta_map", "theta_obj", "a_b", "safety_time", "max_age_ns", "n",
           "theta_track_max", "miss_budget", "tau", "a_max", "start_tolerance", "v_max",
-          "step_max_ns", "theta_velocity", "delta", "t_wait_ns", "request_timeout_ns", "l_max_ns",
-          "dt_max_ns"});
+          "step_max_ns", "theta_velocity", "work_limit", "delta", "t_wait_ns",
+          "request_timeout_ns", "l_max_ns", "dt_max_ns"});
   const std::pair<const char*, double*> numbers[] = {
       {"theta_tr", &p.theta_tr}, {"theta_map", &p.theta_map}, {"theta_obj", &p.theta_obj},
       {"a_b", &p.a_b}, {"safety_time", &p.safety_time}, {"tau", &p.tau}, {"a_max", &p.a_max},
@@ -148,8 +149,8 @@ inline void read_parameters(const Value& v, Parameters& p) {
   std::int64_t time_ns = 0;
   const std::pair<const char*, std::int64_t*> integers[] = {
       {"max_age_ns", &p.max_age_ns}, {"n", &p.n}, {"miss_budget", &p.miss_budget},
-      {"step_max_ns", &p.step_max_ns}, {"t_wait_ns", &time_ns}, {"l_max_ns", &time_ns},
-      {"request_timeout_ns", &time_ns}, {"dt_max_ns", &time_ns}};
+      {"step_max_ns", &p.step_max_ns}, {"work_limit", &p.work_limit}, {"t_wait_ns", &time_ns},
+      {"l_max_ns", &time_ns}, {"request_timeout_ns", &time_ns}, {"dt_max_ns", &time_ns}};
   for (auto& [name, place] : integers) {
     if (const Value* value = v.find(name)) *place = value->as_integer();
     if (time_ns < 0) throw Broken{};
@@ -264,6 +265,7 @@ inline void check_parameters(const Parameters& p) {
   for (std::int64_t time_ns : {p.max_age_ns, p.step_max_ns}) within<std::int64_t>(time_ns, 0, kS60);
   within<std::int64_t>(p.n, 1, 64);
   within<std::int64_t>(p.miss_budget, 0, 64);
+  within<std::int64_t>(p.work_limit, 0, std::numeric_limits<std::int64_t>::max());
   within(p.delta, 1e-8, 1e-2);
 }
 inline void check_grid(const Grid& g) {

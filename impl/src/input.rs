@@ -113,6 +113,7 @@ fn check_parameters(parameters: &Parameters) -> Check {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     } = *parameters;
     let at = Place { index: None };
@@ -133,6 +134,7 @@ fn check_parameters(parameters: &Parameters) -> Check {
     at.number("parameters.v_max", v_max, above_zero)?;
     at.integer("parameters.step_max_ns", step_max_ns, [0, HORIZON_NS])?;
     at.number("parameters.theta_velocity", theta_velocity, above_zero)?;
+    at.integer("parameters.work_limit", work_limit, [0, i64::MAX])?;
     at.number("parameters.delta", delta, [1e-8, 1e-2])
 }
 

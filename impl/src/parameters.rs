@@ -34,6 +34,8 @@ pub struct Parameters {
     pub step_max_ns: i64,
     /// H-09: greatest error of the velocity of a track, m/s.
     pub theta_velocity: f64,
+    /// Stage i fails rather than begin an assignment of more work than this.
+    pub work_limit: i64,
     /// Margin of the strict and the lax model, m; no verdict of this crate depends on it.
     pub delta: f64,
 }
@@ -56,6 +58,7 @@ impl Default for Parameters {
             v_max: 150.0,
             step_max_ns: 200_000_000,
             theta_velocity: 2.0,
+            work_limit: 10_000_000_000,
             delta: 1e-6,
         }
     }

@@ -105,6 +105,9 @@ fn mean_cost(
     if k == 0 {
         return None;
     }
+    if let Some(witness) = over_limit(cycle, gated, detected) {
+        return Some(witness);
+    }
     let pairs =
         Pairs { tracks: tracks.items, detections: detections.items, swapped: gated > detected };
     let columns = first(scratch.columns, gated.max(detected));
@@ -128,6 +131,9 @@ fn matched_cost(
     let k = gated.saturating_sub(spare);
     if k == 0 {
         return None;
+    }
+    if let Some(witness) = over_limit(cycle, gated, detections.items.len().saturating_add(spare)) {
+        return Some(witness);
     }
     let pairs = Pairs { tracks: tracks.items, detections: detections.items, swapped: false };
     let columns = first(scratch.columns, detections.items.len().saturating_add(spare));
@@ -153,6 +159,17 @@ fn matched_cost(
     let compared = [count(assigned.saturating_sub(spare)), count(k)];
     let witness = Witness::of(Rule::NoAssignment, compared);
     Some(Witness { track: track.map(|track| track.id), ..witness })
+}
+
+/// The stage fails rather than begin an assignment of so many rows and columns, whose work is
+/// min^2 max, when `work_limit` is below: one search for each, over at most min columns, each of
+/// which looks at all.
+fn over_limit(cycle: &Cycle<'_>, rows: usize, columns: usize) -> Option<Witness> {
+    let (least, most) = (rows.min(columns), rows.max(columns));
+    let work = least.saturating_mul(least).saturating_mul(most);
+    let (work, limit) = (i64::try_from(work).unwrap_or(i64::MAX), cycle.parameters.work_limit);
+    let compared = [work, limit].map(|steps| Real::integer(steps).value());
+    (work > limit).then(|| Witness::of(Rule::WorkLimit, compared))
 }
 
 /// H-09: abs(p - `p_prev` - v dt) <= `theta_velocity` dt for every track whose id is held.

@@ -77,6 +77,8 @@ pub enum Outcome {
 pub enum Rule {
     /// Stage i: mean assignment cost < `theta_tr`.
     MeanCost,
+    /// Stage i: the assignment would take more work than `work_limit`.
+    WorkLimit,
     /// H-01: fewer pairs closer than `theta_track_max` than tracks to be matched.
     NoAssignment,
     /// H-09: displacement since the previous list does not fit the velocity.

@@ -178,6 +178,7 @@ fn check_parameters(parameters: &Parameters) -> Result<(), InvalidInput> {
     p.number("v_max", parameters.v_max, &speed)?;
     p.integer("step_max_ns", parameters.step_max_ns, &nanoseconds)?;
     p.number("theta_velocity", parameters.theta_velocity, &speed)?;
+    p.integer("work_limit", parameters.work_limit, &(0..=i64::MAX))?;
     p.number("delta", parameters.delta, &(1e-8..=1e-2))
 }
 

@@ -34,6 +34,8 @@ pub struct Parameters {
     pub step_max_ns: i64,
     /// H-09: largest error of a track's velocity, m/s.
     pub theta_velocity: f64,
+    /// Stage i: the strict reading fails when the assignment takes more work.
+    pub work_limit: i64,
     /// Margin of the strict and the lax reading, m (`spec/4-arithmetic.md#strict-and-lax`).
     pub delta: f64,
 }
@@ -56,6 +58,7 @@ impl Default for Parameters {
             v_max: 150.0,
             step_max_ns: 200_000_000,
             theta_velocity: 2.0,
+            work_limit: 10_000_000_000,
             delta: 1e-6,
         }
     }

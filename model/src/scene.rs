@@ -61,6 +61,7 @@ pub struct Thresholds {
     pub max_age_ns: i64,
     pub step_max_ns: i64,
     pub theta_velocity: Real,
+    pub work_limit: i64,
     pub delta: Real,
 }
 
@@ -235,6 +236,7 @@ fn thresholds(cycle: &Cycle) -> Thresholds {
         n: parameters.n,
         theta_track_max: Real::from_double(parameters.theta_track_max),
         miss_budget: parameters.miss_budget,
+        work_limit: parameters.work_limit,
         tau: Real::from_double(parameters.tau),
         a_max: Real::from_double(parameters.a_max),
         start_tolerance: Real::from_double(parameters.start_tolerance),

@@ -68,6 +68,26 @@ fn choices_of_gated_tracks<'a>(
 }
 
 fn assignment_failure(scene: &Scene, gated: &[&Track], detections: &[Object]) -> Option<Witness> {
+    over_limit(scene, gated.len(), detections.len())
+        .or_else(|| assigned_failure(scene, gated, detections))
+}
+
+/// Strict: the work of the assignment is above work_limit, so that an implementation may fail.
+fn over_limit(scene: &Scene, gated: usize, detections: usize) -> Option<Witness> {
+    let budget = usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(gated);
+    let (pairs, columns) = match scene.profile {
+        Profile::Paper => (gated.min(detections), detections),
+        Profile::Hardened => (gated - budget, detections + budget),
+    };
+    let (least, most) = (gated.min(columns) as i128, gated.max(columns) as i128);
+    let work = least * least * most;
+    let limit = i128::from(scene.parameters.work_limit);
+    (scene.reading == Reading::Strict && pairs > 0 && work > limit).then(|| {
+        Witness::new(Rule::WorkLimit, &Real::from_integer(work), &Real::from_integer(limit))
+    })
+}
+
+fn assigned_failure(scene: &Scene, gated: &[&Track], detections: &[Object]) -> Option<Witness> {
     match scene.profile {
         Profile::Paper => {
             let pairs = gated.len().min(detections.len());

@@ -119,6 +119,7 @@ fn set(settings: &mut Settings, name: &str, value: &DeValue<'_>) -> Result<(), S
         "v_max" => stages.v_max = float(value)?,
         "step_max_ns" => stages.step_max_ns = integer(value)?,
         "theta_velocity" => stages.theta_velocity = float(value)?,
+        "work_limit" => stages.work_limit = integer(value)?,
         "delta" => stages.delta = float(value)?,
         "t_wait_ns" => requester.t_wait_ns = integer(value)?,
         "request_timeout_ns" => requester.request_timeout_ns = integer(value)?,

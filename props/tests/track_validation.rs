@@ -1,8 +1,9 @@
 //! Stage i of the implementation against the exact model
 //! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::cycle::{Cycle, Profile};
 use mufasa_props::differential::{agree, near_threshold};
+use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation;
 
 #[test]
@@ -15,4 +16,20 @@ fn paper() {
 fn hardened() {
     agree("stage i", Profile::Hardened, track_validation::cycle, near_threshold)
         .assert_aimed(&["i", "safe"]);
+}
+
+/// `spec/3-stages.md#stage-i-track-validation.5`: with limits that many assignments exceed.
+#[test]
+fn limited() {
+    for profile in [Profile::Paper, Profile::Hardened] {
+        let tally = agree("stage i, limited", profile, limited_cycle, near_threshold);
+        assert!(10 * tally.undecided > tally.cases, "the limit decides: {tally}");
+        tally.assert_aimed(&["i", "safe"]);
+    }
+}
+
+fn limited_cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = track_validation::cycle(draw, profile);
+    cycle.parameters.work_limit = draw.pick(&[0, 1, 2, 8, 27, 64, 125]);
+    cycle
 }

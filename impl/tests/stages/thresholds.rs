@@ -98,6 +98,28 @@ fn every_gated_track_needs_a_detection_of_its_own() {
     assert_eq!(scene.failure().and_then(|(_, witness)| witness.track), Some(2));
 }
 
+/// `spec/3-stages.md#stage-i-track-validation.5`: two tracks compete for a detection, so that only
+/// the assignment tells; 2^2 * 3 steps are below the limit or not. Without competition the pairs
+/// are found at once, whatever the limit.
+#[test]
+fn no_assignment_of_more_work_than_the_limit_is_begun() {
+    for profile in [Paper, Hardened] {
+        let mut scene = scene(profile, MotRemote, PLACES[0]);
+        let places = [30.0, 30.3, 60.0];
+        scene.detections = Some(places.map(|y| detection(0.0, y)).to_vec());
+        scene.tracks = Some(vec![track(1, 0.0, 30.16), track(2, 0.0, 30.3)]);
+        scene.parameters.work_limit = 12;
+        assert_eq!(scene.rule(), None, "{profile:?}");
+        scene.parameters.work_limit = 11;
+        let (stage, witness) = scene.failure().expect("too much work");
+        assert_eq!((stage, witness.rule), (Stage::I, Rule::WorkLimit));
+        assert_eq!(witness.compared.map(f64::to_bits), [12.0, 11.0].map(f64::to_bits));
+        scene.tracks = Some(vec![track(1, 0.0, 30.0), track(2, 0.0, 30.3)]);
+        scene.parameters.work_limit = 0;
+        assert_eq!(scene.rule(), None, "{profile:?}");
+    }
+}
+
 #[test]
 fn a_gap_equal_to_s_follow_fails() {
     let at = |gap: f64, profile| {

@@ -333,3 +333,29 @@ fn the_filter_changes_no_report() {
         }
     }
 }
+
+/// spec/4-arithmetic.md#strict-and-lax.2: two gated tracks and three detections are 2^2 * 3 steps,
+/// with one more column for the budget 2^2 * 4; a limit below fails the strict reading alone, and
+/// nothing where no track has to be assigned.
+#[test]
+fn work_above_the_limit_fails_the_strict_reading() {
+    let with = |profile, work_limit, miss_budget| {
+        let mut cycle = base(profile, MotRemote);
+        (cycle.parameters.work_limit, cycle.parameters.miss_budget) = (work_limit, miss_budget);
+        cycle.tracks = tracks(vec![track(1, 20.0, 9.0), track(2, 40.0, 9.0)]);
+        let items = vec![detection(20.0, 9.0), detection(40.0, 9.0), detection(60.0, 9.0)];
+        cycle.detections = detections(items);
+        safe(&cycle)
+    };
+    for profile in [Profile::Paper, Profile::Hardened] {
+        assert_eq!(with(profile, 12, 0), YES, "{profile:?}");
+        assert_eq!(with(profile, 11, 0), NEAR_SAFE, "{profile:?}");
+    }
+    assert_eq!(with(Profile::Hardened, 16, 1), YES);
+    assert_eq!(with(Profile::Hardened, 15, 1), NEAR_SAFE);
+    assert_eq!(with(Profile::Hardened, 0, 2), YES, "k' = 0");
+    let mut cycle = base(Profile::Paper, MotRemote);
+    cycle.parameters.work_limit = 0;
+    cycle.tracks = tracks(Vec::new());
+    assert_eq!(safe(&cycle), YES, "k = 0");
+}

@@ -92,6 +92,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
     };
     match witness.rule {
         Rule::MeanCost => ("mean distance of the assigned pairs".to_owned(), "m", ">="),
+        Rule::WorkLimit => ("work of the assignment".to_owned(), "", ">"),
         Rule::NoAssignment => {
             ("tracks that can be paired below theta_track_max".to_owned(), "", "<")
         }

@@ -74,6 +74,7 @@ pub const fn reason(reason: Reason) -> &'static str {
 pub const fn rule(rule: Rule) -> &'static str {
     match rule {
         Rule::MeanCost => "mean_cost",
+        Rule::WorkLimit => "work_limit",
         Rule::NoAssignment => "no_assignment",
         Rule::Velocity => "velocity",
         Rule::ThetaMap => "theta_map",

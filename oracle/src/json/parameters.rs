@@ -28,6 +28,7 @@ pub fn of_cycle(value: Value<'_, '_>) -> Result<Parameters, InvalidInput> {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
         protocol @ ..,
     ] = value.object([
@@ -46,6 +47,7 @@ pub fn of_cycle(value: Value<'_, '_>) -> Result<Parameters, InvalidInput> {
         "v_max",
         "step_max_ns",
         "theta_velocity",
+        "work_limit",
         "delta",
         "t_wait_ns",
         "request_timeout_ns",
@@ -71,6 +73,7 @@ pub fn of_cycle(value: Value<'_, '_>) -> Result<Parameters, InvalidInput> {
         v_max: float(v_max, default.v_max)?,
         step_max_ns: integer(step_max_ns, default.step_max_ns)?,
         theta_velocity: float(theta_velocity, default.theta_velocity)?,
+        work_limit: integer(work_limit, default.work_limit)?,
         delta: float(delta, default.delta)?,
     })
 }

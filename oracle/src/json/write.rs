@@ -125,12 +125,13 @@ fn float_parameters(parameters: &Parameters) -> [(&'static str, f64); 12] {
     ]
 }
 
-fn integer_parameters(parameters: &Parameters) -> [(&'static str, i64); 4] {
+fn integer_parameters(parameters: &Parameters) -> [(&'static str, i64); 5] {
     [
         ("max_age_ns", parameters.max_age_ns),
         ("n", parameters.n),
         ("miss_budget", parameters.miss_budget),
         ("step_max_ns", parameters.step_max_ns),
+        ("work_limit", parameters.work_limit),
     ]
 }
 

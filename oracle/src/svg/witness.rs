@@ -90,7 +90,7 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
         }
     }
     objects(cycle, witness, point, &mut marks);
-    if matches!(witness.rule, Rule::MeanCost | Rule::NoAssignment) {
+    if matches!(witness.rule, Rule::MeanCost | Rule::WorkLimit | Rule::NoAssignment) {
         assignment(cycle, &mut marks);
     } else if witness.rule == Rule::Gap {
         gap(cycle, &mut marks);

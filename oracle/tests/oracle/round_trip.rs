@@ -112,6 +112,7 @@ fn parameters(random: &mut Random) -> Parameters {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     } = &mut parameters;
     for value in [
@@ -132,7 +133,7 @@ fn parameters(random: &mut Random) -> Parameters {
             *value = float(random);
         }
     }
-    for value in [max_age_ns, n, miss_budget, step_max_ns] {
+    for value in [max_age_ns, n, miss_budget, step_max_ns, work_limit] {
         if random.bits() & 1 == 0 {
             *value = integer(random);
         }

@@ -92,7 +92,7 @@ fn parameters_override_single_defaults_by_name() {
         "\"parameters\": {\"theta_tr\": 0.5, \"a_b\": 7, \"safety_time\": 2, \"max_age_ns\": 5, \
          \"step_max_ns\": 6, \"miss_budget\": 1, \"n\": 3, \"delta\": 1e-5, \"theta_map\": 0.4, \
          \"theta_obj\": 6, \"theta_track_max\": 2, \"tau\": 0.2, \"a_max\": 2, \
-         \"start_tolerance\": 1, \"v_max\": 100, \"theta_velocity\": 3}",
+         \"start_tolerance\": 1, \"v_max\": 100, \"theta_velocity\": 3, \"work_limit\": 9}",
     );
     let expected = Parameters {
         theta_tr: 0.5,
@@ -110,6 +110,7 @@ fn parameters_override_single_defaults_by_name() {
         v_max: 100.0,
         step_max_ns: 6,
         theta_velocity: 3.0,
+        work_limit: 9,
         delta: 1e-5,
     };
     assert_eq!(cycle(&given).parameters, expected);

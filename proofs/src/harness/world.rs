@@ -190,6 +190,7 @@ fn parameters() -> Parameters {
         v_max: near(1.0, 1e3),
         step_max_ns: near_integer(0, 60_000_000_000),
         theta_velocity: near(0.1, 1e3),
+        work_limit: near_integer(0, 10_000_000_000),
         delta: near(1e-8, 1e-2),
     }
 }

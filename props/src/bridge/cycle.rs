@@ -108,6 +108,7 @@ pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Paramete
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     } = *parameters;
     mufasa::parameters::Parameters {
@@ -126,6 +127,7 @@ pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Paramete
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta,
     }
 }

@@ -74,6 +74,7 @@ fn witness_from_impl(witness: twin::Witness) -> Witness {
 fn rule_from_impl(rule: twin::Rule) -> Rule {
     match rule {
         twin::Rule::MeanCost => Rule::MeanCost,
+        twin::Rule::WorkLimit => Rule::WorkLimit,
         twin::Rule::NoAssignment => Rule::NoAssignment,
         twin::Rule::Velocity => Rule::Velocity,
         twin::Rule::ThetaMap => Rule::ThetaMap,

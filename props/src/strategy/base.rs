@@ -99,6 +99,7 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
         parameters.theta_track_max = draw.pick(&[0.5, 2.0, 0.3]);
         parameters.start_tolerance = draw.pick(&[1.0, 0.5, 3.0]);
         parameters.miss_budget = draw.pick(&[1, 2, 64]);
+        parameters.work_limit = draw.pick(&[0, 1, 7, 8, 9, 30, i64::MAX]);
     }
     // The smallest margin asks the most of an implementation: half of the cases have it.
     parameters.delta = draw.pick(&[1e-6, 1e-6, 1e-8, 1e-8, 1e-8, 1e-7, 1e-4, 1e-2]);

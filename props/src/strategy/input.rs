@@ -221,11 +221,12 @@ fn numbers(cycle: &mut Cycle) -> Vec<(&mut f64, Limits)> {
 fn whole_number(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let ages = [0, 60_000_000_000, -1, 60_000_000_001, i64::MIN, i64::MAX];
     let p = &mut cycle.parameters;
-    match draw.below(6) {
+    match draw.below(7) {
         0 => p.max_age_ns = draw.pick(&ages),
         1 => p.step_max_ns = draw.pick(&ages),
         2 => p.n = draw.pick(&[1, 64, 0, 65, -4, i64::MAX]),
         3 => p.miss_budget = draw.pick(&[0, 64, 65, -1, i64::MIN]),
+        4 => p.work_limit = draw.pick(&[0, 1, -1, i64::MAX, i64::MIN]),
         _ => {
             let Some(grid) = &mut cycle.grid else { return };
             match draw.below(4) {

@@ -125,6 +125,7 @@ impl Any<'_> {
             v_max: self.number(1.0, 1000.0),
             step_max_ns: self.integer(0, 60_000_000_000),
             theta_velocity: self.number(1.0, 1000.0),
+            work_limit: self.integer(0, i64::MAX),
             delta: self.number(1e-8, 1e-2),
         }
     }

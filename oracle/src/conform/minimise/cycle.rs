@@ -71,6 +71,7 @@ fn parameters(case: &mut Case<'_, Cycle>) {
         v_max,
         step_max_ns,
         theta_velocity,
+        work_limit,
         delta
     );
 }

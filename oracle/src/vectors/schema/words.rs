@@ -70,6 +70,7 @@ pub enum Missing {
 #[expect(missing_docs, reason = "documented at `mufasa_model::verdict::Rule`")]
 pub enum Rule {
     MeanCost,
+    WorkLimit,
     NoAssignment,
     Velocity,
     ThetaMap,
