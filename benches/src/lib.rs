@@ -2,6 +2,7 @@
 
 pub mod contestant;
 pub mod peer;
+pub mod plot;
 pub mod race;
 pub mod table;
 pub mod workload;

@@ -8,7 +8,7 @@
 
 use crate::bitmap::Bitmap;
 use crate::cycle::{Cycle, Grid, TrajectoryPoint};
-use crate::range::{EMPTY, extend, larger, smaller};
+use crate::range::{EMPTY, extend, float, integer, larger, smaller};
 
 /// In cells.
 const MARGIN: f64 = 1e-3;
@@ -133,18 +133,6 @@ impl Strip {
         let (least, most) = (smaller(least, most) - MARGIN, larger(least, most) + MARGIN);
         Self { gradient: -b / a, least, most }
     }
-}
-
-/// The nearest integer, for numbers from 0 to 2^51: 2^52 added leaves it in the lowest bits.
-#[allow(clippy::cast_possible_wrap, reason = "below 2^52")]
-fn integer(value: f64) -> i64 {
-    const SHIFT: f64 = 4_503_599_627_370_496.0;
-    (value + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits()) as i64
-}
-
-/// Counts and indices of cells are below 2^24.
-fn float(count: i64) -> f64 {
-    f64::from(i32::try_from(count).unwrap_or(i32::MAX))
 }
 
 #[cfg(test)]

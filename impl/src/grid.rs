@@ -7,6 +7,7 @@ use crate::collision::examined;
 use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
 use crate::distance::s_b;
 use crate::plane::Vector;
+use crate::range::{float, integer, larger, smaller};
 use crate::rounding::Real;
 use crate::verdict::{Rule, Witness};
 
@@ -190,6 +191,9 @@ impl Map {
     fn touched(&self, disk: &Disk, cells: &Bitmap<'_>) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
+            if self.row_is_free(disk, k, cells) {
+                return None;
+            }
             let (from, to) = self.reach_in_row(disk, k);
             let mut next = cells.first_in_row(k, from, to);
             while let Some(i) = next {
@@ -201,6 +205,24 @@ impl Map {
             }
             None
         })
+    }
+
+    /// Whether certainly no cell of the row that the disk may touch is set. Plain doubles, in cells;
+    /// 1e-3 is more than they err, also at the limits of the domain.
+    fn row_is_free(&self, disk: &Disk, k: i64, cells: &Bitmap<'_>) -> bool {
+        let scale = 1.0 / self.resolution.value();
+        let [x, y, r] = [disk.column, disk.row, self.radius].map(|it| it.value() * scale);
+        let (r, below) = (r + 1e-3, float(k) - y);
+        let gap = larger(larger(below, -1.0 - below), 0.0);
+        if gap > r {
+            return true;
+        }
+        let half = libm::sqrt(r * r - gap * gap) + 1e-3;
+        let (width, from, to) = (float(self.width), x - half - 1.0, x + half + 1.0);
+        if to < 0.0 || from > width {
+            return true;
+        }
+        cells.row_is_free(k, integer(larger(from - 0.5, 0.0)), integer(smaller(to + 0.5, width)))
     }
 
     /// H-06: places outside the grid may be at distance <= r.

@@ -1,4 +1,4 @@
-//! Ranges of plain doubles. Smaller and larger of two numbers, none of them NaN, in one
+//! Ranges of plain doubles, and integers in them. Smaller and larger of two numbers, none of them NaN, in one
 //! instruction each, where `f64::min` and `f64::max` take five.
 
 /// Contains nothing.
@@ -18,4 +18,16 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 
 pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
+}
+
+/// The nearest integer, for numbers from 0 to 2^51: 2^52 added leaves it in the lowest bits.
+#[allow(clippy::cast_possible_wrap, reason = "below 2^52")]
+pub(crate) fn integer(value: f64) -> i64 {
+    const SHIFT: f64 = 4_503_599_627_370_496.0;
+    (value + SHIFT).to_bits().wrapping_sub(SHIFT.to_bits()) as i64
+}
+
+/// A count or an index of cells, which are below 2^24.
+pub(crate) fn float(count: i64) -> f64 {
+    f64::from(i32::try_from(count).unwrap_or(i32::MAX))
 }
