@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A program under test: the paper profile of MUFASA in plain doubles, from the text of spec/ alone.
 
-It answers the records `cycle` (read by record.py) and `offloading` (offloading.py) of
-spec/5-interfaces.md, one line each. It is no part of the project: it shows how little a program
+It answers the records `cycle` (read by record.py), `offloading` (offloading.py) and `composition`
+(composition.py) of spec/5-interfaces.md, one line each. It is no part of the project: it shows how little a program
 needs to be judged by `mufasa conform`, and with `--bug NAME` that `mufasa conform` finds what it
 has to find.
 
@@ -15,6 +15,7 @@ import math
 import sys
 
 import record as records
+from composition import answer_composition
 from offloading import answer_offloading
 from record import Broken, Invalid, check_input, choice, read_cycle
 
@@ -307,9 +308,12 @@ def answer(line):
         if not isinstance(record, dict) or not isinstance(record.get("id"), str):
             raise Broken
         name = record["id"]
-        kind = choice(record.get("kind"), ("cycle", "offloading"))
-        reply = answer_cycle(record) if kind == "cycle" else answer_offloading(record, BUG)
-        return {"id": name, **reply}
+        kind = choice(record.get("kind"), ("cycle", "offloading", "composition"))
+        if kind == "cycle":
+            return {"id": name, **answer_cycle(record)}
+        if kind == "offloading":
+            return {"id": name, **answer_offloading(record, BUG)}
+        return {"id": name, **answer_composition(record)}
     except (Broken, ValueError, RecursionError):
         return {"id": name, "verdict": "error", "failed_stage": None}
 
