@@ -30,12 +30,15 @@ const PAIRS: Topic =
     Topic::new("stages/track-validation", "spec/3-stages.md#stage-i-track-validation.3");
 const MEAN: Topic =
     Topic::new("stages/track-validation", "spec/3-stages.md#stage-i-track-validation.4");
+const WORK: Topic =
+    Topic::new("stages/track-validation", "spec/3-stages.md#stage-i-track-validation.5");
 
 /// Adds its vectors.
 pub fn add(book: &mut Book) {
     gate(book);
     pairs(book);
     mean(book);
+    work(book);
 }
 
 fn gate(book: &mut Book) {
@@ -146,4 +149,33 @@ fn mean(book: &mut Book) {
     let mut cycle = paper(vec![track(1, 60.0, 0.0)], vec![detection(60.0, 2.0)]);
     cycle.configuration = AllRemote;
     book.cycle(MEAN, "all-remote", note, &cycle, &fails_by("i", "mean_cost").stages("Faaaa"));
+}
+
+/// The exact model knows no limit; above it the strict model fails, so a program may.
+fn work(book: &mut Book) {
+    let with_limit = |profile, work_limit, off| {
+        let received = vec![track(1, 60.0, off), track(2, 20.0, off)];
+        let seen = vec![detection(60.0, 0.0), detection(20.0, 0.0), detection(90.0, 0.0)];
+        with(stage_i(profile, received, seen), |cycle| cycle.parameters.work_limit = work_limit)
+    };
+    let passes = || safe().stages("PJ-jJ");
+    let note = "Two tracks and three detections: 2^2 * 3 = 12 steps, as many as work_limit allows.";
+    book.cycle(WORK, "work-at-limit", note, &with_limit(Profile::Paper, 12, 0.125), &passes());
+    let note = "12 steps, one more than work_limit allows: the strict model fails stage i.";
+    book.cycle(WORK, "work-above-limit", note, &with_limit(Profile::Paper, 11, 0.125), &passes());
+    let note = "More steps than work_limit allows, and the mean of 0.5 m is too large anyhow: stage \
+                i fails in every model.";
+    let cycle = with_limit(Profile::Paper, 11, 0.5);
+    book.cycle(WORK, "work-above-limit-too-far", note, &cycle, &fails_by("i", "mean_cost"));
+    let note = "k = 0 takes no assignment, whatever work_limit is.";
+    let cycle = with(paper(vec![], vec![detection(60.0, 0.0)]), |cycle| {
+        cycle.parameters.work_limit = 0;
+    });
+    book.cycle(WORK, "work-none", note, &cycle, &passes());
+    for (name, work_limit) in [("work-budget-at-limit", 16), ("work-budget-above-limit", 15)] {
+        let note = "Hardened, with a miss budget of 1: c = 3 + 1, hence 2^2 * 4 = 16 steps.";
+        let mut cycle = with_limit(Profile::Hardened, work_limit, 0.125);
+        cycle.parameters.miss_budget = 1;
+        book.cycle(WORK, name, note, &cycle, &safe());
+    }
 }

@@ -197,6 +197,8 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
         c.parameters.step_max_ns.saturating_add(1)),
     sees!("steps a nanosecond shorter", |c| c.parameters.step_max_ns =
         c.parameters.step_max_ns.saturating_sub(1)),
+    sees!("a step of work less", |c| c.parameters.work_limit =
+        c.parameters.work_limit.saturating_sub(1)),
     sees!("clock a nanosecond late", |c| c.now_ns = c.now_ns.saturating_sub(1)),
     sees!("column Local of the schedule", |c| c.configuration = Local),
     sees!("column MotRemote of the schedule", |c| c.configuration = MotRemote),
