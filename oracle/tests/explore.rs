@@ -93,7 +93,7 @@ fn the_program_shows_verdicts_and_writes_what_it_found() {
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert!(text.contains("fails after 4 moves (F-12)"), "{text}");
     // Both engines in both profiles.
-    assert_eq!(text.matches("3,773").count(), 4, "{text}");
+    assert_eq!(text.matches("5,073").count(), 4, "{text}");
     assert_eq!(
         fs::read_to_string(folder.0.join("explored-F-12.jsonl")).unwrap(),
         kept("explored-F-12.jsonl")
@@ -118,7 +118,7 @@ fn nothing_is_found_in_the_hardened_profile() {
     let json = fs::read_to_string(folder.0.join("exploration.json")).unwrap();
     let reports: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(reports[0]["profile"], "hardened");
-    assert_eq!(reports[0]["worlds"][0]["states"], 3773);
+    assert_eq!(reports[0]["worlds"][0]["states"], 5073);
     assert_eq!(reports[0]["worlds"][0]["stateright_states"], Value::Null, "it was not asked");
     for property in reports[0]["properties"].as_array().unwrap() {
         assert_eq!(property["fails_in"], 0, "{property}");

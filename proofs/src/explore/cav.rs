@@ -81,8 +81,9 @@ impl Use {
 pub struct CavLikeness {
     /// MOT and PLAN.
     pub groups: [Use; 2],
-    /// Ticks until `hold_until`; 0 is at or after it, and without a hold.
-    pub hold_left: u8,
+    /// Ticks until `hold_until`, 0 at it; `None` after it, and without a hold. The end itself is
+    /// kept apart, so that it is seen when a requester takes it for a part of the hold.
+    pub hold_left: Option<u8>,
     /// Current offers by station, from 1.
     pub offers: [Groups; STATIONS],
     /// The area.
@@ -95,6 +96,13 @@ pub struct CavLikeness {
     pub numbers_rise: bool,
     /// Whether the requester finds its own state allowed.
     pub valid: bool,
+}
+
+impl CavLikeness {
+    /// Whether a hold runs.
+    pub fn is_held(&self) -> bool {
+        self.hold_left.is_some_and(|left| left > 0)
+    }
 }
 
 /// What can happen to a requester.
@@ -357,7 +365,10 @@ impl Part for CavPart {
         };
         CavLikeness {
             groups: Group::ALL.map(|group| self.use_of(group)),
-            hold_left: model.hold_until_ns().map_or(0, |until| self.left(until)),
+            hold_left: model
+                .hold_until_ns()
+                .filter(|until| *until >= self.now)
+                .map(|until| self.left(until)),
             offers,
             area: model.in_area(),
             turns: Group::ALL.map(|group| self.turns(group)),

@@ -133,7 +133,7 @@ impl CavStep<'_> {
 
     /// A tick asks for every local group that may be asked for, when no safety issue bars it.
     fn judge_requests(&self, barred: bool, found: &mut Findings) {
-        if self.stimulus != Stimulus::Tick || barred || self.qos_hold && self.after.hold_left > 0 {
+        if self.stimulus != Stimulus::Tick || barred || self.qos_hold && self.after.is_held() {
             return;
         }
         for group in Group::ALL {
@@ -215,7 +215,7 @@ impl CavStep<'_> {
                 let violation = left
                     .into_iter()
                     .any(|(before, after)| before.remote().is_some() && after.remote().is_none());
-                let held = self.before.hold_left > 0;
+                let held = self.before.is_held();
                 found.seen.note(Sight::ViolationDuringHold, held && violation);
             }
             _ => {}

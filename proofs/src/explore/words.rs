@@ -46,7 +46,9 @@ impl System {
             let likeness = self.cav(state, cav);
             let [mot, plan] = likeness.groups.map(use_in_words);
             let _ = writeln!(text, "{}: MOT {mot}, PLAN {plan}", self.cav_name(cav));
-            let _ = writeln!(text, "  hold ends in {} ticks", likeness.hold_left);
+            if let Some(left) = likeness.hold_left {
+                let _ = writeln!(text, "  hold ends in {left} ticks");
+            }
             for (station, offer) in (1..).zip(likeness.offers).take(self.world().stations.len()) {
                 let _ = writeln!(text, "  station {station} offers {}", set(offer));
             }
