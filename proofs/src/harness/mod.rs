@@ -25,7 +25,7 @@ pub mod world;
 pub type Harness = (&'static str, fn());
 
 /// All harnesses by their paths below this module.
-pub const ALL: [Harness; 31] = [
+pub const ALL: [Harness; 33] = [
     ("assignment::verify_mean_cost_is_minimal", assignment::verify_mean_cost_is_minimal),
     ("assignment::verify_matched_cost_is_minimal", assignment::verify_matched_cost_is_minimal),
     (
@@ -78,6 +78,8 @@ pub const ALL: [Harness; 31] = [
         "requester::verify_requester_keeps_every_law_at_verdicts",
         requester::verify_requester_keeps_every_law_at_verdicts,
     ),
+    ("requester::verify_fallback_ends_everything", requester::verify_fallback_ends_everything),
+    ("requester::verify_hold_bars_requests", requester::verify_hold_bars_requests),
     (
         "requester::verify_requester_refuses_without_a_trace",
         requester::verify_requester_refuses_without_a_trace,

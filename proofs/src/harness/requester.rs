@@ -1,11 +1,11 @@
 //! The requester (`spec/2-offloading.md`) by induction: from every valid state every event keeps
 //! all laws and leads to a valid state, so they hold after any number of events.
 
-use mufasa::configuration::Group;
+use mufasa::configuration::{Group, Source};
 use mufasa::cycle::Profile;
 use mufasa::requester::{
-    Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester, RequesterError,
-    Running, StationRecord, Suspended,
+    Action, Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester,
+    RequesterError, Running, StationRecord, Suspended,
 };
 
 use super::any::{
@@ -170,6 +170,63 @@ fn after_any_event(about: About, see: impl FnOnce(&Step<'_>)) {
     assert!(law::local_services_stop_when_the_profile_says(&step));
     assert!(law::a_group_becomes_remote_by_confirmation_only(&step));
     see(&step);
+}
+
+/// A safety issue makes every group local, its source too, releases what was in use, and holds until
+/// now + t_wait or longer: from any state at all, even one that no events lead to.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_fallback_ends_everything() {
+    let (mut table, aside, _, parameters) = any_state();
+    let mut requester = Requester::resume(aside, &mut table);
+    let before = Group::ALL.map(|group| requester.state(group));
+    let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());
+    let kind = EventKind::Verdict { safe: false, groups: groups() };
+    let Ok(actions) = requester.step(&Event { t_ns, kind }) else {
+        unreachable!("a verdict names no station")
+    };
+    for (group, before) in Group::ALL.into_iter().zip(before) {
+        assert!(requester.state(group) == GroupState::Local);
+        assert!(requester.source(group) == Source::Local);
+        let released = actions.iter().any(
+            |action| matches!(action, Action::Release { group: released, .. } if *released == group),
+        );
+        assert!(released == (before != GroupState::Local));
+    }
+    let end_ns = t_ns.saturating_add(parameters.t_wait_ns);
+    let Some(until_ns) = requester.hold_until_ns() else { unreachable!("there is a hold") };
+    assert!(until_ns == end_ns.max(held_ns.unwrap_or(end_ns)));
+    kani::cover!(before[0] != GroupState::Local && before[1] != GroupState::Local, "both leave");
+    kani::cover!(before == [GroupState::Local; 2], "both are local already");
+    kani::cover!(until_ns > end_ns, "a later hold stays");
+    kani::cover!(until_ns == i64::MAX && t_ns < i64::MAX, "a hold saturates");
+}
+
+/// At a tick before `hold_until` nothing is asked for, and the hold does not end sooner: from any
+/// state at all.
+///
+/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not covered:
+/// larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(10))]
+pub fn verify_hold_bars_requests() {
+    let (mut table, aside, _, _) = any_state();
+    let mut requester = Requester::resume(aside, &mut table);
+    let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());
+    let sessions = requester.sessions();
+    let Ok(actions) = requester.step(&Event { t_ns, kind: EventKind::Tick }) else {
+        unreachable!("a tick names no station")
+    };
+    let asks = actions.iter().any(|action| matches!(action, Action::Request { .. }));
+    let held = held_ns.is_some_and(|until_ns| t_ns < until_ns);
+    assert!(!held || (!asks && requester.sessions() == sessions));
+    assert!(requester.hold_until_ns() >= held_ns);
+    kani::cover!(held && !actions.is_empty(), "a group is left during a hold");
+    kani::cover!(asks && held_ns == Some(t_ns), "a request at the end of a hold");
+    kani::cover!(asks && held_ns.is_none(), "a request without a hold");
 }
 
 /// An event that is refused changes nothing, and only a station below 1 or an offer without a

@@ -157,7 +157,9 @@ pub fn verify_stage_alone_says_the_same() {
     for (at, stage) in [(0, Stage::I), (1, Stage::Ii), (3, Stage::Iv)] {
         let (alone, scheduled) = (valid.stage(stage, &mut scratch), report.stages[at]);
         let ran = matches!(scheduled, Outcome::Passed | Outcome::Failed(_));
-        assert!(!ran || alone == scheduled || at == 3);
+        // H-04 compares the gap at the place of stage iv also without detections.
+        let gap_alone = at == 3 && alone == Outcome::NotApplicable(Input::Detections);
+        assert!(!ran || alone == scheduled || gap_alone);
         kani::cover!(at == 0 && alone == scheduled && ran, "stage i ran");
         kani::cover!(at == 1 && alone == scheduled && ran, "stage ii ran");
         kani::cover!(at == 3 && alone == scheduled && ran, "stage iv ran");
