@@ -52,8 +52,13 @@ pub fn check(cycle: &Cycle, reading: Reading) -> Result<Report, InvalidInput> {
     match first_problem(cycle) {
         Some(Problem::Local(problem)) => Err(problem),
         Some(Problem::Remote(problem)) => Ok(invalid_remote_data(cycle, problem)),
-        None => Ok(Run::new(&Scene::new(cycle, reading)).finish()),
+        None => Ok(decide(&Scene::new(cycle, reading))),
     }
+}
+
+/// Decides a valid cycle in exact numbers.
+pub fn decide(scene: &Scene) -> Report {
+    Run::new(scene).finish()
 }
 
 fn invalid_remote_data(cycle: &Cycle, problem: InvalidInput) -> Report {

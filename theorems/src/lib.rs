@@ -11,6 +11,7 @@ pub mod prove;
 pub mod real;
 pub mod solver;
 pub mod theorem;
+pub mod witness;
 
 pub use mufasa_model::{configuration, cycle, parameters};
 

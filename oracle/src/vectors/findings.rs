@@ -3,6 +3,7 @@
 //! README of the vectors.
 
 mod assumptions;
+pub mod lasting;
 mod published;
 
 use mufasa_model::configuration::Configuration;
@@ -16,6 +17,7 @@ use crate::vectors::expected::{Expected, safe};
 pub fn add(book: &mut Book) {
     published::add(book);
     assumptions::add(book);
+    lasting::add(book);
 }
 
 /// The topic of a finding and the file of that name.

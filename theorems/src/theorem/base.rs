@@ -5,7 +5,7 @@ use crate::cycle::{Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPo
 use crate::parameters::Parameters;
 use crate::real::Real;
 use crate::real::hole::hole;
-use crate::scene::{Object, Point, Scene};
+use crate::scene::{Point, Scene};
 use crate::vector::{Frame, Vector};
 use crate::verdict::Reading;
 
@@ -65,9 +65,4 @@ pub fn home(scale: &Real) -> Point {
     let origin = Vector { x: Real::zero(), y: Real::zero() };
     let direction = Vector { x: scale.clone(), y: Real::zero() };
     Point { t_ns: NOW_NS, pose: Frame { origin, direction } }
-}
-
-/// An object at a frame.
-pub fn object(frame: Frame, [length, width]: [&Real; 2]) -> Object {
-    Object { frame, length: length.clone(), width: width.clone() }
 }

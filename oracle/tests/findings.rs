@@ -1,0 +1,126 @@
+//! Every finding of the spec has its file, and each file names what exists: vectors, theorems,
+//! laws. The witnesses that a solver finds are accepted in the paper profile and in no hardened one.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use mufasa_model::cycle::{Cycle, Profile};
+use mufasa_model::schedule;
+use mufasa_model::verdict::Reading;
+use mufasa_oracle::json::{self, Record};
+use mufasa_props::bridge;
+use mufasa_theorems::{solver, theorem, witness};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn read(file: impl AsRef<Path>) -> String {
+    let file = root().join(file);
+    fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// Findings of the spec with their claims.
+fn claims() -> Vec<(String, String)> {
+    let spec = read("spec/3-stages.md");
+    let rows = spec.lines().filter_map(|line| line.strip_prefix("| F-"));
+    rows.map(|row| {
+        let (number, claim) = row.split_once(" | ").expect("a row has two cells");
+        (format!("F-{number}"), claim.trim_end_matches(" |").to_owned())
+    })
+    .collect()
+}
+
+/// The names of one kind that a file lists as "* kind `name`".
+fn named<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
+    let start = format!("* {kind} `");
+    text.lines().filter_map(|line| line.strip_prefix(&start)?.strip_suffix('`')).collect()
+}
+
+#[test]
+fn every_finding_has_a_file_with_its_claim() {
+    let claims = claims();
+    assert!(claims.len() >= 23);
+    for (finding, claim) in &claims {
+        let file = read(format!("findings/{finding}.md"));
+        let quoted: Vec<&str> = file.lines().filter_map(|line| line.strip_prefix("> ")).collect();
+        assert_eq!(quoted.join(" "), *claim, "{finding}");
+        for heading in ["## Witness", "## Hardened", "## Open"] {
+            assert!(file.contains(heading), "{finding}: {heading}");
+        }
+    }
+    let files = fs::read_dir(root().join("findings")).expect("findings/").count();
+    assert_eq!(files, claims.len() + 1, "a README and a file for each finding, nothing else");
+}
+
+#[test]
+fn every_file_names_what_exists() {
+    let vectors: BTreeSet<String> = mufasa_oracle::vectors::all()
+        .expect("the vectors agree with the model")
+        .into_values()
+        .flatten()
+        .map(|vector| vector.id)
+        .collect();
+    let theorems: BTreeSet<&str> = theorem::all().map(|theorem| theorem.id).collect();
+    let laws =
+        ["distance", "requester", "schedule"].map(|law| read(format!("proofs/src/law/{law}.rs")));
+    let laws = [laws.join("\n"), read("proofs/src/explore/properties.rs")].join("\n");
+    let mut lists = [0, 0, 0];
+    for (finding, _) in claims() {
+        let file = read(format!("findings/{finding}.md"));
+        for vector in named(&file, "vector") {
+            assert!(vectors.contains(vector), "{finding}: no vector {vector}");
+            lists[0] += 1;
+        }
+        for theorem in named(&file, "theorem") {
+            assert!(theorems.contains(theorem), "{finding}: no theorem {theorem}");
+            lists[1] += 1;
+        }
+        for law in named(&file, "law") {
+            let is_there =
+                laws.contains(&format!("fn {law}(")) || laws.contains(&format!("\"{law}\""));
+            assert!(is_there, "{finding}: no law {law}");
+            lists[2] += 1;
+        }
+    }
+    assert!(lists[0] > 40 && lists[1] > 15 && lists[2] > 2, "{lists:?}");
+}
+
+#[test]
+fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
+    if !solver::is_new_enough() {
+        println!("NOT RUN: no z3 4.8 here");
+        return;
+    }
+    for search in &witness::SEARCHES {
+        let paper = search.find().expect("z3 answers").expect(search.finding);
+        assert!(is_safe(&paper), "{}: {paper:?}", search.finding);
+        let hardened = Cycle { profile: Profile::Hardened, ..paper };
+        assert!(!is_safe(&hardened), "{}: {hardened:?}", search.finding);
+        let implementation = bridge::check_impl(&hardened).expect("the local input is valid");
+        assert!(implementation.failed_stage.is_some(), "{}", search.finding);
+    }
+}
+
+/// F-24: whatever the age of the list of the last safe cycle from there on, the cycle is rejected,
+/// so there is never a younger list.
+#[test]
+fn a_moving_car_ahead_stays_rejected() {
+    let vectors = mufasa_oracle::vectors::all().expect("the vectors agree with the model");
+    let vector = vectors["findings/F-24"].iter().find(|vector| vector.id == "F-24-after");
+    let line = vector.expect("F-24-after is there").input.text();
+    let Ok(Record::Cycle { mut cycle, .. }) = json::parse(line.as_bytes(), 1) else {
+        panic!("no cycle: {line}")
+    };
+    for tenths in 11..=620 {
+        let previous = cycle.previous_tracks.as_mut().expect("a previous list");
+        previous.stamp_ns = cycle.now_ns - tenths * 100_000_000;
+        assert!(!is_safe(&cycle), "{tenths} tenths of a second");
+    }
+}
+
+fn is_safe(cycle: &Cycle) -> bool {
+    let report = schedule::check(cycle, Reading::Exact).expect("the local input is valid");
+    report.failed_stage.is_none()
+}
