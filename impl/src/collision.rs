@@ -2,7 +2,7 @@
 //! trajectory points that stages iii to v examine.
 
 use crate::cycle::{Cycle, Ego, Profile, TrajectoryPoint};
-use crate::distance::s_stop;
+use crate::distance::{Horizon, Number, s_b, s_stop};
 use crate::input::elapsed_ns;
 use crate::plane::{Vector, distance};
 use crate::rectangle::{Rectangle, possibly_touch};
@@ -10,14 +10,35 @@ use crate::rounding::Real;
 use crate::sweep::{Moving, Sweep};
 
 /// How many of the points may have an arc length <= s; H-04: <= max(s, `s_stop`), and one more.
-pub(crate) fn examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint], s: Real) -> usize {
+pub(crate) fn examined(
+    cycle: &Cycle<'_>,
+    points: &[TrajectoryPoint],
+    horizon: Horizon<'_>,
+) -> usize {
+    let count = plainly_within(points, plain_bounds(cycle, horizon)).unwrap_or_else(|| {
+        let s = farthest::<Real>(cycle, horizon);
+        within(points, s)
+    });
     match cycle.profile {
-        Profile::Paper => within(points, s),
-        Profile::Hardened => {
-            let s = s.max(s_stop(&cycle.parameters, cycle.ego.speed));
-            within(points, s).saturating_add(1).min(points.len())
-        }
+        Profile::Paper => count,
+        Profile::Hardened => count.saturating_add(1).min(points.len()),
     }
+}
+
+fn farthest<N: Number>(cycle: &Cycle<'_>, horizon: Horizon<'_>) -> N {
+    let s = horizon.distance::<N>(cycle);
+    match cycle.profile {
+        Profile::Paper => s,
+        Profile::Hardened => s.or_larger(s_stop(&cycle.parameters, cycle.ego.speed)),
+    }
+}
+
+/// Doubles on either side of `farthest`: of at most ten roundings all but those of one difference
+/// are of summands >= 0; its summands are `s_b(v_now)` and, unless 0 is larger, less.
+fn plain_bounds(cycle: &Cycle<'_>, horizon: Horizon<'_>) -> [f64; 2] {
+    let s = farthest::<f64>(cycle, horizon);
+    let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
+    [s - error, s + error]
 }
 
 /// A collision: the point, the object, both as indices, and the distance of the centres with the
@@ -120,25 +141,22 @@ fn seconds(time_ns: i64) -> f64 {
 
 /// Points form a prefix, since arc lengths do not decrease; the first point always counts.
 fn within(points: &[TrajectoryPoint], s: Real) -> usize {
-    plainly_within(points, s).unwrap_or_else(|| {
-        let mut arc = Real::ZERO;
-        let mut count = 1_usize;
-        for (a, b) in points.iter().zip(points.iter().skip(1)) {
-            arc = arc + distance([a.x, a.y], [b.x, b.y]);
-            if !arc.possibly_at_most(s) {
-                break;
-            }
-            count = count.saturating_add(1);
+    let mut arc = Real::ZERO;
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        arc = arc + distance([a.x, a.y], [b.x, b.y]);
+        if !arc.possibly_at_most(s) {
+            break;
         }
-        count.min(points.len())
-    })
+        count = count.saturating_add(1);
+    }
+    count.min(points.len())
 }
 
 /// The same in plain doubles, unless they cannot tell. A distance errs by less than 2^-51 of
 /// itself and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-42
 /// of itself more.
-fn plainly_within(points: &[TrajectoryPoint], s: Real) -> Option<usize> {
-    let [least, most] = s.bounds();
+fn plainly_within(points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
     let mut arc = 0.0;
     let mut count = 1_usize;
     for (a, b) in points.iter().zip(points.iter().skip(1)) {

@@ -2,14 +2,14 @@
 
 use crate::collision::{Collision, Course, examined};
 use crate::cycle::{Cycle, DetectionList, Lead, Trajectory};
-use crate::distance::{s_follow, s_valid};
+use crate::distance::{Horizon, s_follow};
 use crate::rounding::Real;
 use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
 
 /// Why the gap to the current leading vehicle may be <= `s_follow`, if it may.
 pub(crate) fn gap(cycle: &Cycle<'_>, lead: &Lead) -> Option<Witness> {
-    let s_follow = s_follow(&cycle.parameters, cycle.ego.speed, lead.speed);
+    let s_follow: Real = s_follow(&cycle.parameters, cycle.ego.speed, lead.speed);
     let gap = Real::new(lead.gap);
     gap.possibly_at_most(s_follow).then(|| Witness::of(Rule::Gap, [gap.value(), s_follow.value()]))
 }
@@ -21,8 +21,7 @@ pub(crate) fn detections(
     detections: &DetectionList<'_>,
     lead: Option<&Lead>,
 ) -> Option<Witness> {
-    let s = s_valid(&cycle.parameters, cycle.ego.speed, lead);
-    let count = examined(cycle, trajectory.points, s);
+    let count = examined(cycle, trajectory.points, Horizon::Valid(lead));
     let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
     let course = Course::new(cycle, points, detections.stamp_ns);
     let standing = detections.items.iter().map(Moving::detection);

@@ -5,7 +5,7 @@ use crate::band::{Band, Frame};
 use crate::bitmap::{Bitmap, Near};
 use crate::collision::examined;
 use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
-use crate::distance::s_b;
+use crate::distance::Horizon;
 use crate::plane::Vector;
 use crate::range::{float, integer, larger, smaller};
 use crate::rounding::Real;
@@ -18,8 +18,7 @@ pub(crate) fn grid(
     grid: &Grid<'_>,
     unknown_is_free: bool,
 ) -> Option<Witness> {
-    let s = s_b(&cycle.parameters, Real::new(cycle.ego.speed));
-    let count = examined(cycle, trajectory.points, s);
+    let count = examined(cycle, trajectory.points, Horizon::Braking);
     let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
     let search = Search { cycle, grid, points, frame: Frame::new(cycle, grid) };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };

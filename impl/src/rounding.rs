@@ -62,12 +62,6 @@ impl Real {
         self.hi
     }
 
-    /// Doubles on either side: at most, and at least, the number.
-    pub(crate) fn bounds(self) -> [f64; 2] {
-        let reach = (abs(self.lo) + self.err) * BOUND_UP + abs(self.hi) * ROUNDING * 4.0;
-        [self.hi - reach, self.hi + reach]
-    }
-
     /// The same centre, known only up to `by` more (by >= 0).
     pub(crate) fn widened(self, by: f64) -> Self {
         Self { err: (self.err + by) * BOUND_UP, ..self }

@@ -14,6 +14,17 @@ use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, 
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
+///
+/// Work, for T tracks, D detections, P points, S stations, n disks and G cells of the grid. Usually
+/// each stage is linear in its lists. At most:
+///
+/// * input: T + D + P + S, and T^2/2 comparisons of ids that do not increase and share their low
+///   twelve bits; H-09: T ids looked for in the previous list;
+/// * i: T D distances, and an assignment of min(T, c)^2 max(T, c) steps, c = D + `miss_budget`,
+///   never more than `work_limit`;
+/// * ii: P S segments and triangles, with an index only those beside each point;
+/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile);
+/// * v: 2 P bands and P n disks, each of which looks at its cells, 57 at a time, at most G.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     decide(cycle, None, scratch)
 }

@@ -1,5 +1,7 @@
 //! Scratch memory that the caller lends to stage i (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 
+use core::mem::size_of;
+
 use crate::cycle::Cycle;
 use crate::verdict::{InvalidInput, Problem};
 
@@ -56,6 +58,13 @@ impl Sizes {
     /// What any cycle within the domain needs.
     pub const MAX: Self = Self { rows: 1024, columns: 2112 };
 
+    /// How many bytes that is: 16 for a row and 32 for a column where 64-bit integers are aligned
+    /// to 8 bytes, at most 83,968 in all. Nothing else is needed, however large the grid.
+    pub const fn bytes(self) -> usize {
+        let rows = self.rows.saturating_mul(size_of::<Row>());
+        rows.saturating_add(self.columns.saturating_mul(size_of::<Column>()))
+    }
+
     /// What this cycle needs; O(tracks + detections).
     pub fn for_cycle(cycle: &Cycle<'_>) -> Self {
         let tracks = cycle.tracks.map_or(0, |list| list.items.len());
@@ -86,5 +95,17 @@ impl<'a> Scratch<'a> {
             return Err(InvalidInput { field: "scratch", index: None, problem });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sizes;
+
+    #[test]
+    fn the_bytes_are_as_documented() {
+        assert_eq!(Sizes { rows: 1, columns: 0 }.bytes(), 16);
+        assert_eq!(Sizes { rows: 0, columns: 1 }.bytes(), 32);
+        assert_eq!(Sizes::MAX.bytes(), 83_968);
     }
 }

@@ -3,7 +3,7 @@
 use crate::collision::{Collision, Course, examined};
 use crate::configuration::Configuration;
 use crate::cycle::{Cycle, Profile, TrackList, Trajectory};
-use crate::distance::s_cav;
+use crate::distance::Horizon;
 use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
 
@@ -15,8 +15,7 @@ pub(crate) fn tracks(
     tracks: &TrackList<'_>,
     held: Option<&TrackList<'_>>,
 ) -> Option<Witness> {
-    let s = s_cav(&cycle.parameters, cycle.ego.speed);
-    let count = examined(cycle, trajectory.points, s);
+    let count = examined(cycle, trajectory.points, Horizon::Cav);
     let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
     let course = Course::new(cycle, points, tracks.stamp_ns);
     let witness = |rule, Collision { point, object, compared }| {

@@ -192,11 +192,15 @@ impl Outbox {
     /// The actions in the order of `spec/2-offloading.md#fallback`.
     pub(super) fn into_actions(self) -> Actions {
         let mut actions = Actions { items: [Action::Drop(Group::Mot); Self::CAPACITY], len: 0 };
-        let kinds = [self.drops, self.releases, self.services, self.requests];
-        let decided = kinds.iter().flat_map(|kind| Group::ALL.map(|group| *kind.get(group)));
-        for (place, action) in actions.items.iter_mut().zip(decided.flatten()) {
-            *place = action;
-            actions.len = actions.len.saturating_add(1);
+        for kind in [self.drops, self.releases, self.services, self.requests] {
+            for group in Group::ALL {
+                if let (Some(action), Some(place)) =
+                    (*kind.get(group), actions.items.get_mut(actions.len))
+                {
+                    *place = action;
+                    actions.len = actions.len.saturating_add(1);
+                }
+            }
         }
         actions
     }

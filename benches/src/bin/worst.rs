@@ -1,0 +1,167 @@
+//! `worst`: an adversarial input of the largest sizes for each stage, and how long it takes. An
+//! attacker chooses tracks and trajectory; the vehicle, the route, the grid and what is detected
+//! are the CAV's own, and stage v is only as slow as this for a vehicle and a grid like these.
+
+use std::time::SystemTime;
+
+use mufasa::configuration::Configuration;
+use mufasa::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    Trajectory, TrajectoryPoint,
+};
+use mufasa::parameters::Parameters;
+use mufasa::verdict::Stage;
+use mufasa_benches::contestant::Contestant;
+
+const NOW_NS: i64 = 1_000_000_000;
+const CELLS: i64 = 4096;
+
+fn main() {
+    println!("| stage | input | ms |\n|---|---|---|");
+    let stations = road(8192);
+    let grid = vec![0; 4096 * 4096 / 8];
+    let base = base(&stations, &grid);
+
+    let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
+    let line: Vec<_> = places(2048, 1.0).map(|x| detection(x, 0.0)).collect();
+    let crowd: Vec<_> = (0..1024).map(|id| track(id, -1.0, 0.0)).collect();
+    let crowded = Cycle { tracks: Some(tracks(&crowd)), detections: Some(list(&line)), ..base };
+    report("i", "1024 tracks in one place, 2048 detections in a row", &crowded, Stage::I);
+    let parameters = Parameters { work_limit: 10_000_000, ..base.parameters };
+    let limited = Cycle { parameters, ..crowded };
+    report("i", "the same with work_limit = 10^7", &limited, Stage::I);
+
+    let beside: Vec<_> = places(1024, 0.1).map(|x| point(x, 0.2)).collect();
+    let beside = timed(beside);
+    let cycle = Cycle { trajectory: Some(trajectory(&beside)), ..base };
+    report("ii", "1024 points near 8192 stations of a road without width", &cycle, Stage::Ii);
+
+    let standing = timed(vec![point(0.0, 0.0); 1024]);
+    let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
+    let near: Vec<_> = (0..1024).map(|id| track(id, 0.0, touching)).collect();
+    let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
+    let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
+    report("iii", "1024 tracks 1 nm beside the CAV at 1024 points", &cycle, Stage::Iii);
+    let near = vec![detection(0.0, touching); 2048];
+    let cycle = Cycle { detections: Some(list(&near)), ..still };
+    report("iv", "2048 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
+
+    // A cell in the corner of the square around each disk, which only looking at the disk excludes.
+    let mut corner = grid.clone();
+    corner[(4 * 4096 + 520) / 8] = 1;
+    let ego = Ego { length: 20.0, width: 20.0, ..base.ego };
+    let creeping: Vec<_> = places(1024, 0.001).map(|x| point(x, 0.0)).collect();
+    let creeping = timed(creeping);
+    for (n, name) in [
+        (4, "20 m by 20 m in 4 disks creeps over 4096 x 4096 cells of 1 cm, 1024 points"),
+        (64, "the same in 64 disks"),
+    ] {
+        let parameters = Parameters { n, ..base.parameters };
+        let grid = base.grid.map(|grid| Grid { occupied: &corner, x: -22.0, y: -9.2, ..grid });
+        let cycle =
+            Cycle { ego, parameters, grid, trajectory: Some(trajectory(&creeping)), ..base };
+        report("v", name, &cycle, Stage::V);
+    }
+}
+
+/// The mean of as many runs as take a tenth of a second.
+fn report(stage: &str, input: &str, cycle: &Cycle<'_>, of: Stage) {
+    let mut it = Contestant::new(cycle);
+    let start = cpu_ms();
+    let (mut passed, mut runs, mut total) = (false, 0.0, 0.0);
+    while total < 100.0 {
+        passed = it.stage(of);
+        runs += 1.0;
+        total = cpu_ms() - start;
+    }
+    let verdict = if passed { "passes" } else { "fails" };
+    println!("| {stage} | {input}; {verdict} | {:.3} |", total / runs);
+}
+
+/// Time that this process has had a core, ms, so that others on the machine do not count; where
+/// the system does not tell, time since 1970.
+fn cpu_ms() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanoseconds = text.split_whitespace().next().and_then(|it| it.parse::<f64>().ok());
+    nanoseconds.map_or_else(
+        || SystemTime::UNIX_EPOCH.elapsed().map_or(0.0, |since| since.as_secs_f64() * 1e3),
+        |ns| ns / 1e6,
+    )
+}
+
+fn base<'a>(stations: &'a [Station], grid: &'a [u8]) -> Cycle<'a> {
+    Cycle {
+        profile: Profile::Paper,
+        parameters: Parameters { theta_tr: 512.0, theta_obj: 1e3, ..Parameters::default() },
+        now_ns: NOW_NS,
+        configuration: Configuration::AllRemote,
+        ego: Ego {
+            x: -1.0,
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            speed: 100.0,
+            length: 4.8,
+            width: 1.9,
+            center_offset: 0.0,
+        },
+        trajectory: None,
+        tracks: None,
+        detections: None,
+        lead: None,
+        route: Route { closed: false, stations },
+        grid: Some(Grid {
+            stamp_ns: NOW_NS,
+            x: 0.0,
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            resolution: 0.01,
+            width: CELLS,
+            height: CELLS,
+            occupied: grid,
+            unknown: None,
+        }),
+        previous_tracks: None,
+    }
+}
+
+fn road(count: u32) -> Vec<Station> {
+    let station = |i: u32| {
+        let x = 0.02 * f64::from(i);
+        Station { x, y: 0.0, left: [x, 0.0], right: [x, 0.0] }
+    };
+    (0..count).map(station).collect()
+}
+
+fn track(id: i64, x: f64, y: f64) -> Track {
+    Track { id, x, y, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
+}
+
+fn detection(x: f64, y: f64) -> Detection {
+    Detection { x, y, cos: 1.0, sin: 0.0, length: 4.5, width: 1.8 }
+}
+
+fn point(x: f64, y: f64) -> TrajectoryPoint {
+    TrajectoryPoint { t_ns: 0, x, y, cos: 1.0, sin: 0.0 }
+}
+
+/// The points a millisecond apart.
+fn timed(mut points: Vec<TrajectoryPoint>) -> Vec<TrajectoryPoint> {
+    for (point, t) in points.iter_mut().zip(0..) {
+        point.t_ns = NOW_NS + t * 1_000_000;
+    }
+    points
+}
+
+fn trajectory(points: &[TrajectoryPoint]) -> Trajectory<'_> {
+    Trajectory { stamp_ns: NOW_NS, points }
+}
+
+fn tracks(items: &[Track]) -> TrackList<'_> {
+    TrackList { stamp_ns: NOW_NS, items }
+}
+
+fn list(items: &[Detection]) -> DetectionList<'_> {
+    DetectionList { stamp_ns: NOW_NS, items }
+}
