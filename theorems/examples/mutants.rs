@@ -11,7 +11,10 @@ fn main() -> io::Result<()> {
         let mutant = &theorem.mutant;
         match &name {
             None => {
-                print!("{}\u{1}{}\u{1}{}\u{1}{}\0", theorem.id, mutant.file, mutant.from, mutant.to)
+                print!(
+                    "{}\u{1}{}\u{1}{}\u{1}{}\0",
+                    theorem.id, mutant.file, mutant.from, mutant.to
+                );
             }
             Some(name) if name == theorem.id => match prove(&theorem.claim)?.verdict {
                 Verdict::Proved => println!("proved"),

@@ -23,9 +23,10 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "moving one rectangle changes nothing",
             claim: || {
-                let (a, b) = (rectangle("a"), rectangle("b"));
-                let moved = share_a_point(&motion()(&a), &b);
-                Formula::from(share_a_point(&a, &b) == moved)
+                let (a, b) = (at_home("a"), at_home("b"));
+                let mut moved = b.clone();
+                moved.frame.origin.x = Real::variable("by");
+                Formula::from(share_a_point(&a, &b) == share_a_point(&a, &moved))
             },
         },
         mutant: Mutant {
