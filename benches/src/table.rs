@@ -88,6 +88,10 @@ pub fn markdown(results: &[Results]) -> String {
             let ours = it.time("all", &hardened(), cache)?;
             Some(ratio("", it.best_sum(cache, false)?, ours))
         });
+        line(&mut text, "building the index of the route, once", results, |it| {
+            let (name, peer) = it.best("index", cache, |_| true)?;
+            Some(ratio(name, peer, it.time("index", OURS, cache)?))
+        });
         text.push('\n');
     }
     cycles(&mut text, results);

@@ -1,12 +1,13 @@
 //! The border: which input is refused, and as whose fault (`spec/3-stages.md#invalid-input`,
 //! `spec/4-arithmetic.md#domain`). Behind it every number is finite and within its domain.
 
+mod lists;
+
 use core::cmp::Ordering;
 
 use crate::configuration::Configuration;
 use crate::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Station, Track, TrackList, Trajectory,
-    TrajectoryPoint,
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
 };
 use crate::exact::{Product, compare};
 use crate::parameters::Parameters;
@@ -14,6 +15,8 @@ use crate::plane::same_point;
 use crate::route_index::RouteIndex;
 use crate::screen::Screen;
 use crate::verdict::{InvalidInput, Problem};
+
+use self::lists::{Seen, detections_are_fine, points_are_fine, stations_are_fine, tracks_are_fine};
 
 /// Whose data are invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -295,28 +298,6 @@ fn check_tracks(
     Ok(usable)
 }
 
-/// Bits of the ids so far; two ids may share one, so a set bit only says "perhaps".
-struct Seen([u64; 64]);
-
-impl Default for Seen {
-    fn default() -> Self {
-        Self([0; 64])
-    }
-}
-
-impl Seen {
-    /// Whether the id may have been here before; from now on it has. Ids counted up from anywhere
-    /// get a bit each.
-    fn perhaps(&mut self, id: i64) -> bool {
-        let place = usize::try_from(id >> 6 & 63).unwrap_or(0);
-        let Some(word) = self.0.get_mut(place) else { return true };
-        let bit = 1 << (id & 63);
-        let seen = *word & bit != 0;
-        *word |= bit;
-        seen
-    }
-}
-
 fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
     at.number(fields.x, track.x, POSITION)?;
     at.number(fields.y, track.y, POSITION)?;
@@ -355,73 +336,6 @@ fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInpu
         before = Some(t_ns);
     }
     Ok(usable)
-}
-
-/// Whether all stations are clearly valid; here and below the checks of single values decide, and
-/// say what is wrong, when it is not so.
-fn stations_are_fine(stations: &[Station]) -> bool {
-    let [_, most] = POSITION;
-    let mut screen = Screen::default();
-    let mut before = [f64::NAN; 2];
-    for &Station { x, y, left: [lx, ly], right: [rx, ry] } in stations {
-        for value in [x, y, lx, ly, rx, ry] {
-            screen.size(value, most);
-        }
-        screen.holds(!same_point(before, [x, y]));
-        before = [x, y];
-    }
-    screen.passes()
-}
-
-fn detections_are_fine(items: &[Detection]) -> bool {
-    let [_, most] = POSITION;
-    let mut screen = Screen::default();
-    for &Detection { x, y, cos, sin, length, width } in items {
-        screen.size(x, most);
-        screen.size(y, most);
-        screen.direction(cos, sin);
-        screen.range(length, SIZE);
-        screen.range(width, SIZE);
-    }
-    screen.passes()
-}
-
-/// Ids that increase are different. (A first id of -2^63 is left to the other check.)
-fn tracks_are_fine(items: &[Track]) -> bool {
-    let ([_, farthest], [_, fastest]) = (POSITION, VELOCITY);
-    let mut screen = Screen::default();
-    let mut before = i64::MIN;
-    for &Track { id, x, y, cos, sin, vx, vy, length, width } in items {
-        screen.size(x, farthest);
-        screen.size(y, farthest);
-        screen.direction(cos, sin);
-        screen.size(vx, fastest);
-        screen.size(vy, fastest);
-        screen.range(length, SIZE);
-        screen.range(width, SIZE);
-        screen.holds(before < id);
-        before = id;
-    }
-    screen.passes()
-}
-
-/// When times increase, the first and the last one say whether all are within 60 s of now.
-fn points_are_fine(trajectory: &Trajectory<'_>, now_ns: i64) -> bool {
-    let [_, most] = POSITION;
-    let mut screen = Screen::default();
-    let mut before = i64::MIN;
-    for &TrajectoryPoint { t_ns, x, y, cos, sin } in trajectory.points {
-        screen.size(x, most);
-        screen.size(y, most);
-        screen.direction(cos, sin);
-        screen.holds(before < t_ns);
-        before = t_ns;
-    }
-    for end in [trajectory.points.first(), trajectory.points.last()].into_iter().flatten() {
-        let age_ns = elapsed_ns(end.t_ns, now_ns);
-        screen.holds((-HORIZON_NS..=HORIZON_NS).contains(&age_ns));
-    }
-    screen.passes()
 }
 
 /// Where in a list a value stands.

@@ -2,13 +2,15 @@
 //! then times them in one process and prints the table of ratios as Markdown.
 
 use std::error::Error;
+use std::hint::black_box;
 use std::time::Instant;
 
 use mufasa::configuration::Configuration;
 use mufasa::cycle::{Cycle, Profile};
+use mufasa::route_index::{Block, RouteIndex};
 use mufasa::verdict::Stage;
 use mufasa_benches::contestant::Contestant;
-use mufasa_benches::peer;
+use mufasa_benches::peer::{self, corridor::Trees};
 use mufasa_benches::race::{Entry, Rounds, race};
 use mufasa_benches::table::{OURS, Results, STAGES, hardened, json, markdown};
 use mufasa_benches::workload::recipe::Size;
@@ -70,6 +72,11 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         let run = move || it.validate();
         contestants.push(contestant("validation", name, false, Box::new(run)));
     }
+    let blocks = vec![Block::default(); Block::needed(paper.route.stations.len())].leak();
+    let build = || RouteIndex::new(black_box(paper.route), &mut *blocks).is_ok();
+    contestants.push(contestant("index", OURS.to_owned(), false, Box::new(build)));
+    let build = || Trees::new(black_box(&paper)).is_built();
+    contestants.push(contestant("index", "geo and rstar".to_owned(), false, Box::new(build)));
     for (configuration, task) in [
         (Configuration::MotRemote, "check MotRemote"),
         (Configuration::AllRemote, "check AllRemote"),

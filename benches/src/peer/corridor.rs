@@ -31,6 +31,11 @@ impl Trees {
         }
     }
 
+    /// Whether there is something in it.
+    pub fn is_built(&self) -> bool {
+        self.path.size() > 0
+    }
+
     fn inside(&self, [x, y]: [f64; 2]) -> bool {
         self.corridor.contains(&Coord { x, y })
     }
