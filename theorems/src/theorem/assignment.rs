@@ -32,8 +32,8 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong { statement: "nearer than (k + 1) theta_tr", claim: || ghost_hides(2) },
         mutant: Mutant {
             file: "model/src/assignment.rs",
-            from: "Ok(Comparison { less: cost < *bound, cost })",
-            to: "Ok(Comparison { less: &cost + &cost < *bound, cost })",
+            from: "return Ok(Comparison { less: true, cost });",
+            to: "return Ok(Comparison { less: false, cost });",
         },
     },
     Theorem {

@@ -22,7 +22,7 @@ pub const THEOREMS: &[Theorem] = &[
         mutant: Mutant {
             file: "model/src/grid.rs",
             from: "((length / n).square() + width.square()).sqrt()",
-            to: "(length / n + width)",
+            to: "width",
         },
     },
     Theorem {
@@ -66,7 +66,7 @@ pub const THEOREMS: &[Theorem] = &[
         mutant: Mutant {
             file: "model/src/grid.rs",
             from: "(cell + Real::from_integer(1)) * resolution",
-            to: "(cell + Real::ratio(1, 2)) * resolution",
+            to: "(cell + Real::from_double(0.5)) * resolution",
         },
     },
     Theorem {
@@ -117,7 +117,7 @@ pub const THEOREMS: &[Theorem] = &[
         mutant: Mutant {
             file: "model/src/vector.rs",
             from: "self.x.square() + self.y.square()",
-            to: "self.x.square() + self.y.square() + self.y.square()",
+            to: "self.x.square() + self.y.square() * Real::from_integer(9)",
         },
     },
 ];

@@ -27,7 +27,7 @@ pub const THEOREMS: &[Theorem] = &[
         mutant: Mutant {
             file: "theorems/src/real/mod.rs",
             from: "        self * self\n",
-            to: "        self * Self::from_integer(2)\n",
+            to: "        -(self * self)\n",
         },
     },
     Theorem {
