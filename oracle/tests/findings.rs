@@ -10,7 +10,10 @@ use mufasa_model::schedule;
 use mufasa_model::verdict::Reading;
 use mufasa_oracle::json::{self, Record};
 use mufasa_props::bridge;
-use mufasa_theorems::{solver, theorem, witness};
+use mufasa_theorems::prove::{Verdict, prove};
+use mufasa_theorems::real::formula::Formula;
+use mufasa_theorems::verdict::Reading as SymbolicReading;
+use mufasa_theorems::{schedule as symbolic_schedule, solver, theorem, witness};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -101,6 +104,35 @@ fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
         let implementation = bridge::check_impl(&hardened).expect("the local input is valid");
         assert!(implementation.failed_stage.is_some(), "{}", search.finding);
     }
+}
+
+/// The model's source decides with symbolic numbers as it does with exact ones.
+#[test]
+fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
+    if !solver::is_new_enough() {
+        println!("NOT RUN: no z3 4.8 here");
+        return;
+    }
+    let vectors = mufasa_oracle::vectors::all().expect("the vectors agree with the model");
+    let findings = vectors.iter().filter(|(file, _)| file.starts_with("findings/"));
+    let mut verdicts = [0, 0];
+    for vector in findings.flat_map(|(_, vectors)| vectors) {
+        let Ok(Record::Cycle { cycle, .. }) = json::parse(vector.input.text().as_bytes(), 1) else {
+            continue;
+        };
+        let exact = schedule::check(&cycle, Reading::Exact).expect("the local input is valid");
+        let expected = format!("{:?}", exact.failed_stage);
+        let proof = prove(&|| {
+            let symbolic = symbolic_schedule::check(&cycle, SymbolicReading::Exact);
+            let failed = symbolic.map(|report| report.failed_stage);
+            Formula::from(failed.is_ok_and(|failed| format!("{failed:?}") == expected))
+        });
+        let proof = proof.expect("z3 answers");
+        assert_eq!(proof.verdict, Verdict::Proved, "{}", vector.id);
+        verdicts[usize::from(is_safe(&cycle))] += 1;
+    }
+    println!("{} unsafe, {} safe", verdicts[0], verdicts[1]);
+    assert!(verdicts.iter().all(|count| *count > 15), "{verdicts:?}");
 }
 
 /// F-24: whatever the age of the list of the last safe cycle from there on, the cycle is rejected,
