@@ -3,7 +3,7 @@
 //! README of the vectors.
 
 mod assumptions;
-pub mod lasting;
+mod lasting;
 mod published;
 
 use mufasa_model::configuration::Configuration;

@@ -16,15 +16,15 @@ pub fn add(book: &mut Book) {
     late_verdict(book);
 }
 
-/// A true car drives ahead at 30 m/s; stage i last passed in a safe cycle `age_ns` ago.
-pub fn car_ahead(configuration: Configuration, age_ns: Option<i64>) -> Cycle {
+/// A true car drives ahead at 30 m/s; (ns ago, x then) of the list that stage i passed last in a
+/// safe cycle.
+fn car_ahead(configuration: Configuration, previous: Option<(i64, f64)>) -> Cycle {
     with(base(Profile::Hardened, configuration), |cycle| {
         cycle.tracks = Some(tracks(vec![Track { vx: 30.0, ..track(1, 15.0, 0.0) }]));
         cycle.detections = Some(detections(vec![detection(15.0, 0.0)]));
-        cycle.previous_tracks = age_ns.map(|age_ns| {
-            // No trajectory of the CAV is near there; on the car's way up to a second ago.
-            let x = 15.0 - 3.0 * (age_ns / 100_000_000).min(10) as f64;
-            TrackList { stamp_ns: cycle.now_ns - age_ns, items: vec![track(1, x, 0.0)] }
+        cycle.previous_tracks = previous.map(|(age_ns, x)| {
+            let items = vec![track(1, x, 0.0)];
+            TrackList { stamp_ns: cycle.now_ns - age_ns, items }
         });
     })
 }
@@ -32,18 +32,15 @@ pub fn car_ahead(configuration: Configuration, age_ns: Option<i64>) -> Cycle {
 fn lock_in(book: &mut Book) {
     let topic = finding("findings/F-24", "F-24");
     let note = "A true car drives ahead, the last safe cycle was 0.1 s ago.";
-    book.cycle(topic, "before", note, &car_ahead(AllRemote, Some(100_000_000)), &safe());
+    book.cycle(topic, "before", note, &car_ahead(AllRemote, Some((100_000_000, 12.0))), &safe());
     let note = "The same car, the last safe cycle was 1.1 s ago: it counts as standing, and as this \
                 cycle is rejected it is no safe one either. So it stays.";
     let stands = fails_by("iii", "collision_standing");
-    book.cycle(topic, "after", note, &car_ahead(AllRemote, Some(1_100_000_000)), &stands);
+    book.cycle(topic, "after", note, &car_ahead(AllRemote, Some((1_100_000_000, -18.0))), &stands);
     let note = "There never was a safe cycle.";
     book.cycle(topic, "first", note, &car_ahead(AllRemote, None), &stands);
     let note = "The way out: a safe cycle in MotRemote, after which its list is the previous one.";
-    let cycle = with(car_ahead(MotRemote, None), |cycle| {
-        cycle.detections = Some(detections(vec![detection(15.0, 0.0)]));
-    });
-    book.cycle(topic, "over-mot", note, &cycle, &safe());
+    book.cycle(topic, "over-mot", note, &car_ahead(MotRemote, None), &safe());
 }
 
 fn late_verdict(book: &mut Book) {
