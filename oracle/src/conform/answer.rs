@@ -3,7 +3,10 @@
 //! (`spec/5-interfaces.md#programs-under-test`); the place of what is invalid is looked at where it
 //! is given.
 
+use std::fmt;
+
 use mufasa_model::verdict::{FailedStage, Stage};
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde_json::{Map, Value};
 
 use super::class::Breach;
@@ -22,11 +25,10 @@ pub enum Said {
 /// that is none: its id is null in the answer when it could not be read.
 pub fn object(line: &[u8], id: &str, is_record: bool) -> Result<Map<String, Value>, Broken> {
     let nonsense = |words: String| Broken::new(Breach::Nonsense, words);
-    let value: Value = serde_json::from_slice(line)
-        .map_err(|error| nonsense(format!("is not JSON ({error}): {}", excerpt(line))))?;
-    let Value::Object(object) = value else {
-        return Err(nonsense(format!("is no JSON object: {}", excerpt(line))));
-    };
+    let Once(object) = serde_json::from_slice(line).map_err(|error| {
+        let what = if error.is_data() { "is no answer" } else { "is not JSON" };
+        nonsense(format!("{what} ({error}): {}", excerpt(line)))
+    })?;
     match object.get("id") {
         Some(Value::String(given)) if given == id => Ok(object),
         Some(Value::Null) if !is_record => Ok(object),
@@ -85,6 +87,47 @@ pub fn is_error(object: &Map<String, Value>) -> bool {
     object.get("verdict").and_then(Value::as_str) == Some("error")
 }
 
+/// An answer in short: what it says, then how it begins.
+pub fn in_short(line: &[u8]) -> String {
+    let object = serde_json::from_slice::<Map<String, Value>>(line).unwrap_or_default();
+    let said = ["verdict", "failed_stage"].map(|key| object.get(key).map(Value::to_string));
+    match said {
+        [Some(verdict), Some(failed)] => {
+            format!("verdict {verdict}, failed_stage {failed}: {}", excerpt(line))
+        }
+        _ => excerpt(line),
+    }
+}
+
+/// An object in which no key stands twice: of two, one reader would take the first and another
+/// the last.
+struct Once(Map<String, Value>);
+
+impl<'de> Deserialize<'de> for Once {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys;
+        impl<'de> Visitor<'de> for Keys {
+            type Value = Once;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a JSON object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut pairs: A) -> Result<Once, A::Error> {
+                let mut object = Map::new();
+                while let Some((key, value)) = pairs.next_entry::<String, Value>()? {
+                    if object.contains_key(&key) {
+                        return Err(A::Error::custom(format_args!("the key {key:?} stands twice")));
+                    }
+                    object.insert(key, value);
+                }
+                Ok(Once(object))
+            }
+        }
+        deserializer.deserialize_map(Keys)
+    }
+}
+
 fn stage(name: &str) -> Option<FailedStage> {
     Some(match name {
         "input" => FailedStage::Input,
@@ -135,6 +178,7 @@ mod tests {
             r#"{"id": "c-1", "verdict": "unsafe", "failed_stage": "vi"}"#,
             r#"{"id": "c-1", "verdict": "unsafe", "failed_stage": 3}"#,
             r#"{"id": "c-1", "verdict": "perhaps", "failed_stage": null}"#,
+            r#"{"verdict": "unsafe", "id": "c-1", "verdict": "safe", "failed_stage": null}"#,
             "{\"id\": \"c-1\", \"verdict\": \"safe\", \"failed_stage\": null} x",
         ] {
             assert_eq!(read(line), Err(Breach::Nonsense), "{line}");

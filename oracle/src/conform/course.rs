@@ -19,13 +19,16 @@ use super::question::Question;
 use super::report;
 use super::shrink::Hunt;
 use super::source::Source;
-use super::subject::Subject;
+use super::subject::{Broken, Subject};
 use super::summary::{Campaign, Found, Group, Summary};
 use crate::json::names;
 
-/// So often a program may break in one class, and hang in all, before its kind of record is given
-/// up.
+/// So often in a row a program may break before its kind of record is given up, and so often it may
+/// hang in all.
 const RESTARTS: u64 = 5;
+
+/// So often it may break in all.
+const RESTARTS_IN_ALL: u64 = 200;
 
 /// A case is small when it has so many objects; of a class without a small one further cases are
 /// shrunk, too.
@@ -53,6 +56,8 @@ pub struct Course<'a> {
     tolerated: u64,
     late: u64,
     given_up: Vec<Kind>,
+    /// By kind of record: how often the program broke in a row, hung, and broke in all.
+    broken: BTreeMap<Kind, [u64; 3]>,
     groups: BTreeMap<(Kind, &'static str, &'static str, &'static str), (u64, u64)>,
     classes: BTreeMap<Class, Found>,
 }
@@ -77,6 +82,7 @@ impl<'a> Course<'a> {
             tolerated: 0,
             late: 0,
             given_up: Vec::new(),
+            broken: BTreeMap::new(),
             groups: BTreeMap::new(),
             classes: BTreeMap::new(),
         }
@@ -96,32 +102,40 @@ impl<'a> Course<'a> {
             } else {
                 let (name, question) = self.source.case(number);
                 let case = Case { number, name, question };
-                self.ask(&case, out)?;
+                self.ask(&case, last.as_ref(), out)?;
                 last = Some(case);
             }
             self.bar.inc(1);
             number = number.saturating_add(step);
         }
         self.bar.finish_and_clear();
-        if let Err(broken) = self.subject.finish()
-            && let Some(case) = last
-        {
-            // A line too many behind the last answer.
-            let class = Class {
-                kind: case.question.kind(),
-                breach: broken.breach,
-                place: String::new(),
-                profile: String::new(),
-                configuration: String::new(),
-                scale: Scale::Clear,
-            };
-            let expected = expect(&case.name, &case.question);
-            let (answered, tolerated) = (Err(broken), false);
-            let examined = Examined { expected, answered, class: Some(class.clone()), tolerated };
-            self.count(&case.question, &examined);
-            self.settle(&class, &case, &examined, out)?;
+        match (self.subject.finish(), last) {
+            (Err(broken), Some(case)) => self.afterwards(broken, &case, out),
+            (Ok(()), _) | (_, None) => Ok(()),
         }
-        Ok(())
+    }
+
+    /// What the program did after its answer to a case, which was counted with that answer.
+    fn afterwards(
+        &mut self,
+        broken: Broken,
+        case: &Case,
+        out: &mut impl Write,
+    ) -> Result<(), ConformError> {
+        let class = Class {
+            kind: case.question.kind(),
+            breach: broken.breach,
+            place: String::from("after its answer"),
+            profile: String::new(),
+            configuration: String::new(),
+            scale: Scale::Clear,
+        };
+        self.broke(class.kind, class.breach);
+        let expected = expect(&case.name, &case.question);
+        let answered = Err(broken);
+        let examined =
+            Examined { expected, answered, class: Some(class.clone()), tolerated: false };
+        self.settle(&class, case, &examined, out)
     }
 
     /// What was found.
@@ -166,7 +180,13 @@ impl<'a> Course<'a> {
         }
     }
 
-    fn ask(&mut self, case: &Case, out: &mut impl Write) -> Result<(), ConformError> {
+    /// `last`: the case before.
+    fn ask(
+        &mut self,
+        case: &Case,
+        last: Option<&Case>,
+        out: &mut impl Write,
+    ) -> Result<(), ConformError> {
         let Case { name, question, .. } = case;
         let tolerance = self.settings.tolerance;
         let mut examined = examine(&mut self.subject, name, question, tolerance)?;
@@ -177,6 +197,13 @@ impl<'a> Course<'a> {
             examined = examine(&mut self.subject, name, question, tolerance)?;
             self.subject.set_time_limit(limit);
             self.late += u64::from(!examined.hangs());
+        }
+        if let (Some(broken), Some(last)) = (self.subject.take_afterwards(), last) {
+            self.afterwards(broken, last, out)?;
+        }
+        match &examined.class {
+            Some(class) if class.breach.is_broken() => self.broke(class.kind, class.breach),
+            _ => self.broken.entry(question.kind()).or_default()[0] = 0,
         }
         self.asked += 1;
         self.tolerated += u64::from(examined.tolerated);
@@ -230,17 +257,20 @@ impl<'a> Course<'a> {
         if let Some(found) = self.classes.get_mut(class) {
             found.count += 1;
         }
-        if self.is_hopeless(class) && !self.given_up.contains(&class.kind) {
-            self.given_up.push(class.kind);
-        }
         Ok(())
     }
 
-    fn is_hopeless(&self, class: &Class) -> bool {
-        let hangs = |it: &Class| (it.breach, it.kind) == (Breach::Hangs, class.kind);
-        let alike = |it: &&Found| it.class == *class || (hangs(class) && hangs(&it.class));
-        let times: u64 = self.classes.values().filter(alike).map(|found| found.count).sum();
-        class.breach.is_broken() && times >= RESTARTS
+    /// The program gave no answer that could be compared. A kind of record for which it does so
+    /// again and again is given up.
+    fn broke(&mut self, kind: Kind, breach: Breach) {
+        let [in_a_row, hung, in_all] = self.broken.entry(kind).or_default();
+        *in_a_row += 1;
+        *hung += u64::from(breach == Breach::Hangs);
+        *in_all += 1;
+        let hopeless = *in_a_row >= RESTARTS || *hung >= RESTARTS || *in_all >= RESTARTS_IN_ALL;
+        if hopeless && !self.given_up.contains(&kind) {
+            self.given_up.push(kind);
+        }
     }
 
     fn shrunk(

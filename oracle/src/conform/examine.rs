@@ -159,8 +159,10 @@ fn compare(
 fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
     let (report, said) = match (exact, said) {
         (Err(_), Said::Error) => return None,
-        (Err(problem), Said::Verdict(_)) => {
-            return Some(Differs::new(Breach::Input, format!("{} valid", part(problem))));
+        (Err(problem), Said::Verdict(said)) => {
+            let said = said.map_or("safe", |failed| name(Some(failed)));
+            let place = format!("{} {said} instead of error", part(problem));
+            return Some(Differs::new(Breach::Input, place));
         }
         (Ok(report), Said::Error) => {
             let instead = name(report.failed_stage);

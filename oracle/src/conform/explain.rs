@@ -12,7 +12,7 @@ use super::answer::{self, Said};
 use super::class::Breach;
 use super::examine::{Examined, Expected, index, is_within};
 use super::question::{Question, event_type};
-use super::subject::{Broken, excerpt};
+use super::subject::Broken;
 use crate::check::words;
 use crate::json::answer::decimal;
 use crate::json::offloading_answer::OffloadingAnswer;
@@ -54,7 +54,7 @@ pub struct Numbers {
 /// A disagreement in words.
 pub fn explain(question: &Question, examined: &Examined) -> Told {
     let answered = match &examined.answered {
-        Ok(line) => excerpt(line),
+        Ok(line) => answer::in_short(line),
         Err(broken) => broken.words.clone(),
     };
     let breach = examined.class.as_ref().map(|class| class.breach);

@@ -82,8 +82,9 @@ pub fn run(
     err: &mut impl Write,
 ) -> Result<u8, ConformError> {
     let (source, unreadable) = Source::new(settings, err)?;
-    let subject = Subject::start(&settings.command, settings.time_limit)?;
+    // First, so that nothing of an earlier run is left when the program cannot be started.
     let files = Files::prepare(&settings.out, settings.shard)?;
+    let subject = Subject::start(&settings.command, settings.time_limit)?;
     let mut course = Course::new(settings, &source, subject);
     course.run(out)?;
     let summary = course.summary();
@@ -91,7 +92,11 @@ pub fn run(
     report::end(&summary, out)?;
     writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;
     if !summary.classes.is_empty() {
-        writeln!(out, "{}: the shrunk records", files.reproducers.display())?;
+        writeln!(
+            out,
+            "{}: the records, shrunk where that was possible",
+            files.reproducers.display()
+        )?;
     }
     Ok(match (summary.classes.is_empty(), unreadable || summary.asked == 0) {
         (false, _) => DISAGREES,

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -22,6 +22,9 @@ const STDERR_BYTES: usize = 2000;
 
 /// How long a line too many is waited for behind an answer that is none.
 const GRACE: Duration = Duration::from_millis(20);
+
+/// The first answer after a start may take so many times the limit: a program has to load first.
+const START: u32 = 5;
 
 /// How long an ended program is waited for.
 const LAST_WORDS: Duration = Duration::from_millis(300);
@@ -49,6 +52,8 @@ pub struct Subject {
     time_limit: Duration,
     running: Option<Running>,
     starts: u64,
+    /// What the program did after its last answer, unasked.
+    afterwards: Option<Broken>,
 }
 
 #[derive(Debug)]
@@ -58,6 +63,8 @@ struct Running {
     /// Lines on their way to the program; dropped to end its input.
     lines: Sender<Vec<u8>>,
     last_words: Arc<Mutex<Vec<u8>>>,
+    /// Whether it was asked before.
+    answered: bool,
 }
 
 /// What comes from the program.
@@ -72,7 +79,8 @@ impl Subject {
     /// Starts the program: its name and arguments, and the time that an answer may take.
     /// Errors: it cannot be started.
     pub fn start(command: &[OsString], time_limit: Duration) -> Result<Self, ConformError> {
-        let mut subject = Self { command: command.to_vec(), time_limit, running: None, starts: 0 };
+        let command = command.to_vec();
+        let mut subject = Self { command, time_limit, running: None, starts: 0, afterwards: None };
         subject.ensure()?;
         Ok(subject)
     }
@@ -87,6 +95,11 @@ impl Subject {
         self.starts
     }
 
+    /// What the program did between its last answer and the last line sent, if it was anything.
+    pub fn take_afterwards(&mut self) -> Option<Broken> {
+        self.afterwards.take()
+    }
+
     /// Sends a line, does something else, and returns its result with the line that came back.
     /// Errors: the program ended before and cannot be started again.
     pub fn ask<T>(
@@ -94,11 +107,15 @@ impl Subject {
         line: &str,
         meanwhile: impl FnOnce() -> T,
     ) -> Result<(T, Result<Vec<u8>, Broken>), ConformError> {
-        let time_limit = self.time_limit;
-        let running = self.ensure()?;
-        if let Err(broken) = running.quiet() {
+        let mut time_limit = self.time_limit;
+        if let Err(broken) = self.ensure()?.quiet() {
+            // That is no answer to this line: the program is started anew for it.
             self.stop();
-            return Ok((meanwhile(), Err(broken)));
+            self.afterwards = Some(broken);
+        }
+        let running = self.ensure()?;
+        if !running.answered {
+            time_limit = time_limit.saturating_mul(START);
         }
         let sent = Instant::now();
         let mut bytes = line.as_bytes().to_vec();
@@ -109,6 +126,7 @@ impl Subject {
         // What the model takes is not the program's time, but nearly so on a busy machine.
         let left = time_limit.saturating_sub(sent.elapsed()).max(time_limit / 4);
         let answer = running.next(left, time_limit);
+        running.answered = true;
         if answer.is_err() {
             self.stop();
         }
@@ -130,21 +148,31 @@ impl Subject {
         broken
     }
 
-    /// Ends the input and waits for the end of the output. A line that still comes is a flood.
+    /// Ends the input and waits for the end of the output and of the program. A line that still
+    /// comes is a flood; a program that a signal ends has died; its exit code is its own affair.
     pub fn finish(&mut self) -> Result<(), Broken> {
         let Some(running) = self.running.take() else { return Ok(()) };
         let Running { mut child, heard, lines, .. } = running;
         drop(lines);
         let last = heard.recv_timeout(self.time_limit);
         drop(heard);
-        if !matches!(last, Ok(Heard::End)) {
+        let ended = matches!(last, Ok(Heard::End) | Err(RecvTimeoutError::Disconnected));
+        let status = if ended { wait(&mut child, self.time_limit) } else { None };
+        if status.is_none() {
             let _ = child.kill();
+            let _ = child.wait();
         }
-        let _ = child.wait();
-        match last {
-            Ok(Heard::Line(line)) => Err(unasked(&line)),
-            Ok(Heard::TooLong) => Err(too_long()),
-            Ok(Heard::End) | Err(_) => Ok(()),
+        let hangs = || Broken::new(Breach::Hangs, "does not end when its input ends");
+        match (last, status) {
+            (Ok(Heard::Line(line)), _) => Err(unasked(&line)),
+            (Ok(Heard::TooLong), _) => Err(too_long()),
+            (_, Some(status)) if status.code().is_none() => {
+                let words =
+                    format!("ends otherwise than by itself at the end of its input ({status})");
+                Err(Broken::new(Breach::Dies, words))
+            }
+            (_, Some(_)) => Ok(()),
+            (_, None) => Err(hangs()),
         }
     }
 
@@ -201,7 +229,7 @@ impl Running {
             let kept = Arc::clone(&last_words);
             thread::spawn(move || keep_last(errors, &kept));
         }
-        Ok(Self { child, heard, lines, last_words })
+        Ok(Self { child, heard, lines, last_words, answered: false })
     }
 
     /// Nothing has come that was not asked for.
@@ -209,7 +237,9 @@ impl Running {
         match self.heard.try_recv() {
             Ok(Heard::Line(line)) => Err(unasked(&line)),
             Ok(Heard::TooLong) => Err(too_long()),
-            Ok(Heard::End) | Err(TryRecvError::Disconnected) => Err(self.died()),
+            Ok(Heard::End) | Err(TryRecvError::Disconnected) => {
+                Err(self.died("after its last answer"))
+            }
             Err(TryRecvError::Empty) => Ok(()),
         }
     }
@@ -218,7 +248,9 @@ impl Running {
         match self.heard.recv_timeout(left) {
             Ok(Heard::Line(line)) => Ok(line),
             Ok(Heard::TooLong) => Err(too_long()),
-            Ok(Heard::End) | Err(RecvTimeoutError::Disconnected) => Err(self.died()),
+            Ok(Heard::End) | Err(RecvTimeoutError::Disconnected) => {
+                Err(self.died("before it has answered"))
+            }
             Err(RecvTimeoutError::Timeout) => {
                 let words = format!(
                     "no answer within {} ms (does it flush its output after every line?){}",
@@ -230,20 +262,10 @@ impl Running {
         }
     }
 
-    fn died(&mut self) -> Broken {
-        let since = Instant::now();
-        let status = loop {
-            match self.child.try_wait() {
-                Ok(Some(status)) => break Some(status),
-                Ok(None) if since.elapsed() < LAST_WORDS => {
-                    thread::sleep(Duration::from_millis(2));
-                }
-                Ok(None) | Err(_) => break None,
-            }
-        };
-        let how = status.map_or_else(
-            || String::from("closes its output before it has answered"),
-            |status| format!("ends before it has answered ({status})"),
+    fn died(&mut self, when: &str) -> Broken {
+        let how = wait(&mut self.child, LAST_WORDS).map_or_else(
+            || format!("closes its output {when}"),
+            |status| format!("ends {when} ({status})"),
         );
         Broken::new(Breach::Dies, how + &self.said())
     }
@@ -256,6 +278,18 @@ impl Running {
         let text = String::from_utf8_lossy(&kept);
         let text = text.trim();
         if text.is_empty() { String::new() } else { format!("; its standard error: {text}") }
+    }
+}
+
+/// How the program ended, if it does within the time.
+fn wait(child: &mut Child, time: Duration) -> Option<ExitStatus> {
+    let since = Instant::now();
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Some(status),
+            Ok(None) if since.elapsed() < time => thread::sleep(Duration::from_millis(2)),
+            Ok(None) | Err(_) => return None,
+        }
     }
 }
 

@@ -42,6 +42,43 @@ fn who_dies_at_one_record_is_shrunk_and_the_run_goes_on() {
     assert!(dies.record.get().contains("\"tracks\": null"), "{told}");
 }
 
+/// It dies at a tenth of the records, seldom often in a row: the others are asked.
+#[test]
+fn who_dies_now_and_then_is_asked_to_the_end() {
+    let program = format!(r#"{EACH} case $line in *'"gap"'*) exit 1;; esac; {SAFE}; done"#);
+    let options = ["--kinds", "cycle", "--cases", "60", "--profile", "paper", "--seed", "3"];
+    let Some((summary, told)) = script("dies-seldom", &options, &program) else { return };
+    assert_eq!((summary.asked, summary.skipped), (60, 0), "{told}");
+}
+
+/// The answer to the first record counts; what is done after it is not blamed on the second.
+#[test]
+fn who_dies_after_an_answer_is_said_to() {
+    let program = format!("{EACH} {SAFE}; exit 3; done");
+    let options = ["--kinds", "cycle", "--cases", "2"];
+    let Some((summary, told)) = script("dies-after", &options, &program) else { return };
+    assert_eq!((summary.asked, summary.skipped), (2, 0), "{told}");
+    let dies = |words: &str| {
+        let mut classes = summary.classes.iter();
+        classes.any(|it| it.class.breach == Breach::Dies && it.told.answered.contains(words))
+    };
+    // On a busy machine the second line may be sent between its answer and its end.
+    assert!(dies("exit status: 3"), "{told}");
+}
+
+#[test]
+fn who_dies_or_hangs_at_the_end_of_the_input_is_found() {
+    for (name, end, breach) in
+        [("killed", "kill -9 $$", Breach::Dies), ("stays", "exec sleep 100", Breach::Hangs)]
+    {
+        let program = format!("{EACH} {SAFE}; done; {end}");
+        let options = ["--kinds", "cycle", "--cases", "4", "--time-limit", "2000"];
+        let Some((summary, told)) = script(name, &options, &program) else { return };
+        assert!(summary.classes.iter().any(|found| found.class.breach == breach), "{told}");
+        assert_eq!(summary.asked, 4, "{told}");
+    }
+}
+
 #[test]
 fn who_hangs_is_ended_soon() {
     let options = ["--kinds", "cycle", "--cases", "100000", "--time-limit", "40"];
