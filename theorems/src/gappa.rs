@@ -1,8 +1,8 @@
 //! Bounds of the rounding errors of the distances, by Gappa.
 //!
 //! The formulas are those of `spec/3-stages.md#distances` as a program in doubles would compute
-//! them, written in Gappa's language. `tests/rounding.rs` holds the bounds, and the implementation,
-//! against exact numbers.
+//! them, written in Gappa's language. `tests/rounding.rs` holds the bounds
+//! against exact numbers. The implementation computes in double-doubles with bounds of its own.
 
 use std::io::{self, Write};
 use std::process::{Command, Stdio};

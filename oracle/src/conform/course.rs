@@ -290,6 +290,8 @@ impl<'a> Course<'a> {
             }
             Source::Drives(_) => hunt.run(question, None)?,
         };
+        // What the program did after an answer while a case was made smaller is no case of its own.
+        let _ = self.subject.take_afterwards();
         let id = class.slug();
         let (told, shown, shrunk) = match smallest {
             None => (explain(question, examined), question, false),

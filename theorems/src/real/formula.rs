@@ -64,7 +64,7 @@ pub fn same_order([a, of_a]: [&Real; 2], [b, of_b]: [&Real; 2]) -> Formula {
 
 /// From here on every sum, difference, product and quotient is rounded, by one function of which
 /// only this is known: it is monotone and keeps 0. Rounding to doubles is such a function, in every
-/// direction and also where numbers overflow or underflow.
+/// direction and also where numbers underflow; where they overflow there is no real number.
 pub fn round_every_result() {
     path::with(|path| path.rounds = true);
 }

@@ -30,7 +30,8 @@ pub struct Theorem {
     pub mutant: Mutant,
 }
 
-/// A false variant of a theorem under the same assumptions.
+/// A false variant of a theorem, under its assumptions or nearly so. Under exactly its assumptions
+/// stands the mutant.
 #[derive(Debug)]
 pub struct Wrong {
     /// What it says.

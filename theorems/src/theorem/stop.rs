@@ -9,13 +9,15 @@ use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Mutant, Theorem, Wrong};
 
-const DOMAIN: &str = "all speeds >= 0, tau, a_max >= 0, a_b > 0; standing objects";
+const DOMAIN: &str = "all speeds >= 0, tau, a_max >= 0, a_b > 0; standing objects; a trajectory that \
+                      starts at the CAV, is followed and reaches s_stop (F-26)";
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "an_accepted_cycle_makes_the_stop_invariant_true",
-        statement: "invariant: position + s_b(v) <= end of what was checked; s_b(v) <= s_stop(v)",
+        statement: "s_b(v) <= s_stop(v), so that position + s_b(v) <= position + s_stop(v), up to \
+                    where points are examined",
         domain: DOMAIN,
         claim: || {
             let Vehicle { v, tau, a_max, a_b } = Vehicle::new();
