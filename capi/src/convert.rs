@@ -205,87 +205,58 @@ pub(crate) const fn configuration_number(configuration: Configuration) -> Mufasa
     }
 }
 
+/// Takes parameters apart and puts them together as the other type; a name that one of them lacks
+/// does not compile.
+macro_rules! same_parameters {
+    ($from:ident, $to:ident, $value:expr) => {{
+        let $from {
+            theta_tr,
+            theta_map,
+            theta_obj,
+            a_b,
+            safety_time,
+            max_age_ns,
+            n,
+            theta_track_max,
+            miss_budget,
+            tau,
+            a_max,
+            start_tolerance,
+            v_max,
+            step_max_ns,
+            theta_velocity,
+            work_limit,
+            delta,
+        } = $value;
+        $to {
+            theta_tr,
+            theta_map,
+            theta_obj,
+            a_b,
+            safety_time,
+            max_age_ns,
+            n,
+            theta_track_max,
+            miss_budget,
+            tau,
+            a_max,
+            start_tolerance,
+            v_max,
+            step_max_ns,
+            theta_velocity,
+            work_limit,
+            delta,
+        }
+    }};
+}
+
 fn parameters(raw: &MufasaParameters) -> Parameters {
-    let MufasaParameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    } = *raw;
-    Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    }
+    same_parameters!(MufasaParameters, Parameters, *raw)
 }
 
 /// The parameters of C.
 pub(crate) fn parameters_of(parameters: &Parameters) -> MufasaParameters {
-    let Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    } = *parameters;
-    MufasaParameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    }
+    same_parameters!(Parameters, MufasaParameters, *parameters)
 }
 
 fn ego(raw: &MufasaEgo) -> Ego {

@@ -153,3 +153,12 @@ fn base_cycle_is_safe_everywhere() {
         }
     }
 }
+
+/// The base cycle of both profiles, changed alike.
+pub fn hardened_and_paper(change: impl Fn(&mut Cycle)) -> [Cycle; 2] {
+    [Profile::Hardened, Profile::Paper].map(|profile| {
+        let mut cycle = base(profile, Configuration::PlanRemote);
+        change(&mut cycle);
+        cycle
+    })
+}

@@ -8,6 +8,7 @@ mod distances;
 mod exact;
 mod grid;
 mod hardened;
+mod hardened_trajectory;
 mod input;
 mod map_validation;
 mod schedule;
