@@ -1,45 +1,11 @@
-//! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`) and the
-//! trajectory points that stages iii to v examine.
+//! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
 use crate::cycle::{Cycle, Ego, Profile, TrajectoryPoint};
-use crate::distance::{Horizon, Number, s_b, s_stop};
 use crate::input::elapsed_ns;
-use crate::plane::{Vector, distance};
+use crate::plane::Vector;
 use crate::rectangle::{Rectangle, possibly_touch};
 use crate::rounding::Real;
 use crate::sweep::{Moving, Sweep};
-
-/// How many of the points may have an arc length <= s; H-04: <= max(s, `s_stop`), and one more.
-pub(crate) fn examined(
-    cycle: &Cycle<'_>,
-    points: &[TrajectoryPoint],
-    horizon: Horizon<'_>,
-) -> usize {
-    let count = plainly_within(points, plain_bounds(cycle, horizon)).unwrap_or_else(|| {
-        let s = farthest::<Real>(cycle, horizon);
-        within(points, s)
-    });
-    match cycle.profile {
-        Profile::Paper => count,
-        Profile::Hardened => count.saturating_add(1).min(points.len()),
-    }
-}
-
-fn farthest<N: Number>(cycle: &Cycle<'_>, horizon: Horizon<'_>) -> N {
-    let s = horizon.distance::<N>(cycle);
-    match cycle.profile {
-        Profile::Paper => s,
-        Profile::Hardened => s.or_larger(s_stop(&cycle.parameters, cycle.ego.speed)),
-    }
-}
-
-/// Doubles on either side of `farthest`: of at most ten roundings all but those of one difference
-/// are of summands >= 0; its summands are `s_b(v_now)` and, unless 0 is larger, less.
-fn plain_bounds(cycle: &Cycle<'_>, horizon: Horizon<'_>) -> [f64; 2] {
-    let s = farthest::<f64>(cycle, horizon);
-    let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
-    [s - error, s + error]
-}
 
 /// A collision: the point, the object, both as indices, and the distance of the centres with the
 /// limit below which (H-03: up to which) the object is examined.
@@ -137,38 +103,4 @@ fn moved(object: &Moving, dt: Real) -> Rectangle {
 /// A time in s, with two roundings; times are below 2^38 ns.
 fn seconds(time_ns: i64) -> f64 {
     Real::integer(time_ns).value() * 1e-9
-}
-
-/// Points form a prefix, since arc lengths do not decrease; the first point always counts.
-fn within(points: &[TrajectoryPoint], s: Real) -> usize {
-    let mut arc = Real::ZERO;
-    let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        arc = arc + distance([a.x, a.y], [b.x, b.y]);
-        if !arc.possibly_at_most(s) {
-            break;
-        }
-        count = count.saturating_add(1);
-    }
-    count.min(points.len())
-}
-
-/// The same in plain doubles, unless they cannot tell. A distance errs by less than 2^-51 of
-/// itself and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-42
-/// of itself more.
-fn plainly_within(points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
-    let mut arc = 0.0;
-    let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        arc += libm::sqrt(dx * dx + dy * dy);
-        if arc * (1.0 - 1e-12) - 1e-140 > most {
-            return Some(count);
-        }
-        if arc * (1.0 + 1e-12) + 1e-140 > least {
-            return None;
-        }
-        count = count.saturating_add(1);
-    }
-    Some(count.min(points.len()))
 }

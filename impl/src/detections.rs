@@ -1,8 +1,9 @@
 //! Stage iv: trajectory with detections (`spec/3-stages.md#stage-iv-trajectory-with-detections`).
 
-use crate::collision::{Collision, Course, examined};
-use crate::cycle::{Cycle, DetectionList, Lead, Trajectory};
+use crate::collision::{Collision, Course};
+use crate::cycle::{Cycle, DetectionList, Lead, Trajectory, TrajectoryPoint};
 use crate::distance::{Horizon, s_follow};
+use crate::examined::Examined;
 use crate::rounding::Real;
 use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
@@ -21,12 +22,14 @@ pub(crate) fn detections(
     detections: &DetectionList<'_>,
     lead: Option<&Lead>,
 ) -> Option<Witness> {
-    let count = examined(cycle, trajectory.points, Horizon::Valid(lead));
-    let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
-    let course = Course::new(cycle, points, detections.stamp_ns);
-    let standing = detections.items.iter().map(Moving::detection);
-    course.first(standing, |_| true).map(|Collision { point, object, compared }| {
-        let witness = Witness::of(Rule::Collision, compared).at_point(point);
-        Witness { detection: Some(object), ..witness }
-    })
+    let examined = Examined::new(cycle, trajectory.points, Horizon::Valid(lead));
+    let first = |cycle: &Cycle<'_>, points: &[TrajectoryPoint]| {
+        let course = Course::new(cycle, points, detections.stamp_ns);
+        let standing = detections.items.iter().map(Moving::detection);
+        course.first(standing, |_| true).map(|Collision { point, object, compared }| {
+            let witness = Witness::of(Rule::Collision, compared).at_point(point);
+            Witness { detection: Some(object), ..witness }
+        })
+    };
+    first(cycle, examined.points).or_else(|| examined.first_beyond(first))
 }

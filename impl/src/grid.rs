@@ -3,9 +3,9 @@
 
 use crate::band::{Band, Frame};
 use crate::bitmap::{Bitmap, Near};
-use crate::collision::examined;
 use crate::cycle::{Cycle, Grid, Profile, Trajectory, TrajectoryPoint};
 use crate::distance::Horizon;
+use crate::examined::Examined;
 use crate::plane::Vector;
 use crate::range::{float, integer, larger, smaller};
 use crate::rounding::Real;
@@ -18,27 +18,31 @@ pub(crate) fn grid(
     grid: &Grid<'_>,
     unknown_is_free: bool,
 ) -> Option<Witness> {
-    let count = examined(cycle, trajectory.points, Horizon::Braking);
-    let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
-    let search = Search { cycle, grid, points, frame: Frame::new(cycle, grid) };
+    let examined = Examined::new(cycle, trajectory.points, Horizon::Braking);
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
     if cycle.profile == Profile::Paper {
+        let search = Search::new(cycle, grid, examined.points);
         return search.cells(Rule::Occupied, &occupied, |map, disk| {
             map.marked(disk, &occupied, map.dilation())
         });
     }
-    let found = search.cells(Rule::Occupied, &occupied, |map, disk| map.touched(disk, &occupied));
+    let everywhere = |find: &dyn Fn(&Search<'_, '_>) -> Option<Witness>| {
+        let found = find(&Search::new(cycle, grid, examined.points));
+        let beyond =
+            || examined.first_beyond(|cycle, points| find(&Search::new(cycle, grid, points)));
+        found.or_else(beyond)
+    };
+    let touched = |rule, cells: &Bitmap<'_>| {
+        everywhere(&|search| search.cells(rule, cells, |map, disk| map.touched(disk, cells)))
+    };
+    let found = touched(Rule::Occupied, &occupied);
     if unknown_is_free {
         return found;
     }
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
-    let unknown = || {
-        unknown.and_then(|unknown| {
-            search.cells(Rule::Unknown, &unknown, |map, disk| map.touched(disk, &unknown))
-        })
-    };
+    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
     let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
-    let outside = || search.first(Rule::Outside, is_inside, Map::outside);
+    let outside = || everywhere(&|search| search.first(Rule::Outside, is_inside, Map::outside));
     found.or_else(unknown).or_else(outside)
 }
 
@@ -50,7 +54,11 @@ struct Search<'c, 'a> {
     frame: Frame,
 }
 
-impl Search<'_, '_> {
+impl<'c, 'a> Search<'c, 'a> {
+    fn new(cycle: &'c Cycle<'a>, grid: &'c Grid<'a>, points: &'c [TrajectoryPoint]) -> Self {
+        Self { cycle, grid, points, frame: Frame::new(cycle, grid) }
+    }
+
     /// The first disk that `hit` says collides with a cell of the bitmap.
     fn cells(
         &self,

@@ -42,6 +42,7 @@ mod collision;
 mod detections;
 mod distance;
 mod exact;
+mod examined;
 mod grid;
 mod input;
 mod map_validation;

@@ -1,9 +1,10 @@
 //! Stage iii: trajectory with tracks (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use crate::collision::{Collision, Course, examined};
+use crate::collision::{Collision, Course};
 use crate::configuration::Configuration;
-use crate::cycle::{Cycle, Profile, TrackList, Trajectory};
+use crate::cycle::{Cycle, Profile, Track, TrackList, Trajectory};
 use crate::distance::Horizon;
+use crate::examined::Examined;
 use crate::sweep::Moving;
 use crate::verdict::{Rule, Witness};
 
@@ -15,21 +16,29 @@ pub(crate) fn tracks(
     tracks: &TrackList<'_>,
     held: Option<&TrackList<'_>>,
 ) -> Option<Witness> {
-    let count = examined(cycle, trajectory.points, Horizon::Cav);
-    let points = trajectory.points.get(..count).unwrap_or(trajectory.points);
-    let course = Course::new(cycle, points, tracks.stamp_ns);
+    let examined = Examined::new(cycle, trajectory.points, Horizon::Cav);
+    let course = Course::new(cycle, examined.points, tracks.stamp_ns);
     let witness = |rule, Collision { point, object, compared }| {
         let track = tracks.items.get(object).map(|track| track.id);
         Witness { track, ..Witness::of(rule, compared) }.at_point(point)
     };
-    let predicted = tracks.items.iter().map(Moving::track);
-    let found = course.first(predicted, |_| true).map(|it| witness(Rule::Collision, it));
+    let predicted = |course: &Course<'_, '_>| {
+        let objects = tracks.items.iter().map(Moving::track);
+        course.first(objects, |_| true).map(|it| witness(Rule::Collision, it))
+    };
+    let beyond = |find: &dyn Fn(&Course<'_, '_>) -> Option<Witness>| {
+        examined.first_beyond(|cycle, points| find(&Course::new(cycle, points, tracks.stamp_ns)))
+    };
+    let found = predicted(&course).or_else(|| beyond(&predicted));
     if cycle.profile == Profile::Paper || cycle.configuration != Configuration::AllRemote {
         return found;
     }
     let is_held = |id: i64| held.is_some_and(|list| list.items.iter().any(|old| old.id == id));
-    let standing =
-        tracks.items.iter().map(|track| Moving { velocity: [0.0; 2], ..Moving::track(track) });
     let counts = |index: usize| tracks.items.get(index).is_some_and(|track| !is_held(track.id));
-    found.or_else(|| course.first(standing, counts).map(|it| witness(Rule::CollisionStanding, it)))
+    let still = |track: &Track| Moving { velocity: [0.0; 2], ..Moving::track(track) };
+    let standing = |course: &Course<'_, '_>| {
+        let objects = tracks.items.iter().map(still);
+        course.first(objects, counts).map(|it| witness(Rule::CollisionStanding, it))
+    };
+    found.or_else(|| standing(&course)).or_else(|| beyond(&standing))
 }

@@ -4,7 +4,7 @@
 use core::cmp::Ordering;
 
 use crate::cycle::{Cycle, TrajectoryPoint};
-use crate::distance::s_b;
+use crate::distance::{s_b, s_stop};
 use crate::exact::{Product, compare};
 use crate::input::elapsed_ns;
 use crate::plane::{Vector, distance, same_point};
@@ -34,18 +34,20 @@ pub(crate) fn step_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Optio
     })
 }
 
-/// H-12: arc length and end of the trajectory.
+/// H-12: arc length and end of the trajectory, which is at most L before `s_stop`.
 pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (first, last) = (points.first()?, points.last()?);
     let end_ns = elapsed_ns(first.t_ns, last.t_ns);
     let stopped = || stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
-    if arcs_are_fine(cycle, first, points) && stopped() {
+    let end = s_stop::<Real>(cycle, points) - Real::new(cycle.ego.length);
+    if arcs_are_fine(cycle, first, points, end) && stopped() {
         return None;
     }
     let bounds = Bounds::new(cycle, first);
     let tolerance = Real::new(cycle.parameters.start_tolerance);
     let too_short = arcs(points).find_map(|(index, t_ns, arc)| {
         let least = bounds.braking(Real::seconds(t_ns)) - tolerance;
+        let least = if index.saturating_add(1) < points.len() { least } else { least.max(end) };
         let witness = Witness::of(Rule::ArcTooShort, [arc.value(), least.value()]);
         (!least.certainly_at_most(arc)).then(|| witness.at_point(index))
     });
@@ -119,14 +121,19 @@ fn steps_are_fine(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> bool {
 
 /// Whether every arc length keeps the bounds of H-12 by more than plain doubles err: the bounds
 /// are below 2^21 m.
-fn arcs_are_fine(cycle: &Cycle<'_>, first: &TrajectoryPoint, points: &[TrajectoryPoint]) -> bool {
+fn arcs_are_fine(
+    cycle: &Cycle<'_>,
+    first: &TrajectoryPoint,
+    points: &[TrajectoryPoint],
+    end: Real,
+) -> bool {
     let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
     let (a_b, a_max) = (parameters.a_b, parameters.a_max);
     let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
     let (v_lo, v_hi) = ((v_now - a_max * d).max(0.0), v_now + a_b * d);
     let tolerance = parameters.start_tolerance - 1e-6;
     let (mut arc, mut before) = (0.0, first);
-    points.iter().all(|point| {
+    let all = points.iter().all(|point| {
         let (x, y) = (point.x - before.x, point.y - before.y);
         before = point;
         arc += libm::sqrt(x * x + y * y);
@@ -136,7 +143,8 @@ fn arcs_are_fine(cycle: &Cycle<'_>, first: &TrajectoryPoint, points: &[Trajector
         let most = v_hi * t + 0.5 * a_max * t * t;
         let error = arc * 1e-11;
         least - tolerance <= arc - error && arc + error <= most + tolerance
-    })
+    });
+    all && end.value() + 1e-6 <= arc - arc * 1e-11
 }
 
 /// A time in s, with two roundings.

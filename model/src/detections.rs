@@ -2,7 +2,7 @@
 //! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-04).
 
 use crate::collision::llcc;
-use crate::distance::{points_within, s_follow, s_valid};
+use crate::distance::{points_examined, s_follow, s_valid};
 use crate::scene::{Object, Point, Scene};
 use crate::verdict::{Rule, Witness};
 
@@ -12,7 +12,7 @@ pub fn detections(scene: &Scene, trajectory: &[Point], detections: &[Object]) ->
         let p = &scene.parameters;
         let v_lead = scene.lead.as_ref().map(|lead| &lead.speed);
         let s = s_valid(&scene.ego.v_now, v_lead, &p.a_b, &p.safety_time);
-        let points = points_within(scene, trajectory, &s);
+        let points = points_examined(scene, trajectory, &s);
         points.iter().enumerate().find_map(|(i, point)| {
             detections.iter().enumerate().find_map(|(j, detection)| {
                 let collision = llcc(scene, point, detection)?;

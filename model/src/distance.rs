@@ -1,8 +1,10 @@
 //! The distances that the stages look ahead (`spec/3-stages.md#distances`).
 
+use crate::configuration::Configuration;
 use crate::cycle::Profile;
 use crate::real::Real;
 use crate::scene::{Point, Scene};
+use crate::vector::Frame;
 
 /// s_CAV = safety_time v_now, m.
 pub fn s_cav(safety_time: &Real, v_now: &Real) -> Real {
@@ -27,9 +29,22 @@ pub fn s_valid(v_now: &Real, v_lead: Option<&Real>, a_b: &Real, safety_time: &Re
     }
 }
 
-/// H-04: s_stop = v tau + a_max tau^2 / 2 + (v + a_max tau)^2 / (2 a_b), m.
-pub fn s_stop(v_now: &Real, tau: &Real, a_max: &Real, a_b: &Real) -> Real {
-    v_now * tau + a_max * tau.square() / Real::from_integer(2) + s_b(&(v_now + a_max * tau), a_b)
+/// H-04: s_stop = e + v tau + a_max tau^2 / 2 + (v + a_max tau)^2 / (2 a_b), m.
+pub fn s_stop(e: &Real, v_now: &Real, tau: &Real, a_max: &Real, a_b: &Real) -> Real {
+    let reaction = v_now * tau + a_max * tau.square() / Real::from_integer(2);
+    e + reaction + s_b(&(v_now + a_max * tau), a_b)
+}
+
+/// H-04: e = max((p - first point) . its heading, 0), how far the CAV is ahead of the first point, m.
+pub fn ahead(scene: &Scene, trajectory: &[Point]) -> Real {
+    let start = &trajectory[0].pose;
+    (&scene.ego.position - &start.origin).dot(&start.direction).max(Real::zero())
+}
+
+/// s_stop of the scene, m.
+pub fn scene_s_stop(scene: &Scene, trajectory: &[Point]) -> Real {
+    let p = &scene.parameters;
+    s_stop(&ahead(scene, trajectory), &scene.ego.v_now, &p.tau, &p.a_max, &p.a_b)
 }
 
 /// Length of the trajectory polyline from its first point to each point, m.
@@ -42,21 +57,44 @@ pub fn arc_lengths(trajectory: &[Point]) -> Vec<Real> {
     lengths
 }
 
-/// The first points of the current trajectory, as many as a stage with the horizon `s` looks at:
-/// those within `s`; hardened (H-04): those within max(s, s_stop) and the next one.
-pub fn points_within<'a>(scene: &Scene, trajectory: &'a [Point], s: &Real) -> &'a [Point] {
+/// The points that a stage with the horizon `s` examines: those within `s`; hardened (H-04): those
+/// within max(s, s_stop), the next one, and the places beyond the end of a remote trajectory.
+pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
     let within = |s: &Real| {
         let limit = s + &scene.m;
         let count = arc_lengths(trajectory).iter().filter(|length| **length <= limit).count();
         count.max(1)
     };
     match scene.profile {
-        Profile::Paper => &trajectory[..within(s)],
+        Profile::Paper => trajectory[..within(s)].to_vec(),
         Profile::Hardened => {
-            let p = &scene.parameters;
-            let s_stop = s_stop(&scene.ego.v_now, &p.tau, &p.a_max, &p.a_b);
+            let s_stop = scene_s_stop(scene, trajectory);
             let count = within(&s.max(&s_stop).clone()) + 1;
-            &trajectory[..count.min(trajectory.len())]
+            let mut points = trajectory[..count.min(trajectory.len())].to_vec();
+            if matches!(scene.configuration, Configuration::AllRemote | Configuration::PlanRemote) {
+                points.extend(points_beyond(scene, trajectory, &s_stop));
+            }
+            points
         }
     }
+}
+
+/// H-04: where the trajectory ends before s_stop, its last point moved on, so that the CAV's centre
+/// is at each multiple of 1/4 m from the pose, up to the first that is not below s_stop.
+pub fn points_beyond(scene: &Scene, trajectory: &[Point], s_stop: &Real) -> Vec<Point> {
+    let last = &trajectory[trajectory.len() - 1];
+    let arc = &arc_lengths(trajectory)[trajectory.len() - 1];
+    let offset = &scene.ego.center_offset;
+    let needed = offset + (s_stop + &scene.m - arc);
+    let mut quarters = (offset * Real::from_integer(4)).floor();
+    let mut reached = offset.clone();
+    let mut points = Vec::new();
+    while reached < needed {
+        quarters += 1;
+        reached = Real::from_integer(quarters.into()) / Real::from_integer(4);
+        let origin = last.pose.point(&(&reached - offset), &Real::zero());
+        let pose = Frame { origin, direction: last.pose.direction.clone() };
+        points.push(Point { t_ns: last.t_ns, pose });
+    }
+    points
 }

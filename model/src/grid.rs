@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::collision::centre;
 use crate::cycle::Profile;
-use crate::distance::{points_within, s_b};
+use crate::distance::{points_examined, s_b};
 use crate::real::Real;
 use crate::scene::{Grid, Point, Scene};
 use crate::vector::Vector;
@@ -19,7 +19,7 @@ pub fn grid(
     stage_iv_ran: bool,
 ) -> Option<Witness> {
     let s = s_b(&scene.ego.v_now, &scene.parameters.a_b);
-    let disks: Vec<Vec<Disk>> = points_within(scene, trajectory, &s)
+    let disks: Vec<Vec<Disk>> = points_examined(scene, trajectory, &s)
         .iter()
         .map(|point| disks(scene, point).iter().map(|c| Disk::new(scene, grid, c)).collect())
         .collect();

@@ -81,7 +81,7 @@ pub struct Ego {
 }
 
 /// A trajectory point.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Point {
     /// When, ns.
     pub t_ns: i64,

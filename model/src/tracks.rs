@@ -3,7 +3,7 @@
 use crate::collision::llcc;
 use crate::configuration::Configuration;
 use crate::cycle::Profile;
-use crate::distance::{points_within, s_cav};
+use crate::distance::{points_examined, s_cav};
 use crate::real::Real;
 use crate::scene::{Object, Point, Scene, Track, Tracks};
 use crate::track_validation::is_held;
@@ -18,7 +18,7 @@ pub fn tracks(
     list_was_checked: bool,
 ) -> Option<Witness> {
     let s = s_cav(&scene.parameters.safety_time, &scene.ego.v_now);
-    let points = points_within(scene, trajectory, &s);
+    let points = points_examined(scene, trajectory, &s);
     let first = |rule: Rule, object: &dyn Fn(&Point, &Track) -> Option<Object>| {
         points.iter().enumerate().find_map(|(i, point)| {
             tracks.items.iter().find_map(|track| {

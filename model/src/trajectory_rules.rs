@@ -1,7 +1,7 @@
 //! Rules of the hardened stage ii about the trajectory itself: H-07 (start), H-11, H-12
 //! (`spec/3-stages.md#hardened-profile`).
 
-use crate::distance::{arc_lengths, s_b};
+use crate::distance::{arc_lengths, s_b, scene_s_stop};
 use crate::real::Real;
 use crate::scene::{Point, Scene};
 use crate::vector::Vector;
@@ -106,7 +106,7 @@ fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
 }
 
 /// H-12: the trajectory neither lags behind what braking covers nor outruns what accelerating
-/// covers, and does not end before standstill.
+/// covers, and ends neither before standstill nor more than L before s_stop.
 pub fn end_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let parameters = &scene.parameters;
     let (a_b, a_max) = (&parameters.a_b, &parameters.a_max);
@@ -124,8 +124,10 @@ pub fn end_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let times: Vec<Real> =
         trajectory.iter().map(|point| Real::seconds(i128::from(point.t_ns) - t0)).collect();
     let points = || times.iter().zip(&lengths).enumerate();
+    let end = scene_s_stop(scene, trajectory) - &scene.ego.length;
     let too_short = points().find_map(|(i, (t, length))| {
         let limit = b(t) - &parameters.start_tolerance;
+        let limit = if i + 1 < times.len() { limit } else { limit.max(end.clone()) };
         let failure = witness_if(*length < &limit + &scene.m, Rule::ArcTooShort, length, &limit);
         failure.map(|witness| Witness { point: Some(i), ..witness })
     });

@@ -2,7 +2,7 @@
 //! sides of their thresholds, and the paper profile beside them.
 
 use mufasa_model::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Track, TrackList};
+use mufasa_model::cycle::{Cycle, Profile, Track, TrackList, Trajectory};
 use mufasa_model::verdict::{FailedStage, Input, Outcome, Reason, Rule, Stage};
 
 use crate::base::*;
@@ -131,6 +131,63 @@ fn h_04_the_horizon_is_at_least_s_stop() {
     assert!(passes(&paper, Stage::Iii));
     let [hardened, _] = with(116.0);
     assert!(passes(&hardened, Stage::Iii));
+}
+
+/// H-04 (F-27): the horizon counts from the CAV, which is 3 m ahead of the first point.
+#[test]
+fn h_04_the_horizon_counts_from_the_cav() {
+    // 20 m/s, safety_time 0: s_stop = 2.015 + 20.3^2 / 16 = 27.77 m.
+    let with = |start: f64, x: f64| {
+        hardened_and_paper(|cycle| {
+            cycle.ego.speed = 20.0;
+            cycle.parameters.safety_time = 0.0;
+            cycle.parameters.start_tolerance = 5.0;
+            let points = (0..30)
+                .map(|i| at_time(i64::from(i) * 100_000_000, start + 2.0 * f64::from(i), 0.0));
+            cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: points.collect() });
+            cycle.tracks = tracks(vec![track(1, x, 0.0)]);
+        })
+    };
+    // The place of the point after e + s_stop: 28 m from the CAV or 29 m.
+    assert_eq!(witness(&with(0.0, 32.0)[0], Stage::Iii).point, Some(14));
+    assert!(passes(&with(0.0, 32.5)[0], Stage::Iii));
+    assert_eq!(witness(&with(-3.0, 33.0)[0], Stage::Iii).point, Some(16));
+    assert!(passes(&with(-3.0, 33.5)[0], Stage::Iii));
+    assert!(passes(&with(-3.0, 5.0)[1], Stage::Iii), "the paper's horizon is 0");
+}
+
+/// H-04 (F-26): beyond the end of a remote trajectory the CAV is examined every 1/4 m up to s_stop.
+#[test]
+fn h_04_places_beyond_the_end_are_examined() {
+    // The trajectory ends at 5.25 m, s_stop = 7.65 m: the places are 0.25 to 2.5 m beyond the end.
+    let places = || (0..20).map(|i| (f64::from(i) * 0.75).min(5.25));
+    let with = |offset: f64, configuration, x: f64| {
+        let mut cycle = base(Profile::Hardened, configuration);
+        cycle.ego.center_offset = offset;
+        let points = (0..).zip(places()).map(|(i, x)| at_time(i * 100_000_000, x, 0.0));
+        cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: points.collect() });
+        cycle.tracks = tracks(vec![track(1, x, 0.0)]);
+        cycle.detections = detections(vec![detection(x, 0.0)]);
+        cycle
+    };
+    let point = |cycle: &Cycle| witness(cycle, Stage::Iii).point;
+    assert_eq!(point(&with(0.0, PlanRemote, 9.5)), Some(20), "0.25 m beyond");
+    assert_eq!(point(&with(0.0, AllRemote, 11.75)), Some(29), "2.5 m beyond");
+    assert_eq!(point(&with(0.0, PlanRemote, 11.75)), Some(29), "2.5 m beyond");
+    assert!(passes(&with(0.0, PlanRemote, 11.8), Stage::Iii));
+    // Multiples of 1/4 m above center_offset = 0.1 m: 0.25 to 2.5 m.
+    assert_eq!(point(&with(0.1, PlanRemote, 11.75)), Some(29));
+    assert!(passes(&with(0.1, PlanRemote, 11.8), Stage::Iii));
+    // A local trajectory is driven as it is planned.
+    assert_eq!(failed(&with(0.0, MotRemote, 11.75)), None);
+    // Stage iv, and v on a cell from 9 to 10 m.
+    let mut cycle = with(0.0, PlanRemote, 11.75);
+    cycle.tracks = None;
+    assert_eq!(witness(&cycle, Stage::Iv).point, Some(29));
+    cycle.detections = None;
+    assert_eq!(failed(&cycle), None, "an empty grid");
+    mark(&mut cycle.grid.as_mut().expect("there is a grid").occupied, 9.5, 0.5);
+    assert_eq!(witness(&cycle, Stage::V).point, Some(24), "1.25 m beyond");
 }
 
 /// H-04: the gap is compared although stage iv does not run, and that is no run of stage iv.

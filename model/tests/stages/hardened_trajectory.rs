@@ -265,17 +265,41 @@ fn h_12_the_trajectory_is_long_enough() {
     assert!(passes(&with(13)[1], Stage::Ii));
 }
 
+/// H-12 (F-26): it ends at most L before s_stop = e + 1.015 + 10.3^2/16 = e + 7.645625 m, however
+/// long it then stands there; e is how far the CAV is ahead of the first point.
+#[test]
+fn h_12_the_end_is_not_far_before_s_stop() {
+    let with = |start: f64, end: f64| {
+        let mut cycle = base(Profile::Hardened, PlanRemote);
+        cycle.tracks = tracks(vec![]);
+        cycle.parameters.start_tolerance = 5.0;
+        let places = (0..20).map(|i| (start + f64::from(i) * 0.75).min(end));
+        let points = (0..).zip(places).map(|(i, x)| at_time(i * 100_000_000, x, 0.0));
+        cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: points.collect() });
+        let found = rule(&cycle, Stage::Ii);
+        (found, found.and_then(|_| witness(&cycle, Stage::Ii).point))
+    };
+    let needed = 7.645_625;
+    assert_eq!(with(0.0, needed - 3.999), (None, None));
+    assert_eq!(with(0.0, needed - 4.001), (Some(Rule::ArcTooShort), Some(19)));
+    // The CAV is 1 m ahead of the first point, or behind it.
+    assert_eq!(with(-1.0, needed - 3.999), (None, None));
+    assert_eq!(with(-1.0, needed - 4.001), (Some(Rule::ArcTooShort), Some(19)));
+    assert_eq!(with(1.0, needed + 1.0 - 3.999), (None, None));
+    assert_eq!(with(1.0, needed + 1.0 - 4.001), (Some(Rule::ArcTooShort), Some(19)));
+}
+
 /// H-12: 50 s are always enough.
 #[test]
 fn h_12_fifty_seconds_are_enough() {
     let with = |count: i64| {
         let mut cycle = base(Profile::Hardened, PlanRemote);
-        // Braking from 10 m/s with 0.1 m/s^2 takes 100 s.
+        // Braking from 10 m/s with 0.1 m/s^2 takes 100 s; s_stop = 531.5 m, less L is 527.5 m.
         cycle.parameters.a_b = 0.1;
         cycle.route = straight_route(-10.0, 600.0);
         cycle.tracks = tracks(vec![]);
         let points = (0..count).map(|i| {
-            let x = f64::from(i32::try_from(i).expect("small")) * 2.0;
+            let x = f64::from(i32::try_from(i).expect("small")) * 2.2;
             at_time(i * 200_000_000, x, 0.0)
         });
         cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: points.collect() });

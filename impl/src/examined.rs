@@ -1,0 +1,142 @@
+//! The places that stages iii, iv and v examine: trajectory points up to a horizon, and with H-04
+//! the next one and places beyond the end of a remote trajectory
+//! (`spec/3-stages.md#hardened-profile`).
+
+use core::ops::RangeInclusive;
+use core::slice;
+
+use crate::configuration::Configuration;
+use crate::cycle::{Cycle, Profile, TrajectoryPoint};
+use crate::distance::{Horizon, Number, s_b, s_stop};
+use crate::plane::distance;
+use crate::rounding::Real;
+use crate::verdict::Witness;
+
+/// The places that a stage examines.
+pub(crate) struct Examined<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    /// Points of the trajectory, from the first on.
+    pub(crate) points: &'a [TrajectoryPoint],
+    /// H-04: quarters of a metre, by which the CAV's centre is ahead of the last point.
+    beyond: RangeInclusive<i64>,
+}
+
+impl<'c, 'a> Examined<'c, 'a> {
+    pub(crate) fn new(
+        cycle: &'c Cycle<'a>,
+        points: &'a [TrajectoryPoint],
+        horizon: Horizon<'_>,
+    ) -> Self {
+        let bounds = plain_bounds(cycle, points, horizon);
+        let within = plainly_within(points, bounds)
+            .unwrap_or_else(|| within(points, farthest::<Real>(cycle, points, horizon)));
+        if cycle.profile == Profile::Paper {
+            let points = points.get(..within).unwrap_or(points);
+            return Self { cycle, points, beyond: NOTHING };
+        }
+        let is_remote =
+            matches!(cycle.configuration, Configuration::AllRemote | Configuration::PlanRemote);
+        let ends = is_remote && within == points.len();
+        let beyond = if ends { quarters_beyond(cycle, points) } else { NOTHING };
+        let count = within.saturating_add(1);
+        Self { cycle, points: points.get(..count).unwrap_or(points), beyond }
+    }
+
+    /// The first place beyond the end where `find` finds something: it gets the cycle with the CAV
+    /// moved on, and the last point.
+    pub(crate) fn first_beyond(
+        &self,
+        find: impl Fn(&Cycle<'a>, &[TrajectoryPoint]) -> Option<Witness>,
+    ) -> Option<Witness> {
+        let last = self.points.last()?;
+        self.beyond.clone().zip(self.points.len()..).find_map(|(quarters, index)| {
+            let mut moved = *self.cycle;
+            moved.ego.center_offset = 0.25 * Real::integer(quarters).value();
+            find(&moved, slice::from_ref(last)).map(|witness| witness.at_point(index))
+        })
+    }
+}
+
+#[allow(clippy::reversed_empty_ranges, reason = "it has to be empty")]
+const NOTHING: RangeInclusive<i64> = 1..=0;
+
+/// H-04: from the first quarter above `center_offset` to the first that is certainly not below
+/// `center_offset` + `s_stop` - arc length. H-12 lets no trajectory end more than L before `s_stop`;
+/// a stage that is run alone looks no farther than that either.
+#[allow(clippy::cast_possible_truncation, reason = "below 2^10")]
+fn quarters_beyond(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> RangeInclusive<i64> {
+    let missing = s_stop::<Real>(cycle, points) - length(points);
+    let missing = missing.min(Real::new(cycle.ego.length));
+    if missing.certainly_at_most(Real::ZERO) {
+        return NOTHING;
+    }
+    let offset = cycle.ego.center_offset;
+    let first = (libm::floor(4.0 * offset) as i64).saturating_add(1);
+    let needed = (Real::new(offset) + missing) * Real::new(4.0);
+    let near = libm::floor(needed.value()) as i64;
+    let reaches = |&quarters: &i64| needed.certainly_at_most(Real::integer(quarters));
+    let candidates = near.saturating_sub(1)..=near.saturating_add(1);
+    let last = candidates.into_iter().find(reaches).unwrap_or(near.saturating_add(2));
+    first..=last
+}
+
+/// Length of the trajectory, m.
+fn length(points: &[TrajectoryPoint]) -> Real {
+    let steps = points.iter().zip(points.iter().skip(1));
+    steps.fold(Real::ZERO, |arc, (a, b)| arc + distance([a.x, a.y], [b.x, b.y]))
+}
+
+/// The horizon; H-04: max(s, `s_stop`).
+fn farthest<N: Number>(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<'_>) -> N {
+    let s = horizon.distance::<N>(cycle);
+    match cycle.profile {
+        Profile::Paper => s,
+        Profile::Hardened => s.or_larger(s_stop(cycle, points)),
+    }
+}
+
+/// Doubles on either side of `farthest`: of at most ten roundings all but those of two differences
+/// are of summands >= 0; the summands of one are `s_b(v_now)` and, unless 0 is larger, less, those
+/// of the other coordinates.
+fn plain_bounds(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<'_>) -> [f64; 2] {
+    let s = farthest::<f64>(cycle, points, horizon);
+    let apart = points
+        .first()
+        .map_or(0.0, |first| (cycle.ego.x - first.x).abs() + (cycle.ego.y - first.y).abs());
+    let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed) + apart) + 1e-140;
+    [s - error, s + error]
+}
+
+/// Points form a prefix, since arc lengths do not decrease; the first point always counts.
+fn within(points: &[TrajectoryPoint], s: Real) -> usize {
+    let mut arc = Real::ZERO;
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        arc = arc + distance([a.x, a.y], [b.x, b.y]);
+        if !arc.possibly_at_most(s) {
+            break;
+        }
+        count = count.saturating_add(1);
+    }
+    count.min(points.len())
+}
+
+/// The same in plain doubles, unless they cannot tell. A distance errs by less than 2^-51 of
+/// itself and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-42
+/// of itself more.
+fn plainly_within(points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
+    let mut arc = 0.0;
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        arc += libm::sqrt(dx * dx + dy * dy);
+        if arc * (1.0 - 1e-12) - 1e-140 > most {
+            return Some(count);
+        }
+        if arc * (1.0 + 1e-12) + 1e-140 > least {
+            return None;
+        }
+        count = count.saturating_add(1);
+    }
+    Some(count.min(points.len()))
+}
