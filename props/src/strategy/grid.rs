@@ -6,6 +6,7 @@ use mufasa_model::cycle::{Cycle, Grid, Profile};
 
 use super::base::{self, Frame};
 use super::draw::Draw;
+use super::end;
 use super::obstacle;
 
 /// A grid as it is being made: where a disk centre lies in it.
@@ -44,6 +45,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match draw.below(8) {
         0..=2 => cell_at_radius(draw, &mut cycle),
         3 | 4 => border(draw, &mut cycle),
+        5 | 6 if end::is_examined(&cycle) && draw.one_in(2) => beyond(draw, &mut cycle),
         5 | 6 => horizon(draw, &mut cycle),
         _ => scattered(draw, &mut cycle),
     }
@@ -214,7 +216,30 @@ fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         Profile::Paper => SIDE * (r / SIDE).floor(),
         Profile::Hardened => r,
     };
+    let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
     let ahead = front - 0.5 * advance + to_cell;
+    cycle.grid = Some(wall(draw, cycle, road, ahead, reach));
+}
+
+/// An occupied cell that the front disk touches, or just does not, at some place beyond the end of
+/// a trajectory (H-04).
+fn beyond(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[5.0, 8.0, 0.0]);
+    let missing = end::missing(draw, &cycle.ego);
+    end::shorten(draw, cycle, missing);
+    let place = end::place(draw, cycle);
+    let n = cycle.parameters.n as f64;
+    let front = 0.5 * cycle.ego.length - cycle.ego.length / (2.0 * n);
+    let ahead = front + draw.near(radius(cycle));
+    let reach = obstacle::horizon_of_grid(cycle) + 2.0;
+    cycle.grid = Some(wall(draw, cycle, place, ahead, reach));
+}
+
+/// A grid with one occupied cell, which begins `ahead` of a place, and holds what is `reach`
+/// behind it.
+fn wall(draw: &mut Draw<'_>, cycle: &Cycle, road: Frame, ahead: f64, reach: f64) -> Grid {
+    const SIDE: f64 = 0.5;
+    let (ego, r) = (&cycle.ego, radius(cycle));
     let columns = base::count((reach + ego.length + r + 4.0) / SIDE);
     let rows = 2 * base::count((r + 0.5) / SIDE) + 1;
     let plan = Plan {
@@ -223,11 +248,10 @@ fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         within: (0.0, 0.5),
         resolution: SIDE,
     };
-    let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
     let (x, y) = road.at(ahead - columns as f64 * SIDE, -0.5 * rows as f64 * SIDE);
     let mut grid = Grid { x, y, cos: ego.cos, sin: ego.sin, ..lay(draw, cycle, &plan) };
     put(draw, &mut grid, &plan, (0, 0));
-    cycle.grid = Some(grid);
+    grid
 }
 
 /// Any bits, few or many.

@@ -8,6 +8,7 @@ use mufasa_model::cycle::{
 
 use super::base::{self, Frame, seconds, station};
 use super::draw::Draw;
+use super::{end, obstacle};
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -28,6 +29,10 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
         (Profile::Hardened, 1 | 7 | 8) => step(draw, frame, &mut cycle),
         (Profile::Hardened, 9) => arc_length(draw, frame, &mut cycle),
+        (Profile::Hardened, _) if draw.one_in(3) => {
+            let missing = draw.near(cycle.ego.length);
+            end::shorten(draw, &mut cycle, missing);
+        }
         (Profile::Hardened, _) => stops_short(draw, frame, &mut cycle),
     }
     cycle
@@ -287,6 +292,7 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let late_ns = draw.pick(&[0, 20_000_000, -20_000_000]);
     let (d, v) = (seconds(late_ns).abs(), cycle.ego.speed);
     let (v_lo, v_hi) = ((v - p.a_max * d).max(0.0), v + p.a_b * d);
+    let (stop, length) = (obstacle::s_stop(cycle), cycle.ego.length);
     let aim = draw.below(3);
     let wobble = draw.near(0.0);
     let Some(trajectory) = &mut cycle.trajectory else { return };
@@ -308,6 +314,7 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         return;
     }
     let from = draw.between(1, 3);
+    let end = trajectory.points.len() - 1;
     for (i, point) in trajectory.points.iter_mut().enumerate() {
         let t_ns = dt_ns * i64::try_from(i).unwrap_or(0);
         let t = seconds(t_ns);
@@ -320,6 +327,7 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         let most = v_hi * t + p.a_max * t * t / 2.0 + p.start_tolerance;
         let along = match aim {
             _ if i == 0 => 0.0,
+            0 if i == end => least.max(stop - length) + wobble.max(0.0),
             0 => least + wobble.max(-least),
             _ if i < from => v_hi * t,
             _ => most + wobble,
@@ -340,7 +348,8 @@ fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         let last = trajectory.points[trajectory.points.len() - 1].clone();
         trajectory.points.push(TrajectoryPoint { t_ns: last.t_ns + dt_ns, ..last });
     }
-    let stop = draw.near(ego.speed * ego.speed / (2.0 * p.a_b) - p.start_tolerance).max(0.0);
+    let braking = ego.speed * ego.speed / (2.0 * p.a_b) - p.start_tolerance;
+    let stop = draw.near(braking.max(obstacle::s_stop(cycle) - ego.length)).max(0.0);
     for point in &mut trajectory.points {
         let along = (ego.speed * seconds(point.t_ns - cycle.now_ns)).min(stop);
         (point.x, point.y) = frame.at(along, 0.0);

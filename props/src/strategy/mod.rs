@@ -9,6 +9,7 @@ pub mod base;
 pub mod composition;
 pub mod detections;
 pub mod draw;
+pub mod end;
 pub mod grid;
 pub mod input;
 pub mod map_validation;

@@ -5,6 +5,7 @@ use mufasa_model::cycle::{Cycle, Profile, TrajectoryPoint};
 
 use super::base::{self, Frame, to_ns};
 use super::draw::Draw;
+use super::end;
 
 /// An object and the trajectory point at which it is where it is.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +22,9 @@ pub struct Obstacle {
 
 /// An object that decides a cycle with `horizon` metres examined (H-04 included by the caller).
 pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: f64) -> Obstacle {
+    if end::is_examined(cycle) && draw.one_in(4) {
+        return end::obstacle(draw, cycle);
+    }
     match draw.below(8) {
         0..=2 => touching(draw, cycle),
         3 => corner_to_corner(draw, cycle),
@@ -173,14 +177,17 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
 
 /// H-04.
 fn with_stop(cycle: &Cycle, s: f64) -> f64 {
-    let (p, v) = (&cycle.parameters, cycle.ego.speed);
     match cycle.profile {
         Profile::Paper => s,
-        Profile::Hardened => {
-            let reached = v + p.a_max * p.tau;
-            s.max(v * p.tau + p.a_max * p.tau * p.tau / 2.0 + reached * reached / (2.0 * p.a_b))
-        }
+        Profile::Hardened => s.max(s_stop(cycle)),
     }
+}
+
+/// `s_stop` of a trajectory that starts at the CAV, rounded, m.
+pub fn s_stop(cycle: &Cycle) -> f64 {
+    let (p, v) = (&cycle.parameters, cycle.ego.speed);
+    let reached = v + p.a_max * p.tau;
+    v * p.tau + p.a_max * p.tau * p.tau / 2.0 + reached * reached / (2.0 * p.a_b)
 }
 
 /// The object at a place of the CAV's rectangle's frame.

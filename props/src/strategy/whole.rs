@@ -18,7 +18,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         10 => attack::cycle(draw, profile),
         _ => schedule::cycle(draw, profile),
     };
-    if draw.one_in(5) {
+    if draw.one_in(8) {
         cycle.configuration = draw.pick(&[
             Configuration::AllRemote,
             Configuration::MotRemote,

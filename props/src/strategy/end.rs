@@ -1,0 +1,85 @@
+//! Remote trajectories that end before `s_stop`, and what stands beyond their end (H-04, H-12 of
+//! `spec/3-stages.md#hardened-profile`).
+
+use mufasa_model::configuration::Configuration;
+use mufasa_model::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
+
+use super::base::{self, Frame, seconds};
+use super::draw::Draw;
+use super::obstacle::{self, Obstacle};
+
+/// Whether the cycle's trajectory is examined beyond its end.
+pub fn is_examined(cycle: &Cycle) -> bool {
+    let remote = [Configuration::AllRemote, Configuration::PlanRemote];
+    cycle.profile == Profile::Hardened && remote.contains(&cycle.configuration)
+}
+
+/// The CAV stands at the end of a new trajectory, `missing` before `s_stop`.
+pub fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle, missing: f64) {
+    let ego = cycle.ego.clone();
+    // Enough that the bound of the end, not that of braking, decides.
+    cycle.parameters.start_tolerance = draw.pick(&[30.0, 30.0, 2.0]);
+    let ahead = draw.pick(&[0.0, 0.0, 0.5, -0.5, 1.75]);
+    let stop = obstacle::s_stop(cycle) + f64::max(ahead, 0.0);
+    let length = (stop - missing).max(0.0);
+    let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
+    let plan = base::straight(&ego, road, cycle.now_ns, &cycle.parameters);
+    let dt_ns = plan.points[1].t_ns - cycle.now_ns;
+    let mut points = Vec::new();
+    for t_ns in (0..).map(|i| i * dt_ns) {
+        let driven = ego.speed * seconds(t_ns);
+        let stands = driven >= length && seconds(t_ns) >= ego.speed / cycle.parameters.a_b;
+        let along = if ego.speed > 0.0 || t_ns == 0 { driven.min(length) } else { length };
+        let (x, y) = road.at(along - ahead, 0.0);
+        let Frame { cos, sin, .. } = road;
+        points.push(TrajectoryPoint { t_ns: cycle.now_ns + t_ns, x, y, cos, sin });
+        if stands || t_ns > 0 && ego.speed == 0.0 {
+            break;
+        }
+    }
+    cycle.trajectory = Some(Trajectory { points, ..plan });
+}
+
+/// How much may be missing: nothing, a whole number of quarters, or anything up to L.
+pub fn missing(draw: &mut Draw<'_>, ego: &Ego) -> f64 {
+    match draw.below(4) {
+        0 => draw.near(0.0),
+        1 | 2 => {
+            let quarters = draw.between(1, 4);
+            draw.near(0.25 * quarters as f64 - ego.center_offset)
+        }
+        _ => draw.range(0.0, ego.length),
+    }
+}
+
+/// Such a trajectory, and an object that touches the CAV's front at some place beyond the end, or
+/// just does not.
+pub fn obstacle(draw: &mut Draw<'_>, cycle: &mut Cycle) -> Obstacle {
+    let missing = missing(draw, &cycle.ego);
+    shorten(draw, cycle, missing);
+    let at = place(draw, cycle);
+    let size = draw.pick(&[(1.0, 3.0), (0.01, 0.01), (4.5, 1.8)]);
+    let reach = draw.near(0.5 * (cycle.ego.length + size.0));
+    let points = cycle.trajectory.as_ref().map_or(0, |list| list.points.len());
+    let centre = at.at(reach, 0.0);
+    let frame = Frame { x: centre.0, y: centre.1, ..at };
+    Obstacle { frame, size, point: points.saturating_sub(1), away: (at.cos, at.sin) }
+}
+
+/// The centre of the CAV at one of the places, which may be one more than is examined.
+pub fn place(draw: &mut Draw<'_>, cycle: &Cycle) -> Frame {
+    let points = cycle.trajectory.as_ref().map_or(&[][..], |list| &list.points);
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
+    };
+    let ego = &cycle.ego;
+    let ahead = (ego.x - first.x) * first.cos + (ego.y - first.y) * first.sin;
+    let length = (last.x - first.x).hypot(last.y - first.y);
+    let missing = (obstacle::s_stop(cycle) + ahead.max(0.0) - length).clamp(0.0, ego.length);
+    let (from, to) = (4.0 * ego.center_offset, 4.0 * (ego.center_offset + missing));
+    let before: u8 = draw.pick(&[1, 1, 1, 0, 1, 1, 2]);
+    let quarters = (to.ceil() + 1.0 - f64::from(before)).max(from.floor() + 1.0);
+    let (x, y) =
+        Frame { x: last.x, y: last.y, cos: last.cos, sin: last.sin }.at(0.25 * quarters, 0.0);
+    Frame { x, y, cos: last.cos, sin: last.sin }
+}
