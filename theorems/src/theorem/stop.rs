@@ -1,33 +1,34 @@
 //! H-04: the CAV can always stop within what was checked. Standing objects; the CAV brakes at a_b at
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max.
 
+use crate::configuration::Configuration;
 use crate::cycle::Profile;
-use crate::distance::{arc_lengths, points_within, s_b, s_stop};
+use crate::distance::{arc_lengths, points_examined, s_b, s_stop, scene_s_stop};
 use crate::real::Real;
 use crate::real::formula::{Formula, at_most, equal, given, less};
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Mutant, Theorem, Wrong};
 
-const DOMAIN: &str = "all speeds >= 0, tau, a_max >= 0, a_b > 0; standing objects; a trajectory that \
-                      starts at the CAV, is followed and reaches s_stop (F-26)";
+const DOMAIN: &str = "all e, speeds, tau, a_max >= 0, a_b > 0; standing objects; the CAV is e along the \
+                      trajectory, which it follows";
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "an_accepted_cycle_makes_the_stop_invariant_true",
-        statement: "s_b(v) <= s_stop(v), so that position + s_b(v) <= position + s_stop(v), up to \
-                    where points are examined",
+        statement: "e + s_b(v) <= s_stop(e, v): where the CAV stands after braking is examined",
         domain: DOMAIN,
         claim: || {
-            let Vehicle { v, tau, a_max, a_b } = Vehicle::new();
-            at_most(&s_b(&v, &a_b), &s_stop(&v, &tau, &a_max, &a_b))
+            let Vehicle { e, v, tau, a_max, a_b } = Vehicle::new();
+            at_most(&(&e + s_b(&v, &a_b)), &s_stop(&e, &v, &tau, &a_max, &a_b))
         },
         wrong: Wrong {
-            statement: "s_b(v + 1) <= s_stop(v)",
+            statement: "e + s_b(v + 1) <= s_stop(e, v)",
             claim: || {
-                let Vehicle { v, tau, a_max, a_b } = Vehicle::new();
-                at_most(&s_b(&(&v + Real::from_integer(1)), &a_b), &s_stop(&v, &tau, &a_max, &a_b))
+                let Vehicle { e, v, tau, a_max, a_b } = Vehicle::new();
+                let braking = s_b(&(&v + Real::from_integer(1)), &a_b);
+                at_most(&(&e + braking), &s_stop(&e, &v, &tau, &a_max, &a_b))
             },
         },
         mutant: Mutant {
@@ -38,8 +39,8 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "until_the_next_cycle_the_stop_invariant_is_kept",
-        statement: "after t <= tau at an acceleration a <= a_max: distance driven + s_b(v + a t) <= \
-                    s_stop(v)",
+        statement: "after t <= tau at an acceleration a <= a_max: e + distance driven + s_b(v + a t) \
+                    <= s_stop(e, v)",
         domain: DOMAIN,
         claim: || {
             let vehicle = Vehicle::new();
@@ -70,12 +71,16 @@ pub const THEOREMS: &[Theorem] = &[
         },
     },
     Theorem {
-        id: "the_points_examined_reach_beyond_s_stop",
-        statement: "H-04: the last point examined is the last of the trajectory, or its arc length is \
-                    above both s and s_stop",
-        domain: "trajectories of up to 3 points anywhere, all s >= 0, speeds, tau, a_max >= 0, a_b > 0",
-        claim: || reach(Profile::Hardened),
-        wrong: Wrong { statement: "also in the paper profile", claim: || reach(Profile::Paper) },
+        id: "the_places_examined_reach_s_stop",
+        statement: "H-04: along a remote trajectory and straight on behind its end, the last place \
+                    examined is not before s_stop; when it is not the last point, it is behind s, too",
+        domain: "trajectories of up to 3 points anywhere that end at most 1/2 m before s_stop, all \
+                 s >= 0, speeds, tau, a_max >= 0, a_b > 0; center_offset = 0",
+        claim: || reach(Configuration::PlanRemote),
+        wrong: Wrong {
+            statement: "also along a local trajectory",
+            claim: || reach(Configuration::MotRemote),
+        },
         mutant: Mutant {
             file: "model/src/distance.rs",
             from: "let count = within(&s.max(&s_stop).clone()) + 1;",
@@ -85,6 +90,7 @@ pub const THEOREMS: &[Theorem] = &[
 ];
 
 struct Vehicle {
+    e: Real,
     v: Real,
     tau: Real,
     a_max: Real,
@@ -93,12 +99,12 @@ struct Vehicle {
 
 impl Vehicle {
     fn new() -> Self {
-        let [v, tau, a_max, a_b] = ["v", "tau", "a_max", "a_b"].map(Real::variable);
+        let [e, v, tau, a_max, a_b] = ["e", "v", "tau", "a_max", "a_b"].map(Real::variable);
         given(less(&Real::zero(), &a_b));
-        for number in [&v, &tau, &a_max] {
+        for number in [&e, &v, &tau, &a_max] {
             given(at_most(&Real::zero(), number));
         }
-        Self { v, tau, a_max, a_b }
+        Self { e, v, tau, a_max, a_b }
     }
 }
 
@@ -117,9 +123,9 @@ fn driven(v: &Real, a: &Real, t: &Real) -> Real {
 }
 
 fn kept(vehicle: &Vehicle, t: &Real, a: &Real) -> Formula {
-    let Vehicle { v, tau, a_max, a_b } = vehicle;
-    let then = driven(v, a, t) + s_b(&(v + a * t), a_b);
-    at_most(&then, &s_stop(v, tau, a_max, a_b))
+    let Vehicle { e, v, tau, a_max, a_b } = vehicle;
+    let then = e + driven(v, a, t) + s_b(&(v + a * t), a_b);
+    at_most(&then, &s_stop(e, v, tau, a_max, a_b))
 }
 
 fn braking(share: &Real) -> Formula {
@@ -131,23 +137,28 @@ fn braking(share: &Real) -> Formula {
     equal(&(driven(&v, &a, &t) + s_b(&(&v + &a * &t), &a_b)), &s_b(&v, &a_b))
 }
 
-fn reach(profile: Profile) -> Formula {
-    let Vehicle { v, tau, a_max, a_b } = Vehicle::new();
+fn reach(configuration: Configuration) -> Formula {
+    let Vehicle { v, tau, a_max, a_b, .. } = Vehicle::new();
     let s = Real::variable("s");
     given(at_most(&Real::zero(), &s));
-    let mut scene = any_cav(profile);
-    scene.ego.v_now = v.clone();
-    (scene.parameters.tau, scene.parameters.a_max) = (tau.clone(), a_max.clone());
-    scene.parameters.a_b = a_b.clone();
+    let mut scene = any_cav(Profile::Hardened);
+    scene.configuration = configuration;
+    scene.ego.v_now = v;
+    (scene.parameters.tau, scene.parameters.a_max, scene.parameters.a_b) = (tau, a_max, a_b);
     let trajectory = ["0", "1", "2"].map(|name| {
         let mut point = home(&Real::from_integer(1));
         point.pose.origin = vector(name);
         point
     });
-    let examined = points_within(&scene, &trajectory, &s).len();
-    if examined == trajectory.len() {
-        return Formula::Known(true);
+    let (arcs, s_stop) = (arc_lengths(&trajectory), scene_s_stop(&scene, &trajectory));
+    let end = &arcs[trajectory.len() - 1];
+    given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
+    let examined = points_examined(&scene, &trajectory, &s);
+    if examined.len() < trajectory.len() {
+        let arc = &arcs[examined.len() - 1];
+        return Formula::All(vec![less(&s, arc), less(&s_stop, arc)]);
     }
-    let arc = &arc_lengths(&trajectory)[examined - 1];
-    Formula::All(vec![less(&s, arc), less(&s_stop(&v, &tau, &a_max, &a_b), arc)])
+    let last = &examined[examined.len() - 1].pose.origin;
+    let beyond = (last - &trajectory[trajectory.len() - 1].pose.origin).length();
+    at_most(&s_stop, &(end + beyond))
 }

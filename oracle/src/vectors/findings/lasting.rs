@@ -1,10 +1,11 @@
-//! F-24 to F-26: what lasts in the hardened profile, what arrives too late, and what ends too soon.
+//! F-24 to F-27: what lasts in the hardened profile, what arrives too late, what ends too soon or
+//! starts too late.
 
 use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 use mufasa_model::cycle::{Cycle, Profile, Track, TrackList};
 use mufasa_model::requester::Group::Mot;
 
-use crate::vectors::base::{base, detection, detections, point, points, track, tracks, with};
+use crate::vectors::base::{base, detection, detections, point, points, road, track, tracks, with};
 use crate::vectors::book::Book;
 use crate::vectors::expected::{after, fails_by, safe};
 use crate::vectors::findings::finding;
@@ -15,6 +16,7 @@ pub fn add(book: &mut Book) {
     lock_in(book);
     late_verdict(book);
     short_end(book);
+    behind(book);
 }
 
 /// A true car drives ahead at 30 m/s; (ns ago, x then) of the list that stage i passed last in a
@@ -60,13 +62,13 @@ fn late_verdict(book: &mut Book) {
     book.trace(topic, "late", note, story.trace(), &expected);
 }
 
-/// The CAV drives at 10 m/s, a car stands with its rear 6.6 m ahead of the CAV's centre, 4.6 m
-/// ahead of its front; the planned trajectory is at these places every so many ns.
-fn standing_car(step_ns: i64, places: &[f64]) -> Cycle {
-    with(base(Profile::Hardened, PlanRemote), |cycle| {
-        let at = (0..).step_by(usize::try_from(step_ns).unwrap_or(1)).zip(places);
+/// The CAV drives at 10 m/s, a car stands with its rear so far ahead of the CAV's front; the planned
+/// trajectory is at these places every 0.2 s.
+fn standing_car(profile: Profile, gap: f64, places: &[f64]) -> Cycle {
+    with(base(profile, PlanRemote), |cycle| {
+        let at = (0..).step_by(200_000_000).zip(places);
         cycle.trajectory = Some(points(at.map(|(t_ns, x)| point(t_ns, *x, 0.0)).collect()));
-        cycle.tracks = Some(tracks(vec![track(1, 8.6, 0.0)]));
+        cycle.tracks = Some(tracks(vec![track(1, 4.0 + gap, 0.0)]));
         (cycle.detections, cycle.lead, cycle.grid) = (None, None, None);
     })
 }
@@ -74,11 +76,46 @@ fn standing_car(step_ns: i64, places: &[f64]) -> Cycle {
 fn short_end(book: &mut Book) {
     let topic = finding("findings/F-26", "F-26");
     let note = "The trajectory stops after 4.5 m, within start_tolerance of the braking distance of \
-                6.25 m, as H-12 allows: no point meets the car that stands 4.6 m ahead of the CAV.";
+                6.25 m; the car stands 4.6 m ahead. No point of the trajectory meets it.";
     let places = [0.0, 1.0, 2.0, 3.0, 3.8, 4.2, 4.4, 4.5];
-    book.cycle(topic, "short", note, &standing_car(200_000_000, &places), &safe());
-    let note = "A trajectory that brakes at a_b to the braking distance: it meets the car.";
+    let paper = standing_car(Profile::Paper, 4.6, &places);
+    book.cycle(topic, "paper", note, &paper, &safe());
+    let short = |gap: f64| standing_car(Profile::Hardened, gap, &places);
+    let note = "The first place beyond the end meets the car 4.6 m ahead.";
+    let expected = fails_by("iii", "collision").witness("iii", "point", 8);
+    book.cycle(topic, "hardened", note, &short(4.6), &expected);
+    let note = "s_stop = 7.65 m: the last place beyond the end is 7.75 m ahead.";
+    let expected = fails_by("iii", "collision").witness("iii", "point", 20);
+    book.cycle(topic, "hardened-last", note, &short(7.75), &expected);
+    let note = "No place is 7.8 m ahead.";
+    book.cycle(topic, "hardened-clear", note, &short(7.8), &safe());
+    let note = "A local trajectory is examined only where it leads.";
+    let local = Cycle { configuration: MotRemote, ..short(4.6) };
+    let seen = Some(detections(vec![detection(8.6, 0.0)]));
+    book.cycle(topic, "local", note, &Cycle { detections: seen, ..local }, &safe());
+    let note = "A trajectory that brakes at a_b to the braking distance: it meets the car itself.";
     let places = [0.0, 1.84, 3.36, 4.56, 5.44, 6.0, 6.24, 6.25];
-    let cycle = standing_car(200_000_000, &places);
+    let cycle = standing_car(Profile::Hardened, 4.6, &places);
     book.cycle(topic, "braking", note, &cycle, &fails_by("iii", "collision"));
+}
+
+/// A trajectory of 28 m/s from `start` on; the CAV drives at 28 m/s.
+fn late_start(profile: Profile, start: f64, gap: f64) -> Cycle {
+    let places: Vec<f64> = (0..40).map(|i| start + 5.6 * f64::from(i)).collect();
+    with(standing_car(profile, gap, &places), |cycle| {
+        cycle.ego.speed = 28.0;
+        cycle.ego.length = 6.0;
+        cycle.tracks = Some(tracks(vec![track(1, 5.0 + gap, 0.0)]));
+        cycle.route = road(-100.0, 300.0);
+    })
+}
+
+fn behind(book: &mut Book) {
+    let topic = finding("findings/F-27", "F-27");
+    let note = "The first point is 1.9 m behind the CAV, s_CAV = 50.4 m reaches 48.5 m ahead of it; \
+                braking takes 49 m, and a car stands 48.9 m ahead of the front.";
+    book.cycle(topic, "paper", note, &late_start(Profile::Paper, -1.9, 48.9), &safe());
+    let note = "s_stop counts from the CAV.";
+    let hardened = late_start(Profile::Hardened, -1.9, 48.9);
+    book.cycle(topic, "hardened", note, &hardened, &fails_by("iii", "collision"));
 }

@@ -1,10 +1,11 @@
 //! H-01, H-03, H-04, H-06, H-09: objects, horizons, cells, velocities.
 
-use mufasa_model::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Track, TrackList};
+use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
+use mufasa_model::cycle::{Cycle, Grid, Profile, Track, TrackList};
 
 use crate::vectors::base::{
-    NOW, TENTH, base, cell, detection, detections, lead, straight, track, tracks, with,
+    NOW, TENTH, base, cell, detection, detections, fine_grid, lead, point, points, straight, track,
+    tracks, with,
 };
 use crate::vectors::book::{Book, Topic};
 use crate::vectors::edge::{Sides, below, from, up_to};
@@ -119,6 +120,7 @@ fn h_04(book: &mut Book) {
         });
         book.cycle(H_04, name, note, &cycle, &expected);
     }
+    beyond(book);
     for (name, configuration) in [("mot", MotRemote), ("all", AllRemote), ("plan", PlanRemote)] {
         let name = format!("gap-{name}");
         let stages = match configuration {
@@ -142,6 +144,66 @@ fn h_04(book: &mut Book) {
             })
         });
     }
+}
+
+/// The CAV drives at 10 m/s and stands at 8 m; with these parameters s_stop = 10.1875 m.
+fn ends_early(configuration: Configuration, change: impl FnOnce(&mut Cycle)) -> Cycle {
+    with(base(Profile::Hardened, configuration), |cycle| {
+        (cycle.parameters.tau, cycle.parameters.a_max) = (0.25, 4.0);
+        let place = |i: i32| point(i64::from(i) * TENTH, (0.75 * f64::from(i)).min(8.0), 0.0);
+        cycle.trajectory = Some(points((0..20).map(place).collect()));
+        change(cycle);
+    })
+}
+
+fn beyond(book: &mut Book) {
+    let car = |cycle: &mut Cycle, x: f64| {
+        cycle.tracks = Some(tracks(vec![track(1, x, 0.0)]));
+        cycle.detections = Some(detections(vec![detection(x, 0.0)]));
+    };
+    let sides = Sides {
+        name: "beyond",
+        note: "The trajectory ends 2.1875 m before s_stop: the places beyond it are 0.25 to 2.25 m \
+               farther, where the CAV touches a car up to 14.25 m.",
+        edge: up_to(14.25),
+        accepted: safe(),
+        rejected: fails_by("iii", "collision").witness("iii", "point", 28),
+    };
+    book.sides(H_04, &sides, |x| ends_early(PlanRemote, |cycle| car(cycle, x)));
+    let note = "The first place beyond the end.";
+    let first = fails_by("iii", "collision").witness("iii", "point", 20);
+    let cycle = ends_early(AllRemote, |cycle| car(cycle, 12.25));
+    book.cycle(H_04, "beyond-first", note, &cycle, &first);
+    let note = "A trajectory of the vehicle itself is examined only where it leads.";
+    let cycle = ends_early(MotRemote, |cycle| car(cycle, 12.25));
+    book.cycle(H_04, "beyond-local", note, &cycle, &safe());
+    for (name, x, expected) in [
+        ("offset", 14.5, fails_by("iii", "collision").witness("iii", "point", 29)),
+        ("offset-clear", 14.501, safe()),
+    ] {
+        let note = "center_offset = 0.1 m: the multiples of 1/4 m from 0.25 to 2.5 m, the first that \
+                    is not below 0.1 + 2.1875 m.";
+        let cycle = ends_early(PlanRemote, |cycle| {
+            cycle.ego.center_offset = 0.1;
+            car(cycle, x);
+        });
+        book.cycle(H_04, &format!("beyond-{name}"), note, &cycle, &expected);
+    }
+    let note = "Without tracks stage iv sees the car.";
+    let cycle = ends_early(PlanRemote, |cycle| {
+        car(cycle, 14.25);
+        cycle.tracks = None;
+    });
+    let expected = fails_by("iv", "collision").witness("iv", "point", 28);
+    book.cycle(H_04, "beyond-detected", note, &cycle, &expected);
+    let note = "Without tracks and detections stage v sees the cell from 12 to 13 m: the front disk \
+                of radius 1.118 m is 1.5 m ahead of the CAV's centre.";
+    let cycle = ends_early(PlanRemote, |cycle| {
+        (cycle.tracks, cycle.detections) = (None, None);
+        cycle.grid = Some(Grid { occupied: cell(24, 12), ..fine_grid() });
+    });
+    let expected = fails_by("v", "occupied").witness("v", "point", 25);
+    book.cycle(H_04, "beyond-occupied", note, &cycle, &expected);
 }
 
 fn h_06(book: &mut Book) {

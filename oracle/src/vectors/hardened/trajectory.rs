@@ -275,16 +275,37 @@ fn ends(book: &mut Book) {
         let cycle = plan(|cycle| cycle.trajectory = Some(straight(count, 1.0)));
         book.cycle(H_12, name, note, &cycle, &expected);
     }
+    for (name, first) in [("end", 0.0), ("end-ahead", -1.0), ("end-behind", 1.0)] {
+        let sides = Sides {
+            name,
+            note: "The last point is at most L = 4 m before s_stop, which counts from the CAV where \
+                   that is ahead of the first point.",
+            // 10 m/s, tau = 0.25 s, a_max = 4 m/s^2: 2.5 + 0.125 + 11^2 / 16 - 4, no rounding.
+            edge: below(6.1875 + f64::max(first, 0.0)),
+            accepted: safe(),
+            rejected: fails_by("ii", "arc_too_short"),
+        };
+        book.sides(H_12, &sides, |end| {
+            plan(|cycle| {
+                (cycle.parameters.tau, cycle.parameters.a_max) = (0.25, 4.0);
+                cycle.parameters.start_tolerance = 5.0;
+                let place = |i: i32| {
+                    point(i64::from(i) * TENTH, (first + 0.75 * f64::from(i)).min(end), 0.0)
+                };
+                cycle.trajectory = Some(points((0..20).map(place).collect()));
+            })
+        });
+    }
     for (name, count, expected) in [
         ("fifty-seconds", 251, safe()),
         ("below-fifty-seconds", 250, fails_by("ii", "ends_too_soon")),
     ] {
-        let note = "Braking with 0.1 m/s^2 takes 100 s; 50 s are enough.";
+        let note = "Braking with 0.1 m/s^2 takes 100 s; 50 s are enough to end within L of s_stop.";
         let cycle = plan(|cycle| {
             cycle.parameters.a_b = 0.1;
             cycle.route = crate::vectors::base::road(-10.0, 600.0);
             cycle.tracks = Some(tracks(vec![]));
-            let every = |i: i32| point(i64::from(i) * 2 * TENTH, f64::from(i) * 2.0, 0.0);
+            let every = |i: i32| point(i64::from(i) * 2 * TENTH, f64::from(i) * 2.2, 0.0);
             cycle.trajectory = Some(points((0..count).map(every).collect()));
         });
         book.cycle(H_12, name, note, &cycle, &expected);

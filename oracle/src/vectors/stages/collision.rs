@@ -5,7 +5,7 @@ use mufasa_model::cycle::{Cycle, Profile, Track};
 
 use crate::vectors::base::{base, straight, track, tracks, turn, with};
 use crate::vectors::book::{Book, Topic};
-use crate::vectors::edge::{Sides, below, up_to};
+use crate::vectors::edge::{Sides, below, from, up_to};
 use crate::vectors::expected::{fails_by, safe};
 
 /// A CAV at rest with one point at the origin, and one local track.
@@ -51,12 +51,15 @@ pub fn add(book: &mut Book) {
         });
         book.cycle(EXAMINED, name, note, &cycle, &expected);
     }
-    for (name, profile) in [("paper", Profile::Paper), ("hardened", Profile::Hardened)] {
+    // Hardened, a place ahead of the CAV is examined, too (H-04).
+    for (name, profile, edge) in
+        [("paper", Profile::Paper, up_to(4.0)), ("hardened", Profile::Hardened, from(-4.0))]
+    {
         let name = format!("touching-{name}");
         let sides = Sides {
             name: &name,
-            note: "A car of 4 m by 2 m x m ahead: at 4 m both rectangles touch, which collides.",
-            edge: up_to(4.0),
+            note: "A car of 4 m by 2 m x m ahead: at 4 m or -4 m the rectangles touch, which collides.",
+            edge,
             accepted: safe(),
             rejected: collision(),
         };
