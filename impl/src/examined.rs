@@ -8,7 +8,8 @@ use core::slice;
 use crate::configuration::Configuration;
 use crate::cycle::{Cycle, Profile, TrajectoryPoint};
 use crate::distance::{Horizon, Number, s_b, s_stop};
-use crate::plane::distance;
+use crate::plane::{Vector, distance};
+use crate::range::larger;
 use crate::rounding::Real;
 use crate::verdict::Witness;
 
@@ -28,8 +29,13 @@ impl<'c, 'a> Examined<'c, 'a> {
         horizon: Horizon<'_>,
     ) -> Self {
         let bounds = plain_bounds(cycle, points, horizon);
-        let within = plainly_within(points, bounds)
-            .unwrap_or_else(|| within(points, farthest::<Real>(cycle, points, horizon)));
+        let measure = match cycle.profile {
+            Profile::Paper => Measure { plain: plain_length, exact: length },
+            Profile::Hardened => Measure { plain: plain_way, exact: way },
+        };
+        let within = measure
+            .plainly_within(points, bounds)
+            .unwrap_or_else(|| measure.within(points, farthest::<Real>(cycle, points, horizon)));
         if cycle.profile == Profile::Paper {
             let points = points.get(..within).unwrap_or(points);
             return Self { cycle, points, beyond: NOTHING };
@@ -61,11 +67,13 @@ impl<'c, 'a> Examined<'c, 'a> {
 const NOTHING: RangeInclusive<i64> = 1..=0;
 
 /// H-04: from the first quarter above `center_offset` to the first that is certainly not below
-/// `center_offset` + `s_stop` - arc length. H-12 lets no trajectory end more than L before `s_stop`;
+/// `center_offset` + `s_stop` - way. H-12 lets no trajectory end more than L before `s_stop`;
 /// a stage that is run alone looks no farther than that either.
 #[allow(clippy::cast_possible_truncation, reason = "below 2^10")]
 fn quarters_beyond(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> RangeInclusive<i64> {
-    let missing = s_stop::<Real>(cycle, points) - length(points);
+    let steps = points.iter().zip(points.iter().skip(1));
+    let driven = steps.fold(Real::ZERO, |driven, (a, b)| driven + way(a, b));
+    let missing = s_stop::<Real>(cycle, points) - driven;
     let missing = missing.min(Real::new(cycle.ego.length));
     if missing.certainly_at_most(Real::ZERO) {
         return NOTHING;
@@ -78,12 +86,6 @@ fn quarters_beyond(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> RangeInclus
     let candidates = near.saturating_sub(1)..=near.saturating_add(1);
     let last = candidates.into_iter().find(reaches).unwrap_or(near.saturating_add(2));
     first..=last
-}
-
-/// Length of the trajectory, m.
-fn length(points: &[TrajectoryPoint]) -> Real {
-    let steps = points.iter().zip(points.iter().skip(1));
-    steps.fold(Real::ZERO, |arc, (a, b)| arc + distance([a.x, a.y], [b.x, b.y]))
 }
 
 /// The horizon; H-04: max(s, `s_stop`).
@@ -107,36 +109,65 @@ fn plain_bounds(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<
     [s - error, s + error]
 }
 
-/// Points form a prefix, since arc lengths do not decrease; the first point always counts.
-fn within(points: &[TrajectoryPoint], s: Real) -> usize {
-    let mut arc = Real::ZERO;
-    let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        arc = arc + distance([a.x, a.y], [b.x, b.y]);
-        if !arc.possibly_at_most(s) {
-            break;
-        }
-        count = count.saturating_add(1);
-    }
-    count.min(points.len())
+/// How far a step leads: its length, or (H-04) the way along the heading of its first point.
+struct Measure {
+    plain: fn(&TrajectoryPoint, &TrajectoryPoint) -> f64,
+    exact: fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
 }
 
-/// The same in plain doubles, unless they cannot tell. A distance errs by less than 2^-51 of
-/// itself and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-42
-/// of itself more.
-fn plainly_within(points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
-    let mut arc = 0.0;
-    let mut count = 1_usize;
-    for (a, b) in points.iter().zip(points.iter().skip(1)) {
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        arc += libm::sqrt(dx * dx + dy * dy);
-        if arc * (1.0 - 1e-12) - 1e-140 > most {
-            return Some(count);
+/// The length of a step, m.
+pub(crate) fn length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Real {
+    distance([from.x, from.y], [to.x, to.y])
+}
+
+fn plain_length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> f64 {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    libm::sqrt(dx * dx + dy * dy)
+}
+
+/// H-04: the way of a step, m.
+pub(crate) fn way(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Real {
+    let u = Vector::between([from.x, from.y], [to.x, to.y]);
+    u.dot(Vector::new(from.cos, from.sin)).max(Real::ZERO)
+}
+
+/// The same in plain doubles, off by less than 2^-50 of the two coordinates of the step.
+pub(crate) fn plain_way(from: &TrajectoryPoint, to: &TrajectoryPoint) -> f64 {
+    larger((to.x - from.x) * from.cos + (to.y - from.y) * from.sin, 0.0)
+}
+
+impl Measure {
+    /// Points form a prefix, since arc lengths do not decrease; the first point always counts.
+    fn within(&self, points: &[TrajectoryPoint], s: Real) -> usize {
+        let mut arc = Real::ZERO;
+        let mut count = 1_usize;
+        for (a, b) in points.iter().zip(points.iter().skip(1)) {
+            arc = arc + (self.exact)(a, b);
+            if !arc.possibly_at_most(s) {
+                break;
+            }
+            count = count.saturating_add(1);
         }
-        if arc * (1.0 + 1e-12) + 1e-140 > least {
-            return None;
-        }
-        count = count.saturating_add(1);
+        count.min(points.len())
     }
-    Some(count.min(points.len()))
+
+    /// The same in plain doubles, unless they cannot tell. What a step counts errs by less than
+    /// 2^-50 of its coordinates and 1e-150 m (squares may underflow), a sum of at most 1023 of them
+    /// by less than 2^-40 of all coordinates together.
+    fn plainly_within(&self, points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
+        let (mut arc, mut error) = (0.0, 1e-140);
+        let mut count = 1_usize;
+        for (a, b) in points.iter().zip(points.iter().skip(1)) {
+            arc += (self.plain)(a, b);
+            error += 1e-12 * ((b.x - a.x).abs() + (b.y - a.y).abs());
+            if arc - error > most {
+                return Some(count);
+            }
+            if arc + error > least {
+                return None;
+            }
+            count = count.saturating_add(1);
+        }
+        Some(count.min(points.len()))
+    }
 }

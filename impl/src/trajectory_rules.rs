@@ -6,8 +6,9 @@ use core::cmp::Ordering;
 use crate::cycle::{Cycle, TrajectoryPoint};
 use crate::distance::{s_b, s_stop};
 use crate::exact::{Product, compare};
+use crate::examined::{length, plain_way, way};
 use crate::input::elapsed_ns;
-use crate::plane::{Vector, distance, same_point};
+use crate::plane::{Vector, same_point};
 use crate::rounding::Real;
 use crate::verdict::{Rule, Witness};
 
@@ -34,7 +35,7 @@ pub(crate) fn step_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Optio
     })
 }
 
-/// H-12: arc length and end of the trajectory, which is at most L before `s_stop`.
+/// H-12: way, arc length and end of the trajectory.
 pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let (first, last) = (points.first()?, points.last()?);
     let end_ns = elapsed_ns(first.t_ns, last.t_ns);
@@ -45,14 +46,14 @@ pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option
     }
     let bounds = Bounds::new(cycle, first);
     let tolerance = Real::new(cycle.parameters.start_tolerance);
-    let too_short = arcs(points).find_map(|(index, t_ns, arc)| {
+    let too_short = sums(points, way).find_map(|(index, t_ns, way)| {
         let least = bounds.braking(Real::seconds(t_ns)) - tolerance;
         let least = if index.saturating_add(1) < points.len() { least } else { least.max(end) };
-        let witness = Witness::of(Rule::ArcTooShort, [arc.value(), least.value()]);
-        (!least.certainly_at_most(arc)).then(|| witness.at_point(index))
+        let witness = Witness::of(Rule::ArcTooShort, [way.value(), least.value()]);
+        (!least.certainly_at_most(way)).then(|| witness.at_point(index))
     });
     let too_long = || {
-        arcs(points).find_map(|(index, t_ns, arc)| {
+        sums(points, length).find_map(|(index, t_ns, arc)| {
             let most = bounds.accelerating(Real::seconds(t_ns)) + tolerance;
             let witness = Witness::of(Rule::ArcTooLong, [arc.value(), most.value()]);
             (!arc.certainly_at_most(most)).then(|| witness.at_point(index))
@@ -119,7 +120,7 @@ fn steps_are_fine(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> bool {
     })
 }
 
-/// Whether every arc length keeps the bounds of H-12 by more than plain doubles err: the bounds
+/// Whether every way and arc length keeps the bounds of H-12 by more than plain doubles err: the bounds
 /// are below 2^21 m.
 fn arcs_are_fine(
     cycle: &Cycle<'_>,
@@ -132,19 +133,20 @@ fn arcs_are_fine(
     let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
     let (v_lo, v_hi) = ((v_now - a_max * d).max(0.0), v_now + a_b * d);
     let tolerance = parameters.start_tolerance - 1e-6;
-    let (mut arc, mut before) = (0.0, first);
+    let (mut arc, mut driven, mut error, mut before) = (0.0, 0.0, 0.0, first);
     let all = points.iter().all(|point| {
         let (x, y) = (point.x - before.x, point.y - before.y);
-        before = point;
         arc += libm::sqrt(x * x + y * y);
+        driven += plain_way(before, point);
+        error += 1e-11 * (x.abs() + y.abs());
+        before = point;
         let t = seconds(elapsed_ns(first.t_ns, point.t_ns));
         let left = (v_lo - a_b * t).max(0.0);
         let least = (v_lo * v_lo - left * left) / (2.0 * a_b);
         let most = v_hi * t + 0.5 * a_max * t * t;
-        let error = arc * 1e-11;
-        least - tolerance <= arc - error && arc + error <= most + tolerance
+        least - tolerance <= driven - error && arc + error <= most + tolerance
     });
-    all && end.value() + 1e-6 <= arc - arc * 1e-11
+    all && end.value() + 1e-6 <= driven - error
 }
 
 /// A time in s, with two roundings.
@@ -194,13 +196,16 @@ fn falls_short(value: Real, least: Real) -> Option<[f64; 2]> {
     (!least.certainly_at_most(value)).then(|| [value.value(), least.value()])
 }
 
-/// Index, time after the first point in ns, and arc length of every point.
-fn arcs(points: &[TrajectoryPoint]) -> impl Iterator<Item = (usize, i64, Real)> + '_ {
+/// Index, time after the first point in ns, and sum over the steps, for every point.
+fn sums(
+    points: &[TrajectoryPoint],
+    of: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
+) -> impl Iterator<Item = (usize, i64, Real)> {
     let first_ns = points.first().map_or(0, |first| first.t_ns);
     let steps = points.iter().zip(points.iter().skip(1)).zip(1_usize..);
-    let later = steps.scan(Real::ZERO, move |arc, ((a, b), index)| {
-        *arc = *arc + distance([a.x, a.y], [b.x, b.y]);
-        Some((index, elapsed_ns(first_ns, b.t_ns), *arc))
+    let later = steps.scan(Real::ZERO, move |sum, ((a, b), index)| {
+        *sum = *sum + of(a, b);
+        Some((index, elapsed_ns(first_ns, b.t_ns), *sum))
     });
     core::iter::once((0, 0, Real::ZERO)).chain(later)
 }

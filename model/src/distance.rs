@@ -57,19 +57,30 @@ pub fn arc_lengths(trajectory: &[Point]) -> Vec<Real> {
     lengths
 }
 
+/// H-04: the way from the first point to each point, m: steps count as far as they lead along the
+/// heading of their first point.
+pub fn ways(trajectory: &[Point]) -> Vec<Real> {
+    let mut ways = vec![Real::zero()];
+    for step in trajectory.windows(2) {
+        let u = &step[1].pose.origin - &step[0].pose.origin;
+        let along = u.dot(&step[0].pose.direction).max(Real::zero());
+        ways.push(ways[ways.len() - 1].clone() + along);
+    }
+    ways
+}
+
 /// The points that a stage with the horizon `s` examines: those within `s`; hardened (H-04): those
 /// within max(s, s_stop), the next one, and the places beyond the end of a remote trajectory.
 pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
-    let within = |s: &Real| {
+    let within = |lengths: Vec<Real>, s: &Real| {
         let limit = s + &scene.m;
-        let count = arc_lengths(trajectory).iter().filter(|length| **length <= limit).count();
-        count.max(1)
+        lengths.iter().filter(|length| **length <= limit).count().max(1)
     };
     match scene.profile {
-        Profile::Paper => trajectory[..within(s)].to_vec(),
+        Profile::Paper => trajectory[..within(arc_lengths(trajectory), s)].to_vec(),
         Profile::Hardened => {
             let s_stop = scene_s_stop(scene, trajectory);
-            let count = within(&s.max(&s_stop).clone()) + 1;
+            let count = within(ways(trajectory), &s.max(&s_stop).clone()) + 1;
             let mut points = trajectory[..count.min(trajectory.len())].to_vec();
             if matches!(scene.configuration, Configuration::AllRemote | Configuration::PlanRemote) {
                 points.extend(points_beyond(scene, trajectory, &s_stop));
@@ -83,9 +94,9 @@ pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Poi
 /// is at each multiple of 1/4 m from the pose, up to the first that is not below s_stop.
 pub fn points_beyond(scene: &Scene, trajectory: &[Point], s_stop: &Real) -> Vec<Point> {
     let last = &trajectory[trajectory.len() - 1];
-    let arc = &arc_lengths(trajectory)[trajectory.len() - 1];
+    let way = &ways(trajectory)[trajectory.len() - 1];
     let offset = &scene.ego.center_offset;
-    let needed = offset + (s_stop + &scene.m - arc);
+    let needed = offset + (s_stop + &scene.m - way);
     let mut quarters = (offset * Real::from_integer(4)).floor();
     let mut reached = offset.clone();
     let mut points = Vec::new();

@@ -1,7 +1,7 @@
 //! Rules of the hardened stage ii about the trajectory itself: H-07 (start), H-11, H-12
 //! (`spec/3-stages.md#hardened-profile`).
 
-use crate::distance::{arc_lengths, s_b, scene_s_stop};
+use crate::distance::{arc_lengths, s_b, scene_s_stop, ways};
 use crate::real::Real;
 use crate::scene::{Point, Scene};
 use crate::vector::Vector;
@@ -120,21 +120,19 @@ pub fn end_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let b = |t: &Real| {
         if *t <= braking { &v_lo * t - a_b * t.square() / &two } else { s_b(&v_lo, a_b) }
     };
-    let lengths = arc_lengths(trajectory);
     let times: Vec<Real> =
         trajectory.iter().map(|point| Real::seconds(i128::from(point.t_ns) - t0)).collect();
-    let points = || times.iter().zip(&lengths).enumerate();
     let end = scene_s_stop(scene, trajectory) - &scene.ego.length;
-    let too_short = points().find_map(|(i, (t, length))| {
+    let too_short = times.iter().zip(ways(trajectory)).enumerate().find_map(|(i, (t, way))| {
         let limit = b(t) - &parameters.start_tolerance;
         let limit = if i + 1 < times.len() { limit } else { limit.max(end.clone()) };
-        let failure = witness_if(*length < &limit + &scene.m, Rule::ArcTooShort, length, &limit);
+        let failure = witness_if(way < &limit + &scene.m, Rule::ArcTooShort, &way, &limit);
         failure.map(|witness| Witness { point: Some(i), ..witness })
     });
     let too_long = || {
-        points().find_map(|(i, (t, length))| {
+        times.iter().zip(arc_lengths(trajectory)).enumerate().find_map(|(i, (t, length))| {
             let limit = &v_hi * t + a_max * t.square() / &two + &parameters.start_tolerance;
-            let failure = witness_if(*length > &limit - &scene.m, Rule::ArcTooLong, length, &limit);
+            let failure = witness_if(length > &limit - &scene.m, Rule::ArcTooLong, &length, &limit);
             failure.map(|witness| Witness { point: Some(i), ..witness })
         })
     };

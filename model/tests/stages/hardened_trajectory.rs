@@ -78,7 +78,14 @@ fn heading(cycle: &mut Cycle, cos: f64, sin: f64) {
 /// H-07 (F-10): heading . segment >= 0 for a nearest segment; across is allowed, against is not.
 #[test]
 fn h_07_nothing_drives_against_the_route() {
-    let with = |cos: f64, sin: f64| hardened_and_paper(|cycle| heading(cycle, cos, sin));
+    // The CAV stands: H-12 asks for no way along the heading.
+    let with = |cos: f64, sin: f64| {
+        hardened_and_paper(|cycle| {
+            cycle.ego.speed = 0.0;
+            cycle.trajectory = Some(straight(3, 0.0));
+            heading(cycle, cos, sin);
+        })
+    };
     assert_eq!(rule(&with(0.0, 1.0)[0], Stage::Ii), None);
     assert_eq!(rule(&with(-f64::MIN_POSITIVE, 1.0)[0], Stage::Ii), Some(Rule::Direction));
     assert_eq!(rule(&with(-1.0, 0.0)[0], Stage::Ii), Some(Rule::Direction));
@@ -307,4 +314,22 @@ fn h_12_fifty_seconds_are_enough() {
     };
     assert_eq!(with(251), None);
     assert_eq!(with(250), Some(Rule::EndsTooSoon));
+}
+
+/// H-04, H-12 (F-28): a zigzag across the road is no way along it.
+#[test]
+fn h_12_a_zigzag_is_no_way() {
+    let with = |aside: f64, profile| {
+        let mut cycle = base(profile, PlanRemote);
+        let points =
+            (0..20).map(|i| at_time(i * 100_000_000, 0.0, if i % 2 == 0 { 0.0 } else { aside }));
+        cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: points.collect() });
+        cycle.tracks = tracks(vec![track(1, 4.5, 0.0)]);
+        cycle
+    };
+    // 10 t - 4 t^2 - 2 > 0 from t = 0.3 s on.
+    let hardened = with(0.9, Profile::Hardened);
+    assert_eq!(rule(&hardened, Stage::Ii), Some(Rule::ArcTooShort));
+    assert_eq!(witness(&hardened, Stage::Ii).point, Some(3));
+    assert_eq!(failed(&with(0.9, Profile::Paper)), None);
 }

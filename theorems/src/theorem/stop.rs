@@ -3,7 +3,7 @@
 
 use crate::configuration::Configuration;
 use crate::cycle::Profile;
-use crate::distance::{arc_lengths, points_examined, s_b, s_stop, scene_s_stop};
+use crate::distance::{points_examined, s_b, s_stop, scene_s_stop, ways};
 use crate::real::Real;
 use crate::real::formula::{Formula, at_most, equal, given, less};
 use crate::theorem::base::{any_cav, home};
@@ -83,8 +83,8 @@ pub const THEOREMS: &[Theorem] = &[
         },
         mutant: Mutant {
             file: "model/src/distance.rs",
-            from: "let count = within(&s.max(&s_stop).clone()) + 1;",
-            to: "let count = within(&s.max(&s_stop).clone());",
+            from: "let count = within(ways(trajectory), &s.max(&s_stop).clone()) + 1;",
+            to: "let count = within(ways(trajectory), &s.max(&s_stop).clone());",
         },
     },
 ];
@@ -150,7 +150,7 @@ fn reach(configuration: Configuration) -> Formula {
         point.pose.origin = vector(name);
         point
     });
-    let (arcs, s_stop) = (arc_lengths(&trajectory), scene_s_stop(&scene, &trajectory));
+    let (arcs, s_stop) = (ways(&trajectory), scene_s_stop(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
     let examined = points_examined(&scene, &trajectory, &s);
