@@ -1,5 +1,5 @@
-//! F-24 to F-27: what lasts in the hardened profile, what arrives too late, what ends too soon or
-//! starts too late.
+//! F-24 to F-28: what lasts in the hardened profile, what arrives too late, what ends too soon,
+//! starts too late, or goes across.
 
 use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 use mufasa_model::cycle::{Cycle, Profile, Track, TrackList};
@@ -17,6 +17,7 @@ pub fn add(book: &mut Book) {
     late_verdict(book);
     short_end(book);
     behind(book);
+    zigzag(book);
 }
 
 /// A true car drives ahead at 30 m/s; (ns ago, x then) of the list that stage i passed last in a
@@ -118,4 +119,21 @@ fn behind(book: &mut Book) {
     let note = "s_stop counts from the CAV.";
     let hardened = late_start(Profile::Hardened, -1.9, 48.9);
     book.cycle(topic, "hardened", note, &hardened, &fails_by("iii", "collision"));
+}
+
+fn zigzag(book: &mut Book) {
+    let topic = finding("findings/F-28", "F-28");
+    let across = |profile| {
+        let side = |i: i64| if i % 2 == 0 { 0.0 } else { 0.9 };
+        with(standing_car(profile, 0.5, &[]), |cycle| {
+            let point = |i: i64| point(i * 100_000_000, 0.0, side(i));
+            cycle.trajectory = Some(points((0..20).map(point).collect()));
+        })
+    };
+    let note = "The CAV drives at 10 m/s, a car stands 0.5 m ahead; the trajectory goes 0.9 m to the \
+                left and back every 0.2 s for s_CAV = 18 m, and nothing further ahead is examined.";
+    book.cycle(topic, "paper", note, &across(Profile::Paper), &safe());
+    let note = "H-11 allows the steps, which are below W/2 = 1 m, but they are no way along the road.";
+    let expected = fails_by("ii", "arc_too_short").witness("ii", "point", 3);
+    book.cycle(topic, "hardened", note, &across(Profile::Hardened), &expected);
 }
