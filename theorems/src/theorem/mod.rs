@@ -3,6 +3,7 @@
 
 pub mod assignment;
 pub mod base;
+pub mod closure;
 pub mod collision;
 pub mod distance;
 pub mod grid;
@@ -61,6 +62,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         stop::THEOREMS,
         grid::THEOREMS,
         assignment::THEOREMS,
+        closure::THEOREMS,
         rounding::THEOREMS,
     ]
     .into_iter()

@@ -133,7 +133,8 @@ fn zigzag(book: &mut Book) {
     let note = "The CAV drives at 10 m/s, a car stands 0.5 m ahead; the trajectory goes 0.9 m to the \
                 left and back every 0.2 s for s_CAV = 18 m, and nothing further ahead is examined.";
     book.cycle(topic, "paper", note, &across(Profile::Paper), &safe());
-    let note = "H-11 allows the steps, which are below W/2 = 1 m, but they are no way along the road.";
+    let note =
+        "H-11 allows the steps, which are below W/2 = 1 m, but they are no way along the road.";
     let expected = fails_by("ii", "arc_too_short").witness("ii", "point", 3);
     book.cycle(topic, "hardened", note, &across(Profile::Hardened), &expected);
 }
