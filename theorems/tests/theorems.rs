@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use mufasa_theorems::gappa;
 use mufasa_theorems::prove::{Verdict, judge};
 use mufasa_theorems::solver;
 use mufasa_theorems::theorem;
+use mufasa_theorems::{doubles, gappa};
 
 #[test]
 fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
@@ -34,6 +34,24 @@ fn every_bound_is_proved_and_a_smaller_one_is_not() {
         let (verdict, time) = bound.judge().expect("Gappa runs");
         println!("{}: {time:.1?}", bound.id);
         assert_eq!(verdict, Verdict::Proved, "{}", bound.id);
+    }
+}
+
+#[test]
+fn every_range_is_proved_and_its_wrong_variant_refuted() {
+    let Some(version) = doubles::version() else {
+        println!("NOT RUN: no bitwuzla here");
+        return;
+    };
+    println!("bitwuzla {version}");
+    for range in &doubles::RANGES {
+        let judgement = range.judge().expect("bitwuzla runs");
+        println!("{}: {judgement:?}", range.id);
+        assert_eq!(*judgement.verdict(), Verdict::Proved, "{}", range.id);
+        let Verdict::Refuted(values) = judgement.control else { panic!("{}", range.id) };
+        let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["v_now", "v_lead", "a_b", "safety_time"], "the values are read");
+        assert!(values.iter().all(|(_, value)| (0.0..=150.0).contains(value)), "{values:?}");
     }
 }
 

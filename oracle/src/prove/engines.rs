@@ -1,5 +1,6 @@
 //! Where claims come from: each source lists its lines, and asks the engines that judge them.
 
+mod doubles;
 mod exploration;
 mod gappa;
 mod harnesses;
@@ -23,6 +24,8 @@ pub enum Source {
     Theorems,
     /// Rounding errors.
     Gappa,
+    /// Ranges of what is computed in doubles.
+    Doubles,
     /// Every reachable state of the protocol within small bounds.
     Exploration,
     /// Laws of the implementation over complete finite domains.
@@ -33,14 +36,21 @@ pub enum Source {
 
 impl Source {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Theorems, Self::Gappa, Self::Exploration, Self::Laws, Self::Harnesses];
+    pub const ALL: [Self; 6] = [
+        Self::Theorems,
+        Self::Gappa,
+        Self::Doubles,
+        Self::Exploration,
+        Self::Laws,
+        Self::Harnesses,
+    ];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Theorems => "z3",
             Self::Gappa => "gappa",
+            Self::Doubles => "bitwuzla",
             Self::Exploration => "exploration",
             Self::Laws => "laws",
             Self::Harnesses => "harnesses",
@@ -52,6 +62,7 @@ impl Source {
         match self {
             Self::Theorems => Ok(theorems::claims()),
             Self::Gappa => Ok(gappa::claims()),
+            Self::Doubles => Ok(doubles::claims()),
             Self::Exploration => Ok(exploration::claims()),
             Self::Laws => laws::claims(),
             Self::Harnesses => harnesses::claims(),
@@ -73,6 +84,7 @@ impl Source {
         let lines = match self {
             Self::Theorems => theorems::judge(claims, bar),
             Self::Gappa => gappa::judge(claims, bar),
+            Self::Doubles => doubles::judge(claims, bar),
             Self::Exploration => Ok(exploration::judge(claims, bar)),
             Self::Laws => Ok(laws::judge(claims, bar)),
             Self::Harnesses => harnesses::judge(claims, settings, bar),

@@ -44,18 +44,23 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
 
 fn answer(judgement: &Judgement) -> Answer {
     let Judgement { proof, control } = judgement;
-    let reason = match (&proof.verdict, &control.verdict) {
-        (Found::Refuted(values), _) => Some(format!("by {}", in_words(values))),
-        (Found::Unknown, _) => Some(String::from("no answer in time")),
-        (Found::Proved, Found::Refuted(_)) => None,
-        (Found::Proved, _) => Some(String::from("its wrong variant was not refuted")),
-    };
+    let reason = reason(&proof.verdict, &control.verdict);
     let seconds = (proof.time + control.time).as_secs_f64();
     let ran = Some(match proof.paths {
         1 => String::from("1 path"),
         paths => format!("{paths} paths"),
     });
     Answer { ran, reason, ..Answer::given(ENGINE, verdict(judgement.verdict()), seconds) }
+}
+
+/// Why a claim is not proved, by what is found of it and of its wrong variant.
+pub(super) fn reason(claim: &Found, control: &Found) -> Option<String> {
+    match (claim, control) {
+        (Found::Refuted(values), _) => Some(format!("by {}", in_words(values))),
+        (Found::Unknown, _) => Some(String::from("no answer in time")),
+        (Found::Proved, Found::Refuted(_)) => None,
+        (Found::Proved, _) => Some(String::from("its wrong variant was not refuted")),
+    }
 }
 
 pub(super) fn verdict(found: &Found) -> Verdict {
