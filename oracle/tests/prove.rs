@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use mufasa_oracle::prove::{document, sources};
+use mufasa_oracle::prove::{document, sources, tables};
 
 fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
@@ -84,9 +84,14 @@ fn the_hash_of_the_sources_is_that_of_the_script() {
 #[test]
 fn the_readme_has_a_row_for_every_claim() {
     let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
-    let ids: Vec<&str> = claims.iter().map(|line| line.id.as_str()).collect();
-    let rows = document::ids(&root().join("README.md")).expect("the table");
-    assert_eq!(rows, ids, "cargo run -- prove --into README.md");
+    let table = document::read(&root().join("README.md")).expect("the table");
+    let expected = tables::markdown(&claims);
+    assert_eq!(tables::claims(&expected).len(), claims.len());
+    assert_eq!(
+        tables::claims(&table),
+        tables::claims(&expected),
+        "the table is old: cargo run -- prove --into README.md"
+    );
     for line in &claims {
         assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);
     }

@@ -4,8 +4,6 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::tables;
-
 /// The line before the table.
 const BEGIN: &str = "<!-- mufasa prove: begin -->\n";
 /// The line after it.
@@ -18,11 +16,10 @@ pub fn write(path: &Path, table: &str) -> io::Result<()> {
     fs::write(path, format!("{before}\n{table}\n{after}"))
 }
 
-/// The ids of the lines of the table in the document. Errors: no such file, no markers.
-pub fn ids(path: &Path) -> io::Result<Vec<String>> {
+/// The table in the document. Errors: no such file, no markers.
+pub fn read(path: &Path) -> io::Result<String> {
     let text = fs::read_to_string(path)?;
-    let (_, table, _) = parts(&text)?;
-    Ok(tables::ids(table).into_iter().map(str::to_owned).collect())
+    parts(&text).map(|(_, table, _)| table.to_owned())
 }
 
 /// Up to the table, the table, from its end on.

@@ -97,7 +97,10 @@ impl Source {
 /// A change of a source in words of the table.
 fn change_of(file: &str, from: &str, to: &str) -> String {
     let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    format!("{file}: `{}` becomes `{}`", flat(from), flat(to))
+    match flat(to).as_str() {
+        "" => format!("`{}` is left out ({file})", flat(from)),
+        to => format!("`{}` becomes `{to}` ({file})", flat(from)),
+    }
 }
 
 /// Applies `f` to every item, in as many threads as there are processors; results in order.

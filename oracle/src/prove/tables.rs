@@ -58,10 +58,17 @@ pub fn markdown(lines: &[Line]) -> String {
     text
 }
 
-/// The ids of the lines of such a table.
-pub fn ids(markdown: &str) -> Vec<&str> {
-    let rows = markdown.lines().filter_map(|line| line.strip_prefix("| `"));
-    rows.filter_map(|row| row.split_once("` |")).map(|(id, _)| id).collect()
+/// What does not depend on a run of the lines of such a table: id, statement, domain, what makes
+/// them fail.
+pub fn claims(markdown: &str) -> Vec<[&str; 4]> {
+    let rows = markdown.lines().filter(|line| line.starts_with("| `"));
+    let cells = rows.map(|row| row.trim_matches(['|', ' ']).split(" | ").collect::<Vec<_>>());
+    cells
+        .filter_map(|cells| match cells.as_slice() {
+            &[id, statement, _, domain, _, _, mutants] => Some([id, statement, domain, mutants]),
+            _ => None,
+        })
+        .collect()
 }
 
 /// How often each engine gave each verdict. An engine may speak of a claim that another decides.
@@ -127,7 +134,9 @@ mod tests {
 
     fn line(answers: Vec<Answer>) -> Line {
         let nothing = Answer::not_run("z3", "no z3 here");
-        Line::new(["an_id", "a | b", "all"], nothing).answered(answers)
+        let mutants = vec![String::from("a change")];
+        let line = Line { mutants, ..Line::new(["an_id", "a | b", "all"], nothing) };
+        line.answered(answers)
     }
 
     #[test]
@@ -142,12 +151,13 @@ mod tests {
         let counts = "2 proved, 0 refuted, 0 unknown, 1 tested, 1 not run";
         assert!(text.ends_with(&format!("{counts}\n")), "{text}");
         let markdown = markdown(&lines);
-        assert!(markdown.contains("| `an_id` | a \\| b | z3 | all | not run: no z3 here |  |  |"));
+        let row = "| `an_id` | a \\| b | z3 | all | not run: no z3 here |  | a change |";
+        assert!(markdown.contains(row), "{markdown}");
         assert!(markdown.contains("| sampling | all | tested (7 cases); kani not run | 0.50 |"));
         assert!(markdown.contains("| z3 | 2 | 0 | 0 | 0 | 1 |"), "{markdown}");
         assert!(markdown.contains("| kani | 0 | 0 | 0 | 0 | 1 |"), "{markdown}");
         assert!(markdown.contains(counts));
-        assert_eq!(ids(&markdown), ["an_id"; 4]);
+        assert_eq!(claims(&markdown), [["`an_id`", "a \\| b", "all", "a change"]; 4]);
     }
 
     #[test]

@@ -8,7 +8,6 @@ use indicatif::ProgressBar;
 use mufasa_proofs::exhaust::{Run, TOPICS};
 use serde::Deserialize;
 
-use super::change_of;
 use crate::prove::line::{Answer, Line, Verdict};
 
 /// Every value of a finite domain is run.
@@ -26,8 +25,6 @@ struct Law {
     statement: String,
     change: String,
     file: String,
-    from: String,
-    to: String,
 }
 
 pub(super) fn claims() -> io::Result<Vec<Line>> {
@@ -37,7 +34,7 @@ pub(super) fn claims() -> io::Result<Vec<Line>> {
         let domain = topic.map_or("", |topic| topic.domain);
         let id = format!("law::{}", law.id);
         let parts = [id.as_str(), &law.statement, domain];
-        let mutant = format!("{}: {}", law.change, change_of(&law.file, &law.from, &law.to));
+        let mutant = format!("{} ({})", law.change, law.file);
         Line { mutants: vec![mutant], ..Line::new(parts, Answer::not_run(ENGINE, "")) }
     };
     Ok(list.law.into_iter().map(claim).collect())
