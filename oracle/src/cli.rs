@@ -177,6 +177,8 @@ fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
         cbmc: arguments.cbmc,
         out: arguments.out,
         markdown: arguments.markdown,
+        sources: arguments.sources,
+        into: arguments.into,
     };
     prove::run(&settings, out, &mut io::stderr()).map(prove::End::code)
 }

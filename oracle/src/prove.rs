@@ -1,8 +1,10 @@
 //! What is proved, by which engine, of which inputs: all engines that are here are run, the others
 //! are listed as not run.
 
+pub mod document;
 pub mod engines;
 pub mod line;
+pub mod sources;
 pub mod tables;
 
 use std::io::{self, Write};
@@ -11,7 +13,7 @@ use std::path::PathBuf;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::check::{complain, files};
-use engines::Engine;
+use engines::Source;
 use line::{Line, Verdict};
 
 /// What is run and where the answers go.
@@ -21,16 +23,20 @@ pub struct Settings {
     pub names: Vec<String>,
     /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
     pub cbmc: PathBuf,
+    /// The checkout that these have to be about.
+    pub sources: PathBuf,
     /// Where the lines are written as JSON Lines.
     pub out: PathBuf,
     /// Print the table as Markdown.
     pub markdown: bool,
+    /// A document whose table is replaced.
+    pub into: Option<PathBuf>,
 }
 
 /// How it ended; the worst that applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum End {
-    /// Whatever was run is proved.
+    /// Whatever was run is proved, or tested where no engine proves it.
     #[default]
     Proved,
     /// Something that should hold is refuted or not known.
@@ -51,11 +57,11 @@ impl End {
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
     let mut lines = Vec::new();
     let mut end = End::default();
-    for engine in Engine::ALL {
-        match engine.lines(settings, &bar(engine)) {
+    for source in Source::ALL {
+        match source.lines(settings, &bar(source)) {
             Ok(more) => lines.extend(more),
             Err(problem) => {
-                complain(err, &format!("{}: {problem}", engine.name()));
+                complain(err, &format!("{}: {problem}", source.name()));
                 end = End::BadInput;
             }
         }
@@ -64,16 +70,28 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         complain(err, "nothing has such a name");
         return Ok(End::BadInput);
     }
-    if lines.iter().any(|line| matches!(line.verdict, Verdict::Refuted | Verdict::Unknown)) {
+    if lines.iter().any(|line| matches!(line.answer.verdict, Verdict::Refuted | Verdict::Unknown)) {
         end = end.max(End::NotProved);
     }
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
     write!(out, "{table}")?;
+    if let Some(path) = &settings.into
+        && let Err(error) = document::write(path, &tables::markdown(&lines))
+    {
+        complain(err, &format!("{}: cannot be written: {error}", path.display()));
+        end = End::BadInput;
+    }
     if let Err(error) = write_lines(settings, &lines) {
         complain(err, &format!("{}: cannot be written: {error}", settings.out.display()));
         end = End::BadInput;
     }
     Ok(end)
+}
+
+/// All claims, of which nothing was asked. Errors are those of reading the lists of them.
+pub fn claims() -> io::Result<Vec<Line>> {
+    let claims: io::Result<Vec<_>> = Source::ALL.into_iter().map(Source::claims).collect();
+    Ok(claims?.into_iter().flatten().collect())
 }
 
 fn write_lines(settings: &Settings, lines: &[Line]) -> io::Result<()> {
@@ -88,11 +106,11 @@ fn write_lines(settings: &Settings, lines: &[Line]) -> io::Result<()> {
     files::write(&settings.out, &text)
 }
 
-fn bar(engine: Engine) -> ProgressBar {
+fn bar(source: Source) -> ProgressBar {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len} {msg}") {
         bar.set_style(style);
     }
-    bar.set_prefix(engine.name());
+    bar.set_prefix(source.name());
     bar
 }

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use mufasa_oracle::prove::{document, sources, tables};
+
 fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
     command.arg("prove").args(arguments).arg("--out").arg(folder.join("prove.json"));
@@ -24,27 +26,74 @@ fn without_solvers_nothing_is_proved() {
     let output = prove(&["z3", "gappa"], Some(""), &folder);
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).expect("text");
-    assert!(text.contains("0 proved, 0 refuted, 0 unknown, 36 not run"), "{text}");
+    assert!(text.contains("0 proved, 0 refuted, 0 unknown, 0 tested, 36 not run"), "{text}");
     let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
     assert_eq!(lines.matches("\"verdict\":\"not run\"").count(), 36);
+}
+
+/// A line of compiled code, as `scripts/prove-wasm` writes it.
+fn compiled(verdict: &str, sources: &str) -> String {
+    format!(
+        "{{\"id\": \"qos::verify_latency_is_exact\", \"verdict\": \"{verdict}\", \"seconds\": 1.5, \
+         \"sources\": \"{sources}\"}}\n"
+    )
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
 #[test]
 fn a_refuted_harness_is_no_success() {
     let folder = folder("prove-refuted");
     let cbmc = folder.join("cbmc.json");
-    let line = |verdict: &str| {
-        format!(
-            r#"{{"id": "qos::verify_latency_is_exact", "statement": "s", "engine": "cbmc-wasm",
-             "domain": "d", "verdict": "{verdict}", "seconds": 1.5}}"#
-        )
-        .replace('\n', " ")
-    };
+    let here = sources::hash(root()).expect("the sources are here");
     for (verdict, code) in [("proved", 0), ("refuted", 1), ("unknown", 1), ("perhaps", 2)] {
-        std::fs::write(&cbmc, line(verdict)).expect("the file");
-        let file = cbmc.to_str().expect("a plain path");
-        let output = prove(&["latency", "--cbmc", file], None, &folder);
+        std::fs::write(&cbmc, compiled(verdict, &here)).expect("the file");
+        let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
+        let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
         assert_eq!(output.status.code(), Some(code), "{verdict}: {output:?}");
+    }
+}
+
+#[test]
+fn a_proof_of_other_sources_counts_nothing() {
+    let folder = folder("prove-other");
+    let cbmc = folder.join("cbmc.json");
+    std::fs::write(&cbmc, compiled("proved", "0123456789abcdef")).expect("the file");
+    let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
+    let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("0 proved, 0 refuted, 0 unknown, 1 tested, 0 not run"), "{text}");
+    let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
+    assert!(lines.contains("of other sources"), "{lines}");
+}
+
+#[test]
+fn the_hash_of_the_sources_is_that_of_the_script() {
+    let script = root().join("scripts/prove-wasm");
+    let Ok(output) = Command::new(script).arg("--hash").output() else {
+        println!("NOT RUN: no Python here");
+        return;
+    };
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(text.trim(), sources::hash(root()).expect("the sources are here"));
+}
+
+#[test]
+fn the_readme_has_a_row_for_every_claim() {
+    let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
+    let table = document::read(&root().join("README.md")).expect("the table");
+    let expected = tables::markdown(&claims);
+    assert_eq!(tables::claims(&expected).len(), claims.len());
+    assert_eq!(
+        tables::claims(&table),
+        tables::claims(&expected),
+        "the table is old: cargo run -- prove --into README.md"
+    );
+    for line in &claims {
+        assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);
     }
 }
 

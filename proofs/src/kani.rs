@@ -5,10 +5,12 @@
 //! where numbers of 64 bits are drawn, many tapes are, which proves nothing. Kani and CBMC take
 //! the same harnesses and leave these values symbolic.
 
+mod judge;
 mod run;
 mod tape;
 mod values;
 
+pub use self::judge::{BUDGET, LEAST_HELD, Verdict, judge};
 pub use self::run::{Budget, Run, run};
 pub use self::values::{Arbitrary, any, below, near, near_integer};
 

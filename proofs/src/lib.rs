@@ -8,6 +8,10 @@
 #[cfg(all(not(feature = "explore"), not(kani), not(target_family = "wasm")))]
 extern crate std;
 
+#[cfg(not(any(kani, target_family = "wasm")))]
+mod caught;
+#[cfg(not(any(kani, target_family = "wasm")))]
+pub mod exhaust;
 #[cfg(feature = "explore")]
 pub mod explore;
 // Kani brings its own crate of that name; the build for CBMC takes the harnesses by their paths.
@@ -16,3 +20,6 @@ pub mod harness;
 #[cfg(not(any(kani, target_family = "wasm")))]
 pub mod kani;
 pub mod law;
+
+/// Whether an overflow of this build panics, as the harnesses want it, or wraps.
+pub const OVERFLOW_PANICS: bool = cfg!(debug_assertions);

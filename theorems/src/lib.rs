@@ -6,6 +6,7 @@
 //! decided by what is known forks the execution. Each path that can be reached becomes one question
 //! to z3: is there a counterexample?
 
+pub mod doubles;
 pub mod gappa;
 pub mod prove;
 pub mod real;

@@ -1,9 +1,12 @@
 //! z3 as a process that reads and writes SMT-LIB.
 
-use std::io::{self, BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::time::Duration;
 
-use crate::real::path::Path;
+use crate::real::path;
 
 /// What the solver says of an assertion on a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,12 +28,17 @@ pub struct Effort {
     pub limit_ms: u32,
 }
 
+/// Beyond its own limit the solver gets as long again and this, then it is ended.
+const GRACE: Duration = Duration::from_secs(2);
+
 /// A running solver.
 #[derive(Debug)]
 pub struct Solver {
+    program: PathBuf,
     process: Child,
     input: ChildStdin,
-    output: BufReader<ChildStdout>,
+    /// Its lines, read by a thread that ends with it.
+    output: Receiver<io::Result<String>>,
     /// Questions asked.
     pub questions: usize,
     /// The first error of reading or writing; no answer is given after it.
@@ -62,24 +70,43 @@ pub fn is_version_4_8(line: &str) -> bool {
 impl Solver {
     /// Starts z3.
     pub fn start() -> io::Result<Self> {
-        let mut process =
-            Command::new("z3").arg("-in").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+        Self::start_program(Path::new("z3"))
+    }
+
+    /// Starts a program that takes the arguments of z3.
+    pub fn start_program(program: &Path) -> io::Result<Self> {
+        let mut process = Command::new(program)
+            .arg("-in")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()?;
         let missing = || io::Error::other("the solver has no pipes");
         let input = process.stdin.take().ok_or_else(missing)?;
-        let output = BufReader::new(process.stdout.take().ok_or_else(missing)?);
-        Ok(Self { process, input, output, questions: 0, error: None })
+        let lines = BufReader::new(process.stdout.take().ok_or_else(missing)?).lines();
+        let (sender, output) = mpsc::channel();
+        std::thread::spawn(move || lines.map(|line| sender.send(line)).find(Result::is_err));
+        Ok(Self { program: program.to_owned(), process, input, output, questions: 0, error: None })
     }
 
     /// Whether the assertion can be satisfied on the path.
-    pub fn check(&mut self, path: &Path, assertion: &str, effort: Effort) -> Answer {
+    pub fn check(&mut self, path: &path::Path, assertion: &str, effort: Effort) -> Answer {
         self.questions += 1;
         self.try_check(path, assertion, effort).unwrap_or_else(|error| {
-            self.error.get_or_insert(error);
+            if error.kind() != ErrorKind::TimedOut {
+                self.error.get_or_insert(error);
+            } else if let Err(error) = self.start_again() {
+                self.error.get_or_insert(error);
+            }
             Answer::Unknown
         })
     }
 
-    fn try_check(&mut self, path: &Path, assertion: &str, effort: Effort) -> io::Result<Answer> {
+    fn try_check(
+        &mut self,
+        path: &path::Path,
+        assertion: &str,
+        effort: Effort,
+    ) -> io::Result<Answer> {
         let Effort { steps, limit_ms } = effort;
         writeln!(
             self.input,
@@ -94,7 +121,8 @@ impl Solver {
         }
         writeln!(self.input, "(assert {assertion})(check-sat)")?;
         self.input.flush()?;
-        match self.line()?.as_str() {
+        let limit = Duration::from_millis(2 * u64::from(limit_ms)) + GRACE;
+        match self.line(limit)?.as_str() {
             "unsat" => Ok(Answer::Unsat),
             "sat" => Ok(Answer::Sat(self.values(path)?)),
             "unknown" | "timeout" => Ok(Answer::Unknown),
@@ -102,23 +130,31 @@ impl Solver {
         }
     }
 
-    fn values(&mut self, path: &Path) -> io::Result<Vec<(String, f64)>> {
+    fn values(&mut self, path: &path::Path) -> io::Result<Vec<(String, f64)>> {
         let mut values = Vec::new();
         for name in &path.names {
             writeln!(self.input, "(eval |{name}| :completion true)")?;
             self.input.flush()?;
-            let line = self.line()?;
+            let line = self.line(GRACE)?;
             values.push((name.clone(), number(&line)));
         }
         Ok(values)
     }
 
-    fn line(&mut self) -> io::Result<String> {
-        let mut line = String::new();
-        if self.output.read_line(&mut line)? == 0 {
-            return Err(io::Error::other("z3 ended"));
+    fn line(&mut self, limit: Duration) -> io::Result<String> {
+        match self.output.recv_timeout(limit) {
+            Ok(line) => Ok(line?.trim().to_owned()),
+            Err(RecvTimeoutError::Timeout) => Err(ErrorKind::TimedOut.into()),
+            Err(RecvTimeoutError::Disconnected) => Err(io::Error::other("z3 ended")),
         }
-        Ok(line.trim().to_owned())
+    }
+
+    /// Ends a solver that hangs; a new one takes the next question.
+    fn start_again(&mut self) -> io::Result<()> {
+        let questions = self.questions;
+        *self = Self::start_program(&self.program)?;
+        self.questions = questions;
+        Ok(())
     }
 }
 

@@ -219,9 +219,15 @@ pub(super) struct ProveArguments {
     /// What scripts/prove-wasm wrote.
     #[arg(long, value_name = "FILE", default_value = "target/proofs/cbmc.json")]
     pub(super) cbmc: PathBuf,
+    /// The checkout whose compiled code that has to be about.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub(super) sources: PathBuf,
     /// Write the claims with their verdicts as JSON Lines.
     #[arg(long, value_name = "FILE", default_value = "target/proofs/prove.json")]
     pub(super) out: PathBuf,
+    /// Put the table into a document, between the lines that mark its place.
+    #[arg(long, value_name = "FILE", conflicts_with = "names")]
+    pub(super) into: Option<PathBuf>,
     /// Print the table as Markdown.
     #[arg(long)]
     pub(super) markdown: bool,

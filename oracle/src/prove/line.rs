@@ -1,4 +1,4 @@
-//! One claim with what an engine says of it.
+//! One claim with what the engines say of it.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,66 +14,116 @@ pub enum Verdict {
     /// The engine does not know, or its claim may be one of nothing.
     #[serde(rename = "unknown")]
     Unknown,
+    /// True of some values of the domain, which were run. No proof.
+    #[serde(rename = "tested")]
+    Tested,
     /// The engine is not here, or this was left out. Nothing is claimed.
     #[serde(rename = "not run")]
     NotRun,
 }
 
 impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::Proved, Self::Refuted, Self::Unknown, Self::Tested, Self::NotRun];
+
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Proved => "proved",
             Self::Refuted => "refuted",
             Self::Unknown => "unknown",
+            Self::Tested => "tested",
             Self::NotRun => "not run",
+        }
+    }
+
+    /// Which of two verdicts on one claim counts: the one that comes first here. Who does not know
+    /// what it should counts more than a test.
+    const fn rank(self) -> u8 {
+        match self {
+            Self::Refuted => 0,
+            Self::Proved => 1,
+            Self::Unknown => 2,
+            Self::Tested => 3,
+            Self::NotRun => 4,
         }
     }
 }
 
+/// What one engine says of a claim.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Answer {
+    /// The engine.
+    pub engine: &'static str,
+    /// What it says.
+    pub verdict: Verdict,
+    /// Time taken, s; none where nothing ran.
+    pub seconds: Option<f64>,
+    /// What was run, as a number of cases or paths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ran: Option<String>,
+    /// Why it is not proved, or was not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+impl Answer {
+    /// Nothing was asked.
+    pub fn not_run(engine: &'static str, reason: &str) -> Self {
+        let reason = Some(reason.to_owned());
+        Self { engine, verdict: Verdict::NotRun, seconds: None, ran: None, reason }
+    }
+
+    /// An answer after this time.
+    pub fn given(engine: &'static str, verdict: Verdict, seconds: f64) -> Self {
+        Self { engine, verdict, seconds: Some(seconds), ran: None, reason: None }
+    }
+}
+
 /// One claim.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
     /// Its name, a sentence.
     pub id: String,
     /// What is claimed.
     pub statement: String,
-    /// What judged it.
-    pub engine: String,
     /// Of which inputs, and what is not covered.
     pub domain: String,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Time taken, s; none where nothing ran.
-    pub seconds: Option<f64>,
-    /// Paths of the execution, of theorems.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub paths: Option<usize>,
+    /// The answer that counts.
+    #[serde(flatten)]
+    pub answer: Answer,
+    /// What other engines say of the same claim.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub others: Vec<Answer>,
     /// The statement near it that was refuted, of theorems.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub refuted_variant: Option<String>,
-    /// The change of the source that makes it fail.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mutant: Option<String>,
-    /// Why it is not proved, or was not run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
+    /// The changes of the source that make it fail; `scripts/prove-mutants` applies them.
+    pub mutants: Vec<String>,
 }
 
 impl Line {
     /// A claim that nothing was asked about yet.
-    pub fn not_run(engine: &str, [id, statement, domain]: [&str; 3], reason: &str) -> Self {
+    pub fn new([id, statement, domain]: [&str; 3], answer: Answer) -> Self {
         Self {
             id: id.to_owned(),
             statement: statement.to_owned(),
-            engine: engine.to_owned(),
             domain: domain.to_owned(),
-            verdict: Verdict::NotRun,
-            seconds: None,
-            paths: None,
+            answer,
+            others: Vec::new(),
             refuted_variant: None,
-            mutant: None,
-            reason: Some(reason.to_owned()),
+            mutants: Vec::new(),
+        }
+    }
+
+    /// Takes the answers of several engines: the one that counts first, then the others.
+    pub fn answered(self, mut answers: Vec<Answer>) -> Self {
+        answers.sort_by_key(|answer| answer.verdict.rank());
+        let mut answers = answers.into_iter();
+        match answers.next() {
+            Some(answer) => Self { answer, others: answers.collect(), ..self },
+            None => self,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
-use super::line::{Line, Verdict};
+use super::line::{Answer, Line, Verdict};
 
 /// Width of a table, characters.
 const WIDTH: u16 = 150;
@@ -16,13 +16,15 @@ pub fn text(lines: &[Line]) -> String {
     table.set_width(WIDTH);
     table.set_header(["id", "statement", "engine", "domain", "verdict", "seconds"]);
     for line in lines {
-        let verdict = match &line.reason {
-            Some(reason) => format!("{}: {reason}", line.verdict.name()),
-            None => line.verdict.name().to_owned(),
-        };
-        let cells =
-            [&line.id.replace('_', " "), &line.statement, &line.engine, &line.domain, &verdict];
-        table.add_row(cells.into_iter().cloned().chain([seconds(line)]));
+        let cells = [
+            line.id.replace('_', " "),
+            line.statement.clone(),
+            line.answer.engine.to_owned(),
+            line.domain.clone(),
+            verdict(line),
+            seconds(&line.answer),
+        ];
+        table.add_row(cells);
     }
     if let Some(column) = table.column_mut(5) {
         column.set_cell_alignment(CellAlignment::Right);
@@ -32,29 +34,97 @@ pub fn text(lines: &[Line]) -> String {
     format!("{trimmed}{}\n", counts(lines))
 }
 
-/// For the README.
+/// For documents: the number of verdicts of each engine, then every line.
 pub fn markdown(lines: &[Line]) -> String {
-    let mut text = String::from(
-        "| id | statement | engine | domain | verdict | s |\n|---|---|---|---|---|---|\n",
-    );
+    let mut text = format!("{}\n{}.\n", engines(lines), counts(lines));
+    text.push_str("\n<details><summary>Every line</summary>\n\n");
+    text.push_str("| id | statement | engine | domain | verdict | s | fails when |\n");
+    text.push_str("|---|---|---|---|---|--:|---|\n");
     for line in lines {
-        let cells = [&line.id.replace('_', " "), &line.statement, &line.engine, &line.domain]
-            .map(|cell| cell.replace('|', "\\|"));
-        let (verdict, seconds) = (line.verdict.name(), seconds(line));
+        let cells = [
+            format!("`{}`", line.id),
+            line.statement.clone(),
+            line.answer.engine.to_owned(),
+            line.domain.clone(),
+            verdict(line),
+            seconds(&line.answer),
+            line.mutants.join("; "),
+        ];
+        let cells = cells.map(|cell| cell.replace('|', "\\|"));
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "| {} | {verdict} | {seconds} |", cells.join(" | "));
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
-    format!("{text}\n{}\n", counts(lines))
+    text.push_str("\n</details>\n");
+    text
 }
 
-fn seconds(line: &Line) -> String {
-    line.seconds.map_or_else(String::new, |seconds| format!("{seconds:.2}"))
+/// What does not depend on a run of the lines of such a table: id, statement, domain, what makes
+/// them fail.
+pub fn claims(markdown: &str) -> Vec<[&str; 4]> {
+    let rows = markdown.lines().filter(|line| line.starts_with("| `"));
+    let cells = rows.map(|row| row.trim_matches(['|', ' ']).split(" | ").collect::<Vec<_>>());
+    cells
+        .filter_map(|cells| match cells.as_slice() {
+            &[id, statement, _, domain, _, _, mutants] => Some([id, statement, domain, mutants]),
+            _ => None,
+        })
+        .collect()
+}
+
+/// How often each engine gave each verdict. An engine may speak of a claim that another decides.
+fn engines(lines: &[Line]) -> String {
+    let answers = || lines.iter().flat_map(|line| [&line.answer].into_iter().chain(&line.others));
+    let mut names: Vec<&str> = Vec::new();
+    for answer in answers() {
+        if !names.contains(&answer.engine) {
+            names.push(answer.engine);
+        }
+    }
+    let mut text = String::from("| engine |");
+    let _ = writeln!(text, " {} |", Verdict::ALL.map(Verdict::name).join(" | "));
+    let _ = writeln!(text, "|---|{}", "--:|".repeat(Verdict::ALL.len()));
+    for name in names {
+        let count = |verdict| {
+            let those = answers().filter(|it| it.engine == name && it.verdict == verdict);
+            those.count().to_string()
+        };
+        let _ = writeln!(text, "| {name} | {} |", Verdict::ALL.map(count).join(" | "));
+    }
+    text
+}
+
+/// The verdict that counts, what was run, why it is no better, and what else was said.
+fn verdict(line: &Line) -> String {
+    let mut text = said(&line.answer);
+    for other in &line.others {
+        let brief = Answer { ran: None, ..other.clone() };
+        let brief = match other.verdict {
+            Verdict::NotRun => other.verdict.name().to_owned(),
+            _ => said(&brief),
+        };
+        let _ = write!(text, "; {} {brief}", other.engine);
+    }
+    text
+}
+
+fn said(answer: &Answer) -> String {
+    let mut text = answer.verdict.name().to_owned();
+    if let Some(ran) = &answer.ran {
+        let _ = write!(text, " ({ran})");
+    }
+    if let Some(reason) = answer.reason.as_ref().filter(|reason| !reason.is_empty()) {
+        let _ = write!(text, ": {reason}");
+    }
+    text
+}
+
+fn seconds(answer: &Answer) -> String {
+    answer.seconds.map_or_else(String::new, |seconds| format!("{seconds:.2}"))
 }
 
 fn counts(lines: &[Line]) -> String {
-    let verdicts = [Verdict::Proved, Verdict::Refuted, Verdict::Unknown, Verdict::NotRun];
-    let count = |verdict| lines.iter().filter(|line| line.verdict == verdict).count();
-    let counts = verdicts.map(|verdict| format!("{} {}", count(verdict), verdict.name()));
+    let count = |verdict| lines.iter().filter(|line| line.answer.verdict == verdict).count();
+    let counts = Verdict::ALL.map(|verdict| format!("{} {}", count(verdict), verdict.name()));
     counts.join(", ")
 }
 
@@ -62,14 +132,45 @@ fn counts(lines: &[Line]) -> String {
 mod tests {
     use super::*;
 
+    fn line(answers: Vec<Answer>) -> Line {
+        let nothing = Answer::not_run("z3", "no z3 here");
+        let mutants = vec![String::from("a change")];
+        let line = Line { mutants, ..Line::new(["an_id", "a | b", "all"], nothing) };
+        line.answered(answers)
+    }
+
     #[test]
-    fn what_was_not_run_is_not_counted_as_proved() {
-        let line = Line::not_run("z3", ["an_id", "a | b", "all"], "no z3 here");
-        let proved = Line { verdict: Verdict::Proved, reason: None, ..line.clone() };
-        let lines = [line, proved.clone(), proved];
+    fn what_was_not_run_or_only_tested_is_not_counted_as_proved() {
+        let proved = line(vec![Answer::given("z3", Verdict::Proved, 0.5)]);
+        let ran = Some(String::from("7 cases"));
+        let tested = Answer { ran, ..Answer::given("sampling", Verdict::Tested, 0.5) };
+        let tested = line(vec![tested, Answer::not_run("kani", "not here")]);
+        let lines = [line(Vec::new()), proved.clone(), proved, tested];
         let text = text(&lines);
         assert!(text.contains("not run: no z3 here"), "{text}");
-        assert!(text.ends_with("2 proved, 0 refuted, 0 unknown, 1 not run\n"), "{text}");
-        assert!(markdown(&lines).contains("| an id | a \\| b | z3 | all | not run |  |"));
+        let counts = "2 proved, 0 refuted, 0 unknown, 1 tested, 1 not run";
+        assert!(text.ends_with(&format!("{counts}\n")), "{text}");
+        let markdown = markdown(&lines);
+        let row = "| `an_id` | a \\| b | z3 | all | not run: no z3 here |  | a change |";
+        assert!(markdown.contains(row), "{markdown}");
+        assert!(markdown.contains("| sampling | all | tested (7 cases); kani not run | 0.50 |"));
+        assert!(markdown.contains("| z3 | 2 | 0 | 0 | 0 | 1 |"), "{markdown}");
+        assert!(markdown.contains("| kani | 0 | 0 | 0 | 0 | 1 |"), "{markdown}");
+        assert!(markdown.contains(counts));
+        assert_eq!(claims(&markdown), [["`an_id`", "a \\| b", "all", "a change"]; 4]);
+    }
+
+    #[test]
+    fn the_strongest_answer_counts_and_a_refutation_most() {
+        use Verdict::{NotRun, Proved, Refuted, Tested, Unknown};
+        let of = |verdicts: &[Verdict]| {
+            let answers = verdicts.iter().map(|&verdict| Answer::given("z3", verdict, 0.0));
+            line(answers.collect()).answer.verdict
+        };
+        assert_eq!(of(&[Tested, Proved, NotRun]), Proved);
+        assert_eq!(of(&[Proved, Refuted]), Refuted);
+        assert_eq!(of(&[Tested, Unknown]), Unknown);
+        assert_eq!(of(&[NotRun, Tested]), Tested);
+        assert_eq!(of(&[NotRun]), NotRun);
     }
 }

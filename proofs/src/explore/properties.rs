@@ -115,6 +115,79 @@ impl Law {
         }
     }
 
+    /// What it claims.
+    pub fn statement(self) -> &'static str {
+        match self {
+            Self::OneSource => {
+                "At every time each group has exactly one source: a station while it is remote and its \
+                 local services are stopped, else the CAV."
+            }
+            Self::NoRemoteResultBeforeHoldUntil => {
+                "After a safety issue no result of a station is used before `hold_until`."
+            }
+            Self::AskedOnceAllowed => {
+                "A group that is local, in the area and offered is asked for at every tick at `hold_until` or \
+                 later."
+            }
+            Self::EnvAndTplTogether => "ENV and TPL never have different sources.",
+            Self::OffloadingReachedAgain => {
+                "From every reachable state: if offers and areas stay, some station confirms, no fault \
+                 occurs and the hold ends, every offered group becomes remote."
+            }
+            Self::LeftSessionWithinLease => {
+                "A session that its requester has left ends within the lease, counted from the last \
+                 message of it that the station hears."
+            }
+            Self::LeftSessionEnds => {
+                "A session that its requester has left ends, once nothing of it is heard any more."
+            }
+            Self::NoStopBeforeSafeCycle => {
+                "Local services are not stopped while no result of the running session was in a safe \
+                 cycle (H-08)."
+            }
+            Self::EndedSessionChangesNothing => {
+                "A message of an ended session changes no later one, at the CAV or at a station."
+            }
+            Self::NoMoreThanCapacity => "No station runs more sessions than its capacity.",
+            Self::OthersKeepTheirSessions => {
+                "What one requester does changes no session of another."
+            }
+            Self::PartsValid => {
+                "Every reachable state of requester and provider is valid, and model and \
+                 implementation of the requester agree in every step."
+            }
+        }
+    }
+
+    /// The mutants of `proofs/mutants` that have to break it, as each patch says.
+    pub fn mutants(self) -> &'static [&'static str] {
+        match self {
+            Self::OneSource => &["no-activation"],
+            Self::NoRemoteResultBeforeHoldUntil => {
+                &["fallback-of-mot-only", "hold-one-tick-short", "no-hold"]
+            }
+            Self::AskedOnceAllowed => &["hold-one-tick-long"],
+            Self::EnvAndTplTogether => &["tpl-moves-with-mot"],
+            Self::OffloadingReachedAgain => {
+                &["always-the-smallest-station", "never-silent", "requests-never-overdue"]
+            }
+            Self::LeftSessionWithinLease => &["lease-one-tick-long"],
+            Self::LeftSessionEnds => &["no-lease"],
+            Self::NoStopBeforeSafeCycle => &["stop-at-confirmation", "stop-without-a-result"],
+            Self::EndedSessionChangesNothing => &[
+                "any-session-confirms",
+                "any-session-delivers",
+                "numbers-repeat",
+                "numbers-start-anew",
+                "older-requests-replace",
+                "release-of-the-wrong-session",
+            ],
+            Self::NoMoreThanCapacity => &["full-confirms", "one-more-than-capacity"],
+            Self::OthersKeepTheirSessions => &["numbers-across-requesters", "release-ends-all"],
+            Self::PartsValid => &["withdrawal-keeps-the-session"],
+        }
+    }
+
     /// The heading of its requirement.
     pub fn requirement(self) -> &'static str {
         match self {

@@ -18,8 +18,9 @@ use crate::law::distance::{
     s_follow_never_below_s_cav,
 };
 
-/// `s_follow` is finite, not negative, at most what braking from `v_now` and `s_CAV` are together,
-/// and never below `s_CAV`.
+/// `s_follow` is finite, not negative, at most what braking from `v_now` and `s_CAV` are together to
+/// within 1e-15 of it (or the least normal double), and not below the double before `s_CAV` computed
+/// in doubles, whose product may have been rounded up.
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its
 /// value, which differential tests compare with the model.
@@ -40,7 +41,8 @@ pub fn verify_s_follow_is_at_least_s_cav() {
     kani::cover!(s_follow <= 0.0, "standing still");
 }
 
-/// `s_follow` does not rise with the speed of the lead, and is `s_CAV` from `v_now` on.
+/// `s_follow` does not rise with the speed of the lead, and is `s_CAV` from `v_now` on, to within one
+/// double of `s_CAV` computed in doubles.
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: growth
 /// with `v_now`.
@@ -61,8 +63,8 @@ pub fn verify_s_follow_falls_with_v_lead() {
     kani::cover!(slower >= v_now && near > 0.0, "stays at s_CAV");
 }
 
-/// The laws of the gap: no gap up to `s_CAV` passes, a larger gap and a faster lead are never
-/// worse.
+/// The laws of the gap: no gap up to the double before `s_CAV` computed in doubles passes, a larger
+/// gap is never worse, and a faster lead is not with a gap larger by 1e-15 of it and 1e-15 m.
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`, gaps to 900 km. Not
 /// covered: larger gaps.

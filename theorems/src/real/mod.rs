@@ -7,6 +7,7 @@ pub mod formula;
 pub mod hole;
 pub mod path;
 pub mod polynomial;
+pub mod program;
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -17,6 +18,7 @@ use dashu_ratio::RBig;
 
 use path::{Operation, Signs};
 use polynomial::{Polynomial, Variable};
+use program::Operator;
 
 /// A symbolic number: a polynomial in the variables of the path.
 #[derive(Clone, Debug)]
@@ -81,11 +83,15 @@ impl Real {
     }
 
     /// The square root of a number that is not negative.
+    ///
+    /// # Panics
+    /// If the operations are taken down as a program, which takes no roots here.
     #[must_use]
     pub fn sqrt(&self) -> Self {
         if let Some(root) = self.rational_root() {
             return root;
         }
+        assert!(path::with(|path| path.steps.is_none()), "a program here takes no roots");
         self.made(Operation::Root, |root| {
             root.assume(Signs::AT_LEAST_ZERO);
             if !path::with(|path| path.roots_are_any_numbers) {
@@ -104,6 +110,12 @@ impl Real {
     #[must_use]
     pub fn abs(&self) -> Self {
         if *self < Self::zero() { -self } else { self.clone() }
+    }
+
+    /// The larger one.
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        program::step(Operator::Max, &self, &other).unwrap_or_else(|| Ord::max(self, other))
     }
 
     /// The result of an operation: rounded by one monotone function that keeps 0, if this path
@@ -295,7 +307,8 @@ impl std::iter::Sum for Real {
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        Real::of(self.0.scaled(&RBig::NEG_ONE))
+        let step = program::step(Operator::Minus, &Real::zero(), self);
+        step.unwrap_or_else(|| Real::of(self.0.scaled(&RBig::NEG_ONE)))
     }
 }
 
@@ -307,12 +320,13 @@ impl Neg for Real {
 }
 
 macro_rules! operator {
-    ($Op:ident, $op:ident, $compute:expr) => {
+    ($Op:ident, $op:ident, $operator:ident, $compute:expr) => {
         impl $Op<&Real> for &Real {
             type Output = Real;
             fn $op(self, other: &Real) -> Real {
                 let compute: fn(&Real, &Real) -> Real = $compute;
-                compute(self, other)
+                let step = program::step(Operator::$operator, self, other);
+                step.unwrap_or_else(|| compute(self, other).result())
             }
         }
         impl $Op<Real> for &Real {
@@ -336,7 +350,7 @@ macro_rules! operator {
     };
 }
 
-operator!(Add, add, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)).result());
-operator!(Sub, sub, |a, b| a.minus(b).result());
-operator!(Mul, mul, |a, b| a.times(b).result());
-operator!(Div, div, |a, b| a.times(&b.inverse()).result());
+operator!(Add, add, Plus, |a, b| Real::of(a.0.plus(&RBig::ONE, &b.0)));
+operator!(Sub, sub, Minus, |a, b| a.minus(b));
+operator!(Mul, mul, Times, |a, b| a.times(b));
+operator!(Div, div, Over, |a, b| a.times(&b.inverse()));

@@ -8,6 +8,7 @@ use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
 
 use crate::real::polynomial::{Polynomial, Rules, Variable};
+use crate::real::program::Step;
 use crate::solver::{Answer, Effort, Solver};
 
 /// For telling whether a branch can be reached. Without an answer the branch is taken.
@@ -73,6 +74,8 @@ pub struct Path {
     pub roots_are_any_numbers: bool,
     /// Every sum, difference, product and quotient is rounded by some monotone function.
     pub rounds: bool,
+    /// The operations so far, while they are taken down (`program::record`).
+    pub steps: Option<Vec<Step>>,
     /// Roots, quotients, absolute values and roundings made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
     signs: BTreeMap<Polynomial, Signs>,
@@ -148,11 +151,15 @@ pub fn next() -> bool {
 
 /// Whether the sign of the polynomial is one of these: known, or both answers are tried, each on a
 /// path of its own, as far as the solver does not rule one out.
+///
+/// # Panics
+/// If the operations are taken down as a program, which has no branches.
 pub fn branch(polynomial: &Polynomial, signs: Signs) -> bool {
     EXECUTION.with_borrow_mut(|execution| {
         if let Some(value) = polynomial.as_constant() {
             return !Signs::of(&value).and(signs).is_empty();
         }
+        assert!(execution.path.steps.is_none(), "a formula with branches is no program");
         let (key, signs) = execution.path.key(polynomial, signs);
         let known = execution.path.signs_of(&key);
         if known.and(signs.complement()).is_empty() {

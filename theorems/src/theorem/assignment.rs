@@ -40,7 +40,8 @@ pub const THEOREMS: &[Theorem] = &[
         id: "a_ghost_that_no_detection_is_near_has_no_assignment",
         statement: "H-01, F-01: a gated track without a detection closer than theta_track_max leaves no \
                     assignment of all k gated tracks",
-        domain: "k = 1, 2, 3; every choice of pairs closer than theta_track_max, all distances",
+        domain: "k = 1, 2, 3 tracks and k to 3 detections; every choice of pairs closer than theta_track_max, all \
+                 distances",
         claim: || no_assignment(true),
         wrong: Wrong { statement: "also when it has one", claim: || no_assignment(false) },
         mutant: Mutant {
@@ -118,10 +119,10 @@ fn ghost_hides(beyond: i128) -> Formula {
 }
 
 fn no_assignment(alone: bool) -> Formula {
-    let k = one_of(&[1, 2, 3]);
-    let costs = distances(k, k, |row, column| {
+    let (k, columns) = one_of(&[(1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (3, 3)]);
+    let costs = distances(k, columns, |row, column| {
         let near = if row == 0 { !alone } else { coin() };
         near.then(|| distance(&format!("c {row} {column}")))
     });
-    Formula::from(costs_less(&costs, k, k, &theta_tr()).is_err())
+    Formula::from(costs_less(&costs, columns, k, &theta_tr()).is_err())
 }

@@ -1,0 +1,46 @@
+//! bitwuzla on the distances in doubles.
+
+use std::io;
+
+use indicatif::ProgressBar;
+use mufasa_theorems::doubles::{self, Judgement, Range};
+
+use super::{change_of, theorems};
+use crate::prove::line::{Answer, Line};
+
+const ENGINE: &str = "bitwuzla";
+
+pub(super) fn claims() -> Vec<Line> {
+    let claim = |range: &Range| {
+        let mutant = &range.mutant;
+        let parts = [range.id, range.statement, doubles::DOMAIN];
+        Line {
+            refuted_variant: Some(range.wrong.statement.to_owned()),
+            mutants: vec![change_of(mutant.file, mutant.from, mutant.to)],
+            ..Line::new(parts, Answer::not_run(ENGINE, "no bitwuzla here"))
+        }
+    };
+    doubles::RANGES.iter().map(claim).collect()
+}
+
+pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+    if doubles::version().is_none() {
+        return Ok(claims);
+    }
+    let judged = |line: Line| {
+        bar.inc(1);
+        bar.set_message(line.id.clone());
+        let Some(range) = doubles::RANGES.iter().find(|range| range.id == line.id) else {
+            return Ok(line);
+        };
+        let judgement = range.judge()?;
+        Ok(line.answered(vec![answer(&judgement)]))
+    };
+    claims.into_iter().map(judged).collect()
+}
+
+fn answer(judgement: &Judgement) -> Answer {
+    let reason = theorems::reason(&judgement.claim, &judgement.control);
+    let verdict = theorems::verdict(judgement.verdict());
+    Answer { reason, ..Answer::given(ENGINE, verdict, judgement.time.as_secs_f64()) }
+}

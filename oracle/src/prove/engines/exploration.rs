@@ -1,0 +1,106 @@
+//! The exploration of the offloading protocol in the small worlds that take seconds.
+
+use std::collections::BTreeMap;
+
+use indicatif::ProgressBar;
+use mufasa_model::cycle::Profile;
+use mufasa_proofs::explore::bounds::{Bounds, World};
+use mufasa_proofs::explore::properties::Law;
+use mufasa_proofs::explore::run;
+
+use crate::prove::line::{Answer, Line, Verdict};
+
+const ENGINE: &str = "exploration";
+/// `mufasa explore` does the other small worlds, too, and the large ones.
+const WORLDS: [&str; 6] = ["anything", "qos-hold", "choice", "shared", "honest", "roam"];
+
+pub(super) fn claims() -> Vec<Line> {
+    let claim = |law: Law| {
+        let worlds: Vec<String> =
+            worlds().filter(|world| run::is_asked(law, world)).map(bounds_of).collect();
+        let domain = format!("hardened profile, every state of: {}", worlds.join("; "));
+        let parts = [law.name(), law.statement(), domain.as_str()];
+        Line {
+            mutants: law.mutants().iter().map(|it| format!("proofs/mutants/{it}.patch")).collect(),
+            ..Line::new(parts, Answer::not_run(ENGINE, ""))
+        }
+    };
+    Law::ALL.into_iter().filter(|law| law.is_claimed(Profile::Hardened)).map(claim).collect()
+}
+
+fn worlds() -> impl Iterator<Item = &'static World> {
+    Bounds::Small.worlds().iter().filter(|world| WORLDS.contains(&world.name))
+}
+
+fn bounds_of(world: &World) -> String {
+    let count =
+        |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let messages = match world.in_flight {
+        0 => String::from("any message at any time"),
+        number => format!("{number} messages in flight"),
+    };
+    let (cavs, stations) = (count(world.requesters, "CAV"), count(world.stations.len(), "station"));
+    format!("{} ({cavs}, {stations}, {messages})", world.name)
+}
+
+pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
+    let mut found: BTreeMap<&str, Found> = BTreeMap::new();
+    bar.set_length(u64::try_from(worlds().count()).unwrap_or(u64::MAX));
+    for world in worlds() {
+        let is_wanted = |law: Law| claims.iter().any(|line| line.id == law.name());
+        if !Law::ALL.into_iter().any(|law| is_wanted(law) && run::is_asked(law, world)) {
+            continue;
+        }
+        bar.set_message(world.name);
+        bar.inc(1);
+        match run::run(world, Profile::Hardened, 0, |_| bar.tick()) {
+            Ok(outcome) => outcome.results.iter().for_each(|finding| {
+                let found = found.entry(finding.law.name()).or_default();
+                found.add(world, &outcome, finding);
+            }),
+            // Model and implementation differ, so nothing is known of what they do together.
+            Err(difference) => Law::ALL.into_iter().for_each(|law| {
+                let found = found.entry(law.name()).or_default();
+                found.difference = Some(format!("{}: {difference}", world.name));
+            }),
+        }
+    }
+    let judged = |line: Line| {
+        let answer = found.remove(line.id.as_str()).map(|found| found.answer(&line.id));
+        line.answered(answer.into_iter().collect())
+    };
+    claims.into_iter().map(judged).collect()
+}
+
+/// What all worlds say of one property.
+#[derive(Default)]
+struct Found {
+    states: usize,
+    seconds: f64,
+    broken: Option<String>,
+    difference: Option<String>,
+}
+
+impl Found {
+    fn add(&mut self, world: &World, outcome: &run::Outcome, finding: &run::Finding) {
+        let share = u32::try_from(outcome.results.len().max(1)).unwrap_or(u32::MAX);
+        self.states += outcome.states;
+        self.seconds += (outcome.time / share).as_secs_f64();
+        if let Some(moves) = &finding.counterexample {
+            let moves = moves.trace.len() + moves.circle.len();
+            self.broken = Some(format!("in world {} after {moves} moves", world.name));
+        }
+    }
+
+    fn answer(self, id: &str) -> Answer {
+        let (verdict, reason) = match (self.broken, self.difference) {
+            (None, None) => (Verdict::Proved, None),
+            (None, Some(difference)) if id != Law::PartsValid.name() => {
+                (Verdict::Unknown, Some(difference))
+            }
+            (Some(reason), _) | (None, Some(reason)) => (Verdict::Refuted, Some(reason)),
+        };
+        let ran = Some(format!("{} states", self.states));
+        Answer { ran, reason, ..Answer::given(ENGINE, verdict, self.seconds) }
+    }
+}

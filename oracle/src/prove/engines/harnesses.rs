@@ -1,0 +1,166 @@
+//! The harnesses: what CBMC said of them compiled, and what the stand-in for Kani sees now. Kani
+//! itself is not run.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+use mufasa_proofs::OVERFLOW_PANICS;
+use mufasa_proofs::harness::ALL;
+use mufasa_proofs::kani::{Run, Verdict as Found, judge as run};
+use serde::Deserialize;
+
+use super::{laws, side_by_side};
+use crate::prove::Settings;
+use crate::prove::line::{Answer, Line, Verdict};
+use crate::prove::sources;
+
+/// Some values of an infinite domain are run, which is testing.
+const SAMPLING: &str = "sampling";
+const CBMC: &str = "cbmc-wasm";
+const KANI: &str = "kani";
+
+const EXPECTED: &str = include_str!("../../../../proofs/expected.toml");
+const MUTANTS: &str = include_str!("../../../../proofs/mutants/harnesses/list.toml");
+
+#[derive(Deserialize)]
+struct Expected {
+    harness: Vec<Harness>,
+}
+
+#[derive(Deserialize)]
+struct Harness {
+    id: String,
+    statement: String,
+    domain: String,
+    covers: BTreeSet<String>,
+    stand_in: String,
+}
+
+#[derive(Deserialize)]
+struct Mutants {
+    mutant: Vec<Mutant>,
+}
+
+#[derive(Deserialize)]
+struct Mutant {
+    harness: String,
+    change: String,
+    file: String,
+}
+
+/// A line of what `scripts/prove-wasm` wrote.
+#[derive(Deserialize)]
+struct Compiled {
+    id: String,
+    verdict: Verdict,
+    seconds: Option<f64>,
+    reason: Option<String>,
+    /// `sources::hash` of what was compiled.
+    #[serde(default)]
+    sources: String,
+}
+
+pub(super) fn claims() -> io::Result<Vec<Line>> {
+    let mutants: Mutants = toml::from_str(MUTANTS).map_err(io::Error::other)?;
+    let claim = |one: &Harness| {
+        let parts = [one.id.as_str(), &one.statement, &one.domain];
+        let mutants = mutants.mutant.iter().filter(|mutant| mutant.harness == one.id);
+        let change = |it: &Mutant| format!("{} ({})", it.change, it.file);
+        let answer = Answer::not_run(one.engine(), "");
+        Line { mutants: mutants.map(change).collect(), ..Line::new(parts, answer) }
+    };
+    Ok(expected()?.iter().map(claim).collect())
+}
+
+fn expected() -> io::Result<Vec<Harness>> {
+    let expected: Expected = toml::from_str(EXPECTED).map_err(io::Error::other)?;
+    Ok(expected.harness)
+}
+
+impl Harness {
+    fn engine(&self) -> &'static str {
+        if self.stand_in == "every" { laws::ENGINE } else { SAMPLING }
+    }
+}
+
+pub(super) fn judge(
+    claims: Vec<Line>,
+    settings: &Settings,
+    bar: &ProgressBar,
+) -> io::Result<Vec<Line>> {
+    let expected = expected()?;
+    let mut compiled = compiled(settings)?;
+    let seen = side_by_side(&claims, |line| {
+        let one = expected.iter().find(|one| one.id == line.id);
+        let seen = one.map(stand_in);
+        bar.inc(1);
+        bar.set_message(line.id.clone());
+        seen
+    });
+    let lines = claims.into_iter().zip(seen).map(|(line, seen)| {
+        let missing = || Answer::not_run(CBMC, "scripts/prove-wasm did not run it");
+        let cbmc = compiled.remove(&line.id).unwrap_or_else(missing);
+        let kani = Answer::not_run(KANI, "it runs in .github/workflows/kani.yml alone");
+        line.answered(seen.into_iter().chain([cbmc, kani]).collect())
+    });
+    Ok(lines.collect())
+}
+
+/// What the stand-in sees. What it was not expected to see, such as a domain that is not finite any
+/// more, is not known.
+fn stand_in(one: &Harness) -> Answer {
+    let covers: BTreeSet<&str> = one.covers.iter().map(String::as_str).collect();
+    let Some((_, harness)) = ALL.iter().find(|(id, _)| *id == one.id) else {
+        return Answer::not_run(one.engine(), "there is no such harness");
+    };
+    let start = Instant::now();
+    let found = run(*harness, &covers);
+    let wraps = if OVERFLOW_PANICS { "" } else { "; overflow wraps in this build" };
+    let ran = |run: &Run| {
+        let (held, tried) = (run.held, run.tried);
+        let few = held < tried;
+        let of = if few { format!(" of {tried}") } else { String::new() };
+        let kind = if run.exhaustive { "cases" } else { "random cases" };
+        let domain = if few { " in the domain" } else { "" };
+        format!("{held}{of} {kind}{domain}{wraps}")
+    };
+    let (verdict, ran, reason) = match found {
+        Found::Every(run) if one.engine() == laws::ENGINE => {
+            (Verdict::Proved, Some(ran(&run)), None)
+        }
+        Found::Some(run) if one.engine() == SAMPLING => (Verdict::Tested, Some(ran(&run)), None),
+        Found::Every(run) | Found::Some(run) => {
+            let reason = Some(format!("expected.toml says {}", one.stand_in));
+            (Verdict::Unknown, Some(ran(&run)), reason)
+        }
+        Found::Vacuous(reason) => (Verdict::Unknown, None, Some(reason)),
+        Found::Refuted(reason) => (Verdict::Refuted, None, Some(reason)),
+    };
+    let seconds = start.elapsed().as_secs_f64();
+    Answer { ran, reason, ..Answer::given(one.engine(), verdict, seconds) }
+}
+
+/// What CBMC said of the sources that are here, by harness.
+fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, Answer>> {
+    let text = match fs::read_to_string(&settings.cbmc) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(BTreeMap::new()),
+        Err(error) => return Err(error),
+    };
+    let here = sources::hash(&settings.sources)?;
+    let answer = |line: &str| {
+        let one: Compiled = serde_json::from_str(line)?;
+        let answer = match one.seconds {
+            _ if one.sources != here => Answer::not_run(CBMC, "what is here is of other sources"),
+            Some(seconds) => {
+                Answer { reason: one.reason, ..Answer::given(CBMC, one.verdict, seconds) }
+            }
+            None => Answer::not_run(CBMC, one.reason.as_deref().unwrap_or_default()),
+        };
+        Ok((one.id, answer))
+    };
+    text.lines().map(answer).collect()
+}

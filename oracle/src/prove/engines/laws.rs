@@ -1,0 +1,84 @@
+//! The laws of the implementation over complete finite domains.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::time::Instant;
+
+use indicatif::ProgressBar;
+use mufasa_proofs::exhaust::{Run, TOPICS};
+use serde::Deserialize;
+
+use crate::prove::line::{Answer, Line, Verdict};
+
+/// Every value of a finite domain is run.
+pub(super) const ENGINE: &str = "exhaustion";
+const LAWS: &str = include_str!("../../../../proofs/laws.toml");
+
+#[derive(Deserialize)]
+struct List {
+    law: Vec<Law>,
+}
+
+#[derive(Deserialize)]
+struct Law {
+    id: String,
+    statement: String,
+    change: String,
+    file: String,
+}
+
+pub(super) fn claims() -> io::Result<Vec<Line>> {
+    let list: List = toml::from_str(LAWS).map_err(io::Error::other)?;
+    let claim = |law: Law| {
+        let topic = TOPICS.iter().find(|topic| law.id.starts_with(topic.name));
+        let domain = topic.map_or("", |topic| topic.domain);
+        let id = format!("law::{}", law.id);
+        let parts = [id.as_str(), &law.statement, domain];
+        let mutant = format!("{} ({})", law.change, law.file);
+        Line { mutants: vec![mutant], ..Line::new(parts, Answer::not_run(ENGINE, "")) }
+    };
+    Ok(list.law.into_iter().map(claim).collect())
+}
+
+pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
+    let mut answers: BTreeMap<String, Answer> = BTreeMap::new();
+    for topic in TOPICS {
+        let id = |law: &str| format!("law::{}::{law}", topic.name);
+        if !topic.laws().any(|law| claims.iter().any(|line| line.id == id(law))) {
+            continue;
+        }
+        bar.set_message(topic.name);
+        let start = Instant::now();
+        let run = topic.run();
+        let count = u32::try_from(topic.laws().count().max(1)).unwrap_or(u32::MAX);
+        let seconds = (start.elapsed() / count).as_secs_f64();
+        for law in topic.laws() {
+            answers.insert(id(law), answer(&run, law, seconds));
+            bar.inc(1);
+        }
+    }
+    let judged = |line: Line| {
+        let answer = answers.remove(&line.id);
+        line.answered(answer.into_iter().collect())
+    };
+    claims.into_iter().map(judged).collect()
+}
+
+fn answer(run: &Result<Run, String>, law: &str, seconds: f64) -> Answer {
+    let (verdict, reason, ran) = match run {
+        Err(panic) => (Verdict::Unknown, Some(format!("the run ended: {panic}")), None),
+        Ok(run) => {
+            let (verdict, reason) = match run.laws.get(law) {
+                Some(Some(case)) => (Verdict::Refuted, Some(format!("by {case}"))),
+                Some(None) if run.missed().is_empty() => (Verdict::Proved, None),
+                Some(None) => {
+                    let missed = format!("never reached: {}", run.missed().join(", "));
+                    (Verdict::Unknown, Some(missed))
+                }
+                None => (Verdict::Unknown, Some(String::from("not asked"))),
+            };
+            (verdict, reason, Some(format!("{} cases", run.cases)))
+        }
+    };
+    Answer { ran, reason, ..Answer::given(ENGINE, verdict, seconds) }
+}

@@ -1,0 +1,78 @@
+//! z3 on the theorems over the reals.
+
+use std::io;
+
+use indicatif::ProgressBar;
+use mufasa_theorems::prove::{self as solve, Judgement, Verdict as Found};
+use mufasa_theorems::solver;
+use mufasa_theorems::theorem::{self, Theorem};
+
+use super::{change_of, side_by_side};
+use crate::prove::line::{Answer, Line, Verdict};
+
+const ENGINE: &str = "z3";
+
+pub(super) fn claims() -> Vec<Line> {
+    let claim = |theorem: &Theorem| {
+        let parts = [theorem.id, theorem.statement, theorem.domain];
+        let mutant = &theorem.mutant;
+        Line {
+            refuted_variant: Some(theorem.wrong.statement.to_owned()),
+            mutants: vec![change_of(mutant.file, mutant.from, mutant.to)],
+            ..Line::new(parts, Answer::not_run(ENGINE, "no z3 4.8 or newer"))
+        }
+    };
+    theorem::all().map(claim).collect()
+}
+
+pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+    if !solver::is_new_enough() {
+        return Ok(claims);
+    }
+    let answers = side_by_side(&claims, |line| {
+        let theorem = theorem::all().find(|theorem| theorem.id == line.id);
+        let answer = theorem.map(|theorem| solve::judge(theorem).map(|found| answer(&found)));
+        bar.inc(1);
+        bar.set_message(line.id.clone());
+        answer
+    });
+    let lines = claims.into_iter().zip(answers);
+    lines
+        .map(|(line, answer)| Ok(line.answered(answer.transpose()?.into_iter().collect())))
+        .collect()
+}
+
+fn answer(judgement: &Judgement) -> Answer {
+    let Judgement { proof, control } = judgement;
+    let reason = reason(&proof.verdict, &control.verdict);
+    let seconds = (proof.time + control.time).as_secs_f64();
+    let ran = Some(match proof.paths {
+        1 => String::from("1 path"),
+        paths => format!("{paths} paths"),
+    });
+    Answer { ran, reason, ..Answer::given(ENGINE, verdict(judgement.verdict()), seconds) }
+}
+
+/// Why a claim is not proved, by what is found of it and of its wrong variant.
+pub(super) fn reason(claim: &Found, control: &Found) -> Option<String> {
+    match (claim, control) {
+        (Found::Refuted(values), _) => Some(format!("by {}", in_words(values))),
+        (Found::Unknown, _) => Some(String::from("no answer in time")),
+        (Found::Proved, Found::Refuted(_)) => None,
+        (Found::Proved, _) => Some(String::from("its wrong variant was not refuted")),
+    }
+}
+
+pub(super) fn verdict(found: &Found) -> Verdict {
+    match found {
+        Found::Proved => Verdict::Proved,
+        Found::Refuted(_) => Verdict::Refuted,
+        Found::Unknown => Verdict::Unknown,
+    }
+}
+
+fn in_words(values: &[(String, f64)]) -> String {
+    let words: Vec<String> =
+        values.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    words.join(", ")
+}

@@ -1,0 +1,49 @@
+//! The laws over complete finite domains; and `proofs/laws.toml`, the laws and the sources say the
+//! same. `LAW=name cargo test -p mufasa-proofs --test laws` asks one law.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use mufasa_proofs::exhaust::{TOPICS, Topic};
+use toml::{Table, Value};
+
+#[test]
+fn every_law_holds_of_its_complete_domain() {
+    let only = std::env::var("LAW").unwrap_or_default();
+    let mut asked = 0;
+    for topic in TOPICS {
+        let id = |law: &str| format!("{}::{law}", topic.name);
+        if !topic.laws().any(|law| id(law).contains(&only)) {
+            continue;
+        }
+        let run = topic.run().expect("no panic");
+        println!("{}: {} cases, {:?}", topic.name, run.cases, run.reached);
+        assert_eq!(run.laws.keys().copied().collect::<BTreeSet<_>>(), topic.laws().collect());
+        for (law, broken) in run.laws.iter().filter(|(law, _)| id(law).contains(&only)) {
+            assert_eq!(*broken, None, "{law} is broken");
+            asked += 1;
+        }
+        assert!(!only.is_empty() || run.missed().is_empty(), "never occurs: {:?}", run.missed());
+    }
+    assert!(asked > 0, "no law has such a name");
+}
+
+#[test]
+fn every_law_has_a_statement_and_a_mutation_that_fits() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("proofs/ is in the project");
+    let read = |file: &str| std::fs::read_to_string(root.join(file)).expect("a file");
+    let table: Table = read("proofs/laws.toml").parse().expect("TOML");
+    let mut listed = Vec::new();
+    for law in table["law"].as_array().expect("a list") {
+        let text = |key: &str| law.get(key).and_then(Value::as_str).expect("text").to_owned();
+        assert!(!text("statement").is_empty() && !text("change").is_empty());
+        let found = read(&text("file")).matches(&text("from")).count();
+        assert_eq!(found, 1, "{}: {} has changed", text("id"), text("file"));
+        assert_ne!(text("from"), text("to"));
+        listed.push(text("id"));
+    }
+    let ids = |topic: &Topic| -> Vec<String> {
+        topic.laws().map(|law| format!("{}::{law}", topic.name)).collect()
+    };
+    assert_eq!(listed, TOPICS.iter().flat_map(ids).collect::<Vec<_>>());
+}
