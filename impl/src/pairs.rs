@@ -2,11 +2,11 @@
 //! (`spec/3-stages.md#stage-i-track-validation`).
 
 use crate::assignment::Costs;
+use crate::cells::Cells;
 use crate::cycle::{Detection, Track};
 use crate::plane::distance;
 use crate::rounding::Real;
 use crate::scratch::{Column, NONE, Row};
-use crate::slabs::Slabs;
 
 /// Which track and detection a row and a column of the assignment stand for. Columns beyond these
 /// are spare: any row may take one, at no cost.
@@ -17,7 +17,7 @@ pub(crate) struct Pairs<'a> {
     swapped: bool,
     /// Every pair has to be closer, m.
     limit: f64,
-    slabs: Slabs,
+    cells: Cells,
 }
 
 /// A track and a detection.
@@ -32,10 +32,10 @@ impl<'a> Pairs<'a> {
         rows: &[Row],
         columns: &mut [Column],
     ) -> Self {
-        let slabs = Slabs::new(columns, |column| {
+        let cells = Cells::new(columns, |column| {
             if swapped { track(tracks, rows, column) } else { detection(detections, column) }
         });
-        Self { tracks, detections, swapped, limit, slabs }
+        Self { tracks, detections, swapped, limit, cells }
     }
 
     /// The pair; `None` for a spare column.
@@ -87,10 +87,10 @@ impl Costs for Pairs<'_> {
         } else {
             track(self.tracks, rows, row)
         };
-        let lists = place.into_iter().flat_map(|place| self.slabs.around(place));
+        let lists = place.into_iter().flat_map(|place| self.cells.around(place));
         lists
             .take_while(|&(metres, _)| metres <= self.limit)
-            // Distances and units are rounded by less than the slabs' margin.
+            // Distances and units are rounded by less than the cells' margin.
             .map(|(metres, list)| (if metres > 0.0 { units(metres) } else { 0 }, list))
     }
 }

@@ -27,7 +27,7 @@ pub struct Column {
     pub(crate) row: u16,
     /// Row before this column on the shortest path.
     pub(crate) before: u16,
-    /// The first column of a list, see `pairing` and `slabs`; `NONE` for an empty one.
+    /// The first column of a list, see `pairing` and `cells`; `NONE` for an empty one.
     pub(crate) head: u16,
     /// The next column of the list that this one is in.
     pub(crate) next: u16,

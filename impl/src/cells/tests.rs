@@ -1,7 +1,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::Slabs;
+use super::Cells;
 use crate::random::Random;
 use crate::scratch::{Column, NONE};
 
@@ -27,9 +27,9 @@ fn lists_come_by_distance() {
             places.fill(first);
         }
         let mut columns = vec![Column::default(); count + spare];
-        let slabs = Slabs::new(&mut columns, |index| places.get(index).copied());
+        let cells = Cells::new(&mut columns, |index| places.get(index).copied());
         let (mut met, mut before) = (Vec::new(), 0.0);
-        for (bound, list) in slabs.around(q) {
+        for (bound, list) in cells.around(q) {
             for index in members(&columns, list) {
                 met.push(index);
                 if let Some(at) = places.get(index) {

@@ -1,0 +1,118 @@
+//! The columns of an assignment in the square cells of a grid over their places, so that a row
+//! meets near ones first (`spec/3-stages.md#stage-i-track-validation`).
+
+use core::iter::once;
+
+use crate::range::{EMPTY, extend, float};
+use crate::scratch::{Column, NONE, short};
+
+/// Lists of columns: list 0 is of those that have no place, which every row meets; the others are
+/// the cells, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells {
+    /// Where the first cell begins, m.
+    corner: [f64; 2],
+    /// Of a cell, m; above 0.
+    side: f64,
+    /// How many across and up; one has none when there is but one list.
+    counts: [i64; 2],
+}
+
+/// More than coordinates below 2^25 m lose in a few roundings, m.
+const MARGIN: f64 = 1e-6;
+
+impl Cells {
+    /// Lists the columns by their places, in at most as many cells as there are columns less one.
+    pub(crate) fn new(columns: &mut [Column], place: impl Fn(usize) -> Option<[f64; 2]>) -> Self {
+        let mut ranges = [EMPTY; 2];
+        (0..columns.len()).filter_map(&place).for_each(|at| extend(&mut ranges, at, [0.0; 2]));
+        let corner = ranges.map(|[least, _]| least);
+        let [width, height] = ranges.map(|[least, most]| most - least);
+        // The least side with (width + side) (height + side) <= (more + 1) side^2.
+        let more = float(i64::try_from(columns.len()).unwrap_or(0)) - 2.0;
+        let sum = width + height;
+        let root = libm::sqrt(sum * sum + 4.0 * more * width * height);
+        let side =
+            if more > 0.0 { 0.5 * (sum + root) / more * (1.0 + 1e-9) + MARGIN } else { sum + 1.0 };
+        let count = |length: f64| index(length / side).saturating_add(1);
+        let counts = if more >= 0.0 { [count(width), count(height)] } else { [0, 0] };
+        let cells = Self { corner, side, counts };
+        columns.iter_mut().for_each(|column| column.head = NONE);
+        for index in 0..columns.len() {
+            let list = place(index).map_or(0, |at| cells.list(cells.cell(at)));
+            let Some(first) = columns.get_mut(list) else { continue };
+            let next = core::mem::replace(&mut first.head, short(index));
+            if let Some(column) = columns.get_mut(index) {
+                column.next = next;
+            }
+        }
+        cells
+    }
+
+    /// The cell that a place is in, or the nearest one.
+    fn cell(&self, [x, y]: [f64; 2]) -> [i64; 2] {
+        let ([left, bottom], [across, up]) = (self.corner, self.counts);
+        let cell = |from: f64, count: i64| index(from / self.side).min(count.saturating_sub(1));
+        [cell(x - left, across), cell(y - bottom, up)]
+    }
+
+    fn list(&self, [i, k]: [i64; 2]) -> usize {
+        let [across, _] = self.counts;
+        let list = k.saturating_mul(across).saturating_add(i).saturating_add(1);
+        usize::try_from(list).unwrap_or(0)
+    }
+
+    /// The lists from near ones to far ones, each with a lower bound on the distance from the place
+    /// to whatever is in this list or in a later one, m.
+    pub(crate) fn around(self, place: [f64; 2]) -> impl Iterator<Item = (f64, usize)> {
+        let own = self.cell(place);
+        let rings = (0..).map_while(move |ring| Some((self.beyond(place, own, ring)?, ring)));
+        let cells = rings.flat_map(move |(bound, ring)| {
+            self.ring(own, ring).map(move |cell| (bound, self.list(cell)))
+        });
+        once((0.0, 0)).chain(cells)
+    }
+
+    /// How far everything is that is not in the rings before this one; `None` when all is.
+    fn beyond(&self, place: [f64; 2], own: [i64; 2], ring: i64) -> Option<f64> {
+        if ring == 0 {
+            return Some(0.0);
+        }
+        let mut least = None;
+        let axes = self.corner.into_iter().zip(self.counts).zip(place).zip(own);
+        for (((corner, count), at), own) in axes {
+            let (below, above) = (own.saturating_sub(ring), own.saturating_add(ring));
+            let edge = |cells: i64| corner + float(cells) * self.side;
+            let under = (below >= 0).then(|| at - edge(below.saturating_add(1)));
+            let over = (above < count).then(|| edge(above) - at);
+            for gap in [under, over].into_iter().flatten() {
+                least = Some(least.map_or(gap, |least: f64| least.min(gap)));
+            }
+        }
+        least.map(|least| least - MARGIN)
+    }
+
+    /// The cells whose row or column is so far from that of a cell, and the other one at most.
+    fn ring(self, [i, k]: [i64; 2], ring: i64) -> impl Iterator<Item = [i64; 2]> {
+        let [across, up] = self.counts;
+        let sides = if ring == 0 { 1 } else { 2 };
+        let ends = |at: i64| [at.saturating_sub(ring), at.saturating_add(ring)];
+        let ([left, right], [bottom, top]) = (ends(i), ends(k));
+        let columns = left.max(0)..right.saturating_add(1).min(across);
+        let rows = bottom.saturating_add(1).max(0)..top.min(up);
+        let level = [bottom, top].into_iter().take(sides).filter(move |k| (0..up).contains(k));
+        let upright =
+            [left, right].into_iter().take(sides).filter(move |i| (0..across).contains(i));
+        let level = level.flat_map(move |k| columns.clone().map(move |i| [i, k]));
+        level.chain(upright.flat_map(move |i| rows.clone().map(move |k| [i, k])))
+    }
+}
+
+/// The integer below a number; 0 below 0.
+#[allow(clippy::cast_possible_truncation, reason = "saturates")]
+fn index(value: f64) -> i64 {
+    (value as i64).max(0)
+}
+
+#[cfg(test)]
+mod tests;
