@@ -395,7 +395,7 @@ impl Place {
     /// The norm check is exact: abs(cos^2 + sin^2 - 1) <= 1e-6 in real numbers.
     fn direction(self, field: &'static str, cos: f64, sin: f64) -> Check {
         let mut screen = Screen::default();
-        screen.direction(cos, sin);
+        screen.direction([cos, sin]);
         if screen.passes() {
             return Ok(());
         }
