@@ -113,11 +113,17 @@ impl<'d, 's> Squares<'d, 's> {
     /// a square beside it; the square of its distance, m^2.
     fn take(&mut self, place: [f64; 2]) -> Option<f64> {
         let own = self.hash(place);
-        self.take_from(own, place).or_else(|| {
-            let ([x, y], r) = (place, self.reach);
-            let corners = [[x - r, y - r], [x + r, y - r], [x - r, y + r], [x + r, y + r]];
-            let hashes = corners.map(|corner| self.hash(corner));
-            hashes.into_iter().filter(|&hash| hash != own).find_map(|it| self.take_from(it, place))
+        self.take_from(own, place).or_else(|| self.take_beside(own, place))
+    }
+
+    /// For one track of thirty or so.
+    #[cold]
+    fn take_beside(&mut self, own: usize, place: [f64; 2]) -> Option<f64> {
+        let ([x, y], r) = (place, self.reach);
+        let corners = [[x - r, y - r], [x + r, y - r], [x - r, y + r], [x + r, y + r]];
+        corners.into_iter().find_map(|corner| {
+            let hash = self.hash(corner);
+            if hash == own { None } else { self.take_from(hash, place) }
         })
     }
 
