@@ -41,6 +41,7 @@ mod bitmap;
 mod cells;
 mod collision;
 mod detections;
+mod disk;
 mod distance;
 mod exact;
 mod gate;

@@ -141,7 +141,7 @@ impl Sweep {
 
     /// Most objects end here. Inlined, so that of each of them only what is asked for is read: half
     /// of the time of stages iii and iv.
-    #[inline(always)]
+    #[inline]
     fn misses_upright(&self, object: &Moving) -> bool {
         let [middle, spread] = self.seconds;
         let [[cx, cy], [hx, hy]] = self.upright;
