@@ -12,6 +12,9 @@ pub const OURS: &str = "mufasa";
 /// A peer that is no library.
 pub const BY_HAND: &str = "loop around the disk centres";
 
+/// A whole cycle in which only the grid says what is in the way.
+pub const UNSEEN: &str = "check MotRemote without detections";
+
 /// The best peer of each stage in one call, to compare a whole cycle with.
 #[derive(Clone, Copy, Debug)]
 pub struct Team {
@@ -183,8 +186,11 @@ fn cycles(text: &mut String, results: &[Results]) {
         text.push_str("---|---|---|");
     }
     text.push('\n');
-    for task in ["check MotRemote", "check AllRemote", "check PlanRemote"] {
+    for task in ["check MotRemote", "check AllRemote", "check PlanRemote", UNSEEN] {
         for name in [OURS.to_owned(), hardened()] {
+            if task == UNSEEN && name == OURS {
+                continue;
+            }
             line(text, &format!("{task}, {name}"), results, |it| {
                 let us = it.time(task, &name, Cache::Warm)?;
                 let percent = |hertz: f64| format!("{:.4} %", us * hertz * 1e-4);
