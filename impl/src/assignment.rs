@@ -11,12 +11,17 @@ use crate::scratch::{Column, NONE, Row, UNKNOWN, short};
 
 /// What the pairs cost, and in which order a row meets the columns.
 pub(crate) trait Costs {
+    /// What is needed of a row.
+    type Row: Copy;
+
+    fn row(&self, rows: &[Row], row: usize) -> Option<Self::Row>;
+
     /// The cost of a row and a column, at least 0; `None` where the two must not be paired.
-    fn cost(&self, rows: &[Row], row: usize, column: usize) -> Option<i64>;
+    fn cost(&self, rows: &[Row], row: Self::Row, column: usize) -> Option<i64>;
 
     /// The lists of columns (`Column::head`, `Column::next`) that a row may be paired with, each
     /// with a bound: no column of this list or of a later one costs less.
-    fn lists(&self, rows: &[Row], row: usize) -> impl Iterator<Item = (i64, usize)>;
+    fn lists(&self, row: Self::Row) -> impl Iterator<Item = (i64, usize)>;
 }
 
 /// Assigns the first `count` rows one after the other. The result is in `Column::row`; returned is
@@ -109,16 +114,24 @@ impl Paths {
         length: i64,
         costs: &impl Costs,
     ) {
-        let potential = rows.get(from).map_or(0, |row| row.potential);
+        let (Some(row), Some(potential)) =
+            (costs.row(rows, from), rows.get(from).map(|row| row.potential))
+        else {
+            return;
+        };
         let base = length.saturating_sub(potential);
-        for (bound, list) in costs.lists(rows, from) {
+        for (bound, list) in costs.lists(row) {
             if base.saturating_add(bound) >= self.limit() {
                 return;
             }
             let mut next = columns.get(list).map_or(NONE, |column| column.head);
             while let Some(column) = columns.get_mut(usize::from(next)) {
                 let index = usize::from(core::mem::replace(&mut next, column.next));
-                let Some(cost) = costs.cost(rows, from, index) else { continue };
+                // Paths that are that short are final.
+                if column.distance <= length {
+                    continue;
+                }
+                let Some(cost) = costs.cost(rows, row, index) else { continue };
                 let distance = base.saturating_add(cost).saturating_sub(column.potential);
                 if distance >= column.distance || distance >= self.limit() {
                     continue;

@@ -66,22 +66,24 @@ impl Cells {
     /// to whatever is in this list or in a later one, m.
     pub(crate) fn around(self, place: [f64; 2]) -> impl Iterator<Item = (f64, usize)> {
         let own = self.cell(place);
-        let rings = (0..).map_while(move |ring| Some((self.beyond(place, own, ring)?, ring)));
-        let cells = rings.flat_map(move |(bound, ring)| {
-            self.ring(own, ring).map(move |cell| (bound, self.list(cell)))
+        // Frames around the own cell, each twice as wide as the one before: 0, 1, 2 to 3, 4 to 7, ...
+        let frames = (0_u32..62).map(|frame| (1_i64 << frame) >> 1);
+        let frames = frames.map_while(move |near| Some((self.beyond(place, own, near)?, near)));
+        let cells = frames.flat_map(move |(bound, near)| {
+            self.frame(own, near).map(move |cell| (bound, self.list(cell)))
         });
         once((0.0, 0)).chain(cells)
     }
 
-    /// How far everything is that is not in the rings before this one; `None` when all is.
-    fn beyond(&self, place: [f64; 2], own: [i64; 2], ring: i64) -> Option<f64> {
-        if ring == 0 {
+    /// How far everything is at least that is so many rows or columns away; `None` when nothing is.
+    fn beyond(&self, place: [f64; 2], own: [i64; 2], near: i64) -> Option<f64> {
+        if near == 0 {
             return Some(0.0);
         }
         let mut least = None;
         let axes = self.corner.into_iter().zip(self.counts).zip(place).zip(own);
         for (((corner, count), at), own) in axes {
-            let (below, above) = (own.saturating_sub(ring), own.saturating_add(ring));
+            let (below, above) = (own.saturating_sub(near), own.saturating_add(near));
             let edge = |cells: i64| corner + float(cells) * self.side;
             let under = (below >= 0).then(|| at - edge(below.saturating_add(1)));
             let over = (above < count).then(|| edge(above) - at);
@@ -92,19 +94,23 @@ impl Cells {
         least.map(|least| least - MARGIN)
     }
 
-    /// The cells whose row or column is so far from that of a cell, and the other one at most.
-    fn ring(self, [i, k]: [i64; 2], ring: i64) -> impl Iterator<Item = [i64; 2]> {
+    /// The cells that are `near` or more, but less than twice as many, rows or columns from one.
+    fn frame(self, [i, k]: [i64; 2], near: i64) -> impl Iterator<Item = [i64; 2]> {
         let [across, up] = self.counts;
-        let sides = if ring == 0 { 1 } else { 2 };
-        let ends = |at: i64| [at.saturating_sub(ring), at.saturating_add(ring)];
-        let ([left, right], [bottom, top]) = (ends(i), ends(k));
-        let columns = left.max(0)..right.saturating_add(1).min(across);
-        let rows = bottom.saturating_add(1).max(0)..top.min(up);
-        let level = [bottom, top].into_iter().take(sides).filter(move |k| (0..up).contains(k));
-        let upright =
-            [left, right].into_iter().take(sides).filter(move |i| (0..across).contains(i));
-        let level = level.flat_map(move |k| columns.clone().map(move |i| [i, k]));
-        level.chain(upright.flat_map(move |i| rows.clone().map(move |k| [i, k])))
+        let far = near.saturating_mul(2).saturating_sub(1).max(0);
+        let (left, right) = (i.saturating_sub(far).max(0), i.saturating_add(far).saturating_add(1));
+        let right = right.min(across);
+        let rows = k.saturating_sub(far).max(0)..k.saturating_add(far).saturating_add(1).min(up);
+        rows.flat_map(move |row| {
+            let whole = row.abs_diff(k) >= near.unsigned_abs();
+            let inner = if whole {
+                right..right
+            } else {
+                i.saturating_sub(near).saturating_add(1)..i.saturating_add(near)
+            };
+            let columns = (left..inner.start).chain(inner.end.max(left)..right);
+            columns.map(move |column| [column, row])
+        })
     }
 }
 

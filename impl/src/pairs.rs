@@ -4,6 +4,7 @@
 use crate::assignment::Costs;
 use crate::cells::Cells;
 use crate::cycle::{Detection, Track};
+use crate::gate::apart_squared;
 use crate::plane::distance;
 use crate::rounding::Real;
 use crate::scratch::{Column, NONE, Row};
@@ -75,33 +76,42 @@ impl<'a> Pairs<'a> {
 }
 
 impl Costs for Pairs<'_> {
-    fn cost(&self, rows: &[Row], row: usize, column: usize) -> Option<i64> {
-        let Some(pair) = self.get(rows, row, column) else { return Some(0) };
-        let metres = pair.metres();
+    type Row = [f64; 2];
+
+    fn row(&self, rows: &[Row], row: usize) -> Option<[f64; 2]> {
+        if self.swapped { detection(self.detections, row) } else { track(self.tracks, rows, row) }
+    }
+
+    fn cost(&self, rows: &[Row], row: [f64; 2], column: usize) -> Option<i64> {
+        let place = if self.swapped {
+            track(self.tracks, rows, column)
+        } else {
+            detection(self.detections, column)
+        };
+        let Some(place) = place else { return Some(0) };
+        let metres = metres(row, place);
         certainly_closer(metres, self.limit).then(|| units(metres))
     }
 
-    fn lists(&self, rows: &[Row], row: usize) -> impl Iterator<Item = (i64, usize)> {
-        let place = if self.swapped {
-            detection(self.detections, row)
-        } else {
-            track(self.tracks, rows, row)
-        };
-        let lists = place.into_iter().flat_map(|place| self.cells.around(place));
+    fn lists(&self, row: [f64; 2]) -> impl Iterator<Item = (i64, usize)> {
+        let lists = self.cells.around(row);
         lists
             .take_while(|&(metres, _)| metres <= self.limit)
-            // Distances and units are rounded by less than the cells' margin.
+            // Distances and units are rounded by less than the margin of the cells.
             .map(|(metres, list)| (if metres > 0.0 { units(metres) } else { 0 }, list))
     }
 }
 
 impl Pair<'_> {
-    /// Distance in plain doubles, m: relative error below 4 * 2^-53, for distances above 1e-130.
     fn metres(&self) -> f64 {
         let Self(track, detection) = self;
-        let (dx, dy) = (track.x - detection.x, track.y - detection.y);
-        libm::sqrt(dx * dx + dy * dy)
+        metres([track.x, track.y], [detection.x, detection.y])
     }
+}
+
+/// Distance in plain doubles, m: relative error below 4 * 2^-53, for distances above 1e-130.
+fn metres(a: [f64; 2], b: [f64; 2]) -> f64 {
+    libm::sqrt(apart_squared(a, b))
 }
 
 /// Where the gated track of a row is.
@@ -122,7 +132,7 @@ fn units(metres: f64) -> i64 {
     whole.saturating_add(i64::from(metres > 0.0))
 }
 
-/// The bound covers the error of `Pair::metres`; limits are at least 1e-3 m.
+/// The bound covers the error of `metres`; limits are at least 1e-3 m.
 fn certainly_closer(metres: f64, limit: f64) -> bool {
     metres * (1.0 + 1e-14) < limit
 }

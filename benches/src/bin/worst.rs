@@ -72,7 +72,9 @@ fn main() {
     println!("|---|---|---|---|");
     for count in [16, 32, 64, 128, 256, 512, 1024_usize] {
         let (crowd, line) = (&crowd[..count], &line[..2 * count]);
-        let cycle = Cycle { tracks: Some(tracks(crowd)), detections: Some(list(line)), ..base };
+        let parameters = Parameters { theta_tr: 0.2, ..base.parameters };
+        let lists = Cycle { tracks: Some(tracks(crowd)), detections: Some(list(line)), ..base };
+        let cycle = Cycle { parameters, ..lists };
         let (ms, _) = mean(&mut Contestant::new(&cycle), Stage::I);
         println!("| {count} | {} | {:.1e} | {ms:.3} |", 2 * count, work(count));
     }

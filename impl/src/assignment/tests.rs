@@ -17,11 +17,17 @@ struct Matrix<'a> {
 }
 
 impl super::Costs for Matrix<'_> {
+    type Row = usize;
+
+    fn row(&self, _: &[Row], row: usize) -> Option<usize> {
+        Some(row)
+    }
+
     fn cost(&self, _: &[Row], row: usize, column: usize) -> Option<i64> {
         self.costs[row][column]
     }
 
-    fn lists(&self, _: &[Row], row: usize) -> impl Iterator<Item = (i64, usize)> {
+    fn lists(&self, row: usize) -> impl Iterator<Item = (i64, usize)> {
         let mut lists: Vec<_> =
             self.costs[row].iter().zip(0..).filter_map(|(cost, at)| Some(((*cost)?, at))).collect();
         lists.sort_unstable();
