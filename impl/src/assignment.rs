@@ -73,7 +73,7 @@ fn augment(
     let (mut from, mut length) = (start, 0);
     loop {
         paths.extend(rows, columns, from, length, costs);
-        let Some(nearest) = paths.settle(columns) else { break };
+        let Some(nearest) = paths.settle(columns, length) else { break };
         from = usize::from(columns.get(nearest)?.row);
         length = columns.get(nearest)?.distance;
     }
@@ -155,13 +155,17 @@ impl Paths {
         self.sink.as_ref().map_or(UNKNOWN, |sink| sink.distance)
     }
 
-    /// Settles the nearest column that is not settled yet, if it is nearer than the sink.
-    fn settle(&mut self, columns: &mut [Column]) -> Option<usize> {
+    /// Settles the nearest column that is not settled yet, if it is nearer than the sink; none is
+    /// nearer than `length`, where the last one was.
+    fn settle(&mut self, columns: &mut [Column], length: i64) -> Option<usize> {
         let mut nearest: Option<(i64, usize)> = None;
         for place in self.settled..self.reached {
             let distance = reached_column(columns, place)?.distance;
             if nearest.is_none_or(|(least, _)| distance < least) {
                 nearest = Some((distance, place));
+                if distance <= length {
+                    break;
+                }
             }
         }
         let (_, place) = nearest.filter(|&(distance, _)| distance < self.limit())?;
