@@ -7,6 +7,8 @@
 //! column that no row has taken has potential 0, so that a path is at most as long as one edge to
 //! it (or, where edges are missing, as 1024 edges of at most 2^42), and potentials add up paths.
 
+use core::ops::Range;
+
 use crate::scratch::{Column, NONE, Row, UNKNOWN, short};
 
 /// What the pairs cost, and in which order a row meets the columns.
@@ -19,9 +21,9 @@ pub(crate) trait Costs {
     /// The cost of a row and a column, at least 0; `None` where the two must not be paired.
     fn cost(&self, rows: &[Row], row: Self::Row, column: usize) -> Option<i64>;
 
-    /// The lists of columns (`Column::head`, `Column::next`) that a row may be paired with, each
-    /// with a bound: no column of this list or of a later one costs less.
-    fn lists(&self, row: Self::Row) -> impl Iterator<Item = (i64, usize)>;
+    /// The lists of columns (`Column::head`, `Column::next`) that a row may be paired with, some
+    /// at a time, with a bound: no column of these lists or of later ones costs less.
+    fn lists(&self, row: Self::Row) -> impl Iterator<Item = (i64, Range<usize>)>;
 }
 
 /// Assigns the first `count` rows one after the other. The result is in `Column::row`; returned is
@@ -120,33 +122,42 @@ impl Paths {
             return;
         };
         let base = length.saturating_sub(potential);
-        for (bound, list) in costs.lists(row) {
+        for (bound, lists) in costs.lists(row) {
             if base.saturating_add(bound) >= self.limit() {
                 return;
             }
-            let mut next = columns.get(list).map_or(NONE, |column| column.head);
-            while let Some(column) = columns.get_mut(usize::from(next)) {
-                let index = usize::from(core::mem::replace(&mut next, column.next));
-                // Paths that are that short are final.
-                if column.distance <= length {
-                    continue;
-                }
-                let Some(cost) = costs.cost(rows, row, index) else { continue };
-                let distance = base.saturating_add(cost).saturating_sub(column.potential);
-                if distance >= column.distance || distance >= self.limit() {
-                    continue;
-                }
-                if column.row == NONE {
-                    self.sink = Some(Sink { distance, column: index, before: from });
-                    continue;
-                }
-                let is_new = column.distance == UNKNOWN;
-                (column.distance, column.before) = (distance, short(from));
-                if let (true, Some(end)) = (is_new, columns.get_mut(self.reached)) {
-                    end.reached = short(index);
-                    self.reached = self.reached.saturating_add(1);
+            for list in lists {
+                let mut next = columns.get(list).map_or(NONE, |column| column.head);
+                while let Some(column) = columns.get_mut(usize::from(next)) {
+                    let index = usize::from(core::mem::replace(&mut next, column.next));
+                    // Paths that are that short are final.
+                    if column.distance <= length {
+                        continue;
+                    }
+                    if let Some(cost) = costs.cost(rows, row, index) {
+                        let distance = base.saturating_add(cost).saturating_sub(column.potential);
+                        self.reach(columns, index, distance, from);
+                    }
                 }
             }
+        }
+    }
+
+    /// A path to a column, with the row before it; only the shortest is kept.
+    fn reach(&mut self, columns: &mut [Column], index: usize, distance: i64, from: usize) {
+        let Some(column) = columns.get_mut(index) else { return };
+        if distance >= column.distance || distance >= self.limit() {
+            return;
+        }
+        if column.row == NONE {
+            self.sink = Some(Sink { distance, column: index, before: from });
+            return;
+        }
+        let is_new = column.distance == UNKNOWN;
+        (column.distance, column.before) = (distance, short(from));
+        if let (true, Some(end)) = (is_new, columns.get_mut(self.reached)) {
+            end.reached = short(index);
+            self.reached = self.reached.saturating_add(1);
         }
     }
 

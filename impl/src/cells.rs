@@ -2,6 +2,7 @@
 //! meets near ones first (`spec/3-stages.md#stage-i-track-validation`).
 
 use core::iter::once;
+use core::ops::Range;
 
 use crate::range::{EMPTY, extend, float};
 use crate::scratch::{Column, NONE, short};
@@ -62,17 +63,16 @@ impl Cells {
         usize::try_from(list).unwrap_or(0)
     }
 
-    /// The lists from near ones to far ones, each with a lower bound on the distance from the place
-    /// to whatever is in this list or in a later one, m.
-    pub(crate) fn around(self, place: [f64; 2]) -> impl Iterator<Item = (f64, usize)> {
+    /// The lists from near ones to far ones, each time some that follow one another, with a lower
+    /// bound on the distance from the place to whatever is in these lists or in later ones, m.
+    pub(crate) fn around(self, place: [f64; 2]) -> impl Iterator<Item = (f64, Range<usize>)> {
         let own = self.cell(place);
         // Frames around the own cell, each twice as wide as the one before: 0, 1, 2 to 3, 4 to 7, ...
         let frames = (0_u32..62).map(|frame| (1_i64 << frame) >> 1);
         let frames = frames.map_while(move |near| Some((self.beyond(place, own, near)?, near)));
-        let cells = frames.flat_map(move |(bound, near)| {
-            self.frame(own, near).map(move |cell| (bound, self.list(cell)))
-        });
-        once((0.0, 0)).chain(cells)
+        let lists = frames
+            .flat_map(move |(bound, near)| self.frame(own, near).map(move |lists| (bound, lists)));
+        once((0.0, 0..1)).chain(lists)
     }
 
     /// How far everything is at least that is so many rows or columns away; `None` when nothing is.
@@ -95,21 +95,17 @@ impl Cells {
     }
 
     /// The cells that are `near` or more, but less than twice as many, rows or columns from one.
-    fn frame(self, [i, k]: [i64; 2], near: i64) -> impl Iterator<Item = [i64; 2]> {
+    fn frame(self, [i, k]: [i64; 2], near: i64) -> impl Iterator<Item = Range<usize>> {
         let [across, up] = self.counts;
         let far = near.saturating_mul(2).saturating_sub(1).max(0);
         let (left, right) = (i.saturating_sub(far).max(0), i.saturating_add(far).saturating_add(1));
         let right = right.min(across);
+        let (inner, end) = (i.saturating_sub(near).saturating_add(1), i.saturating_add(near));
         let rows = k.saturating_sub(far).max(0)..k.saturating_add(far).saturating_add(1).min(up);
         rows.flat_map(move |row| {
             let whole = row.abs_diff(k) >= near.unsigned_abs();
-            let inner = if whole {
-                right..right
-            } else {
-                i.saturating_sub(near).saturating_add(1)..i.saturating_add(near)
-            };
-            let columns = (left..inner.start).chain(inner.end.max(left)..right);
-            columns.map(move |column| [column, row])
+            let parts = if whole { [(left, right), (0, 0)] } else { [(left, inner), (end, right)] };
+            parts.map(|(from, to)| self.list([from, row])..self.list([to, row]))
         })
     }
 }

@@ -1,6 +1,8 @@
 //! What the assignment of stage i pairs, and what it costs
 //! (`spec/3-stages.md#stage-i-track-validation`).
 
+use core::ops::Range;
+
 use crate::assignment::Costs;
 use crate::cells::Cells;
 use crate::cycle::{Detection, Track};
@@ -93,12 +95,12 @@ impl Costs for Pairs<'_> {
         certainly_closer(metres, self.limit).then(|| units(metres))
     }
 
-    fn lists(&self, row: [f64; 2]) -> impl Iterator<Item = (i64, usize)> {
+    fn lists(&self, row: [f64; 2]) -> impl Iterator<Item = (i64, Range<usize>)> {
         let lists = self.cells.around(row);
         lists
             .take_while(|&(metres, _)| metres <= self.limit)
             // Distances and units are rounded by less than the margin of the cells.
-            .map(|(metres, list)| (if metres > 0.0 { units(metres) } else { 0 }, list))
+            .map(|(metres, lists)| (if metres > 0.0 { units(metres) } else { 0 }, lists))
     }
 }
 

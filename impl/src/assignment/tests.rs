@@ -1,5 +1,6 @@
 //! Against all assignments there are.
 
+use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
@@ -27,11 +28,12 @@ impl super::Costs for Matrix<'_> {
         self.costs[row][column]
     }
 
-    fn lists(&self, row: usize) -> impl Iterator<Item = (i64, usize)> {
+    fn lists(&self, row: usize) -> impl Iterator<Item = (i64, Range<usize>)> {
         let mut lists: Vec<_> =
             self.costs[row].iter().zip(0..).filter_map(|(cost, at)| Some(((*cost)?, at))).collect();
         lists.sort_unstable();
-        if self.sorted { lists } else { vec![(0, 0)] }.into_iter()
+        let lists = if self.sorted { lists } else { vec![(0, 0)] };
+        lists.into_iter().map(|(bound, at)| (bound, at..at + 1))
     }
 }
 

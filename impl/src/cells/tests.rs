@@ -29,8 +29,10 @@ fn lists_come_by_distance() {
         let mut columns = vec![Column::default(); count + spare];
         let cells = Cells::new(&mut columns, |index| places.get(index).copied());
         let (mut met, mut before) = (Vec::new(), 0.0);
-        for (bound, list) in cells.around(q) {
-            for index in members(&columns, list) {
+        for (bound, lists) in cells.around(q) {
+            for (list, index) in lists.flat_map(|list| {
+                members(&columns, list).into_iter().map(move |index| (list, index))
+            }) {
                 met.push(index);
                 if let Some(at) = places.get(index) {
                     let apart = (at[0] - q[0]).hypot(at[1] - q[1]);
