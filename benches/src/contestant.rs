@@ -5,33 +5,40 @@ use std::hint::black_box;
 
 use mufasa::cycle::Cycle;
 use mufasa::route_index::{Block, RouteIndex};
-use mufasa::schedule::{Valid, check_indexed};
+use mufasa::schedule::{Valid, check, check_indexed};
 use mufasa::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::verdict::{Outcome, Report, Stage};
 
 /// A cycle with its scratch memory and the index of its route.
 pub struct Contestant<'a> {
     cycle: &'a Cycle<'a>,
-    index: &'a RouteIndex<'a>,
+    index: Option<&'a RouteIndex<'a>>,
     valid: Valid<'a, 'a>,
     rows: Vec<Row>,
     columns: Vec<Column>,
 }
 
 impl<'a> Contestant<'a> {
-    /// With as much scratch as the cycle needs. The index is never freed: a bench ends soon.
+    /// With an index of the route, which is never freed: a bench ends soon.
     ///
     /// # Panics
     /// When the input is invalid.
     pub fn new(cycle: &'a Cycle<'a>) -> Self {
         let blocks = vec![Block::default(); Block::needed(cycle.route.stations.len())].leak();
         let index = RouteIndex::new(cycle.route, blocks).expect("the workloads are valid input");
-        let index = Box::leak(Box::new(index));
+        Self::with_index(cycle, Some(Box::leak(Box::new(index))))
+    }
+
+    /// With as much scratch as the cycle needs.
+    ///
+    /// # Panics
+    /// When the input is invalid.
+    pub fn with_index(cycle: &'a Cycle<'a>, index: Option<&'a RouteIndex<'a>>) -> Self {
         let Sizes { rows, columns } = Sizes::for_cycle(cycle);
         let (mut rows, mut columns) =
             (vec![Row::default(); rows], vec![Column::default(); columns]);
         let scratch = Scratch::new(&mut rows, &mut columns);
-        let valid = Valid::new(cycle, Some(index), &scratch);
+        let valid = Valid::new(cycle, index, &scratch);
         let valid = valid.expect("the workloads are valid input");
         Self { cycle, index, valid, rows, columns }
     }
@@ -42,13 +49,18 @@ impl<'a> Contestant<'a> {
     /// Never: the input is valid.
     pub fn check(&mut self) -> Report {
         let mut scratch = Scratch::new(&mut self.rows, &mut self.columns);
-        check_indexed(black_box(self.cycle), self.index, &mut scratch).expect("valid input")
+        let cycle = black_box(self.cycle);
+        match self.index {
+            Some(index) => check_indexed(cycle, index, &mut scratch),
+            None => check(cycle, &mut scratch),
+        }
+        .expect("valid input")
     }
 
     /// Whether the input is valid.
     pub fn validate(&mut self) -> bool {
         let scratch = Scratch::new(&mut self.rows, &mut self.columns);
-        Valid::new(black_box(self.cycle), Some(self.index), &scratch).is_ok()
+        Valid::new(black_box(self.cycle), self.index, &scratch).is_ok()
     }
 
     /// One stage, the input having been checked before; whether it passes.

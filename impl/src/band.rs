@@ -125,6 +125,12 @@ struct Strip {
 
 impl Strip {
     /// least <= a dx + b dy <= most; when a is almost 0, any dx.
+    ///
+    /// A small `a` makes everything here large, and rounding with it: the least and the most dx, and
+    /// the gradient times dy, are at most 2^34 / a in size up to the limits of the domain, so that a
+    /// few roundings add up to less than 2^-15 / a. But the range from `least` to `most` is wider by
+    /// `MARGIN` at either end than what it has to contain (see `Frame::reach`), which is
+    /// `MARGIN` / a of dx, and more than that.
     fn new(a: f64, b: f64, least: f64, most: f64) -> Self {
         if a.abs() < 1e-6 {
             return Self { gradient: 0.0, least: f64::MIN, most: f64::MAX };

@@ -2,21 +2,22 @@
 //! `spec/4-arithmetic.md#domain`). Behind it every number is finite and within its domain.
 
 mod lists;
+mod own;
 
 use core::cmp::Ordering;
 
 use crate::configuration::Configuration;
 use crate::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
+    Cycle, Detection, DetectionList, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
 };
 use crate::exact::{Product, compare};
-use crate::parameters::Parameters;
 use crate::plane::same_point;
 use crate::route_index::RouteIndex;
 use crate::screen::Screen;
 use crate::verdict::{InvalidInput, Problem};
 
 use self::lists::{Seen, detections_are_fine, points_are_fine, stations_are_fine, tracks_are_fine};
+use self::own::{check_ego, check_parameters};
 
 /// Whose data are invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,61 +98,6 @@ fn local(
         check_tracks(cycle.tracks.as_ref(), TRACKS, cycle.now_ns, false)?;
     }
     Ok(previous_tracks)
-}
-
-fn check_parameters(parameters: &Parameters) -> Check {
-    let Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    } = *parameters;
-    let at = Place { index: None };
-    let threshold = [1e-3, 1e3];
-    let above_zero = [f64::from_bits(1), 1e3];
-    at.number("parameters.theta_tr", theta_tr, threshold)?;
-    at.number("parameters.theta_map", theta_map, threshold)?;
-    at.number("parameters.theta_obj", theta_obj, threshold)?;
-    at.number("parameters.a_b", a_b, [0.1, 100.0])?;
-    at.number("parameters.safety_time", safety_time, [0.0, 60.0])?;
-    at.integer("parameters.max_age_ns", max_age_ns, [0, HORIZON_NS])?;
-    at.integer("parameters.n", n, [1, 64])?;
-    at.number("parameters.theta_track_max", theta_track_max, threshold)?;
-    at.integer("parameters.miss_budget", miss_budget, [0, 64])?;
-    at.number("parameters.tau", tau, [0.0, 60.0])?;
-    at.number("parameters.a_max", a_max, [0.1, 100.0])?;
-    at.number("parameters.start_tolerance", start_tolerance, threshold)?;
-    at.number("parameters.v_max", v_max, above_zero)?;
-    at.integer("parameters.step_max_ns", step_max_ns, [0, HORIZON_NS])?;
-    at.number("parameters.theta_velocity", theta_velocity, above_zero)?;
-    at.integer("parameters.work_limit", work_limit, [0, i64::MAX])?;
-    at.number("parameters.delta", delta, [1e-8, 1e-2])
-}
-
-fn check_ego(ego: &Ego) -> Check {
-    let at = Place { index: None };
-    at.number("ego.x", ego.x, POSITION)?;
-    at.number("ego.y", ego.y, POSITION)?;
-    at.number("ego.cos", ego.cos, ANY)?;
-    at.number("ego.sin", ego.sin, ANY)?;
-    at.direction("ego.cos", ego.cos, ego.sin)?;
-    at.number("ego.speed", ego.speed, SPEED)?;
-    at.number("ego.length", ego.length, SIZE)?;
-    at.number("ego.width", ego.width, SIZE)?;
-    at.number("ego.center_offset", ego.center_offset, [-100.0, 100.0])
 }
 
 fn check_lead(lead: &Lead, now_ns: i64) -> Check {
@@ -395,7 +341,7 @@ impl Place {
     /// The norm check is exact: abs(cos^2 + sin^2 - 1) <= 1e-6 in real numbers.
     fn direction(self, field: &'static str, cos: f64, sin: f64) -> Check {
         let mut screen = Screen::default();
-        screen.direction(cos, sin);
+        screen.direction([cos, sin]);
         if screen.passes() {
             return Ok(());
         }

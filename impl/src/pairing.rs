@@ -7,6 +7,7 @@
 //! unless many detections share a square.
 
 use crate::cycle::{Detection, Track};
+use crate::gate::{Gate, apart_squared};
 use crate::scratch::{Column, NONE, short};
 
 /// The rules that the pairs have to keep.
@@ -33,20 +34,18 @@ pub(crate) fn certainly_pass(
     // Farther pairs would hardly keep the mean below the threshold.
     let reach = (5.0 * rules.theta_tr).min(rules.limit * (1.0 - 1e-12));
     let mut squares = Squares::new(detections, reach, columns);
-    let (mut farthest, mut sum, mut gated, mut paired) = (0.0_f64, 0.0, 0_usize, 0_usize);
+    let (mut gate, mut sum, mut gated, mut paired) = (Gate::new(p), 0.0, 0_usize, 0_usize);
     for (index, detection) in detections.iter().enumerate() {
         let place = [detection.x, detection.y];
-        farthest = farthest.max(apart_squared(p, place));
+        gate.include(place);
         squares.insert(index, place);
     }
     for track in tracks {
         let place = [track.x, track.y];
-        let away = apart_squared(p, place);
-        if away > farthest * (1.0 + 1e-14) + 1e-200 {
-            continue;
-        }
-        if away > farthest * (1.0 - 1e-14) - 1e-200 {
-            return false;
+        match gate.admits(place) {
+            Some(true) => {}
+            Some(false) => continue,
+            None => return false,
         }
         gated = gated.saturating_add(1);
         if let Some(squared) = squares.take(place) {
@@ -87,8 +86,9 @@ impl<'d, 's> Squares<'d, 's> {
     }
 
     fn hash(&self, [x, y]: [f64; 2]) -> usize {
-        /// Added to a number, this leaves the nearest integer in its low bits: at most
-        /// 2^24 m / (8 * 5e-3 m), far below 2^51.
+        /// Added to a number, this leaves the nearest integer in its low bits: the reach is at least
+        /// 1e-3 m (5 `theta_tr`, or the limit), so that it is at most 2^25 m / (8 * 0.99e-3 m),
+        /// below 2^32 and far below 2^51.
         const INTEGER: f64 = 6_755_399_441_055_744.0;
         let [i, k] = [x, y].map(|value| (value * self.scale + INTEGER).to_bits());
         let mixed = i.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ k.wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
@@ -113,11 +113,17 @@ impl<'d, 's> Squares<'d, 's> {
     /// a square beside it; the square of its distance, m^2.
     fn take(&mut self, place: [f64; 2]) -> Option<f64> {
         let own = self.hash(place);
-        self.take_from(own, place).or_else(|| {
-            let ([x, y], r) = (place, self.reach);
-            let corners = [[x - r, y - r], [x + r, y - r], [x - r, y + r], [x + r, y + r]];
-            let hashes = corners.map(|corner| self.hash(corner));
-            hashes.into_iter().filter(|&hash| hash != own).find_map(|it| self.take_from(it, place))
+        self.take_from(own, place).or_else(|| self.take_beside(own, place))
+    }
+
+    /// For one track of thirty or so.
+    #[cold]
+    fn take_beside(&mut self, own: usize, place: [f64; 2]) -> Option<f64> {
+        let ([x, y], r) = (place, self.reach);
+        let corners = [[x - r, y - r], [x + r, y - r], [x - r, y + r], [x + r, y + r]];
+        corners.into_iter().find_map(|corner| {
+            let hash = self.hash(corner);
+            if hash == own { None } else { self.take_from(hash, place) }
         })
     }
 
@@ -138,9 +144,4 @@ impl<'d, 's> Squares<'d, 's> {
         self.columns.get_mut(usize::from(found?))?.row = 0;
         Some(nearest)
     }
-}
-
-fn apart_squared([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
-    let (dx, dy) = (ax - bx, ay - by);
-    dx * dx + dy * dy
 }

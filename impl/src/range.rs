@@ -1,5 +1,5 @@
-//! Ranges of plain doubles, and integers in them. Smaller and larger of two numbers, none of them NaN, in one
-//! instruction each, where `f64::min` and `f64::max` take five.
+//! Ranges of plain doubles, and integers in them. Smaller and larger of two numbers, none of them
+//! NaN, in one instruction each, where `f64::min` and `f64::max` take five.
 
 /// Contains nothing.
 pub(crate) const EMPTY: [f64; 2] = [f64::MAX, f64::MIN];

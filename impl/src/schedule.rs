@@ -23,8 +23,16 @@ use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, 
 /// * i: T D distances, and an assignment of min(T, c)^2 max(T, c) steps, c = D + `miss_budget`,
 ///   never more than `work_limit`;
 /// * ii: P S segments and triangles, with an index only those beside each point;
-/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile);
-/// * v: 2 P bands and P n disks, each of which looks at its cells, 57 at a time, at most G.
+/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile), each about 60
+///   operations with error bounds;
+/// * v: 2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
+///   looks at the square around it (in the paper profile around up to four cells), which is
+///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells.
+///
+/// Only stage i has a limit. The default of `work_limit`, 10^10, is above the most work there is,
+/// 1024^2 * 2112 = 2.2e9 steps: no verdict of the paper depends on it, and whoever has to be in
+/// time has to choose a smaller one (`docs/speed.md` has the time for a work). The other stages do
+/// what the sizes say: whoever has to be in time gives short lists, few disks and no tiny cells.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     decide(cycle, None, scratch)
 }

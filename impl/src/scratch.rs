@@ -27,12 +27,12 @@ pub struct Column {
     pub(crate) row: u16,
     /// Row before this column on the shortest path.
     pub(crate) before: u16,
-    /// The first detection of a list, see `pairing`; `NONE` for an empty one.
+    /// The first column of a list, see `pairing` and `cells`; `NONE` for an empty one.
     pub(crate) head: u16,
-    /// The next detection of the list that this one is in.
+    /// The next column of the list that this one is in.
     pub(crate) next: u16,
-    /// The shortest path is final.
-    pub(crate) scanned: bool,
+    /// A column that a path reaches, see `assignment::Paths`.
+    pub(crate) reached: u16,
 }
 
 /// No row, column or detection: there are at most 2112.

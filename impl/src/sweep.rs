@@ -7,7 +7,7 @@
 //! is left to `collision`.
 
 use crate::cycle::{Detection, Ego, Track, TrajectoryPoint};
-use crate::range::{EMPTY, extend};
+use crate::range::{EMPTY, extend, larger};
 
 /// m
 const MARGIN: f64 = 1e-6;
@@ -134,16 +134,26 @@ impl Sweep {
     }
 
     /// Whether the object certainly touches the CAV at none of the points.
+    #[inline]
     pub(crate) fn misses(&self, object: &Moving) -> bool {
+        self.misses_upright(object) || self.misses_turned(object)
+    }
+
+    /// Most objects end here. Inlined, so that of each of them only what is asked for is read: half
+    /// of the time of stages iii and iv.
+    #[inline]
+    fn misses_upright(&self, object: &Moving) -> bool {
         let [middle, spread] = self.seconds;
         let [[cx, cy], [hx, hy]] = self.upright;
         let ([x, y], [vx, vy]) = (object.after(middle), object.velocity);
-        let reach = object.reach() + MARGIN;
-        if (x - cx).abs() > hx + reach + vx.abs() * spread
-            || (y - cy).abs() > hy + reach + vy.abs() * spread
-        {
-            return true;
-        }
+        let gap_x = (x - cx).abs() - vx.abs() * spread - hx;
+        let gap_y = (y - cy).abs() - vy.abs() * spread - hy;
+        larger(gap_x, gap_y) > object.reach() + MARGIN
+    }
+
+    #[inline(never)]
+    fn misses_turned(&self, object: &Moving) -> bool {
+        let [middle, spread] = self.seconds;
         let [a, b] = split(self.along, minus(object.after(middle), self.origin));
         let [va, vb] = split(self.along, object.velocity);
         let [reach_a, reach_b] = object.extents(self.along);

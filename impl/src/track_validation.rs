@@ -1,16 +1,15 @@
 //! Stage i: track validation (`spec/3-stages.md#stage-i-track-validation`), with H-01 and H-09.
 
-use core::cmp::Ordering;
-
 use crate::assignment::assign;
-use crate::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
-use crate::exact::compare_distances;
+use crate::cycle::{Cycle, DetectionList, Profile, TrackList};
+use crate::gate::gate;
 use crate::input::elapsed_ns;
 use crate::pairing::{Rules, certainly_pass};
+use crate::pairs::Pairs;
 use crate::parameters::Parameters;
-use crate::plane::{Vector, distance};
+use crate::plane::Vector;
 use crate::rounding::Real;
-use crate::scratch::{Column, NONE, Row, Scratch, short};
+use crate::scratch::{Column, Row, Scratch};
 use crate::verdict::{Rule, Witness};
 
 /// Why stage i fails, if it does. `previous`: the list for H-09, if it is in use.
@@ -67,31 +66,6 @@ pub(crate) fn previous_in_use<'c, 'a>(
 
 const SECOND_NS: i64 = 1_000_000_000;
 
-/// Writes the indices of the tracks that are at most as far from the CAV as the farthest detection
-/// into the rows, and returns how many; exact, and without detections r = 0.
-fn gate(
-    cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
-    detections: &DetectionList<'_>,
-    rows: &mut [Row],
-) -> usize {
-    let p = [cycle.ego.x, cycle.ego.y];
-    let farthest = detections.items.iter().fold(p, |farthest, detection| {
-        let candidate = [detection.x, detection.y];
-        let farther = compare_distances(p, candidate, farthest) == Ordering::Greater;
-        if farther { candidate } else { farthest }
-    });
-    let mut gated = 0_usize;
-    for (index, track) in tracks.items.iter().enumerate() {
-        let is_gated = compare_distances(p, [track.x, track.y], farthest) != Ordering::Greater;
-        if let (true, Some(row)) = (is_gated, rows.get_mut(gated)) {
-            row.track = short(index);
-            gated = gated.saturating_add(1);
-        }
-    }
-    gated
-}
-
 /// The stage of the paper: k = min(gated tracks, detections) pairs, the fewer of the two as rows.
 fn mean_cost(
     cycle: &Cycle<'_>,
@@ -108,13 +82,15 @@ fn mean_cost(
     if let Some(witness) = over_limit(cycle, gated, detected) {
         return Some(witness);
     }
-    let pairs =
-        Pairs { tracks: tracks.items, detections: detections.items, swapped: gated > detected };
     let columns = first(scratch.columns, gated.max(detected));
-    assign(scratch.rows, k, columns, |rows, row, column| {
-        pairs.get(rows, row, column).map(|pair| units(pair.metres()))
-    });
-    compare_mean(cycle, pairs.sum(scratch.rows, columns), k)
+    let lists = (tracks.items, detections.items);
+    let pairs = Pairs::new(lists, gated > detected, f64::MAX, scratch.rows, columns);
+    let assigned = assign(scratch.rows, k, columns, &pairs);
+    if assigned < k {
+        // Every row may be paired with every column: never, but if so, nothing has been shown.
+        return Some(no_assignment(assigned, k));
+    }
+    compare_mean(cycle, &pairs, scratch.rows, columns, k)
 }
 
 /// H-01: k' = gated tracks less the budget. The budget is spare columns that cost nothing, so that
@@ -135,35 +111,27 @@ fn matched_cost(
     if let Some(witness) = over_limit(cycle, gated, detections.items.len().saturating_add(spare)) {
         return Some(witness);
     }
-    let pairs = Pairs { tracks: tracks.items, detections: detections.items, swapped: false };
     let columns = first(scratch.columns, detections.items.len().saturating_add(spare));
+    let lists = (tracks.items, detections.items);
     let limit = cycle.parameters.theta_track_max;
-    let assigned = assign(scratch.rows, gated, columns, |rows, row, column| {
-        match pairs.get(rows, row, column) {
-            Some(pair) => certainly_closer(pair.metres(), limit).then(|| units(pair.metres())),
-            None => Some(0),
-        }
-    });
+    let pairs = Pairs::new(lists, false, limit, scratch.rows, columns);
+    let assigned = assign(scratch.rows, gated, columns, &pairs);
     if assigned == gated {
-        return compare_mean(cycle, pairs.sum(scratch.rows, columns), k);
+        return compare_mean(cycle, &pairs, scratch.rows, columns, k);
     }
     // The first track that is near no detection; else several compete, and no one of them is it.
-    let lone = (0..gated).find(|&row| {
-        let mut columns = 0..detections.items.len();
-        !columns.any(|column| {
-            let pair = pairs.get(scratch.rows, row, column);
-            pair.is_some_and(|pair| certainly_closer(pair.metres(), limit))
-        })
-    });
-    let track = lone.and_then(|row| tracks.items.get(usize::from(scratch.rows.get(row)?.track)));
-    let compared = [count(assigned.saturating_sub(spare)), count(k)];
-    let witness = Witness::of(Rule::NoAssignment, compared);
-    Some(Witness { track: track.map(|track| track.id), ..witness })
+    let lone = pairs.lone(scratch.rows, gated).and_then(|index| tracks.items.get(index));
+    let witness = no_assignment(assigned.saturating_sub(spare), k);
+    Some(Witness { track: lone.map(|track| track.id), ..witness })
+}
+
+fn no_assignment(assigned: usize, k: usize) -> Witness {
+    Witness::of(Rule::NoAssignment, [count(assigned), count(k)])
 }
 
 /// The stage fails rather than begin an assignment of so many rows and columns, whose work is
-/// min^2 max, when `work_limit` is below: one search for each, over at most min columns, each of
-/// which looks at all.
+/// min^2 max, when `work_limit` is below: one search for each, over at most min rows, each of
+/// which looks at all columns.
 fn over_limit(cycle: &Cycle<'_>, rows: usize, columns: usize) -> Option<Witness> {
     let (least, most) = (rows.min(columns), rows.max(columns));
     let work = least.saturating_mul(least).saturating_mul(most);
@@ -203,65 +171,25 @@ fn velocity(
     })
 }
 
-/// Which track and detection a row and a column of the assignment stand for.
-struct Pairs<'a> {
-    tracks: &'a [Track],
-    detections: &'a [Detection],
-    /// Rows are detections, columns gated tracks.
-    swapped: bool,
-}
-
-/// A track and a detection.
-struct Pair<'a>(&'a Track, &'a Detection);
-
-impl<'a> Pairs<'a> {
-    /// The pair; `None` for a spare column.
-    fn get(&self, rows: &[Row], row: usize, column: usize) -> Option<Pair<'a>> {
-        let (track, detection) = if self.swapped { (column, row) } else { (row, column) };
-        let track = self.tracks.get(usize::from(rows.get(track)?.track))?;
-        Some(Pair(track, self.detections.get(detection)?))
-    }
-
-    /// The sum of the distances of all assigned pairs, m.
-    fn sum(&self, rows: &[Row], columns: &[Column]) -> Real {
-        columns.iter().enumerate().fold(Real::ZERO, |sum, (column, entry)| {
-            let row = usize::from(entry.row);
-            let pair = if entry.row == NONE { None } else { self.get(rows, row, column) };
-            pair.map_or(sum, |Pair(t, d)| sum + distance([t.x, t.y], [d.x, d.y]))
-        })
-    }
-}
-
-impl Pair<'_> {
-    /// Distance in plain doubles, m: relative error below 4 * 2^-53, for distances above 1e-130.
-    fn metres(&self) -> f64 {
-        let Self(track, detection) = self;
-        let (dx, dy) = (track.x - detection.x, track.y - detection.y);
-        libm::sqrt(dx * dx + dy * dy)
-    }
-}
-
 /// Fails unless the sum is certainly below k `theta_tr`. That makes every acceptance right; that
 /// nothing is rejected without need follows from the costs: those of the assignment found add up
 /// to at most the least possible sum plus k * 2^-32 m and 2^-49 of it.
-fn compare_mean(cycle: &Cycle<'_>, sum: Real, k: usize) -> Option<Witness> {
-    let (k, theta_tr) = (Real::new(count(k)), cycle.parameters.theta_tr);
+fn compare_mean(
+    cycle: &Cycle<'_>,
+    pairs: &Pairs<'_>,
+    rows: &[Row],
+    columns: &[Column],
+    k: usize,
+) -> Option<Witness> {
+    let theta_tr = cycle.parameters.theta_tr;
+    let witness = |mean: f64| Witness::of(Rule::MeanCost, [mean, theta_tr]);
+    let plain = pairs.plain_sum(rows, columns) / count(k);
+    if plain > theta_tr * (1.0 + 1e-12) {
+        return Some(witness(plain));
+    }
+    let (sum, k) = (pairs.sum(rows, columns), Real::new(count(k)));
     let passes = sum.certainly_below(k * Real::new(theta_tr));
-    (!passes).then(|| Witness::of(Rule::MeanCost, [sum.over(k).value(), theta_tr]))
-}
-
-/// A distance in units of 2^-32 m, rounded up so that only coinciding points cost nothing. 2^20 m
-/// stand for everything farther: no mean below `theta_tr` <= 1000 m of at most 1024 pairs has a
-/// distance above 1,024,000 m.
-#[allow(clippy::cast_possible_truncation, reason = "the argument is within 0 and 2^52")]
-fn units(metres: f64) -> i64 {
-    let whole = (metres.min(1_048_576.0) * 4_294_967_296.0) as i64;
-    whole.saturating_add(i64::from(metres > 0.0))
-}
-
-/// The bound covers the error of `Pair::metres`; limits are at least 1e-3 m.
-fn certainly_closer(metres: f64, limit: f64) -> bool {
-    metres * (1.0 + 1e-14) < limit
+    (!passes).then(|| witness(sum.over(k).value()))
 }
 
 fn count(items: usize) -> f64 {

@@ -1,6 +1,7 @@
-//! `once TASK`: one call of one task on W1, in a function of its own, whose instructions
-//! `scripts/instruction-counts` counts. Tasks: `validation`, a stage (`i` to `v`) or
-//! `all`, each with `-hardened` for that profile.
+//! `once TASK [1|2|3] [ghost|drift|fail] [CALLS]`: one call of one task on W1 (W2, W3), in a
+//! function of its own, whose instructions `scripts/instruction-counts` counts; more calls for a
+//! profile by samples. Tasks: `validation`, a stage (`i` to `v`) or `all`, each with `-hardened`
+//! for that profile. `fail`: the variant of the stage that it fails.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -18,17 +19,32 @@ fn main() -> Result<(), Box<dyn Error>> {
         Some(task) => (task, Profile::Hardened),
         None => (argument.as_str(), Profile::Paper),
     };
-    let workload = Workload::new(&SIZES[0], Variant::Pass);
+    let stage = STAGES.into_iter().zip(Stage::ALL).find(|&(name, _)| name == task);
+    let (mut size, mut variant, mut calls) = (&SIZES[0], Variant::Pass, 1_u64);
+    for option in std::env::args().skip(2) {
+        match (option.as_str(), stage) {
+            ("1", _) => {}
+            ("2", _) => size = &SIZES[1],
+            ("3", _) => size = &SIZES[2],
+            ("ghost", _) => variant = Variant::Ghost,
+            ("drift", _) => variant = Variant::Drift,
+            ("fail", Some((_, stage))) => variant = Variant::Fail(stage),
+            (number, _) => calls = number.parse()?,
+        }
+    }
+    let workload = Workload::new(size, variant);
     let cycle = workload.cycle(profile, Configuration::AllRemote);
     let mut it = Contestant::new(&cycle);
-    let stage = STAGES.into_iter().zip(Stage::ALL).find(|&(name, _)| name == task);
     let mut run: Box<dyn FnMut() -> bool> = match (task, stage) {
         (_, Some((_, stage))) => Box::new(move || it.stage(stage)),
         ("validation", _) => Box::new(move || it.validate()),
         ("all", _) => Box::new(move || it.all_stages()),
         _ => return Err(format!("unknown task {task}").into()),
     };
-    assert!(measured(&mut run), "the workload passes");
+    for _ in 0..calls {
+        let passes = measured(&mut run);
+        assert_eq!(passes, variant == Variant::Pass, "{argument} {variant:?}");
+    }
     Ok(())
 }
 

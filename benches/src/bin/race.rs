@@ -12,7 +12,9 @@ use mufasa::verdict::Stage;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer::{self, corridor::Trees};
 use mufasa_benches::race::{Entry, Rounds, race};
-use mufasa_benches::table::{OURS, Results, STAGES, hardened, json, markdown};
+use mufasa_benches::table::{
+    Cache, OURS, Results, STAGES, TEAMS, Team, UNSEEN, hardened, json, markdown,
+};
 use mufasa_benches::workload::recipe::Size;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
@@ -66,12 +68,16 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     }));
     for (name, cycle) in [(OURS.to_owned(), &paper), (hardened(), &strict)] {
         let mut it = Contestant::new(cycle);
-        let run = move || it.all_stages();
-        contestants.push(contestant("all", name.clone(), false, Box::new(run)));
-        let mut it = Contestant::new(cycle);
         let run = move || it.validate();
         contestants.push(contestant("validation", name, false, Box::new(run)));
     }
+    let plain_loop = || peer::validation::plain_loop(black_box(&paper));
+    contestants.push(contestant(
+        "validation",
+        "plain loop".to_owned(),
+        false,
+        Box::new(plain_loop),
+    ));
     let blocks = vec![Block::default(); Block::needed(paper.route.stations.len())].leak();
     let build = || RouteIndex::new(black_box(paper.route), &mut *blocks).is_ok();
     contestants.push(contestant("index", OURS.to_owned(), false, Box::new(build)));
@@ -90,8 +96,18 @@ fn run(size: &Size, rounds: Rounds) -> Results {
             contestants.push(contestant(task, name, false, Box::new(run)));
         }
     }
+    // Stage iv cannot run, so that unknown cells count.
+    let base = workload.cycle(Profile::Hardened, Configuration::MotRemote);
+    let cycle = Box::leak(Box::new(Cycle { detections: None, ..base }));
+    let mut it = Contestant::new(cycle);
+    let run = move || it.check().failed_stage.is_none();
+    contestants.push(contestant(UNSEEN, hardened(), false, Box::new(run)));
     agree(&mut contestants, true);
-    let mut times = race(&mut contestants, rounds);
+    let times = race(&mut contestants, rounds);
+    let mut results = Results { workload: workload.name.clone(), times };
+    let mut contestants = whole_cycles(&results, [&paper, &strict]);
+    agree(&mut contestants, true);
+    results.times.extend(race(&mut contestants, rounds));
     for (task, variant, stage) in VARIANTS {
         let workload = Workload::new(size, variant);
         let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
@@ -100,9 +116,28 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         let peers = peers.filter(|peer| peer.stage == stage && !peer.slow);
         contestants.extend(peers.map(|peer| by_peer(task, peer)));
         agree(&mut contestants, false);
-        times.extend(race(&mut contestants, Rounds { warm: (rounds.warm / 3) | 1, cold: 0 }));
+        let rounds = Rounds { warm: (rounds.warm / 3) | 1, cold: 0 };
+        results.times.extend(race(&mut contestants, rounds));
     }
-    Results { workload: workload.name.clone(), times }
+    results
+}
+
+/// All stages in one call, so that caches are emptied once before each of the contestants: the
+/// implementation in both profiles, and the peers that were fastest, warm and cold.
+fn whole_cycles<'a>(results: &Results, [paper, strict]: [&'a Cycle<'a>; 2]) -> Vec<Entry<'a>> {
+    let mut contestants = Vec::new();
+    for cache in [Cache::Warm, Cache::Cold] {
+        for (name, cycle) in [(OURS.to_owned(), paper), (hardened(), strict)] {
+            let mut it = Contestant::new(cycle);
+            let run = move || it.all_stages();
+            contestants.push(contestant(&cache.task(), name, false, Box::new(run)));
+        }
+        for Team { name, by_hand, validates } in TEAMS {
+            let run = peer::team(paper, results.fastest(cache, by_hand), validates);
+            contestants.push(contestant(&cache.task(), name.to_owned(), false, Box::new(run)));
+        }
+    }
+    contestants
 }
 
 /// Wrong answers are not timed.

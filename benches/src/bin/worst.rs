@@ -1,4 +1,5 @@
-//! `worst`: an adversarial input of the largest sizes for each stage, and how long it takes. An
+//! `worst`: an adversarial input of the largest sizes for each stage, and how long it takes; and the
+//! time of stage i for the work of its assignment, to choose `work_limit` by. An
 //! attacker chooses tracks and trajectory; the vehicle, the route, the grid and what is detected
 //! are the CAV's own, and stage v is only as slow as this for a vehicle and a grid like these.
 
@@ -17,7 +18,7 @@ const NOW_NS: i64 = 1_000_000_000;
 const CELLS: i64 = 4096;
 
 fn main() {
-    println!("| stage | input | ms |\n|---|---|---|");
+    println!("| stage | input | paper, ms | hardened, ms |\n|---|---|---|---|");
     let stations = road(8192);
     let grid = vec![0; 4096 * 4096 / 8];
     let base = base(&stations, &grid);
@@ -31,10 +32,15 @@ fn main() {
     let limited = Cycle { parameters, ..crowded };
     report("i", "the same with work_limit = 10^7", &limited, Stage::I);
 
-    let beside: Vec<_> = places(1024, 0.1).map(|x| point(x, 0.2)).collect();
-    let beside = timed(beside);
+    let beside = timed(places(1024, 0.1).map(|x| point(x, 0.2)).collect());
     let cycle = Cycle { trajectory: Some(trajectory(&beside)), ..base };
-    report("ii", "1024 points near 8192 stations of a road without width", &cycle, Stage::Ii);
+    let name = "1024 points near 8192 stations of a road without width";
+    report("ii", name, &cycle, Stage::Ii);
+    report_without_index("ii", name, &cycle, Stage::Ii);
+    let upon = timed(places(1024, 0.1).map(|x| point(x, 0.0)).collect());
+    let cycle = Cycle { trajectory: Some(trajectory(&upon)), ..base };
+    report("ii", "1024 points on it", &cycle, Stage::Ii);
+    report_without_index("ii", "1024 points on it", &cycle, Stage::Ii);
 
     let standing = timed(vec![point(0.0, 0.0); 1024]);
     let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
@@ -50,8 +56,7 @@ fn main() {
     let mut corner = grid.clone();
     corner[(4 * 4096 + 520) / 8] = 1;
     let ego = Ego { length: 20.0, width: 20.0, ..base.ego };
-    let creeping: Vec<_> = places(1024, 0.001).map(|x| point(x, 0.0)).collect();
-    let creeping = timed(creeping);
+    let creeping = timed(places(1024, 0.001).map(|x| point(x, 0.0)).collect());
     for (n, name) in [
         (4, "20 m by 20 m in 4 disks creeps over 4096 x 4096 cells of 1 cm, 1024 points"),
         (64, "the same in 64 disks"),
@@ -62,11 +67,45 @@ fn main() {
             Cycle { ego, parameters, grid, trajectory: Some(trajectory(&creeping)), ..base };
         report("v", name, &cycle, Stage::V);
     }
+
+    println!("\n| tracks in one place | detections in a row | work of the assignment | ms |");
+    println!("|---|---|---|---|");
+    for count in [16, 32, 64, 128, 256, 512, 1024_usize] {
+        let (crowd, line) = (&crowd[..count], &line[..2 * count]);
+        let parameters = Parameters { theta_tr: 0.2, ..base.parameters };
+        let lists = Cycle { tracks: Some(tracks(crowd)), detections: Some(list(line)), ..base };
+        let cycle = Cycle { parameters, ..lists };
+        let (ms, _) = mean(&mut Contestant::new(&cycle), Stage::I);
+        println!("| {count} | {} | {:.1e} | {ms:.3} |", 2 * count, work(count));
+    }
 }
 
-/// The mean of as many runs as take a tenth of a second.
+/// The work of `spec/3-stages.md#stage-i-track-validation` for twice as many detections as tracks.
+#[expect(clippy::cast_precision_loss, reason = "two digits are shown")]
+fn work(tracks: usize) -> f64 {
+    (tracks * tracks * 2 * tracks) as f64
+}
+
+/// Both profiles, with an index of the route.
 fn report(stage: &str, input: &str, cycle: &Cycle<'_>, of: Stage) {
-    let mut it = Contestant::new(cycle);
+    line(stage, input, cycle, |cycle| mean(&mut Contestant::new(cycle), of));
+}
+
+fn report_without_index(stage: &str, input: &str, cycle: &Cycle<'_>, of: Stage) {
+    let input = format!("{input}, no index");
+    line(stage, &input, cycle, |cycle| mean(&mut Contestant::with_index(cycle, None), of));
+}
+
+fn line(stage: &str, input: &str, cycle: &Cycle<'_>, run: impl Fn(&Cycle<'_>) -> (f64, bool)) {
+    let cells = [Profile::Paper, Profile::Hardened].map(|profile| {
+        let (ms, passed) = run(&Cycle { profile, ..*cycle });
+        format!("{ms:.3}, {}", if passed { "passes" } else { "fails" })
+    });
+    println!("| {stage} | {input} | {} | {} |", cells[0], cells[1]);
+}
+
+/// The mean of as many runs as take a tenth of a second, ms, and whether the stage passes.
+fn mean(it: &mut Contestant<'_>, of: Stage) -> (f64, bool) {
     let start = cpu_ms();
     let (mut passed, mut runs, mut total) = (false, 0.0, 0.0);
     while total < 100.0 {
@@ -74,8 +113,7 @@ fn report(stage: &str, input: &str, cycle: &Cycle<'_>, of: Stage) {
         runs += 1.0;
         total = cpu_ms() - start;
     }
-    let verdict = if passed { "passes" } else { "fails" };
-    println!("| {stage} | {input}; {verdict} | {:.3} |", total / runs);
+    (total / runs, passed)
 }
 
 /// Time that this process has had a core, ms, so that others on the machine do not count; where
@@ -92,7 +130,12 @@ fn cpu_ms() -> f64 {
 fn base<'a>(stations: &'a [Station], grid: &'a [u8]) -> Cycle<'a> {
     Cycle {
         profile: Profile::Paper,
-        parameters: Parameters { theta_tr: 512.0, theta_obj: 1e3, ..Parameters::default() },
+        parameters: Parameters {
+            theta_tr: 512.0,
+            theta_obj: 1e3,
+            theta_track_max: 1e3,
+            ..Parameters::default()
+        },
         now_ns: NOW_NS,
         configuration: Configuration::AllRemote,
         ego: Ego {

@@ -83,6 +83,10 @@ pub struct Workload {
     resolution: f64,
     cells: i64,
     occupied: Vec<u8>,
+    /// For the hardened profile: where the tracks were 0.1 s ago.
+    previous: Vec<Track>,
+    /// For the hardened profile: the cells behind the occupied ones.
+    unknown: Vec<u8>,
 }
 
 impl Workload {
@@ -110,7 +114,10 @@ impl Workload {
             Variant::Drift => &numbers.drift,
             Variant::Pass | Variant::Fail(_) => &numbers.tracks,
         };
-        let tracks = received.iter().zip(1..).map(|(object, id)| track(object, id)).collect();
+        let tracks: Vec<_> =
+            received.iter().zip(1..).map(|(object, id)| track(object, id)).collect();
+        let before = |it: &Track| Track { x: it.x - 0.1 * it.vx, y: it.y - 0.1 * it.vy, ..*it };
+        let previous = tracks.iter().map(before).collect();
         let detections = numbers.detections.iter().map(detection).collect();
         let boundaries = numbers.left.iter().zip(&numbers.right);
         let stations = numbers
@@ -128,6 +135,8 @@ impl Workload {
             resolution: size.resolution,
             cells: i64::try_from(size.cells).expect("a few thousand"),
             occupied: bitmap(&numbers.occupied),
+            previous,
+            unknown: bitmap(&behind(&numbers.occupied, size.cells)),
             numbers,
         };
         if let Variant::Fail(stage) = variant {
@@ -202,14 +211,18 @@ impl Workload {
             })
             .collect();
         self.occupied = bitmap(&self.numbers.occupied);
+        self.unknown = bitmap(&behind(&self.numbers.occupied, cells));
         self.numbers.origin = origin;
         self
     }
 
     /// The cycle. `MotRemote` runs stages i, ii, iv and v; `AllRemote` i, ii, iii (and iv in the
-    /// hardened profile); `PlanRemote` ii and iii (and iv).
+    /// hardened profile); `PlanRemote` ii and iii (and iv). In the hardened profile it has previous
+    /// tracks and unknown cells.
     pub fn cycle(&self, profile: Profile, configuration: Configuration) -> Cycle<'_> {
         let stamp_ns = NOW_NS;
+        let hardened = profile == Profile::Hardened;
+        let previous = TrackList { stamp_ns: NOW_NS - 100_000_000, items: &self.previous };
         let [x, y] = self.numbers.origin;
         Cycle {
             profile,
@@ -232,11 +245,17 @@ impl Workload {
                 width: self.cells,
                 height: self.cells,
                 occupied: &self.occupied,
-                unknown: None,
+                unknown: hardened.then_some(&self.unknown),
             }),
-            previous_tracks: None,
+            previous_tracks: hardened.then_some(previous),
         }
     }
+}
+
+/// The cells one row above those that are set.
+fn behind(cells: &[bool], width: usize) -> Vec<bool> {
+    let below = std::iter::repeat_n(&false, width).chain(cells);
+    cells.iter().zip(below).map(|(&cell, &below)| below && !cell).collect()
 }
 
 /// Row by row, least significant bit first.

@@ -1,18 +1,62 @@
 //! Against all assignments there are.
 
+use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
 use super::assign;
 use crate::random::Random;
-use crate::scratch::{Column, NONE, Row};
+use crate::scratch::{Column, NONE, Row, short};
 
 type Costs = Vec<Vec<Option<i64>>>;
 
+/// Column c is in list c alone, and each row meets the lists by their costs, with these as bounds;
+/// or all columns are in list 0, about which nothing is known.
+struct Matrix<'a> {
+    costs: &'a Costs,
+    sorted: bool,
+}
+
+impl super::Costs for Matrix<'_> {
+    type Row = usize;
+
+    fn row(&self, _: &[Row], row: usize) -> Option<usize> {
+        Some(row)
+    }
+
+    fn cost(&self, _: &[Row], row: usize, column: usize) -> Option<i64> {
+        self.costs[row][column]
+    }
+
+    fn lists(&self, row: usize) -> impl Iterator<Item = (i64, Range<usize>)> {
+        let mut lists: Vec<_> =
+            self.costs[row].iter().zip(0..).filter_map(|(cost, at)| Some(((*cost)?, at))).collect();
+        lists.sort_unstable();
+        let lists = if self.sorted { lists } else { vec![(0, 0)] };
+        lists.into_iter().map(|(bound, at)| (bound, at..at + 1))
+    }
+}
+
+fn table(columns: usize, sorted: bool) -> Vec<Column> {
+    let chain = |at: usize| Column {
+        head: if sorted { short(at) } else { 0 },
+        next: if sorted || at + 1 == columns { NONE } else { short(at + 1) },
+        ..Column::default()
+    };
+    (0..columns).map(chain).collect()
+}
+
+/// How many rows were assigned, and what that costs, which does not depend on the lists.
 fn run(costs: &Costs, columns: usize) -> (usize, i64) {
+    let result = run_listed(costs, columns, false);
+    assert_eq!(run_listed(costs, columns, true), result, "{costs:?}");
+    result
+}
+
+fn run_listed(costs: &Costs, columns: usize, sorted: bool) -> (usize, i64) {
     let mut rows = vec![Row::default(); costs.len()];
-    let mut table = vec![Column::default(); columns];
-    let assigned = assign(&mut rows, costs.len(), &mut table, |_, row, column| costs[row][column]);
+    let mut table = table(columns, sorted);
+    let assigned = assign(&mut rows, costs.len(), &mut table, &Matrix { costs, sorted });
     let mut seen = vec![false; costs.len()];
     let pairs = table
         .iter()
@@ -94,8 +138,9 @@ fn potentials_prove_that_nothing_is_cheaper() {
             let mut cost = || Some(random.below(range) as i64);
             let costs: Costs = (0..rows).map(|_| (0..columns).map(|_| cost()).collect()).collect();
             let mut lines = vec![Row::default(); rows];
-            let mut table = vec![Column::default(); columns];
-            let count = assign(&mut lines, rows, &mut table, |_, row, column| costs[row][column]);
+            let sorted = random.below(2) == 0;
+            let mut table = table(columns, sorted);
+            let count = assign(&mut lines, rows, &mut table, &Matrix { costs: &costs, sorted });
             assert_eq!(count, rows);
             for (at, column) in table.iter().enumerate() {
                 assert!(column.potential <= 0 && (column.row != NONE || column.potential == 0));

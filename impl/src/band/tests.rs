@@ -61,6 +61,39 @@ fn disks(cycle: &Cycle<'_>, grid: &Grid<'_>, point: &TrajectoryPoint) -> Vec<[f6
     (0..n).map(centre).collect()
 }
 
+/// A cell near a disk of one of the points, here or there: whether the band is free of it, and
+/// whether a disk reaches it, which must not both be.
+fn try_cell(
+    random: &mut Random,
+    cycle: &Cycle<'_>,
+    grid: &Grid<'_>,
+    points: &[TrajectoryPoint],
+) -> (bool, bool) {
+    let band = Band::new(&Frame::new(cycle, grid), points);
+    let all: Vec<_> = points.iter().flat_map(|point| disks(cycle, grid, point)).collect();
+    let [x, y] = all[random.below(all.len() as u64) as usize];
+    let mut around = |at: f64, count: i64| {
+        (at + number(random, 12.0)).floor().clamp(0.0, (count - 1) as f64) as i64
+    };
+    let (column, row) = (around(x, 90), around(y, 70));
+    let mut bits = [0; 90 * 70 / 8 + 1];
+    let bit = (row * 90 + column) as usize;
+    bits[bit / 8] |= 1 << (bit % 8);
+    let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
+    let disk = (cycle.ego.length / cycle.parameters.n as f64).hypot(cycle.ego.width) / 2.0;
+    let reach = disk / grid.resolution + 0.5_f64.sqrt();
+    let (mut outside, mut reached) = (false, false);
+    for [x, y] in all {
+        let apart = (x - column as f64 - 0.5).hypot(y - row as f64 - 0.5);
+        reached |= apart <= reach;
+        let inside = x > reach && y > reach && x < 90.0 - reach && y < 70.0 - reach;
+        outside |= !inside;
+    }
+    assert!(!(reached && is_free), "{column} {row} {band:?}");
+    assert!(!(outside && band.is_within(90, 70)), "{band:?}");
+    (is_free, reached)
+}
+
 #[test]
 fn what_a_disk_can_reach_is_in_the_band() {
     let mut random = Random(21);
@@ -68,7 +101,6 @@ fn what_a_disk_can_reach_is_in_the_band() {
     for _ in 0..20_000 {
         let grid = grid(&mut random, &[]);
         let cycle = cycle(&mut random, grid);
-        let frame = Frame::new(&cycle, &grid);
         let side = grid.resolution * 60.0;
         let (a, b) = (side * (0.5 + number(&mut random, 0.8)), side * 0.5);
         let start = [grid.x + a * grid.cos - b * grid.sin, grid.y + a * grid.sin + b * grid.cos];
@@ -79,29 +111,39 @@ fn what_a_disk_can_reach_is_in_the_band() {
                 TrajectoryPoint { t_ns: i as i64, x, y, cos, sin }
             })
             .collect();
-        let band = Band::new(&frame, &points);
-        let [x, y] = disks(&cycle, &grid, &points[0])[0];
-        let around = |random: &mut Random, at: f64, count: i64| {
-            (at + number(random, 12.0)).floor().clamp(0.0, (count - 1) as f64) as i64
-        };
-        let (column, row) = (around(&mut random, x, 90), around(&mut random, y, 70));
-        let mut bits = [0; 90 * 70 / 8 + 1];
-        let bit = (row * 90 + column) as usize;
-        bits[bit / 8] |= 1 << (bit % 8);
-        let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
-        let disk = (cycle.ego.length / cycle.parameters.n as f64).hypot(cycle.ego.width) / 2.0;
-        let reach = disk / grid.resolution + 0.5_f64.sqrt();
-        let all = points.iter().flat_map(|point| disks(&cycle, &grid, point));
-        let mut outside = false;
-        let mut reached = false;
-        for [x, y] in all {
-            let apart = (x - column as f64 - 0.5).hypot(y - row as f64 - 0.5);
-            reached |= apart <= reach;
-            let inside = x > reach && y > reach && x < 90.0 - reach && y < 70.0 - reach;
-            outside |= !inside;
+        let (is_free, reached) = try_cell(&mut random, &cycle, &grid, &points);
+        free += u32::from(is_free);
+        near += u32::from(reached);
+    }
+    assert!(free > 1_000 && near > 200, "{free} {near}");
+}
+
+/// Bands almost along a row or a column, where a small component divides, of which one end is in
+/// the grid and the other one up to 10,000 km away.
+#[test]
+fn a_band_almost_upright_is_wide_enough() {
+    let mut random = Random(22);
+    let (mut free, mut near) = (0, 0);
+    for case in 0..20_000 {
+        let grid = Grid { cos: 1.0, sin: 0.0, ..grid(&mut random, &[]) };
+        let cycle = cycle(&mut random, grid);
+        let (slope, length) = (
+            [3e-7, 1.1e-6, 1e-5, 1e-3][case % 4] * (1.0 + number(&mut random, 0.5)),
+            [3.0, 1e2, 1e4, 1e7][random.below(4) as usize],
+        );
+        let swap = |[x, y]: [f64; 2]| if case % 8 < 4 { [x, y] } else { [y, x] };
+        let [cos, sin] = swap([slope, 1.0]);
+        let inside =
+            [grid.x, grid.y].map(|at| at + grid.resolution * (30.0 + number(&mut random, 20.0)));
+        let ends = [[0.0, 0.0], swap([length * slope, length])];
+        let mut points = ends.map(|[x, y]| {
+            let [x, y] = [inside[0] - x, inside[1] - y];
+            TrajectoryPoint { t_ns: 0, x, y, cos, sin }
+        });
+        if case % 16 < 8 {
+            points.reverse();
         }
-        assert!(!(reached && is_free), "{column} {row} {band:?}");
-        assert!(!(outside && band.is_within(90, 70)), "{band:?}");
+        let (is_free, reached) = try_cell(&mut random, &cycle, &grid, &points);
         free += u32::from(is_free);
         near += u32::from(reached);
     }

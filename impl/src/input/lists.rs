@@ -11,10 +11,8 @@ pub(super) fn stations_are_fine(stations: &[Station]) -> bool {
     let [_, most] = POSITION;
     let mut screen = Screen::default();
     let mut before = [f64::NAN; 2];
-    for &Station { x, y, left: [lx, ly], right: [rx, ry] } in stations {
-        for value in [x, y, lx, ly, rx, ry] {
-            screen.size(value, most);
-        }
+    for &Station { x, y, left, right } in stations {
+        [[x, y], left, right].into_iter().for_each(|place| screen.sizes(place, most));
         screen.holds(!same_point(before, [x, y]));
         before = [x, y];
     }
@@ -25,11 +23,9 @@ pub(super) fn detections_are_fine(items: &[Detection]) -> bool {
     let [_, most] = POSITION;
     let mut screen = Screen::default();
     for &Detection { x, y, cos, sin, length, width } in items {
-        screen.size(x, most);
-        screen.size(y, most);
-        screen.direction(cos, sin);
-        screen.range(length, SIZE);
-        screen.range(width, SIZE);
+        screen.sizes([x, y], most);
+        screen.direction([cos, sin]);
+        screen.ranges([length, width], SIZE);
     }
     screen.passes()
 }
@@ -40,13 +36,10 @@ pub(super) fn tracks_are_fine(items: &[Track]) -> bool {
     let mut screen = Screen::default();
     let mut before = i64::MIN;
     for &Track { id, x, y, cos, sin, vx, vy, length, width } in items {
-        screen.size(x, farthest);
-        screen.size(y, farthest);
-        screen.direction(cos, sin);
-        screen.size(vx, fastest);
-        screen.size(vy, fastest);
-        screen.range(length, SIZE);
-        screen.range(width, SIZE);
+        screen.sizes([x, y], farthest);
+        screen.direction([cos, sin]);
+        screen.sizes([vx, vy], fastest);
+        screen.ranges([length, width], SIZE);
         screen.holds(before < id);
         before = id;
     }
@@ -59,9 +52,8 @@ pub(super) fn points_are_fine(trajectory: &Trajectory<'_>, now_ns: i64) -> bool 
     let mut screen = Screen::default();
     let mut before = i64::MIN;
     for &TrajectoryPoint { t_ns, x, y, cos, sin } in trajectory.points {
-        screen.size(x, most);
-        screen.size(y, most);
-        screen.direction(cos, sin);
+        screen.sizes([x, y], most);
+        screen.direction([cos, sin]);
         screen.holds(before < t_ns);
         before = t_ns;
     }
