@@ -543,7 +543,7 @@ typedef struct MufasaWitness {
   uint32_t has_track;
   // Id of the track.
   int64_t track;
-  // Index of the trajectory point (the later one of a step).
+  // Index of the trajectory point (the later one of a step); places behind the last count on.
   int64_t point;
   // Index of the detection.
   int64_t detection;

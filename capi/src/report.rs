@@ -126,7 +126,7 @@ pub struct MufasaWitness {
     pub has_track: u32,
     /// Id of the track.
     pub track: i64,
-    /// Index of the trajectory point (the later one of a step).
+    /// Index of the trajectory point (the later one of a step); places behind the last count on.
     pub point: i64,
     /// Index of the detection.
     pub detection: i64,

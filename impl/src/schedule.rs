@@ -23,6 +23,8 @@ use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, 
 /// * i: T D distances, and an assignment of min(T, c)^2 max(T, c) steps, c = D + `miss_budget`,
 ///   never more than `work_limit`;
 /// * ii: P S segments and triangles, with an index only those beside each point;
+/// * iii to v: in the hardened profile P is up to 4 L + 1 more, for places behind the end of the
+///   trajectory (H-04);
 /// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile), each about 60
 ///   operations with error bounds;
 /// * v: 2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which

@@ -145,7 +145,8 @@ pub enum Rule {
 pub struct Witness {
     /// The rule that was broken.
     pub rule: Rule,
-    /// Index of the trajectory point (the later one of a step).
+    /// Index of the trajectory point (the later one of a step); places behind the last
+    /// count on (H-04).
     pub point: Option<usize>,
     /// Id of the track.
     pub track: Option<i64>,
