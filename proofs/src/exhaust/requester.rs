@@ -15,7 +15,7 @@ use crate::law::requester::{LAWS, Law, Seen, Step};
 /// What is run.
 pub const TOPIC: Topic = Topic {
     name: "requester",
-    domain: "every sequence of up to 6 of 15 events from the first state, two stations, times of a few \
+    domain: "every sequence of up to 6 of 16 events from the first state, two stations, times of a few \
              nanoseconds, both profiles. Not covered: longer sequences, time that runs backwards",
     laws: || LAWS.iter().map(|&(name, _)| name).collect(),
     run,
@@ -42,10 +42,11 @@ enum Letter {
     Reject(Group),
     Data(Group, i64),
     Safe,
+    SafeWithoutMot,
     Unsafe,
 }
 
-const ALPHABET: [Letter; 15] = [
+const ALPHABET: [Letter; 16] = [
     Letter::OfferAll,
     Letter::OfferPlanElsewhere,
     Letter::Withdraw,
@@ -60,6 +61,7 @@ const ALPHABET: [Letter; 15] = [
     Letter::Reject(Group::Plan),
     Letter::Data(Group::Mot, 0),
     Letter::Safe,
+    Letter::SafeWithoutMot,
     Letter::Unsafe,
 ];
 
@@ -168,6 +170,9 @@ fn event(before: &Seen, now_ns: i64, letter: Letter) -> Event {
             (1, EventKind::Data { station, group, session, generated_ns })
         }
         Letter::Safe => (0, EventKind::Verdict { safe: true, groups: Groups::ALL }),
+        Letter::SafeWithoutMot => {
+            (0, EventKind::Verdict { safe: true, groups: Groups::from(Group::Plan) })
+        }
         Letter::Unsafe => (0, EventKind::Verdict { safe: false, groups: Groups::ALL }),
     };
     Event { t_ns: now_ns + dt, kind }
