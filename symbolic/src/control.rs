@@ -15,9 +15,9 @@ use crate::term::{Op, Term};
 const ROUNDS: u32 = 300;
 /// Instructions before the machine gives up.
 const STEPS: u64 = 50_000_000;
-/// Rounds before the machine asks whether another one can be. Most loops end before that, because their
-/// counters are numbers; rounds that cannot be cost little.
-const PATIENCE: u32 = 8;
+/// Instructions of a loop after which the machine asks whether it still goes on; then twice as many. Most
+/// loops end before that by themselves, because their counters are numbers.
+const PATIENCE: u64 = 1000;
 
 /// The end of a block or the start of a loop.
 pub(crate) struct Label {
@@ -169,7 +169,8 @@ impl<'a> Machine<'a> {
         labels: &mut Vec<Label>,
     ) -> Run {
         let (mut state, mut left) = (state, None);
-        let mut undecided = 0;
+        let (mut undecided, mut patience) = (0, PATIENCE);
+        let mut ask_at = self.steps + patience;
         for round in 0.. {
             let (height, known) = (state.stack.len(), state.path.clone());
             labels.push(Label { results: 0, height, arrived: None });
@@ -184,12 +185,14 @@ impl<'a> Machine<'a> {
                 if undecided > ROUNDS {
                     return Err(format!("a loop may go on after {ROUNDS} rounds"));
                 }
-                if undecided > PATIENCE {
-                    let path = self.terms.all(&back.path);
-                    if self.ask(path)? == Answer::Never {
-                        return Ok(left);
-                    }
+            }
+            if self.steps >= ask_at {
+                let path = self.terms.all(&back.path);
+                if self.ask(path)? == Answer::Never {
+                    return Ok(left);
                 }
+                patience *= 2;
+                ask_at = self.steps + patience;
             }
             state = back;
         }

@@ -125,13 +125,23 @@ impl<'a> Machine<'a> {
     fn import(&mut self, name: &str, mut state: State) -> Run {
         match name {
             "any_u64" => {
-                let value = if let Some(given) = &self.given {
-                    self.terms.constant(given.get(&self.place).copied().unwrap_or(0), 64)
-                } else {
-                    let next = u32::try_from(self.draws.len()).map_err(|_| "many draws")?;
-                    let number = *self.draws.entry(self.place.clone()).or_insert(next);
-                    self.terms.variable(number, 64)
-                };
+                let value = self.draw()?;
+                state.stack.push(value);
+                Ok(Some(state))
+            }
+            // A choice among numbers, so that what it leads to is one, too.
+            "any_below" => {
+                let limit = state.pop();
+                let limit = self.terms.number(limit).ok_or("a limit that is no number")?;
+                let Some(last) = limit.checked_sub(1) else { return Ok(None) };
+                let drawn = self.draw()?;
+                let mut value = self.terms.constant(last, 32);
+                for number in (0..last).rev() {
+                    let wanted = self.terms.constant(number, 64);
+                    let is_it = self.terms.binary(Op::Equal, drawn, wanted);
+                    let number = self.terms.constant(number, 32);
+                    value = self.terms.choice(is_it, number, value);
+                }
                 state.stack.push(value);
                 Ok(Some(state))
             }
@@ -157,6 +167,16 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// An arbitrary value, or the one that is given for this place.
+    fn draw(&mut self) -> Result<Term, String> {
+        if let Some(given) = &self.given {
+            return Ok(self.terms.constant(given.get(&self.place).copied().unwrap_or(0), 64));
+        }
+        let next = u32::try_from(self.draws.len()).map_err(|_| "many draws")?;
+        let number = *self.draws.entry(self.place.clone()).or_insert(next);
+        Ok(self.terms.variable(number, 64))
+    }
+
     pub(crate) fn ask(&mut self, truth: Term) -> Result<Answer, String> {
         if self.terms.number(truth).is_none() {
             self.questions += 1;
@@ -170,24 +190,26 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// All numbers that the term can be on this path.
     pub(crate) fn values(&mut self, term: Term, path: Term) -> Result<Vec<u64>, String> {
         /// More than this are no way to look at memory.
         const MOST: usize = 64;
         let (mut found, mut rest) = (Vec::new(), path);
-        while let Answer::With(values) = self.ask(rest)? {
-            if found.len() == MOST {
-                return Err(format!("an address with more than {MOST} values"));
-            }
+        loop {
+            let values = match self.ask(rest)? {
+                Answer::Never => return Ok(found),
+                Answer::Unknown => return Err("the values of an address are not known".to_owned()),
+                Answer::With(_) if found.len() == MOST => {
+                    return Err(format!("an address with more than {MOST} values"));
+                }
+                Answer::With(values) => values,
+            };
             let value = self.terms.value(term, &values.into_iter().collect());
             found.push(value);
             let number = self.terms.constant(value, self.terms.width(term));
             let is_it = self.terms.binary(Op::Equal, term, number);
             let is_another = self.terms.not(is_it);
             rest = self.terms.and(rest, is_another);
-        }
-        match self.ask(rest)? {
-            Answer::Never => Ok(found),
-            _ => Err("the values of an address are not known".to_owned()),
         }
     }
 }

@@ -167,7 +167,7 @@ impl Terms {
                 Some(self.choice(if_one, yes, no))
             }
             (Node::Choice(condition, yes, no), _)
-                if self.chooses(one) && self.chooses(other)
+                if self.choose_few(one, other)
                     || self.number(other).is_some() && simpler(self, one) =>
             {
                 let yes = self.binary(op, yes, other);

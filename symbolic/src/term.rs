@@ -127,8 +127,8 @@ pub const fn signed(value: u64, width: u8) -> i64 {
 pub struct Terms {
     nodes: Vec<(Node, u8)>,
     found: HashMap<(Node, u8), Term>,
-    /// Whether a term chooses among numbers alone.
-    chooses: Vec<bool>,
+    /// Among how many numbers a term chooses, a number as often as it is written; 0: not among numbers.
+    numbers: Vec<u32>,
     /// Results of `simplify`, so that no term is walked twice.
     pub(crate) known: HashMap<(Node, u8), Term>,
 }
@@ -164,7 +164,15 @@ impl Terms {
 
     /// Whether the term is a number or a choice among numbers.
     pub fn chooses(&self, term: Term) -> bool {
-        self.chooses[term.index()]
+        self.numbers[term.index()] > 0
+    }
+
+    /// Whether both choose among numbers, so few that an operation on each pair of them is one more
+    /// choice and no explosion.
+    pub(crate) fn choose_few(&self, one: Term, other: Term) -> bool {
+        const FEW: u32 = 256;
+        let pairs = self.numbers[one.index()].saturating_mul(self.numbers[other.index()]);
+        (1..=FEW).contains(&pairs)
     }
 
     /// The term of this node as it stands.
@@ -173,13 +181,15 @@ impl Terms {
             return *term;
         }
         let term = Term(u32::try_from(self.nodes.len()).expect("fewer than 2^32 terms"));
-        let chooses = match node {
-            Node::Constant(_) => true,
-            Node::Choice(_, yes, no) => self.chooses(yes) && self.chooses(no),
-            _ => false,
+        let numbers = match node {
+            Node::Constant(_) => 1,
+            Node::Choice(_, yes, no) if self.chooses(yes) && self.chooses(no) => {
+                self.numbers[yes.index()].saturating_add(self.numbers[no.index()])
+            }
+            _ => 0,
         };
         self.nodes.push((node, width));
-        self.chooses.push(chooses);
+        self.numbers.push(numbers);
         self.found.insert((node, width), term);
         term
     }

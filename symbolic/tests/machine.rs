@@ -9,6 +9,7 @@ fn judge(body: &str) -> Found {
     let text = format!(
         r#"(module
         (import "env" "any_u64" (func $any (result i64)))
+        (import "env" "any_below" (func $below (param i32) (result i32)))
         (import "env" "assume_that" (func $assume (param i32)))
         (import "env" "cover_that" (func $cover (param i32 i32)))
         (memory 1)
@@ -55,6 +56,23 @@ fn what_always_holds_is_proved_and_what_does_not_is_refuted() {
     let assumed = "(call $assume (i64.lt_u (local.get $x) (i64.const 0x123456789)))";
     assert_proved(&format!("{draw} {assumed} {but_one}"));
     assert_refuted(&format!("{draw} {but_one} {assumed}"));
+}
+
+#[test]
+fn a_number_below_a_limit_is_any_of_them() {
+    if !smt::is_here() {
+        eprintln!("NOT RUN: z3 is not installed");
+        return;
+    }
+    let draw = "(local.set $i (call $below (i32.const 5)))";
+    for number in 0..5 {
+        assert_refuted(&format!(
+            "{draw} {}",
+            must(&format!("(i32.ne (local.get $i) (i32.const {number}))"))
+        ));
+    }
+    assert_proved(&format!("{draw} {}", must("(i32.lt_u (local.get $i) (i32.const 5))")));
+    assert!(judge("(drop (call $below (i32.const 0)))").reached.is_empty());
 }
 
 #[test]
