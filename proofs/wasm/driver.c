@@ -14,6 +14,11 @@ double nondet_f64(void);
 struct w2c_env { int unused; };
 
 u64 w2c_env_any_u64(struct w2c_env *env) { return nondet_u64(); }
+u32 w2c_env_any_below(struct w2c_env *env, u32 limit) {
+  u32 value = nondet_u64();
+  __CPROVER_assume(value < limit);
+  return value;
+}
 f64 w2c_env_any_f64(struct w2c_env *env) { return nondet_f64(); }
 void w2c_env_assume_that(struct w2c_env *env, u32 condition) { __CPROVER_assume(condition); }
 

@@ -14,6 +14,7 @@ pub mod kani {
         #[link(wasm_import_module = "env")]
         unsafe extern "C" {
             pub safe fn any_u64() -> u64;
+            pub safe fn any_below(limit: u32) -> u32;
             pub safe fn any_f64() -> f64;
             pub safe fn assume_that(condition: u32);
             pub safe fn cover_that(name: u32, condition: u32);
@@ -59,9 +60,7 @@ pub mod kani {
     }
 
     pub fn below(limit: u8) -> u8 {
-        let value = any();
-        assume(value < limit);
-        value
+        import::any_below(limit.into()).to_le_bytes()[0]
     }
 
     pub fn near(_least: f64, _most: f64) -> f64 {

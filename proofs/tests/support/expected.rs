@@ -24,9 +24,18 @@ pub struct Expected {
     pub covers: BTreeSet<String>,
     /// What the stand-in does: `every` value of the domain, or `some`.
     pub stand_in: String,
-    /// What CBMC does with it: `quick`, `slow` or `no`.
-    pub cbmc: String,
-    /// Why CBMC does not do it, if it does not.
+    /// What the engines of `scripts/prove-wasm` do with it.
+    pub compiled: [Compiled; 2],
+}
+
+/// What an engine does with the compiled harness.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Compiled {
+    /// `cbmc` or `symbolic`.
+    pub engine: &'static str,
+    /// `quick`, `slow` or `no`.
+    pub mark: String,
+    /// What was seen where it does not prove it.
     pub reason: Option<String>,
 }
 
@@ -52,7 +61,10 @@ fn one(entry: &Table) -> Expected {
         domain: required("domain"),
         covers: covers.iter().map(|name| name.as_str().expect("a name").to_owned()).collect(),
         stand_in: required("stand_in"),
-        cbmc: required("cbmc"),
-        reason: text("reason"),
+        compiled: ["cbmc", "symbolic"].map(|engine| Compiled {
+            engine,
+            mark: required(engine),
+            reason: text(&format!("{engine}_reason")),
+        }),
     }
 }

@@ -1,5 +1,5 @@
-//! The harnesses: what CBMC said of them compiled, and what the stand-in for Kani sees now. Kani
-//! itself is not run.
+//! The harnesses: what CBMC and z3 said of them compiled, and what the stand-in for Kani sees now.
+//! Kani itself is not run.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -19,7 +19,8 @@ use crate::prove::sources;
 
 /// Some values of an infinite domain are run, which is testing.
 const SAMPLING: &str = "sampling";
-const CBMC: &str = "cbmc-wasm";
+/// What `scripts/prove-wasm` may say who judged the compiled code.
+const COMPILED: [&str; 3] = ["z3-wasm", "cbmc-wasm", "cbmc-wasm, z3-wasm"];
 const KANI: &str = "kani";
 
 const EXPECTED: &str = include_str!("../../../../proofs/expected.toml");
@@ -55,6 +56,7 @@ struct Mutant {
 #[derive(Deserialize)]
 struct Compiled {
     id: String,
+    engine: String,
     verdict: Verdict,
     seconds: Option<f64>,
     reason: Option<String>,
@@ -101,10 +103,10 @@ pub(super) fn judge(
         seen
     });
     let lines = claims.into_iter().zip(seen).map(|(line, seen)| {
-        let missing = || Answer::not_run(CBMC, "scripts/prove-wasm did not run it");
-        let cbmc = compiled.remove(&line.id).unwrap_or_else(missing);
+        let missing = || Answer::not_run(COMPILED[2], "scripts/prove-wasm did not run it");
+        let compiled = compiled.remove(&line.id).unwrap_or_else(missing);
         let kani = Answer::not_run(KANI, "it runs in .github/workflows/kani.yml alone");
-        line.answered(seen.into_iter().chain([cbmc, kani]).collect())
+        line.answered(seen.into_iter().chain([compiled, kani]).collect())
     });
     Ok(lines.collect())
 }
@@ -143,7 +145,7 @@ fn stand_in(one: &Harness) -> Answer {
     Answer { ran, reason, ..Answer::given(one.engine(), verdict, seconds) }
 }
 
-/// What CBMC said of the sources that are here, by harness.
+/// What was said of the compiled sources that are here, by harness.
 fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, Answer>> {
     let text = match fs::read_to_string(&settings.cbmc) {
         Ok(text) => text,
@@ -153,12 +155,14 @@ fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, Answer>> {
     let here = sources::hash(&settings.sources)?;
     let answer = |line: &str| {
         let one: Compiled = serde_json::from_str(line)?;
+        let engine = COMPILED.into_iter().find(|name| *name == one.engine);
+        let engine = engine.ok_or_else(|| io::Error::other(format!("no engine {}", one.engine)))?;
         let answer = match one.seconds {
-            _ if one.sources != here => Answer::not_run(CBMC, "what is here is of other sources"),
+            _ if one.sources != here => Answer::not_run(engine, "what is here is of other sources"),
             Some(seconds) => {
-                Answer { reason: one.reason, ..Answer::given(CBMC, one.verdict, seconds) }
+                Answer { reason: one.reason, ..Answer::given(engine, one.verdict, seconds) }
             }
-            None => Answer::not_run(CBMC, one.reason.as_deref().unwrap_or_default()),
+            None => Answer::not_run(engine, one.reason.as_deref().unwrap_or_default()),
         };
         Ok((one.id, answer))
     };
