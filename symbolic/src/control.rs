@@ -15,8 +15,8 @@ use crate::term::{Op, Term};
 const ROUNDS: u32 = 300;
 /// Instructions before the machine gives up.
 const STEPS: u64 = 50_000_000;
-/// Instructions of a loop after which the machine asks whether it still goes on; then twice as many. Most
-/// loops end before that by themselves, because their counters are numbers.
+/// Instructions of a loop after which the machine asks whether it still goes on; then twice as many.
+/// Most loops end before that by themselves, because their counters are numbers.
 const PATIENCE: u64 = 1000;
 
 /// The end of a block or the start of a loop.

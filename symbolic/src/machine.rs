@@ -1,7 +1,7 @@
-//! Runs a compiled harness on all inputs at once. WebAssembly is structured: every branch goes to the
-//! end of a block or to the start of a loop, so all states that go there become one before the run
-//! goes on, and every instruction runs once (in a loop once a round). What comes out is, for every
-//! trap, cover and the end, the condition under which it is reached.
+//! Runs a compiled harness on all inputs at once. WebAssembly is structured: every branch goes to
+//! the end of a block or to the start of a loop, so all states that go there become one before the
+//! run goes on, and every instruction runs once (in a loop once a round). What comes out is, for
+//! every trap, cover and the end, the condition under which it is reached.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -127,7 +127,7 @@ pub const fn signed(value: u64, width: u8) -> i64 {
 pub struct Terms {
     nodes: Vec<(Node, u8)>,
     found: HashMap<(Node, u8), Term>,
-    /// Among how many numbers a term chooses, a number as often as it is written; 0: not among numbers.
+    /// Among how many numbers a term chooses, each as often as it is written; 0: not among numbers.
     numbers: Vec<u32>,
     /// Results of `simplify`, so that no term is walked twice.
     pub(crate) known: HashMap<(Node, u8), Term>,
