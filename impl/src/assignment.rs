@@ -94,9 +94,10 @@ fn augment(
     let row = rows.get_mut(start)?;
     row.potential = row.potential.saturating_add(distance);
     columns.get_mut(column)?.before = short(before);
+    // A path has no column twice, so that this ends at the row without one.
     let mut next = short(column);
-    while next != NONE {
-        let column = columns.get_mut(usize::from(next))?;
+    for _ in 0..columns.len() {
+        let Some(column) = columns.get_mut(usize::from(next)) else { break };
         column.row = column.before;
         let row = rows.get_mut(usize::from(column.before))?;
         next = core::mem::replace(&mut row.column, next);
