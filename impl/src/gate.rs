@@ -3,7 +3,7 @@
 
 use core::cmp::Ordering;
 
-use crate::cycle::{Cycle, DetectionList, TrackList};
+use crate::cycle::{Detection, Track};
 use crate::exact::compare_distances;
 use crate::scratch::{Row, short};
 
@@ -51,13 +51,12 @@ pub(crate) fn apart_squared([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
 
 /// Writes the indices of the gated tracks into the rows, and returns how many; exact.
 pub(crate) fn gate(
-    cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
-    detections: &DetectionList<'_>,
+    p: [f64; 2],
+    tracks: &[Track],
+    detections: &[Detection],
     rows: &mut [Row],
 ) -> usize {
-    let p = [cycle.ego.x, cycle.ego.y];
-    let places = || detections.items.iter().map(|it| [it.x, it.y]);
+    let places = || detections.iter().map(|it| [it.x, it.y]);
     let mut gate = Gate::new(p);
     places().for_each(|place| gate.include(place));
     let mut farthest = None;
@@ -69,7 +68,7 @@ pub(crate) fn gate(
         compare_distances(p, track, *farthest) != Ordering::Greater
     };
     let mut gated = 0_usize;
-    for (index, track) in tracks.items.iter().enumerate() {
+    for (index, track) in tracks.iter().enumerate() {
         let place = [track.x, track.y];
         let is_gated = gate.admits(place).unwrap_or_else(|| exactly(place));
         if let (true, Some(row)) = (is_gated, rows.get_mut(gated)) {
@@ -79,3 +78,6 @@ pub(crate) fn gate(
     }
     gated
 }
+
+#[cfg(test)]
+mod tests;

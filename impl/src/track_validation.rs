@@ -22,7 +22,8 @@ pub(crate) fn track_validation(
 ) -> Option<Witness> {
     let mut paired = None;
     if !pairs_found(cycle, tracks, detections, scratch) {
-        let gated = gate(cycle, tracks, detections, scratch.rows);
+        let p = [cycle.ego.x, cycle.ego.y];
+        let gated = gate(p, tracks.items, detections.items, scratch.rows);
         paired = match cycle.profile {
             Profile::Paper => mean_cost(cycle, tracks, detections, gated, scratch),
             Profile::Hardened => matched_cost(cycle, tracks, detections, gated, scratch),
