@@ -12,10 +12,10 @@ use crate::state::{State, merged};
 use crate::term::{Op, Term};
 
 /// Rounds of a loop that may have ended before the machine gives up.
-const ROUNDS: u32 = 300;
+const ROUNDS: u32 = 1000;
 /// Instructions before the machine gives up.
 const STEPS: u64 = 50_000_000;
-/// Instructions of a loop after which the machine asks whether it still goes on; then twice as many.
+/// Instructions of a loop after which the machine asks whether it goes on; then twice as many.
 /// Most loops end before that by themselves, because their counters are numbers.
 const PATIENCE: u64 = 1000;
 

@@ -142,6 +142,32 @@ fn loops_end_where_they_do() {
     assert_proved(&rounds(5, &format!("{drawn} {same}")));
 }
 
+/// So many rounds that the machine asks whether there is another one.
+#[test]
+fn a_long_loop_is_left_when_it_cannot_go_on() {
+    if !smt::is_here() {
+        eprintln!("NOT RUN: z3 is not installed");
+        return;
+    }
+    // By steps of 2 from 0 to the number drawn, which is even.
+    let body = |most: u32, must: &str| {
+        format!(
+            "(local.set $x (i64.shl (call $any) (i64.const 1)))
+            (call $assume (i64.le_u (local.get $x) (i64.const {most})))
+            (block $out (loop $again
+              (br_if $out (i64.eq (local.get $y) (local.get $x)))
+              (local.set $y (i64.add (local.get $y) (i64.const 2)))
+              (br $again)))
+            {must}"
+        )
+    };
+    let same = must("(i64.eq (local.get $y) (local.get $x))");
+    assert_proved(&body(40, &same));
+    let below = must("(i64.lt_u (local.get $y) (i64.const 500))");
+    assert_proved(&body(498, &below));
+    assert_refuted(&body(500, &below));
+}
+
 #[test]
 fn a_loop_without_end_is_no_proof() {
     let text = r#"(module
