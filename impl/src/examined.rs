@@ -29,13 +29,13 @@ impl<'c, 'a> Examined<'c, 'a> {
         horizon: Horizon<'_>,
     ) -> Self {
         let bounds = plain_bounds(cycle, points, horizon);
-        let measure = match cycle.profile {
-            Profile::Paper => Measure { plain: plain_length, exact: length },
-            Profile::Hardened => Measure { plain: plain_way, exact: way },
+        let exactly = || farthest::<Real>(cycle, points, horizon);
+        let within = match cycle.profile {
+            Profile::Paper => plainly_within(points, bounds, plain_length)
+                .unwrap_or_else(|| within(points, exactly(), length)),
+            Profile::Hardened => plainly_within(points, bounds, plain_way_and_size)
+                .unwrap_or_else(|| within(points, exactly(), way)),
         };
-        let within = measure
-            .plainly_within(points, bounds)
-            .unwrap_or_else(|| measure.within(points, farthest::<Real>(cycle, points, horizon)));
         if cycle.profile == Profile::Paper {
             let points = points.get(..within).unwrap_or(points);
             return Self { cycle, points, beyond: NOTHING };
@@ -109,20 +109,16 @@ fn plain_bounds(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<
     [s - error, s + error]
 }
 
-/// How far a step leads: its length, or (H-04) the way along the heading of its first point.
-struct Measure {
-    plain: fn(&TrajectoryPoint, &TrajectoryPoint) -> f64,
-    exact: fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
-}
-
 /// The length of a step, m.
 pub(crate) fn length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Real {
     distance([from.x, from.y], [to.x, to.y])
 }
 
-fn plain_length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> f64 {
+/// The same in plain doubles, and what its error is relative to.
+#[inline]
+fn plain_length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> [f64; 2] {
     let (dx, dy) = (to.x - from.x, to.y - from.y);
-    libm::sqrt(dx * dx + dy * dy)
+    [libm::sqrt(dx * dx + dy * dy); 2]
 }
 
 /// H-04: the way of a step, m.
@@ -132,42 +128,57 @@ pub(crate) fn way(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Real {
 }
 
 /// The same in plain doubles, off by less than 2^-50 of the two coordinates of the step.
+#[inline]
 pub(crate) fn plain_way(from: &TrajectoryPoint, to: &TrajectoryPoint) -> f64 {
     larger((to.x - from.x) * from.cos + (to.y - from.y) * from.sin, 0.0)
 }
 
-impl Measure {
-    /// Points form a prefix, since arc lengths do not decrease; the first point always counts.
-    fn within(&self, points: &[TrajectoryPoint], s: Real) -> usize {
-        let mut arc = Real::ZERO;
-        let mut count = 1_usize;
-        for (a, b) in points.iter().zip(points.iter().skip(1)) {
-            arc = arc + (self.exact)(a, b);
-            if !arc.possibly_at_most(s) {
-                break;
-            }
-            count = count.saturating_add(1);
-        }
-        count.min(points.len())
-    }
+#[inline]
+fn plain_way_and_size(from: &TrajectoryPoint, to: &TrajectoryPoint) -> [f64; 2] {
+    [plain_way(from, to), (to.x - from.x).abs() + (to.y - from.y).abs()]
+}
 
-    /// The same in plain doubles, unless they cannot tell. What a step counts errs by less than
-    /// 2^-50 of its coordinates and 1e-150 m (squares may underflow), a sum of at most 1023 of them
-    /// by less than 2^-40 of all coordinates together.
-    fn plainly_within(&self, points: &[TrajectoryPoint], [least, most]: [f64; 2]) -> Option<usize> {
-        let (mut arc, mut error) = (0.0, 1e-140);
-        let mut count = 1_usize;
-        for (a, b) in points.iter().zip(points.iter().skip(1)) {
-            arc += (self.plain)(a, b);
-            error += 1e-12 * ((b.x - a.x).abs() + (b.y - a.y).abs());
-            if arc - error > most {
-                return Some(count);
-            }
-            if arc + error > least {
-                return None;
-            }
-            count = count.saturating_add(1);
+/// How many points are within s. They form a prefix, since `step` is never below 0; the first
+/// point always counts.
+fn within(
+    points: &[TrajectoryPoint],
+    s: Real,
+    step: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
+) -> usize {
+    let mut arc = Real::ZERO;
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        arc = arc + step(a, b);
+        if !arc.possibly_at_most(s) {
+            break;
         }
-        Some(count.min(points.len()))
+        count = count.saturating_add(1);
     }
+    count.min(points.len())
+}
+
+/// The same in plain doubles, unless they cannot tell. A step errs by less than 2^-50 of its size
+/// and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-40 of all
+/// sizes together.
+fn plainly_within(
+    points: &[TrajectoryPoint],
+    [least, most]: [f64; 2],
+    step: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> [f64; 2],
+) -> Option<usize> {
+    let (mut arc, mut sizes) = (0.0, 0.0);
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        let [length, size] = step(a, b);
+        arc += length;
+        sizes += size;
+        let error = sizes * 1e-12 + 1e-140;
+        if arc - error > most {
+            return Some(count);
+        }
+        if arc + error > least {
+            return None;
+        }
+        count = count.saturating_add(1);
+    }
+    Some(count.min(points.len()))
 }
