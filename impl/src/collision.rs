@@ -43,12 +43,12 @@ impl<'c, 'a> Course<'c, 'a> {
         let mut points = self.points;
         let mut found = None;
         for (object, moving) in objects.enumerate() {
-            if self.sweep.misses(&moving) {
+            if self.sweep.misses(&moving) || !counts(object) {
                 continue;
             }
             let hit = points.iter().enumerate().find_map(|(point, at)| {
                 let compared = self.collision(at, &moving)?;
-                counts(object).then_some(Collision { point, object, compared })
+                Some(Collision { point, object, compared })
             });
             if let Some(hit) = hit {
                 points = points.get(..hit.point).unwrap_or_default();

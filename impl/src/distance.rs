@@ -1,7 +1,7 @@
 //! Distances that a cycle looks ahead (`spec/3-stages.md#distances`), in numbers with error bounds
 //! or in plain doubles.
 
-use crate::cycle::{Cycle, Ego, Lead, TrajectoryPoint};
+use crate::cycle::{Cycle, Lead};
 use crate::parameters::Parameters;
 use crate::range::larger;
 use crate::rounding::Real;
@@ -107,24 +107,11 @@ pub(crate) fn s_follow<N: Number>(parameters: &Parameters, v_now: f64, v_lead: f
     now.minus(lead).or_larger(N::from_double(0.0)).plus(s_cav(parameters, v_now))
 }
 
-/// H-04: `s_stop` = e + v tau + `a_max` tau^2/2 + (v + `a_max` tau)^2/(2 `a_b`), m, with
-/// e = max((p - first point) . its heading, 0).
-pub(crate) fn s_stop<N: Number>(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> N {
+/// H-04: `s_stop` = e + v tau + `a_max` tau^2/2 + (v + `a_max` tau)^2/(2 `a_b`), m; `e` is how far
+/// the CAV is from the first point.
+pub(crate) fn s_stop<N: Number>(cycle: &Cycle<'_>, e: N) -> N {
     let Parameters { tau, a_max, .. } = cycle.parameters;
     let [v, tau, a_max, half] = [cycle.ego.speed, tau, a_max, 0.5].map(N::from_double);
     let reaction = v.times(tau).plus(a_max.times(tau.times(tau)).times(half));
-    let braking = s_b(&cycle.parameters, v.plus(a_max.times(tau)));
-    points
-        .first()
-        .map_or(N::from_double(0.0), |first| ahead(&cycle.ego, first))
-        .plus(reaction)
-        .plus(braking)
-}
-
-/// How far the CAV is ahead of a point, m.
-fn ahead<N: Number>(ego: &Ego, point: &TrajectoryPoint) -> N {
-    let [x, y, from_x, from_y] = [ego.x, ego.y, point.x, point.y].map(N::from_double);
-    let [cos, sin] = [point.cos, point.sin].map(N::from_double);
-    let along = x.minus(from_x).times(cos).plus(y.minus(from_y).times(sin));
-    along.or_larger(N::from_double(0.0))
+    e.plus(reaction).plus(s_b(&cycle.parameters, v.plus(a_max.times(tau))))
 }

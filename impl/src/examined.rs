@@ -29,7 +29,7 @@ impl<'c, 'a> Examined<'c, 'a> {
         horizon: Horizon<'_>,
     ) -> Self {
         let bounds = plain_bounds(cycle, points, horizon);
-        let exactly = || farthest::<Real>(cycle, points, horizon);
+        let exactly = || exactly_farthest(cycle, points, horizon);
         let within = match cycle.profile {
             Profile::Paper => plainly_within(points, bounds, plain_length)
                 .unwrap_or_else(|| within(points, exactly(), length)),
@@ -73,7 +73,7 @@ const NOTHING: RangeInclusive<i64> = 1..=0;
 fn quarters_beyond(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> RangeInclusive<i64> {
     let steps = points.iter().zip(points.iter().skip(1));
     let driven = steps.fold(Real::ZERO, |driven, (a, b)| driven + way(a, b));
-    let missing = s_stop::<Real>(cycle, points) - driven;
+    let missing = exact_s_stop(cycle, points) - driven;
     let missing = missing.min(Real::new(cycle.ego.length));
     if missing.certainly_at_most(Real::ZERO) {
         return NOTHING;
@@ -88,24 +88,32 @@ fn quarters_beyond(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> RangeInclus
     first..=last
 }
 
+/// H-04: `s_stop` with e = abs(p - first point).
+pub(crate) fn exact_s_stop(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
+    let ego = &cycle.ego;
+    let e = points.first().map(|first| distance([ego.x, ego.y], [first.x, first.y]));
+    s_stop(cycle, e.unwrap_or(Real::ZERO))
+}
+
 /// The horizon; H-04: max(s, `s_stop`).
-fn farthest<N: Number>(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<'_>) -> N {
-    let s = horizon.distance::<N>(cycle);
+fn exactly_farthest(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<'_>) -> Real {
+    let s = horizon.distance::<Real>(cycle);
     match cycle.profile {
         Profile::Paper => s,
-        Profile::Hardened => s.or_larger(s_stop(cycle, points)),
+        Profile::Hardened => s.or_larger(exact_s_stop(cycle, points)),
     }
 }
 
-/// Doubles on either side of `farthest`: of at most ten roundings all but those of two differences
-/// are of summands >= 0; the summands of one are `s_b(v_now)` and, unless 0 is larger, less, those
-/// of the other coordinates.
+/// Doubles on either side of it: of at most twenty roundings all but those of one difference are
+/// of summands >= 0; its summands are `s_b(v_now)` and, unless 0 is larger, less. (The coordinates
+/// of e are differences of doubles, each off by 2^-53 of itself.)
 fn plain_bounds(cycle: &Cycle<'_>, points: &[TrajectoryPoint], horizon: Horizon<'_>) -> [f64; 2] {
-    let s = farthest::<f64>(cycle, points, horizon);
-    let apart = points
-        .first()
-        .map_or(0.0, |first| (cycle.ego.x - first.x).abs() + (cycle.ego.y - first.y).abs());
-    let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed) + apart) + 1e-140;
+    let mut s = horizon.distance::<f64>(cycle);
+    if let (Profile::Hardened, Some(first)) = (cycle.profile, points.first()) {
+        let (dx, dy) = (cycle.ego.x - first.x, cycle.ego.y - first.y);
+        s = larger(s, s_stop(cycle, libm::sqrt(dx * dx + dy * dy)));
+    }
+    let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
     [s - error, s + error]
 }
 

@@ -4,9 +4,9 @@
 use core::cmp::Ordering;
 
 use crate::cycle::{Cycle, TrajectoryPoint};
-use crate::distance::{s_b, s_stop};
+use crate::distance::s_b;
 use crate::exact::{Product, compare};
-use crate::examined::{length, plain_way, way};
+use crate::examined::{exact_s_stop, length, plain_way, way};
 use crate::input::elapsed_ns;
 use crate::plane::{Vector, same_point};
 use crate::rounding::Real;
@@ -40,7 +40,7 @@ pub(crate) fn arc_rules(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option
     let (first, last) = (points.first()?, points.last()?);
     let end_ns = elapsed_ns(first.t_ns, last.t_ns);
     let stopped = || stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
-    let end = s_stop::<Real>(cycle, points) - Real::new(cycle.ego.length);
+    let end = exact_s_stop(cycle, points) - Real::new(cycle.ego.length);
     if arcs_are_fine(cycle, first, points, end) && stopped() {
         return None;
     }
@@ -94,7 +94,7 @@ impl Step<'_> {
 }
 
 /// More than plain doubles err in the comparisons of one step, m: its numbers are below 2^26 m,
-/// those that are compared below 2^11 m.
+/// those that are compared below 2^19 m.
 const STEP_ERROR: f64 = 1e-9;
 
 /// Whether every step keeps all rules of H-11 by more than plain doubles err; else the rules
@@ -117,6 +117,12 @@ fn steps_are_fine(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> bool {
             && fits(from)
             && fits(to)
             && from.cos * to.cos + from.sin * to.sin >= 0.866 + STEP_ERROR
+            && (same_heading(from, to) || {
+                let turned = (from.cos * to.sin - from.sin * to.cos).abs() + STEP_ERROR;
+                let dt = seconds(dt_ns);
+                turned <= 0.25 * (size - 2.0 * STEP_ERROR) + 0.1 * dt - STEP_ERROR
+                    && turned * size + STEP_ERROR <= cycle.parameters.a_b * dt * dt
+            })
     })
 }
 
@@ -183,9 +189,23 @@ fn step_lateral(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
     step.headings().iter().find_map(|&heading| exceeds(step.u.cross(heading).abs(), half_width))
 }
 
-fn step_turn(_: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
+fn step_turn(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
     let [from, to] = step.headings();
-    falls_short(from.dot(to), Real::new(0.866))
+    falls_short(from.dot(to), Real::new(0.866)).or_else(|| {
+        if same_heading(step.from, step.to) {
+            return None;
+        }
+        let (turned, length) = (from.cross(to).abs(), step.u.norm());
+        let dt = Real::seconds(step.dt_ns());
+        let curve = Real::new(0.25) * length + Real::new(0.1) * dt;
+        let swerve = || exceeds(turned * length, Real::new(cycle.parameters.a_b) * dt.squared());
+        exceeds(turned, curve).or_else(swerve)
+    })
+}
+
+/// Numbers, not bits, are compared: 0 and -0 are the same.
+fn same_heading(from: &TrajectoryPoint, to: &TrajectoryPoint) -> bool {
+    same_point([from.cos, from.sin], [to.cos, to.sin])
 }
 
 fn exceeds(value: Real, most: Real) -> Option<[f64; 2]> {

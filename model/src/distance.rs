@@ -35,10 +35,9 @@ pub fn s_stop(e: &Real, v_now: &Real, tau: &Real, a_max: &Real, a_b: &Real) -> R
     e + reaction + s_b(&(v_now + a_max * tau), a_b)
 }
 
-/// H-04: e = max((p - first point) . its heading, 0), how far the CAV is ahead of the first point, m.
+/// H-04: e = abs(p - first point): the CAV is not farther along the trajectory than that, m.
 pub fn ahead(scene: &Scene, trajectory: &[Point]) -> Real {
-    let start = &trajectory[0].pose;
-    (&scene.ego.position - &start.origin).dot(&start.direction).max(Real::zero())
+    (&scene.ego.position - &trajectory[0].pose.origin).length()
 }
 
 /// s_stop of the scene, m.

@@ -98,11 +98,28 @@ fn step_lateral(scene: &Scene, step: &Step) -> Option<Witness> {
     })
 }
 
-/// heading . heading >= 0.866
+/// heading . heading >= 0.866, and the bounds of `turn_failure`
 fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
     let limit = Real::from_double(0.866);
     let product = step.headings[0].dot(step.headings[1]);
     witness_if(product < &limit + &scene.m, Rule::StepTurn, &product, &limit)
+        .or_else(|| turn_failure(scene, step))
+}
+
+/// abs(heading x heading) <= 0.25 abs(u) + 0.1 dt, and times abs(u) <= a_b dt^2; equal headings
+/// pass in every reading.
+fn turn_failure(scene: &Scene, step: &Step) -> Option<Witness> {
+    if step.headings[0] == step.headings[1] {
+        return None;
+    }
+    let turned = step.headings[0].cross(step.headings[1]).abs();
+    let (length, dt) = (step.u.length(), Real::seconds(step.dt_ns));
+    let curve = Real::from_double(0.25) * &length + Real::from_double(0.1) * &dt;
+    let swerve = &scene.parameters.a_b * dt.square();
+    witness_if(turned > &curve - &scene.m, Rule::StepTurn, &turned, &curve).or_else(|| {
+        let aside = &turned * &length;
+        witness_if(aside > &swerve - &scene.m, Rule::StepTurn, &aside, &swerve)
+    })
 }
 
 /// H-12: the trajectory neither lags behind what braking covers nor outruns what accelerating

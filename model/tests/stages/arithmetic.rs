@@ -152,9 +152,20 @@ const NEAR: &[Near] = &[
     }),
     ("heading . step >= m", PlanRemote, Profile::Hardened, |c, e| two_points(c, 100, [-e, 0.5])),
     ("dot product of headings >= 0.866 + m", PlanRemote, Profile::Hardened, |c, e| {
-        two_points(c, 100, [0.5, 0.0]);
+        two_points(c, 200, [1.931_85, 0.517_64]);
+        c.parameters.a_b = 100.0;
         let cos = 0.866 - e;
         (points(c)[1].cos, points(c)[1].sin) = (cos, (1.0 - cos * cos).sqrt());
+    }),
+    ("heading x heading <= 0.25 u + 0.1 dt - m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 200, [1.04 - 4.0 * e, 0.0]);
+        c.parameters.a_b = 100.0;
+        (points(c)[1].cos, points(c)[1].sin) = (0.96, 0.28);
+    }),
+    ("heading x heading u <= a_b dt^2 - m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 200, [1.25 + e / 0.28, 0.0]);
+        c.parameters.a_b = 8.75;
+        (points(c)[1].cos, points(c)[1].sin) = (0.96, 0.28);
     }),
     ("heading . route segment >= m", PlanRemote, Profile::Hardened, |c, e| {
         c.route.stations =

@@ -142,6 +142,8 @@ fn step(after_ns: i64, [x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> Cycle {
     let mut cycle = base(Profile::Hardened, PlanRemote);
     cycle.ego.speed = 0.0;
     cycle.parameters.start_tolerance = 100.0;
+    // The CAV stands: only H-11 asks for a_b, and allows turns.
+    cycle.parameters.a_b = 100.0;
     let mut last = at_time(after_ns, x, y);
     (last.cos, last.sin) = (cos, sin);
     cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: vec![at_time(0, 0.0, 0.0), last] });
@@ -176,7 +178,7 @@ fn h_11_steps_go_forward() {
     // Forward along the first heading, backwards along the second.
     let turned = [0.9, -0.19f64.sqrt()];
     assert_eq!(ii([0.1, 0.5], turned), Some(Rule::StepForward));
-    assert_eq!(ii([0.5, 0.1], turned), None);
+    assert_eq!(ii([1.9, 0.1], turned), None);
     // Sideways along the second heading only: u x heading = 2.2 * 0.4358.. < 1 < 2.4 * 0.4358..
     assert_eq!(ii([2.2, 0.0], turned), None);
     assert_eq!(ii([2.4, 0.0], turned), Some(Rule::StepLateral));
@@ -187,10 +189,31 @@ fn h_11_steps_go_forward() {
 fn h_11_headings_turn_by_thirty_degrees_at_most() {
     let ii = |cos: f64| {
         let sin = (1.0 - cos * cos).sqrt();
-        rule(&step(100_000_000, [0.5, 0.0], [cos, sin]), Stage::Ii)
+        // 2 m along the middle of both headings.
+        rule(&step(200_000_000, [1.931_85, 0.517_64], [cos, sin]), Stage::Ii)
     };
     assert_eq!(ii(0.866), None);
     assert_eq!(ii(0.866f64.next_down()), Some(Rule::StepTurn));
+}
+
+/// H-11 (F-29): nothing turns on the spot, or sideways harder than it brakes; equal headings pass.
+#[test]
+fn h_11_turns_are_drivable() {
+    // 0.28 = 0.25 * 1.04 + 0.1 * 0.2 = a_b 0.2^2 / 1.04.
+    let ii = |u: f64, a_b: f64| {
+        let mut cycle = step(200_000_000, [u, 0.0], [0.96, 0.28]);
+        cycle.parameters.a_b = a_b;
+        rule(&cycle, Stage::Ii)
+    };
+    assert_eq!(ii(1.0401, 100.0), None);
+    assert_eq!(ii(1.0399, 100.0), Some(Rule::StepTurn));
+    assert_eq!(ii(0.0, 100.0), Some(Rule::StepTurn), "on the spot");
+    assert_eq!(ii(1.2, 8.401), None, "0.28 * 1.2 = 8.4 * 0.2^2");
+    assert_eq!(ii(1.2, 8.399), Some(Rule::StepTurn));
+    let mut still = step(1, [0.0, 0.0], [1.0, 0.0]);
+    assert_eq!(rule(&still, Stage::Ii), None);
+    still.trajectory.as_mut().expect("there is one").points[1].sin = 1e-9;
+    assert_eq!(rule(&still, Stage::Ii), Some(Rule::StepTurn), "0.1 * 1 ns = 1e-10");
 }
 
 /// H-12 (F-22): no trajectory is slower than braking or faster than accelerating.
@@ -273,7 +296,7 @@ fn h_12_the_trajectory_is_long_enough() {
 }
 
 /// H-12 (F-26): it ends at most L before s_stop = e + 1.015 + 10.3^2/16 = e + 7.645625 m, however
-/// long it then stands there; e is how far the CAV is ahead of the first point.
+/// long it then stands there; e is how far the CAV is from the first point.
 #[test]
 fn h_12_the_end_is_not_far_before_s_stop() {
     let with = |start: f64, end: f64| {
@@ -289,11 +312,11 @@ fn h_12_the_end_is_not_far_before_s_stop() {
     let needed = 7.645_625;
     assert_eq!(with(0.0, needed - 3.999), (None, None));
     assert_eq!(with(0.0, needed - 4.001), (Some(Rule::ArcTooShort), Some(19)));
-    // The CAV is 1 m ahead of the first point, or behind it.
+    // The CAV is 1 m ahead of the first point, or behind it: e = 1 m.
     assert_eq!(with(-1.0, needed - 3.999), (None, None));
     assert_eq!(with(-1.0, needed - 4.001), (Some(Rule::ArcTooShort), Some(19)));
-    assert_eq!(with(1.0, needed + 1.0 - 3.999), (None, None));
-    assert_eq!(with(1.0, needed + 1.0 - 4.001), (Some(Rule::ArcTooShort), Some(19)));
+    assert_eq!(with(1.0, needed + 2.0 - 3.999), (None, None));
+    assert_eq!(with(1.0, needed + 2.0 - 4.001), (Some(Rule::ArcTooShort), Some(19)));
 }
 
 /// H-12: 50 s are always enough.

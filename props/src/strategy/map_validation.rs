@@ -256,9 +256,18 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             (first, second) = one_towards(draw, aside);
         }
         _ => {
-            along = 0.5;
-            let turn = draw.near(0.866).acos();
-            (first, second) = ((1.0, 0.0), (turn.cos(), draw.pick(&[1.0, -1.0]) * turn.sin()));
+            // The step leads along the middle of both headings; 0.2 s.
+            let u = draw.pick(&[1.5_f64, 1.0, 0.5]).min(0.9 * length);
+            let side = draw.pick(&[1.0, -1.0]);
+            cycle.parameters.a_b = draw.pick(&[100.0, 100.0, 8.0]);
+            let curve = 0.25 * u + 0.02;
+            let swerve = cycle.parameters.a_b * 0.04 / u;
+            let most = curve.min(swerve).min(0.49);
+            let turn = draw.near(most).asin();
+            let (u, turn) =
+                if draw.one_in(3) { (1.95, draw.near(0.866).acos()) } else { (u, turn) };
+            (along, aside) = (u * (0.5 * turn).cos(), side * u * (0.5 * turn).sin());
+            (first, second) = ((1.0, 0.0), (turn.cos(), side * turn.sin()));
         }
     }
     let (first, second) = (frame.turn(first), frame.turn(second));

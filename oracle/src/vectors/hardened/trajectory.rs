@@ -2,7 +2,7 @@
 
 use mufasa_model::cycle::{Cycle, Route, Station};
 
-use crate::vectors::base::{TENTH, move_point, point, points, shift, straight, tracks, turn};
+use crate::vectors::base::{TENTH, move_point, point, points, shift, straight, tracks, turn, with};
 use crate::vectors::book::{Book, Topic};
 use crate::vectors::edge::{Sides, above, below};
 use crate::vectors::expected::{fails_by, safe};
@@ -130,6 +130,7 @@ fn directions(book: &mut Book) {
 pub fn step(after_ns: i64, [x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> Cycle {
     plan(|cycle| {
         cycle.ego.speed = 0.0;
+        cycle.parameters.a_b = 100.0;
         cycle.parameters.start_tolerance = 100.0;
         let mut last = point(after_ns, x, y);
         (last.cos, last.sin) = (cos, sin);
@@ -184,7 +185,7 @@ fn turns(book: &mut Book) {
     let turned = [0.9, -0.19_f64.sqrt()];
     for (name, to, expected) in [
         ("second-heading-forward", [0.1, 0.5], fails_by("ii", "step_forward")),
-        ("both-headings-forward", [0.5, 0.1], safe()),
+        ("both-headings-forward", [1.9, 0.1], safe()),
         ("second-heading-aside", [2.2, 0.0], safe()),
         ("second-heading-too-far-aside", [2.4, 0.0], fails_by("ii", "step_lateral")),
     ] {
@@ -199,7 +200,24 @@ fn turns(book: &mut Book) {
         accepted: safe(),
         rejected: fails_by("ii", "step_turn"),
     };
-    book.sides(H_11, &sides, |cos| step(TENTH, [0.5, 0.0], [cos, (1.0 - cos * cos).sqrt()]));
+    book.sides(H_11, &sides, |cos| {
+        step(2 * TENTH, [1.931_85, 0.517_64], [cos, (1.0 - cos * cos).sqrt()])
+    });
+    for (name, x, a_b, expected) in [
+        ("curve", 1.0401, 100.0, safe()),
+        ("curve-too-tight", 1.0399, 100.0, fails_by("ii", "step_turn")),
+        ("turn-on-the-spot", 0.0, 100.0, fails_by("ii", "step_turn")),
+        ("swerve", 1.2, 8.401, safe()),
+        ("swerve-too-hard", 1.2, 8.399, fails_by("ii", "step_turn")),
+    ] {
+        let note = "Headings (1, 0) and (0.96, 0.28): 0.28 = 0.25 * 1.04 + 0.1 * 0.2, and 0.28 * 1.2 = \
+                    8.4 * 0.2^2.";
+        let cycle =
+            with(step(2 * TENTH, [x, 0.0], [0.96, 0.28]), |cycle| cycle.parameters.a_b = a_b);
+        book.cycle(H_11, name, note, &cycle, &expected);
+    }
+    let note = "No time to turn, but none is needed.";
+    book.cycle(H_11, "equal-headings", note, &step(1, [0.0, 0.0], [1.0, 0.0]), &safe());
 }
 
 /// One step of `after_ns` and x m at 10 m/s with a_b = 20 m/s^2 and room for long steps.
@@ -278,10 +296,10 @@ fn ends(book: &mut Book) {
     for (name, first) in [("end", 0.0), ("end-ahead", -1.0), ("end-behind", 1.0)] {
         let sides = Sides {
             name,
-            note: "The last point is at most L = 4 m before s_stop, which counts from the CAV where \
-                   that is ahead of the first point.",
+            note: "The last point is at most L = 4 m before s_stop, which is longer by the CAV's \
+                   distance from the first point.",
             // 10 m/s, tau = 0.25 s, a_max = 4 m/s^2: 2.5 + 0.125 + 11^2 / 16 - 4, no rounding.
-            edge: below(6.1875 + f64::max(first, 0.0)),
+            edge: below(6.1875 + f64::max(2.0 * first, 0.0)),
             accepted: safe(),
             rejected: fails_by("ii", "arc_too_short"),
         };
