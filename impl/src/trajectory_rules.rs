@@ -120,7 +120,7 @@ fn steps_are_fine(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> bool {
             && (same_heading(from, to) || {
                 let turned = (from.cos * to.sin - from.sin * to.cos).abs() + STEP_ERROR;
                 let dt = seconds(dt_ns);
-                turned <= 0.25 * (size - 2.0 * STEP_ERROR) + 0.1 * dt - STEP_ERROR
+                turned <= 0.5 * (size - 2.0 * STEP_ERROR) + 0.1 * dt - STEP_ERROR
                     && turned * size + STEP_ERROR <= cycle.parameters.a_b * dt * dt
             })
     })
@@ -197,7 +197,7 @@ fn step_turn(cycle: &Cycle<'_>, step: &Step<'_>) -> Option<[f64; 2]> {
         }
         let (turned, length) = (from.cross(to).abs(), step.u.norm());
         let dt = Real::seconds(step.dt_ns());
-        let curve = Real::new(0.25) * length + Real::new(0.1) * dt;
+        let curve = Real::new(0.5) * length + Real::new(0.1) * dt;
         let swerve = || exceeds(turned * length, Real::new(cycle.parameters.a_b) * dt.squared());
         exceeds(turned, curve).or_else(swerve)
     })

@@ -106,7 +106,7 @@ fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
         .or_else(|| turn_failure(scene, step))
 }
 
-/// abs(heading x heading) <= 0.25 abs(u) + 0.1 dt, and times abs(u) <= a_b dt^2; equal headings
+/// abs(heading x heading) <= 0.5 abs(u) + 0.1 dt, and times abs(u) <= a_b dt^2; equal headings
 /// pass in every reading.
 fn turn_failure(scene: &Scene, step: &Step) -> Option<Witness> {
     if step.headings[0] == step.headings[1] {
@@ -114,7 +114,7 @@ fn turn_failure(scene: &Scene, step: &Step) -> Option<Witness> {
     }
     let turned = step.headings[0].cross(step.headings[1]).abs();
     let (length, dt) = (step.u.length(), Real::seconds(step.dt_ns));
-    let curve = Real::from_double(0.25) * &length + Real::from_double(0.1) * &dt;
+    let curve = Real::from_double(0.5) * &length + Real::from_double(0.1) * &dt;
     let swerve = &scene.parameters.a_b * dt.square();
     witness_if(turned > &curve - &scene.m, Rule::StepTurn, &turned, &curve).or_else(|| {
         let aside = &turned * &length;

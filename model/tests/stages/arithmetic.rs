@@ -157,8 +157,8 @@ const NEAR: &[Near] = &[
         let cos = 0.866 - e;
         (points(c)[1].cos, points(c)[1].sin) = (cos, (1.0 - cos * cos).sqrt());
     }),
-    ("heading x heading <= 0.25 u + 0.1 dt - m", PlanRemote, Profile::Hardened, |c, e| {
-        two_points(c, 200, [1.04 - 4.0 * e, 0.0]);
+    ("heading x heading <= 0.5 u + 0.1 dt - m", PlanRemote, Profile::Hardened, |c, e| {
+        two_points(c, 200, [0.52 - 2.0 * e, 0.0]);
         c.parameters.a_b = 100.0;
         (points(c)[1].cos, points(c)[1].sin) = (0.96, 0.28);
     }),

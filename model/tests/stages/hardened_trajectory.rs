@@ -199,14 +199,14 @@ fn h_11_headings_turn_by_thirty_degrees_at_most() {
 /// H-11 (F-29): nothing turns on the spot, or sideways harder than it brakes; equal headings pass.
 #[test]
 fn h_11_turns_are_drivable() {
-    // 0.28 = 0.25 * 1.04 + 0.1 * 0.2 = a_b 0.2^2 / 1.04.
+    // 0.28 = 0.5 * 0.52 + 0.1 * 0.2.
     let ii = |u: f64, a_b: f64| {
         let mut cycle = step(200_000_000, [u, 0.0], [0.96, 0.28]);
         cycle.parameters.a_b = a_b;
         rule(&cycle, Stage::Ii)
     };
-    assert_eq!(ii(1.0401, 100.0), None);
-    assert_eq!(ii(1.0399, 100.0), Some(Rule::StepTurn));
+    assert_eq!(ii(0.5201, 100.0), None);
+    assert_eq!(ii(0.5199, 100.0), Some(Rule::StepTurn));
     assert_eq!(ii(0.0, 100.0), Some(Rule::StepTurn), "on the spot");
     assert_eq!(ii(1.2, 8.401), None, "0.28 * 1.2 = 8.4 * 0.2^2");
     assert_eq!(ii(1.2, 8.399), Some(Rule::StepTurn));

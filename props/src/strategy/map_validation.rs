@@ -260,7 +260,7 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             let u = draw.pick(&[1.5_f64, 1.0, 0.5]).min(0.9 * length);
             let side = draw.pick(&[1.0, -1.0]);
             cycle.parameters.a_b = draw.pick(&[100.0, 100.0, 8.0]);
-            let curve = 0.25 * u + 0.02;
+            let curve = 0.5 * u + 0.02;
             let swerve = cycle.parameters.a_b * 0.04 / u;
             let most = curve.min(swerve).min(0.49);
             let turn = draw.near(most).asin();
@@ -289,7 +289,7 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 /// Headings of the two points of a step, of which only one has the step at its limit: the other
 /// is turned towards the step.
 fn one_towards(draw: &mut Draw<'_>, aside: f64) -> ((f64, f64), (f64, f64)) {
-    let turn = draw.pick(&[0.0, 0.1, 0.4]) * aside.signum();
+    let turn = draw.pick(&[0.0, 0.05, 0.08]) * aside.signum();
     let (limit, slack) = ((1.0, 0.0), (turn.cos(), turn.sin()));
     if draw.below(2) == 0 { (limit, slack) } else { (slack, limit) }
 }

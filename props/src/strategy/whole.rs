@@ -9,13 +9,13 @@ use super::{attack, detections, grid, map_validation, schedule, track_validation
 
 /// A cycle aimed at one stage, an attack or a schedule, with further inputs beside what it has.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    let mut cycle = match draw.below(12) {
+    let mut cycle = match draw.below(13) {
         0 | 1 => track_validation::cycle(draw, profile),
         2 | 3 => map_validation::cycle(draw, profile),
         4 | 5 => tracks::cycle(draw, profile),
-        6 | 7 => detections::cycle(draw, profile),
-        8 | 9 => grid::cycle(draw, profile),
-        10 => attack::cycle(draw, profile),
+        6..=8 => detections::cycle(draw, profile),
+        9 | 10 => grid::cycle(draw, profile),
+        11 => attack::cycle(draw, profile),
         _ => schedule::cycle(draw, profile),
     };
     if draw.one_in(8) {

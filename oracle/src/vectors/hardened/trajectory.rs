@@ -204,13 +204,13 @@ fn turns(book: &mut Book) {
         step(2 * TENTH, [1.931_85, 0.517_64], [cos, (1.0 - cos * cos).sqrt()])
     });
     for (name, x, a_b, expected) in [
-        ("curve", 1.0401, 100.0, safe()),
-        ("curve-too-tight", 1.0399, 100.0, fails_by("ii", "step_turn")),
+        ("curve", 0.5201, 100.0, safe()),
+        ("curve-too-tight", 0.5199, 100.0, fails_by("ii", "step_turn")),
         ("turn-on-the-spot", 0.0, 100.0, fails_by("ii", "step_turn")),
         ("swerve", 1.2, 8.401, safe()),
         ("swerve-too-hard", 1.2, 8.399, fails_by("ii", "step_turn")),
     ] {
-        let note = "Headings (1, 0) and (0.96, 0.28): 0.28 = 0.25 * 1.04 + 0.1 * 0.2, and 0.28 * 1.2 = \
+        let note = "Headings (1, 0) and (0.96, 0.28): 0.28 = 0.5 * 0.52 + 0.1 * 0.2, and 0.28 * 1.2 = \
                     8.4 * 0.2^2.";
         let cycle =
             with(step(2 * TENTH, [x, 0.0], [0.96, 0.28]), |cycle| cycle.parameters.a_b = a_b);
