@@ -1,5 +1,6 @@
 //! Closures: whatever the numbers that the search for the witness of a finding leaves open, the
-//! hardened profile rejects the cycle. The whole decision of the model is run, all stages.
+//! hardened profile rejects the cycle. The whole decision of the model is run, all stages. It is one
+//! family of cycles for each finding, not every cycle that the finding is about.
 
 use crate::cycle::Profile;
 use crate::real::formula::{Formula, given};
@@ -12,9 +13,15 @@ use crate::witness::SEARCHES;
 macro_rules! closure {
     ($finding:literal, $statement:literal, $domain:literal, $stage:expr, $file:literal, $from:literal, $to:literal) => {
         Theorem {
-            id: concat!("the_hardened_profile_accepts_no_witness_of_", $finding),
+            id: concat!("the_hardened_profile_rejects_the_family_of_", $finding),
             statement: $statement,
-            domain: $domain,
+            domain: concat!(
+                "the cycle of ",
+                $finding,
+                " in theorems/src/witness/searches.rs: a straight road, all \
+                 headings along it; ",
+                $domain
+            ),
             claim: || is_rejected($finding, Profile::Hardened, $stage),
             wrong: Wrong {
                 statement: "the paper profile rejects it, too",

@@ -1,5 +1,6 @@
 //! H-04: the CAV can always stop within what was checked. Standing objects; the CAV brakes at a_b at
-//! the latest tau after the last accepted cycle and until then accelerates by at most a_max.
+//! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
+//! theorems make an induction over cycles is written in `findings/F-04.md`.
 
 use crate::configuration::Configuration;
 use crate::cycle::Profile;
@@ -16,8 +17,8 @@ const DOMAIN: &str = "all e, speeds, tau, a_max >= 0, a_b > 0; standing objects;
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
-        id: "an_accepted_cycle_makes_the_stop_invariant_true",
-        statement: "e + s_b(v) <= s_stop(e, v): where the CAV stands after braking is examined",
+        id: "s_stop_is_beyond_where_the_CAV_stands",
+        statement: "e + s_b(v) <= s_stop(e, v)",
         domain: DOMAIN,
         claim: || {
             let Vehicle { e, v, tau, a_max, a_b } = Vehicle::new();
@@ -74,7 +75,7 @@ pub const THEOREMS: &[Theorem] = &[
         id: "the_places_examined_reach_s_stop",
         statement: "H-04: along a remote trajectory and straight on behind its end, the last place \
                     examined is not before s_stop; when it is not the last point, it is behind s, too",
-        domain: "trajectories of up to 3 points anywhere that end at most 1/2 m before s_stop, all \
+        domain: "3 points anywhere, all headings along x, that end at most 1/2 m before s_stop, all \
                  s >= 0, speeds, tau, a_max >= 0, a_b > 0; center_offset = 0",
         claim: || reach(Configuration::PlanRemote),
         wrong: Wrong {

@@ -1,8 +1,8 @@
-//! F-24 to F-28: what lasts in the hardened profile, what arrives too late, what ends too soon,
+//! F-24 to F-29: what lasts in the hardened profile, what arrives too late, what ends too soon,
 //! starts too late, or goes across.
 
 use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Track, TrackList};
+use mufasa_model::cycle::{Cycle, Profile, Track, TrackList, TrajectoryPoint};
 use mufasa_model::requester::Group::Mot;
 
 use crate::vectors::base::{base, detection, detections, point, points, road, track, tracks, with};
@@ -18,6 +18,7 @@ pub fn add(book: &mut Book) {
     short_end(book);
     behind(book);
     zigzag(book);
+    turns(book);
 }
 
 /// A true car drives ahead at 30 m/s; (ns ago, x then) of the list that stage i passed last in a
@@ -137,4 +138,53 @@ fn zigzag(book: &mut Book) {
         "H-11 allows the steps, which are below W/2 = 1 m, but they are no way along the road.";
     let expected = fails_by("ii", "arc_too_short").witness("ii", "point", 3);
     book.cycle(topic, "hardened", note, &across(Profile::Hardened), &expected);
+}
+
+/// The trajectory stops after 4.5 m and turns by three times 29 degrees there.
+fn turned_end(profile: Profile) -> Cycle {
+    with(standing_car(profile, 6.0, &[0.0, 1.0, 2.0, 3.0, 3.8, 4.2, 4.4, 4.5]), |cycle| {
+        let Some(trajectory) = &mut cycle.trajectory else { return };
+        let last_ns = trajectory.points.last().map_or(0, |last| last.t_ns);
+        let turned = (1..=3).map(|i: i32| {
+            let angle = f64::from(29 * i).to_radians();
+            let (sin, cos) = angle.sin_cos();
+            TrajectoryPoint { t_ns: last_ns + i64::from(i), x: 4.5, y: 0.0, cos, sin }
+        });
+        trajectory.points.extend(turned);
+    })
+}
+
+/// The trajectory turns across the road on the spot, goes 2.5 m to the side, turns round, and so on.
+fn across(profile: Profile) -> Cycle {
+    with(standing_car(profile, 0.5, &[]), |cycle| {
+        let mut places = vec![(0.0, 0)];
+        places.extend([29, 58, 87].map(|angle| (0.0, angle)));
+        for side in [1, -1] {
+            let from = if side == 1 { 0.0 } else { 2.5 };
+            places.extend((1..=5).map(|i| (from + 0.5 * f64::from(side * i), 87 * side)));
+            places.extend(
+                [58, 29, 0, -29, -58, -87]
+                    .map(|angle| (from + 2.5 * f64::from(side), angle * side)),
+            );
+        }
+        places.extend((1..=5).map(|i| (0.5 * f64::from(i), 87)));
+        let point = |(i, &(y, angle)): (i64, &(f64, i32))| {
+            let (sin, cos) = f64::from(angle).to_radians().sin_cos();
+            TrajectoryPoint { cos, sin, ..point(i * 60_000_000, 0.0, y) }
+        };
+        cycle.trajectory = Some(points((0..).zip(&places).map(point).collect()));
+    })
+}
+
+fn turns(book: &mut Book) {
+    let topic = finding("findings/F-29", "F-29");
+    let note = "The trajectory ends before the braking distance, as in F-26, and turns by 87 degrees \
+                there: the places beyond its end miss the car 6 m ahead.";
+    let caught = fails_by("ii", "step_turn");
+    book.cycle(topic, "paper", note, &turned_end(Profile::Paper), &safe());
+    book.cycle(topic, "hardened", note, &turned_end(Profile::Hardened), &caught);
+    let note = "A car stands 0.5 m ahead; the trajectory turns on the spot and goes across the road, along \
+                its headings.";
+    book.cycle(topic, "across-paper", note, &across(Profile::Paper), &safe());
+    book.cycle(topic, "across-hardened", note, &across(Profile::Hardened), &caught);
 }
