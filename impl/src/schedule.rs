@@ -20,14 +20,15 @@ use crate::verdict::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, 
 ///
 /// * input: T + D + P + S, and T^2/2 comparisons of ids that do not increase and share their low
 ///   twelve bits; H-09: T ids looked for in the previous list;
-/// * i: T D distances, and an assignment of min(T, c)^2 max(T, c) steps, c = D + `miss_budget`,
-///   never more than `work_limit`;
-/// * ii: P S segments and triangles, with an index only those beside each point;
+/// * i: a few times T D distances, which `work_limit` does not limit, and an assignment of
+///   min(T, c)^2 max(T, c) steps, c = D + `miss_budget`, never more than `work_limit`;
+/// * ii: P S segments and triangles, with an index only those beside each point, which on a folded
+///   route may be four times as many;
 /// * iii to v: in the hardened profile P is up to 4 L + 1 more, for places behind the end of the
 ///   trajectory (H-04);
-/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile), each about 60
-///   operations with error bounds;
-/// * v: 2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
+/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile, with T^2
+///   comparisons of ids), each about 60 operations with error bounds;
+/// * v: 2 P + log2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
 ///   looks at the square around it (in the paper profile around up to four cells), which is
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells.
 ///
