@@ -108,7 +108,8 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
     let metres = |halves: i64| f64::from(i32::try_from(halves).unwrap_or(0)) / 2.0;
     let (x, y) = (metres(x), metres(y) + LOW);
     let point = TrajectoryPoint { t_ns: NOW_NS, x, y, cos: 1.0, sin: 0.0 };
-    let ego = Ego { speed: 0.0, length: SIDE, width: SIDE, ..EGO };
+    // The CAV is where its trajectory starts, or H-12 would ask for a way to there.
+    let ego = Ego { x, y, speed: 0.0, length: SIDE, width: SIDE, ..EGO };
     let parameters =
         Parameters { n: 1, start_tolerance: 1e3, theta_map: 1e3, ..Parameters::default() };
     let points = [point];

@@ -157,22 +157,21 @@ fn turned_end(profile: Profile) -> Cycle {
 /// The trajectory turns across the road on the spot, goes 2.5 m to the side, turns round, and so on.
 fn across(profile: Profile) -> Cycle {
     with(standing_car(profile, 0.5, &[]), |cycle| {
-        let mut places = vec![(0.0, 0)];
-        places.extend([29, 58, 87].map(|angle| (0.0, angle)));
-        for side in [1, -1] {
-            let from = if side == 1 { 0.0 } else { 2.5 };
-            places.extend((1..=5).map(|i| (from + 0.5 * f64::from(side * i), 87 * side)));
-            places.extend(
-                [58, 29, 0, -29, -58, -87]
-                    .map(|angle| (from + 2.5 * f64::from(side), angle * side)),
-            );
+        // Where across the road, the heading in degrees, and ms since the place before.
+        let mut places = vec![(0.0, 0, 0), (0.0, 29, 1), (0.0, 58, 1)];
+        for (sweep, from) in [0.0, 2.5, 0.0, 2.5, 0.0].into_iter().enumerate() {
+            let side = if sweep % 2 == 0 { 1 } else { -1 };
+            let turned = [-58, -29, 0, 29, 58, 87].map(|angle| (from, angle * side, 1));
+            places.extend(&turned[if sweep == 0 { 5 } else { 0 }..]);
+            places.extend((1..=5).map(|i| (from + 0.5 * f64::from(side * i), 87 * side, 50)));
         }
-        places.extend((1..=5).map(|i| (0.5 * f64::from(i), 87)));
-        let point = |(i, &(y, angle)): (i64, &(f64, i32))| {
+        let mut t_ns = 0;
+        let point = |(y, angle, after_ms): (f64, i32, i64)| {
+            t_ns += after_ms * 1_000_000;
             let (sin, cos) = f64::from(angle).to_radians().sin_cos();
-            TrajectoryPoint { cos, sin, ..point(i * 60_000_000, 0.0, y) }
+            TrajectoryPoint { cos, sin, ..point(t_ns, 0.0, y) }
         };
-        cycle.trajectory = Some(points((0..).zip(&places).map(point).collect()));
+        cycle.trajectory = Some(points(places.into_iter().map(point).collect()));
     })
 }
 
