@@ -56,6 +56,16 @@ impl<'a> Pairs<'a> {
         })
     }
 
+    /// Whether at least `k` pairs were assigned and no row twice: looked at again, so that no
+    /// acceptance rests on the search.
+    pub(crate) fn are_one_to_one(&self, rows: &[Row], columns: &[Column], k: usize) -> bool {
+        let is_its_rows = |(index, column): (usize, &Column)| {
+            let row = rows.get(usize::from(column.row));
+            column.row == NONE || row.is_some_and(|row| usize::from(row.column) == index)
+        };
+        columns.iter().enumerate().all(is_its_rows) && self.assigned(rows, columns).count() >= k
+    }
+
     /// The sum of the distances of all assigned pairs, m.
     pub(crate) fn sum(&self, rows: &[Row], columns: &[Column]) -> Real {
         self.assigned(rows, columns)
@@ -138,3 +148,6 @@ fn units(metres: f64) -> i64 {
 fn certainly_closer(metres: f64, limit: f64) -> bool {
     metres * (1.0 + 1e-14) < limit
 }
+
+#[cfg(test)]
+mod tests;

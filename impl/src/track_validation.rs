@@ -188,8 +188,9 @@ fn compare_mean(
     if plain > theta_tr * (1.0 + 1e-12) {
         return Some(witness(plain));
     }
+    let are_pairs = pairs.are_one_to_one(rows, columns, k);
     let (sum, k) = (pairs.sum(rows, columns), Real::new(count(k)));
-    let passes = sum.certainly_below(k * Real::new(theta_tr));
+    let passes = are_pairs && sum.certainly_below(k * Real::new(theta_tr));
     (!passes).then(|| witness(sum.over(k).value()))
 }
 
