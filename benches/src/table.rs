@@ -203,14 +203,21 @@ fn cycles(text: &mut String, results: &[Results]) {
 
 /// Cycles that must be rejected: time until the stage says so.
 fn failures(text: &mut String, results: &[Results]) {
-    text.push_str("Rejected inputs, warm, paper profile:\n\n");
-    head(text, results);
     let tasks = ["ghost", "drift", "fail i", "fail ii", "fail iii", "fail iv", "fail v"];
-    for task in tasks {
-        line(text, task, results, |it| {
-            let (name, best) = it.best(task, Cache::Warm, |_| true)?;
-            Some(ratio(name, best, it.time(task, OURS, Cache::Warm)?))
-        });
+    for (cache, name) in [(Cache::Warm, "warm"), (Cache::Cold, "cold")] {
+        let _ = writeln!(text, "Rejected inputs, {name}:\n");
+        head(text, results);
+        for task in tasks {
+            for (title, ours) in
+                [(task.to_owned(), OURS.to_owned()), (format!("{task}, ours hardened"), hardened())]
+            {
+                line(text, &title, results, |it| {
+                    let (name, best) = it.best(task, cache, |_| true)?;
+                    Some(ratio(name, best, it.time(task, &ours, cache)?))
+                });
+            }
+        }
+        text.push('\n');
     }
 }
 

@@ -111,12 +111,16 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     for (task, variant, stage) in VARIANTS {
         let workload = Workload::new(size, variant);
         let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
-        let mut contestants = vec![ours(task, OURS.to_owned(), &cycle, stage)];
+        let strict = workload.cycle(Profile::Hardened, Configuration::AllRemote);
+        let mut contestants = vec![
+            ours(task, OURS.to_owned(), &cycle, stage),
+            ours(task, hardened(), &strict, stage),
+        ];
         let peers = peer::all(&cycle).into_iter();
         let peers = peers.filter(|peer| peer.stage == stage && !peer.slow);
         contestants.extend(peers.map(|peer| by_peer(task, peer)));
         agree(&mut contestants, false);
-        let rounds = Rounds { warm: (rounds.warm / 3) | 1, cold: 0 };
+        let rounds = Rounds { warm: (rounds.warm / 3) | 1, cold: (rounds.cold / 3) | 1 };
         results.times.extend(race(&mut contestants, rounds));
     }
     results
