@@ -36,14 +36,14 @@ pub fn s_stop(e: &Real, v_now: &Real, tau: &Real, a_max: &Real, a_b: &Real) -> R
 }
 
 /// H-04: e = abs(p - first point): the CAV is not farther along the trajectory than that, m.
-pub fn ahead(scene: &Scene, trajectory: &[Point]) -> Real {
+pub fn from_start(scene: &Scene, trajectory: &[Point]) -> Real {
     (&scene.ego.position - &trajectory[0].pose.origin).length()
 }
 
 /// s_stop of the scene, m.
 pub fn scene_s_stop(scene: &Scene, trajectory: &[Point]) -> Real {
     let p = &scene.parameters;
-    s_stop(&ahead(scene, trajectory), &scene.ego.v_now, &p.tau, &p.a_max, &p.a_b)
+    s_stop(&from_start(scene, trajectory), &scene.ego.v_now, &p.tau, &p.a_max, &p.a_b)
 }
 
 /// Length of the trajectory polyline from its first point to each point, m.
