@@ -2,9 +2,9 @@
 //! of ratios comes from the program `race`, which interleaves.
 
 use criterion::{BenchmarkId, Criterion};
-use mufasa::configuration::Configuration;
-use mufasa::cycle::Profile;
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::Profile;
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::workload::{SIZES, Variant, Workload};

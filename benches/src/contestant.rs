@@ -3,11 +3,11 @@
 
 use std::hint::black_box;
 
-use mufasa::cycle::Cycle;
-use mufasa::route_index::{Block, RouteIndex};
-use mufasa::schedule::{Valid, check, check_indexed};
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{Outcome, Report, Stage};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::route_index::{Block, RouteIndex};
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{Outcome, Report, Stage};
+use mufasa::stages::{Valid, check, check_indexed};
 
 /// A cycle with its scratch memory and the index of its route.
 pub struct Contestant<'a> {

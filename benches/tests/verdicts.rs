@@ -1,9 +1,9 @@
 //! A race between programs that answer differently is worth nothing: implementation and peers
 //! come to the same verdict on every variant of the workloads.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::Profile;
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::Profile;
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::workload::{SIZES, Variant, Workload};

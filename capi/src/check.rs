@@ -1,11 +1,11 @@
-//! `mufasa::schedule::check` for C.
+//! `mufasa::stages::check` for C.
 
 use core::ffi::c_void;
 
-use mufasa::parameters::Parameters;
-use mufasa::schedule;
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{InvalidInput, Report};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{InvalidInput, Report};
+use mufasa::stages;
 
 use crate::convert::{self, Counts};
 use crate::cycle::{MufasaCycle, MufasaParameters};
@@ -83,5 +83,5 @@ unsafe fn check(
     let sizes = convert::capped(Sizes::for_cycle(&cycle));
     let rows = arena.keep((0..sizes.rows).map(|_| Row::default()))?;
     let columns = arena.keep((0..sizes.columns).map(|_| Column::default()))?;
-    Ok(schedule::check(&cycle, &mut Scratch::new(rows, columns)))
+    Ok(stages::check(&cycle, &mut Scratch::new(rows, columns)))
 }

@@ -3,13 +3,13 @@
 //! A list longer than its domain is passed on with one element too many: that is enough for the
 //! check to refuse it, whatever its length is, and scratch memory stays bounded.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::scratch::{Column, Row, Sizes};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Row, Sizes};
+use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
     MufasaConfiguration, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid, MufasaParameters,

@@ -1,6 +1,6 @@
 //! Events and actions of a requester, as C gives and gets them.
 
-use mufasa::requester::{Action, Event, EventKind, Group, Groups};
+use mufasa::offloading::requester::{Action, Event, EventKind, Group, Groups};
 
 use crate::status::MufasaStatus;
 

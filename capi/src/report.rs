@@ -2,7 +2,7 @@
 
 use core::ffi::c_char;
 
-use mufasa::verdict::{
+use mufasa::report::{
     FailedStage, Input, InvalidInput, Outcome, Problem, Reason, Report, Rule, Stage, Witness,
 };
 
@@ -86,7 +86,7 @@ pub enum MufasaInput {
 /// The rule that a witness breaks; the names are those of the answers of `mufasa oracle`.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "mufasa::verdict::Rule says what each is")]
+#[allow(missing_docs, reason = "mufasa::report::Rule says what each is")]
 pub enum MufasaRule {
     /// There is no witness.
     None = 0,
@@ -340,7 +340,7 @@ fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
 mod tests {
     use core::ffi::CStr;
 
-    use mufasa::verdict::{InvalidInput, Problem};
+    use mufasa::report::{InvalidInput, Problem};
 
     use super::{MUFASA_TEXT_BYTES, input};
 

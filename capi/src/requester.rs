@@ -1,10 +1,10 @@
-//! `mufasa::requester` for C. The requester lives in memory of the caller, its table of stations
+//! `mufasa::offloading::requester` for C. The requester lives in memory of the caller, its table of stations
 //! right behind it.
 
 use core::ffi::c_void;
 use core::mem::{align_of, size_of};
 
-use mufasa::requester::{
+use mufasa::offloading::requester::{
     Actions, Group, GroupState, Parameters, Requester, RequesterError, StationRecord, Suspended,
 };
 

@@ -23,44 +23,14 @@
     )
 )]
 
-pub mod composition;
-pub mod configuration;
-pub mod cycle;
-pub mod parameters;
-pub mod qos;
-pub mod requester;
-pub mod route_index;
-pub mod schedule;
-pub mod scratch;
-pub mod service;
-pub mod verdict;
+pub mod input;
+pub mod offloading;
+pub mod report;
+pub mod services;
+pub mod stages;
 
-mod assignment;
-mod band;
-mod bitmap;
-mod cells;
-mod collision;
-mod detections;
-mod disk;
-mod distance;
-mod exact;
-mod examined;
-mod gate;
-mod grid;
-mod input;
-mod map_validation;
-mod pairing;
-mod pairs;
-mod plane;
-mod range;
-mod rectangle;
-mod rounding;
-mod route;
-mod screen;
-mod sweep;
-mod track_validation;
-mod tracks;
-mod trajectory_rules;
+mod hardened;
+mod numbers;
 
 #[cfg(test)]
 extern crate std;

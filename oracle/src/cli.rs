@@ -9,22 +9,23 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{Parser, Subcommand};
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
     CheckArguments, ComposeArguments, ConformArguments, DemoArguments, ExploreArguments,
     MergeCommand, OracleArguments, ProveArguments, VectorsArguments,
 };
-use crate::check::{self, Format, Settings, complain, files};
 use crate::compose;
-use crate::conform;
 use crate::demo;
-use crate::drive::{self, inject};
 use crate::explore;
-use crate::oracle;
 use crate::parameters_file;
 use crate::prove;
-use crate::vectors;
+use mufasa_conform as conform;
+use mufasa_conform::reference as oracle;
+use mufasa_conform::vectors;
+use mufasa_drives::check::{self, Format, Settings, complain};
+use mufasa_drives::{self as drive, inject};
+use mufasa_records::files;
 
 /// Bad input or arguments.
 const BAD_INPUT: u8 = 2;
@@ -249,7 +250,7 @@ mod tests {
     use clap::CommandFactory;
 
     use super::*;
-    use crate::drive::Options;
+    use mufasa_drives::Options;
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -10,14 +10,14 @@ mod svg;
 use std::collections::{BTreeMap, BTreeSet};
 
 use comfy_table::{ContentArrangement, Table, presets};
-use mufasa_model::composition::{Composition, Link};
-use mufasa_model::orchestrator::{Answer, NoComposition, Task};
-use mufasa_model::service::ServiceSet;
-use mufasa_model::verdict::InvalidInput;
+use mufasa_model::report::InvalidInput;
+use mufasa_model::services::composition::{Composition, Link};
+use mufasa_model::services::orchestrator::{Answer, NoComposition, Task};
+use mufasa_model::services::service::ServiceSet;
 
-use crate::json::composition_answer::{CompositionAnswer, rule};
-use crate::json::{self, LineError, Record};
 use graph::Graph;
+use mufasa_records::composition_answer::{CompositionAnswer, rule};
+use mufasa_records::{self as json, LineError, Record};
 
 /// Width of a table, characters.
 const TABLE_WIDTH: u16 = 110;

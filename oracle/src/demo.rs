@@ -4,15 +4,16 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use mufasa_model::cycle::Profile;
-use mufasa_model::requester::Parameters;
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::Parameters;
 
-use crate::check::course::Checked;
-use crate::check::fallback::Hold;
-use crate::check::{self, Findings, complain, counted, files, pictures, report, words};
-use crate::drive::{self, Attack, Drive, Injection, Options};
-use crate::json::names;
-use crate::table;
+use mufasa_drives::check::course::Checked;
+use mufasa_drives::check::fallback::Hold;
+use mufasa_drives::check::table;
+use mufasa_drives::check::{self, Findings, complain, counted, pictures, report, words};
+use mufasa_drives::{self as drive, Attack, Drive, Injection, Options};
+use mufasa_records::files;
+use mufasa_records::names;
 
 /// Where the demo puts its files unless it is told otherwise.
 pub const FOLDER: &str = "mufasa-demo";

@@ -13,19 +13,20 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::bounds::{Bounds, World};
-use mufasa_proofs::explore::moves::Move;
-use mufasa_proofs::explore::properties::Law;
-use mufasa_proofs::explore::replay;
-use mufasa_proofs::explore::run::{self, Finding, Outcome};
-use mufasa_proofs::explore::search::Progress;
-use mufasa_proofs::explore::second;
-use mufasa_proofs::explore::system::System;
+use mufasa_exploration::bounds::{Bounds, World};
+use mufasa_exploration::moves::Move;
+use mufasa_exploration::properties::Law;
+use mufasa_exploration::replay;
+use mufasa_exploration::run::{self, Finding, Outcome};
+use mufasa_exploration::search::Progress;
+use mufasa_exploration::second;
+use mufasa_exploration::system::System;
+use mufasa_model::input::cycle::Profile;
 
 use self::report::Report;
-use crate::check::{complain, files};
-use crate::json::names;
+use mufasa_drives::check::complain;
+use mufasa_records::files;
+use mufasa_records::names;
 
 /// What is explored.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -187,7 +188,7 @@ fn explore(
     world: &'static World,
     profile: Profile,
     threads: usize,
-) -> Result<Outcome, Box<mufasa_proofs::explore::refine::Difference>> {
+) -> Result<Outcome, Box<mufasa_exploration::refine::Difference>> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
         bar.set_style(style);

@@ -6,12 +6,12 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Ego, Profile, Route};
-use mufasa_model::parameters::Parameters;
-use mufasa_model::requester;
-use mufasa_model::schedule;
-use mufasa_model::verdict::Reading;
+use mufasa_model::input::cycle::{Cycle, Ego, Profile, Route};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::offloading::requester;
+use mufasa_model::report::Reading;
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages;
 use toml::de::{DeTable, DeValue};
 
 /// The parameters of the stages and of the requester.
@@ -183,7 +183,7 @@ fn outside_domain(settings: &Settings) -> Option<(String, String)> {
         grid: None,
         previous_tracks: None,
     };
-    let problem = schedule::check(&cycle, Reading::Exact).err()?;
+    let problem = stages::check(&cycle, Reading::Exact).err()?;
     let field = problem.field.strip_prefix("parameters.")?;
     Some((field.to_owned(), problem.message))
 }

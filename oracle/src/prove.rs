@@ -12,9 +12,10 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::check::{complain, files};
 use engines::Source;
 use line::{Line, Verdict};
+use mufasa_drives::check::complain;
+use mufasa_records::files;
 
 /// What is run and where the answers go.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! The built program: exit codes, bad input, outputs.
 
+#[path = "../../drives/tests/common/mod.rs"]
 mod common;
 
 use std::ffi::OsStr;
@@ -7,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use mufasa_oracle::json::cycle_to_line;
+use mufasa_records::cycle_to_line;
 use roxmltree::Document;
 use serde_json::Value;
 
@@ -272,7 +273,7 @@ fn an_attack_that_changes_nothing_is_bad_input() {
     let folder = folder("inject_nothing");
     let file = lines(&folder, "a", 6, &[]);
     let mut local = common::cycle(0, false);
-    local.configuration = mufasa_model::configuration::Configuration::PlanRemote;
+    local.configuration = mufasa_model::services::configuration::Configuration::PlanRemote;
     let local = write(&folder, "local.jsonl", cycle_to_line("local", &local));
     for (file, attack, problem) in [
         (&file, "ghost-tracks@90..100", "the drive ends at 0.5 s"),
@@ -336,7 +337,7 @@ fn the_oracle_answers_standard_input() {
 #[test]
 fn compositions_are_found_drawn_and_refused() {
     let folder = folder("compose");
-    let services = concat!(env!("CARGO_MANIFEST_DIR"), "/data/fig2.json");
+    let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../conform/data/fig2.json");
     let output = mufasa(["compose", services]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(!output.stdout.is_empty());

@@ -1,9 +1,9 @@
 //! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
 
 use mufasa_oracle::compose::{Composed, compose};
-use mufasa_oracle::json::{Answer, answer};
+use mufasa_records::{Answer, answer};
 
-const FIG_2: &str = include_str!("../data/fig2.json");
+const FIG_2: &str = include_str!("../../conform/data/fig2.json");
 
 fn fig_2() -> Composed {
     compose(FIG_2).expect("the example composes")

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mufasa_model::cycle::Profile;
+use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::run::{self, Outcome};
+use mufasa_model::input::cycle::Profile;
 use mufasa_oracle::explore::findings;
-use mufasa_oracle::json::{self, Record};
-use mufasa_proofs::explore::bounds::Bounds;
-use mufasa_proofs::explore::run::{self, Outcome};
+use mufasa_records::{self as json, Record};
 use serde_json::Value;
 
 fn kept(name: &str) -> String {

@@ -5,15 +5,15 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::schedule;
-use mufasa_model::verdict::Reading;
-use mufasa_oracle::json::{self, Record};
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::report::Reading;
+use mufasa_model::stages;
 use mufasa_props::bridge;
+use mufasa_records::{self as json, Record};
+use mufasa_theorems::numbers::real::formula::Formula;
 use mufasa_theorems::prove::{Verdict, prove};
-use mufasa_theorems::real::formula::Formula;
-use mufasa_theorems::verdict::Reading as SymbolicReading;
-use mufasa_theorems::{schedule as symbolic_schedule, solver, theorem, witness};
+use mufasa_theorems::report::Reading as SymbolicReading;
+use mufasa_theorems::{solver, stages as symbolic_schedule, theorem, witness};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -59,7 +59,7 @@ fn every_finding_has_a_file_with_its_claim() {
 
 #[test]
 fn every_file_names_what_exists() {
-    let vectors: BTreeSet<String> = mufasa_oracle::vectors::all()
+    let vectors: BTreeSet<String> = mufasa_conform::vectors::all()
         .expect("the vectors agree with the model")
         .into_values()
         .flatten()
@@ -68,7 +68,7 @@ fn every_file_names_what_exists() {
     let theorems: BTreeSet<&str> = theorem::all().map(|theorem| theorem.id).collect();
     let laws =
         ["distance", "requester", "schedule"].map(|law| read(format!("proofs/src/law/{law}.rs")));
-    let laws = [laws.join("\n"), read("proofs/src/explore/properties.rs")].join("\n");
+    let laws = [laws.join("\n"), read("proofs/exploration/src/properties.rs")].join("\n");
     let mut lists = [0, 0, 0];
     for (finding, _) in claims() {
         let file = read(format!("findings/{finding}.md"));
@@ -113,14 +113,14 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
-    let vectors = mufasa_oracle::vectors::all().expect("the vectors agree with the model");
+    let vectors = mufasa_conform::vectors::all().expect("the vectors agree with the model");
     let findings = vectors.iter().filter(|(file, _)| file.starts_with("findings/"));
     let mut verdicts = [0, 0];
     for vector in findings.flat_map(|(_, vectors)| vectors) {
         let Ok(Record::Cycle { cycle, .. }) = json::parse(vector.input.text().as_bytes(), 1) else {
             continue;
         };
-        let exact = schedule::check(&cycle, Reading::Exact).expect("the local input is valid");
+        let exact = stages::check(&cycle, Reading::Exact).expect("the local input is valid");
         let expected = format!("{:?}", exact.failed_stage);
         let proof = prove(&|| {
             let symbolic = symbolic_schedule::check(&cycle, SymbolicReading::Exact);
@@ -139,7 +139,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
 /// so there is never a younger list.
 #[test]
 fn a_moving_car_ahead_stays_rejected() {
-    let vectors = mufasa_oracle::vectors::all().expect("the vectors agree with the model");
+    let vectors = mufasa_conform::vectors::all().expect("the vectors agree with the model");
     let vector = vectors["findings/F-24"].iter().find(|vector| vector.id == "F-24-after");
     let line = vector.expect("F-24-after is there").input.text();
     let Ok(Record::Cycle { mut cycle, .. }) = json::parse(line.as_bytes(), 1) else {
@@ -153,6 +153,6 @@ fn a_moving_car_ahead_stays_rejected() {
 }
 
 fn is_safe(cycle: &Cycle) -> bool {
-    let report = schedule::check(cycle, Reading::Exact).expect("the local input is valid");
+    let report = stages::check(cycle, Reading::Exact).expect("the local input is valid");
     report.failed_stage.is_none()
 }

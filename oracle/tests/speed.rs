@@ -3,13 +3,15 @@
 
 use std::time::{Duration, Instant};
 
-use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa_model::parameters::Parameters;
-use mufasa_oracle::json::{Answer, answer, cycle_to_line};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::services::configuration::Configuration::{
+    self, AllRemote, MotRemote, PlanRemote,
+};
+use mufasa_records::{Answer, answer, cycle_to_line};
 
 const NOW: i64 = 100_000_000_000;
 const SPEED: f64 = 12.0;

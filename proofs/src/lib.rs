@@ -1,19 +1,17 @@
 //! Laws of the implementation, and the exhaustive runs and proof harnesses that show them within
 //! stated bounds.
 //!
-//! Without the feature `explore` this crate needs the implementation alone and builds with Rust
-//! 1.85, so that Kani and CBMC can read it (`proofs/HARNESSES.md`).
-#![cfg_attr(not(any(feature = "explore", kani)), no_std)]
+//! This crate needs the implementation alone and builds with Rust 1.85, so that Kani and CBMC can
+//! read it (`proofs/HARNESSES.md`).
+#![cfg_attr(not(kani), no_std)]
 
-#[cfg(all(not(feature = "explore"), not(kani), not(target_family = "wasm")))]
+#[cfg(all(not(kani), not(target_family = "wasm")))]
 extern crate std;
 
 #[cfg(not(any(kani, target_family = "wasm")))]
 mod caught;
 #[cfg(not(any(kani, target_family = "wasm")))]
 pub mod exhaust;
-#[cfg(feature = "explore")]
-pub mod explore;
 // Kani brings its own crate of that name; the build for CBMC takes the harnesses by their paths.
 #[cfg(any(kani, not(target_family = "wasm")))]
 pub mod harness;

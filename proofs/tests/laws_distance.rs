@@ -3,14 +3,14 @@
 //!
 //! Domain: speeds 0 to 150 m/s in steps of 2.5, gaps at and around `s_CAV` and `s_follow`.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, DetectionList, Ego, Lead, Profile, Route, Station, Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::schedule::check;
-use mufasa::scratch::Scratch;
-use mufasa::verdict::{Outcome, Report};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::Scratch;
+use mufasa::report::{Outcome, Report};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 use mufasa_proofs::law::distance::{
     a_faster_lead_is_never_worse, a_larger_gap_is_never_worse, failed_by_gap, next_below,
     s_follow_never_below_s_cav,

@@ -3,8 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use mufasa::cycle::Profile;
-use mufasa::requester::{Action, Event, EventKind, GroupState, Groups, Requester, StationRecord};
+use mufasa::input::cycle::Profile;
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, GroupState, Groups, Requester, StationRecord,
+};
 use mufasa_proofs::exhaust::requester::{PARAMETERS, Taken, every_step};
 use mufasa_proofs::law::requester::{LAWS, Seen};
 

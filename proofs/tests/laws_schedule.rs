@@ -1,9 +1,9 @@
 //! A wrong report refutes each law of the schedule: none holds of nothing. That they hold is shown by
 //! `tests/laws.rs`.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::verdict::{FailedStage, Outcome, Reason, Report, Stage};
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::report::{FailedStage, Outcome, Reason, Report, Stage};
+use mufasa::services::configuration::Configuration;
 use mufasa_proofs::exhaust::schedule::{every_cycle, report};
 use mufasa_proofs::harness::scene::{Given, cycle};
 use mufasa_proofs::law::schedule::{LAWS, hardened_accepts_nothing_that_paper_rejects};

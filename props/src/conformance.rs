@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mufasa_model::verdict::{FailedStage, InvalidInput, Report, Stage};
+use mufasa_model::report::{FailedStage, InvalidInput, Report, Stage};
 
 /// What the exact model, the strict model or an implementation says about one cycle; `Err` is
 /// invalid local input.
@@ -177,7 +177,7 @@ fn owned(answer: &Answer) -> Option<Place> {
 
 #[cfg(test)]
 mod tests {
-    use mufasa_model::verdict::{Outcome, Reason};
+    use mufasa_model::report::{Outcome, Reason};
 
     use super::*;
 

@@ -4,5 +4,4 @@
 pub mod bridge;
 pub mod conformance;
 pub mod differential;
-pub mod readings;
 pub mod strategy;

@@ -1,7 +1,7 @@
 //! Stage iv of the implementation against the exact model
 //! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-03, H-04).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};
 use mufasa_props::strategy::detections;
 

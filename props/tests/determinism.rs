@@ -1,8 +1,8 @@
 //! `spec/4-arithmetic.md#conformance-of-an-implementation.5`: the same input gives the same
 //! verdict and witness, bit for bit, whatever scratch memory held before and where lists lie.
 
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa_model::cycle::{Cycle, Profile};
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::bridge::{check_impl, invalid_input_from_impl, report_from_impl, to_impl};
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
@@ -25,12 +25,12 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
         assert_eq!(first, format!("{:?}", check_impl(&moved(&cycle))), "other memory: {cycle:?}");
         let owned = to_impl(&cycle);
         let mut scratch = Scratch::new(&mut rows, &mut columns);
-        let used = mufasa::schedule::check(&owned.borrow(), &mut scratch);
+        let used = mufasa::stages::check(&owned.borrow(), &mut scratch);
         let fresh = {
             let mut rows = vec![Row::default(); Sizes::MAX.rows];
             let mut columns = vec![Column::default(); Sizes::MAX.columns];
             let mut scratch = Scratch::new(&mut rows, &mut columns);
-            mufasa::schedule::check(&owned.borrow(), &mut scratch)
+            mufasa::stages::check(&owned.borrow(), &mut scratch)
         };
         assert_eq!(format!("{used:?}"), format!("{fresh:?}"), "used scratch: {cycle:?}");
         let used = used.map(|it| report_from_impl(&it)).map_err(|it| invalid_input_from_impl(&it));

@@ -1,11 +1,11 @@
 //! `s_follow` at its own last places: the implementation against the exact model over the whole
 //! domain of speeds and parameters (`spec/3-stages.md#distances`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, DetectionList, Lead, Profile};
-use mufasa_model::distance::s_follow;
-use mufasa_model::real::Real;
-use mufasa_model::verdict::{Outcome, Rule};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Lead, Profile};
+use mufasa_model::numbers::real::Real;
+use mufasa_model::report::{Outcome, Rule};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages::distances::s_follow;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::conformance::Answer;
 use mufasa_props::differential::{conforming, hold, near_threshold};

@@ -1,11 +1,11 @@
 //! An index of the route changes no answer (`spec/3-stages.md#stage-ii-trajectory-to-map`), on
 //! routes of many blocks, too.
 
-use mufasa::route_index::{Block, RouteIndex};
-use mufasa::schedule::{check, check_indexed};
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{FailedStage, Outcome, Stage, Witness};
-use mufasa_model::cycle::{Cycle, Profile, Station};
+use mufasa::input::route_index::{Block, RouteIndex};
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{FailedStage, Outcome, Stage, Witness};
+use mufasa::stages::{check, check_indexed};
+use mufasa_model::input::cycle::{Cycle, Profile, Station};
 use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
@@ -54,7 +54,7 @@ fn an_index_changes_no_answer() {
             let plain = check(&cycle, &mut scratch);
             if let Ok(index) = RouteIndex::new(cycle.route, &mut blocks) {
                 let indexed = check_indexed(&cycle, &index, &mut scratch);
-                let parts = |report: mufasa::verdict::Report| {
+                let parts = |report: mufasa::report::Report| {
                     (report.failed_stage, report.input, report.stages.map(without_segment))
                 };
                 assert_eq!(plain.map(parts), indexed.map(parts));

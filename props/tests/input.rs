@@ -2,7 +2,7 @@
 //! panics (`spec/3-stages.md#invalid-input`,
 //! `spec/4-arithmetic.md#conformance-of-an-implementation.4`).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::agree;
 use mufasa_props::strategy::input;
 

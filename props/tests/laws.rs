@@ -4,10 +4,10 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use mufasa::requester::{Requester, StationRecord};
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{FailedStage, Report};
-use mufasa_model::cycle::{Cycle, Profile};
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::offloading::requester::{Requester, StationRecord};
+use mufasa::report::{FailedStage, Report};
+use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_proofs::law::requester::{LAWS as REQUESTER, Seen, Step};
 use mufasa_proofs::law::schedule::{LAWS as SCHEDULE, hardened_accepts_nothing_that_paper_rejects};
 use mufasa_props::bridge;
@@ -25,7 +25,7 @@ fn judged(cycle: &Cycle) -> Result<Option<Report>, String> {
     let sizes = Sizes::for_cycle(&cycle);
     let (mut rows, mut columns) =
         (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);
-    let Ok(report) = mufasa::schedule::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+    let Ok(report) = mufasa::stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
     else {
         return Ok(None);
     };

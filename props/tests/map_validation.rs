@@ -1,7 +1,7 @@
 //! Stage ii of the implementation against the exact model
 //! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};
 use mufasa_props::strategy::map_validation;
 

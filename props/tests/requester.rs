@@ -3,8 +3,10 @@
 
 use std::cell::RefCell;
 
-use mufasa::requester as implementation;
-use mufasa_model::requester::{Action, Event, EventKind, Group, GroupState, Parameters, Requester};
+use mufasa::offloading::requester as implementation;
+use mufasa_model::offloading::requester::{
+    Action, Event, EventKind, Group, GroupState, Parameters, Requester,
+};
 use mufasa_props::bridge;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape};
@@ -114,10 +116,10 @@ fn follow(trace: &Trace, seen: &mut Seen) -> Result<(), String> {
 fn a_full_table_is_an_error_and_changes_nothing() {
     let mut table = [implementation::StationRecord::FREE; 1];
     let parameters = bridge::parameters_to_impl(&Parameters::default());
-    let profile = mufasa::cycle::Profile::Hardened;
+    let profile = mufasa::input::cycle::Profile::Hardened;
     let mut twin = implementation::Requester::new(profile, parameters, &mut table)
         .expect("the defaults are in the domain");
-    let groups = mufasa_model::requester::Groups::ALL;
+    let groups = mufasa_model::offloading::requester::Groups::ALL;
     let offer = |station| Event { t_ns: 0, kind: EventKind::Offer { station, groups } };
     assert!(twin.step(&bridge::event_to_impl(&offer(1))).is_ok());
     let error = twin.step(&bridge::event_to_impl(&offer(2))).expect_err("there is one place");

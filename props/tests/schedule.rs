@@ -1,7 +1,7 @@
 //! The schedule of the implementation against the exact model
 //! (`spec/3-stages.md#schedule`, H-02, H-05, H-10).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::agree;
 use mufasa_props::strategy::schedule;
 

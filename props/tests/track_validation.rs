@@ -1,7 +1,7 @@
 //! Stage i of the implementation against the exact model
 //! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
 
-use mufasa_model::cycle::{Cycle, Profile};
+use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::differential::{agree, near_threshold};
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::track_validation;

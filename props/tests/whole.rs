@@ -4,7 +4,7 @@
 //! `spec/4-arithmetic.md#conformance-of-an-implementation.2`,
 //! `spec/4-arithmetic.md#conformance-of-an-implementation.3`.
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};
 use mufasa_props::strategy::whole;
 

@@ -1,7 +1,7 @@
 //! The first witness in the order of the rules: the implementation's is the model's
 //! (`spec/3-stages.md#schedule`).
 
-use mufasa_model::cycle::Profile;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{hold, near_threshold, same_witness};
 use mufasa_props::strategy::whole;
 

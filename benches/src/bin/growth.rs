@@ -4,9 +4,9 @@
 
 use std::error::Error;
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::plot::{Line, Panel, svg};

@@ -6,9 +6,9 @@
 use std::error::Error;
 use std::hint::black_box;
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::Profile;
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::Profile;
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::table::STAGES;
 use mufasa_benches::workload::{SIZES, Variant, Workload};

@@ -5,10 +5,10 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::route_index::{Block, RouteIndex};
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::route_index::{Block, RouteIndex};
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer::{self, corridor::Trees};
 use mufasa_benches::race::{Entry, Rounds, race};

@@ -5,13 +5,13 @@
 
 use std::time::SystemTime;
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::verdict::Stage;
+use mufasa::input::parameters::Parameters;
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 
 const NOW_NS: i64 = 1_000_000_000;

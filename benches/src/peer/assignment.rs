@@ -2,8 +2,8 @@
 //! `lsap` and `pathfinding` (integers: micrometres), and nearest neighbours by `rstar`, which
 //! decide alone when they are distinct.
 
-use mufasa::cycle::{Cycle, Detection, Track};
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::{Cycle, Detection, Track};
+use mufasa::report::Stage;
 use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use rstar::RTree;

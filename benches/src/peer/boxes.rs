@@ -1,7 +1,7 @@
 //! Stages iii and iv: oriented boxes by `parry2d-f64`, after a test of the centres' distance.
 
-use mufasa::cycle::{Cycle, TrajectoryPoint};
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::{Cycle, TrajectoryPoint};
+use mufasa::report::Stage;
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::details::intersection_test_cuboid_cuboid;
 use parry2d_f64::shape::Cuboid;

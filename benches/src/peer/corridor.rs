@@ -3,8 +3,8 @@
 
 use geo::indexed::IntervalTreeMultiPolygon;
 use geo::{Contains, Coord, LineString, MultiPolygon, Polygon};
-use mufasa::cycle::Cycle;
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::Cycle;
+use mufasa::report::Stage;
 use rstar::RTree;
 use rstar::primitives::Line;
 

@@ -5,8 +5,8 @@
 use image::{GrayImage, Luma};
 use imageproc::distance_transform::euclidean_squared_distance_transform;
 use imageproc::morphology::{Mask, grayscale_dilate};
-use mufasa::cycle::Cycle;
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::Cycle;
+use mufasa::report::Stage;
 
 use super::{Peer, braking, within};
 

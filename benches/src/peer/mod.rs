@@ -9,8 +9,8 @@ pub mod corridor;
 pub mod grid;
 pub mod validation;
 
-use mufasa::cycle::{Cycle, TrajectoryPoint};
-use mufasa::verdict::Stage;
+use mufasa::input::cycle::{Cycle, TrajectoryPoint};
+use mufasa::report::Stage;
 
 /// A way to decide one stage; `true` passes.
 pub struct Peer<'a> {

@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
-use mufasa::cycle::{Cycle, Detection, Ego, Grid, Track, TrajectoryPoint};
+use mufasa::input::cycle::{Cycle, Detection, Ego, Grid, Track, TrajectoryPoint};
 
 const POSITION: RangeInclusive<f64> = -16_777_216.0..=16_777_216.0;
 const VELOCITY: RangeInclusive<f64> = -150.0..=150.0;
@@ -94,8 +94,8 @@ fn direction(cos: f64, sin: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use mufasa::configuration::Configuration;
-    use mufasa::cycle::{Profile, TrackList};
+    use mufasa::input::cycle::{Profile, TrackList};
+    use mufasa::services::configuration::Configuration;
 
     use super::plain_loop;
     use crate::workload::{SIZES, Variant, Workload};

@@ -4,13 +4,13 @@
 mod geometry;
 pub mod recipe;
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::verdict::Stage;
+use mufasa::input::parameters::Parameters;
+use mufasa::report::Stage;
+use mufasa::services::configuration::Configuration;
 
 use self::geometry::Pose;
 use self::recipe::{LENGTH, Numbers, Object, SPEED, Size, WIDTH};

@@ -1,11 +1,11 @@
 //! Invalid input is refused in the order of `spec/3-stages.md#invalid-input`.
 
 use crate::scene::{NOW_NS, scene, track};
-use mufasa::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa::cycle::{Cycle, Profile::Hardened};
-use mufasa::schedule;
-use mufasa::scratch::Scratch;
-use mufasa::verdict::{FailedStage, InvalidInput, Outcome, Problem, Reason};
+use mufasa::input::cycle::{Cycle, Profile::Hardened};
+use mufasa::input::scratch::Scratch;
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Problem, Reason};
+use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use mufasa::stages;
 
 fn invalid(field: &'static str, index: Option<usize>, problem: Problem) -> InvalidInput {
     InvalidInput { field, index, problem }
@@ -103,7 +103,7 @@ fn the_norm_has_no_margin() {
 fn scratch_that_is_too_small_is_an_error() {
     let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
     scene.change = |cycle| {
-        let small = schedule::check(cycle, &mut Scratch::new(&mut [], &mut []));
+        let small = stages::check(cycle, &mut Scratch::new(&mut [], &mut []));
         assert_eq!(small, Err(invalid("scratch", None, Problem::ScratchTooSmall)));
     };
     assert!(scene.check().is_ok());

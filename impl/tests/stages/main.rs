@@ -1,4 +1,4 @@
-//! The stages and their input, through `schedule::check` alone.
+//! The stages and their input, through `stages::check` alone.
 
 mod input;
 mod scene;

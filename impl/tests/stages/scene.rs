@@ -1,14 +1,14 @@
 //! A cycle in which everything is in order, and how to check it.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::schedule;
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages;
 
 /// Now, ns.
 pub const NOW_NS: i64 = 1_000_000_000_000;
@@ -103,7 +103,7 @@ impl Scene {
         let sizes = Sizes::for_cycle(&cycle);
         let mut rows = vec![Row::default(); sizes.rows];
         let mut columns = vec![Column::default(); sizes.columns];
-        schedule::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+        stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
     }
 
     /// The report of a valid scene.

@@ -1,10 +1,10 @@
 //! The stages at their thresholds, near the origin and at the border of the domain.
 
 use crate::scene::{NOW_NS, Scene, detection, scene, track};
-use mufasa::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa::cycle::Lead;
-use mufasa::cycle::Profile::{Hardened, Paper};
-use mufasa::verdict::{FailedStage, Input, Outcome, Reason, Rule, Stage};
+use mufasa::input::cycle::Lead;
+use mufasa::input::cycle::Profile::{Hardened, Paper};
+use mufasa::report::{FailedStage, Input, Outcome, Reason, Rule, Stage};
+use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 const PLACES: [[f64; 2]; 3] = [[0.0, 0.0], [583_912.25, 5_361_004.5], [-1.6e7, 1.6e7]];
 

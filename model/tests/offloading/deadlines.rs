@@ -1,8 +1,8 @@
 //! `spec/2-offloading.md#requester`: confirmations, rejections, deadlines.
 
-use mufasa_model::requester::Action::Deactivate;
-use mufasa_model::requester::Group::{Mot, Plan};
-use mufasa_model::requester::{GroupState, Groups, Parameters};
+use mufasa_model::offloading::requester::Action::Deactivate;
+use mufasa_model::offloading::requester::Group::{Mot, Plan};
+use mufasa_model::offloading::requester::{GroupState, Groups, Parameters};
 
 use crate::{
     Cav, MOT, PROFILES, Profile, TICK, UNSAFE, confirm, offer, on, reject, release, request,

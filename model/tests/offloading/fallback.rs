@@ -1,11 +1,11 @@
 //! `spec/2-offloading.md#fallback`. Default: `t_wait` 10 s.
 
-use mufasa_model::configuration::Source;
-use mufasa_model::requester::Action::{Activate, Deactivate, Drop};
-use mufasa_model::requester::Group::{Mot, Plan};
-use mufasa_model::requester::GroupState::Local;
-use mufasa_model::requester::{EventKind, Groups, Parameters};
-use mufasa_model::verdict::{FailedStage, InvalidInput, Outcome, Report, Stage};
+use mufasa_model::offloading::requester::Action::{Activate, Deactivate, Drop};
+use mufasa_model::offloading::requester::Group::{Mot, Plan};
+use mufasa_model::offloading::requester::GroupState::Local;
+use mufasa_model::offloading::requester::{EventKind, Groups, Parameters};
+use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Stage};
+use mufasa_model::services::configuration::Source;
 
 use crate::{
     Cav, MOT, PLAN, PROFILES, Profile, TICK, UNSAFE, confirm, data, offer, on, release, request,

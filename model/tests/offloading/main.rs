@@ -8,9 +8,9 @@ mod quality_of_service;
 mod requester;
 mod stations;
 
-use mufasa_model::cycle::Profile;
-use mufasa_model::requester::Group::{Mot, Plan};
-use mufasa_model::requester::{
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::Group::{Mot, Plan};
+use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
 };
 

@@ -2,12 +2,12 @@
 //! and a network that loses, delays and duplicates, with an attacker and failing providers; and
 //! every combination of three stations for "no dead state".
 
-use mufasa_model::configuration::{Offloadable, Source};
-use mufasa_model::cycle::Profile;
-use mufasa_model::provider::{Provider, ProviderEvent, ProviderEventKind, Reply};
-use mufasa_model::requester::{
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventKind, Reply};
+use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
 };
+use mufasa_model::services::configuration::{Offloadable, Source};
 
 use crate::{Cav, PROFILES, TICK, UNSAFE, confirm, data, offer, reject};
 

@@ -1,7 +1,9 @@
 //! `spec/2-offloading.md#provider`. Default lease: 1 s.
 
-use mufasa_model::provider::{DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind, Reply};
-use mufasa_model::requester::Group::{self, Mot, Plan};
+use mufasa_model::offloading::provider::{
+    DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind, Reply,
+};
+use mufasa_model::offloading::requester::Group::{self, Mot, Plan};
 
 /// A provider that is checked after every step.
 struct Mec(Provider);

@@ -1,9 +1,11 @@
 //! `spec/2-offloading.md#quality-of-service`. Defaults: `l_max` 50 ms, `dt_max` 100 ms.
 
-use mufasa_model::qos::{inter_arrival_ns, is_silent, is_violation, latency_ns};
-use mufasa_model::requester::Action::{Activate, Deactivate, Drop};
-use mufasa_model::requester::Group::{Mot, Plan};
-use mufasa_model::requester::{GroupState, Groups, Parameters};
+use mufasa_model::offloading::quality_of_service::{
+    inter_arrival_ns, is_silent, is_violation, latency_ns,
+};
+use mufasa_model::offloading::requester::Action::{Activate, Deactivate, Drop};
+use mufasa_model::offloading::requester::Group::{Mot, Plan};
+use mufasa_model::offloading::requester::{GroupState, Groups, Parameters};
 
 use crate::{Cav, MOT, PROFILES, Profile, TICK, confirm, data, offer, on, release, request, safe};
 
@@ -11,9 +13,9 @@ const L_MAX_NS: i64 = 50_000_000;
 const DT_MAX_NS: i64 = 100_000_000;
 
 /// What a violation of MOT's session 1 does in the paper profile.
-const LEFT: [mufasa_model::requester::Action; 3] = [
+const LEFT: [mufasa_model::offloading::requester::Action; 3] = [
     Drop(Mot),
-    mufasa_model::requester::Action::Release { station: 1, group: Mot, session: 1 },
+    mufasa_model::offloading::requester::Action::Release { station: 1, group: Mot, session: 1 },
     Activate(Mot),
 ];
 

@@ -1,9 +1,9 @@
 //! `spec/2-offloading.md#requester`: offers, requests, area, data, withdrawal, loss.
 
-use mufasa_model::requester::Action::{Activate, Deactivate, Drop};
-use mufasa_model::requester::Group::{Mot, Plan};
-use mufasa_model::requester::GroupState::Local;
-use mufasa_model::requester::{Groups, Parameters};
+use mufasa_model::offloading::requester::Action::{Activate, Deactivate, Drop};
+use mufasa_model::offloading::requester::Group::{Mot, Plan};
+use mufasa_model::offloading::requester::GroupState::Local;
+use mufasa_model::offloading::requester::{Groups, Parameters};
 
 use crate::{
     Cav, MOT, PLAN, PROFILES, TICK, UNSAFE, area, confirm, data, lost, offer, on, reject, release,

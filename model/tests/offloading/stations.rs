@@ -1,7 +1,7 @@
 //! `spec/2-offloading.md#requester`: whom a request is sent to.
 
-use mufasa_model::requester::Group::{self, Mot, Plan};
-use mufasa_model::requester::{Action, Groups};
+use mufasa_model::offloading::requester::Group::{self, Mot, Plan};
+use mufasa_model::offloading::requester::{Action, Groups};
 
 use crate::{Cav, MOT, TICK, lost, offer, reject, request, withdraw};
 

@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use mufasa_model::composition::Composition;
-use mufasa_model::orchestrator::{Answer, NoComposition, Rule, Task};
+use mufasa_model::services::composition::Composition;
+use mufasa_model::services::orchestrator::{Answer, NoComposition, Rule, Task};
 
 /// Indices of provider, name of the interface, index of the consumer.
 type Arc = (usize, String, usize);
@@ -146,7 +146,7 @@ fn composition(task: &Task, arcs: &[Arc], found: &Found) -> Composition {
         (0..task.services.len()).filter(|k| found.members >> k & 1 == 1).map(id).collect();
     members.sort();
     let mut links: Vec<_> = chosen()
-        .map(|(_, (j, interface, k))| mufasa_model::composition::Link {
+        .map(|(_, (j, interface, k))| mufasa_model::services::composition::Link {
             provider: id(*j),
             interface: interface.clone(),
             consumer: id(*k),

@@ -3,12 +3,12 @@
 
 use std::collections::BTreeSet;
 
-use mufasa_model::composition::{
+use mufasa_model::services::composition::{
     Composition, Link, is_acyclic, is_choice, is_closed, is_minimal, keeps_local_only,
     keeps_same_station, names_its_switches,
 };
-use mufasa_model::orchestrator::{Answer, NoComposition, Rule, Task, TaskError, compose};
-use mufasa_model::service::{Service, ServiceError, ServiceRule, ServiceSet};
+use mufasa_model::services::orchestrator::{Answer, NoComposition, Rule, Task, TaskError, compose};
+use mufasa_model::services::service::{Service, ServiceError, ServiceRule, ServiceSet};
 
 use crate::{names, service, task};
 

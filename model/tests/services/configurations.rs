@@ -1,12 +1,12 @@
 //! `spec/1-services.md#configuration`; how sources change over time is in the tests of offloading.
 
-use mufasa_model::configuration::{Configuration, Offloadable, Source};
-use mufasa_model::cycle::Profile;
-use mufasa_model::orchestrator::compose;
-use mufasa_model::requester::{
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
 };
-use mufasa_model::service::Service;
+use mufasa_model::services::configuration::{Configuration, Offloadable, Source};
+use mufasa_model::services::orchestrator::compose;
+use mufasa_model::services::service::Service;
 
 use crate::{names, service, task};
 

@@ -1,15 +1,15 @@
 //! The paper's Fig. 2: one CAV (station 0) and one MEC server (station 1).
 
-use mufasa_model::composition::{
+use mufasa_model::services::composition::{
     holds_goal, is_acyclic, is_choice, is_closed, is_composition, is_minimal, keeps_local_only,
     keeps_same_station, names_its_switches,
 };
-use mufasa_model::orchestrator::{Task, closed_choices, compose};
-use mufasa_model::service::ServiceSet;
+use mufasa_model::services::orchestrator::{Task, closed_choices, compose};
+use mufasa_model::services::service::ServiceSet;
 
 use crate::{brute_force, names, service};
 
-/// The services of `oracle/data/fig2.json`. Detections and tracks go from each computer to each,
+/// The services of `conform/data/fig2.json`. Detections and tracks go from each computer to each,
 /// ego motion from the CAV to both, but each map provider feeds the environment of its own.
 fn figure_2() -> Task {
     let mut services = vec![

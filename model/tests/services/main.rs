@@ -7,8 +7,8 @@ mod figure_2;
 mod random_sets;
 mod service_sets;
 
-use mufasa_model::orchestrator::Task;
-use mufasa_model::service::Service;
+use mufasa_model::services::orchestrator::Task;
+use mufasa_model::services::service::Service;
 
 /// A service from words: `service("env", "tracks map", "environment", 0)`.
 fn service(id: &str, requires: &str, guarantees: &str, station: i64) -> Service {

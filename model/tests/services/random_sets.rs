@@ -1,8 +1,8 @@
 //! `spec/1-services.md#composition`: the orchestrator against brute force on random small sets.
 
-use mufasa_model::composition::is_composition;
-use mufasa_model::orchestrator::{NoComposition, Rule, Task, closed_choices, compose};
-use mufasa_model::service::{Service, ServiceSet};
+use mufasa_model::services::composition::is_composition;
+use mufasa_model::services::orchestrator::{NoComposition, Rule, Task, closed_choices, compose};
+use mufasa_model::services::service::{Service, ServiceSet};
 
 use crate::{brute_force, task};
 

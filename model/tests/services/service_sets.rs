@@ -1,6 +1,6 @@
 //! `spec/1-services.md#service` and `spec/1-services.md#device-switch`.
 
-use mufasa_model::service::{Service, ServiceError, ServiceRule, ServiceSet};
+use mufasa_model::services::service::{Service, ServiceError, ServiceRule, ServiceSet};
 
 use crate::service;
 

@@ -1,11 +1,13 @@
 //! `spec/4-arithmetic.md`: exactness, the strict and the lax reading, margin by margin.
 
-use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Station, Track, TrackList, Trajectory};
-use mufasa_model::parameters::Parameters;
-use mufasa_model::real::unfiltered;
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::Reading;
+use mufasa_model::input::cycle::{Cycle, Profile, Station, Track, TrackList, Trajectory};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::numbers::real::unfiltered;
+use mufasa_model::report::Reading;
+use mufasa_model::services::configuration::Configuration::{
+    self, AllRemote, MotRemote, PlanRemote,
+};
+use mufasa_model::stages::check;
 
 use crate::base::*;
 
@@ -186,13 +188,13 @@ const NEAR: &[Near] = &[
     }),
 ];
 
-fn list(cycle: &mut Cycle) -> &mut mufasa_model::cycle::DetectionList {
+fn list(cycle: &mut Cycle) -> &mut mufasa_model::input::cycle::DetectionList {
     // A second detection keeps the track in view.
     cycle.detections = detections(vec![detection(60.0, 0.0), detection(-90.0, 0.0)]);
     cycle.detections.as_mut().expect("set")
 }
 
-fn points(cycle: &mut Cycle) -> &mut Vec<mufasa_model::cycle::TrajectoryPoint> {
+fn points(cycle: &mut Cycle) -> &mut Vec<mufasa_model::input::cycle::TrajectoryPoint> {
     &mut cycle.trajectory.as_mut().expect("there is one").points
 }
 

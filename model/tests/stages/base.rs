@@ -1,14 +1,14 @@
 //! A cycle that is safe in every configuration of both profiles, for tests to change one thing.
 #![expect(clippy::unnecessary_wraps, reason = "the fields of a cycle are optional")]
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa_model::parameters::Parameters;
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::{FailedStage, Outcome, Reading, Report, Rule, Stage, Witness};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage, Witness};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages::check;
 
 pub const NOW: i64 = 1_000_000_000;
 /// Speed of the CAV in the base cycle, m/s.

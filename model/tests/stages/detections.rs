@@ -1,8 +1,8 @@
 //! `spec/3-stages.md#stage-iv-trajectory-with-detections`
 
-use mufasa_model::configuration::Configuration::MotRemote;
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::verdict::{Rule, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::report::{Rule, Stage};
+use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use crate::base::*;
 

@@ -1,9 +1,9 @@
 //! `spec/3-stages.md#hardened-profile`: the rules of objects (H-01 to H-06, H-09, H-10) on both
 //! sides of their thresholds, and the paper profile beside them.
 
-use mufasa_model::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Track, TrackList, Trajectory};
-use mufasa_model::verdict::{FailedStage, Input, Outcome, Reason, Rule, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile, Track, TrackList, Trajectory};
+use mufasa_model::report::{FailedStage, Input, Outcome, Reason, Rule, Stage};
+use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 use crate::base::*;
 

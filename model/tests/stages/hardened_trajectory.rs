@@ -1,9 +1,9 @@
 //! `spec/3-stages.md#hardened-profile`: the rules of the trajectory (H-07, H-11, H-12) on both
 //! sides of their thresholds, and the paper profile beside them.
 
-use mufasa_model::configuration::Configuration::PlanRemote;
-use mufasa_model::cycle::{Cycle, Profile, Route, Station, Trajectory};
-use mufasa_model::verdict::{Rule, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile, Route, Station, Trajectory};
+use mufasa_model::report::{Rule, Stage};
+use mufasa_model::services::configuration::Configuration::PlanRemote;
 
 use crate::base::*;
 

@@ -1,9 +1,11 @@
 //! `spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`
 
-use mufasa_model::configuration::Configuration::{self, AllRemote, Local, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, TrackList};
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::{FailedStage, InvalidInput, Outcome, Reading, Reason, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile, TrackList};
+use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Reading, Reason, Stage};
+use mufasa_model::services::configuration::Configuration::{
+    self, AllRemote, Local, MotRemote, PlanRemote,
+};
+use mufasa_model::stages::check;
 
 use crate::base::*;
 

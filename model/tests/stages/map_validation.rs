@@ -1,8 +1,8 @@
 //! `spec/3-stages.md#stage-ii-trajectory-to-map`
 
-use mufasa_model::configuration::Configuration::{MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile, Route, Station};
-use mufasa_model::verdict::{Rule, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile, Route, Station};
+use mufasa_model::report::{Rule, Stage};
+use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
 
 use crate::base::*;
 

@@ -1,9 +1,11 @@
 //! `spec/3-stages.md#schedule`
 
-use mufasa_model::configuration::Configuration::{AllRemote, Local, MotRemote, PlanRemote};
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::schedule::{Scheduled, scheduled};
-use mufasa_model::verdict::{FailedStage, Input, Outcome, Reason, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::report::{FailedStage, Input, Outcome, Reason, Stage};
+use mufasa_model::services::configuration::Configuration::{
+    AllRemote, Local, MotRemote, PlanRemote,
+};
+use mufasa_model::stages::{Scheduled, scheduled};
 
 use crate::base::*;
 

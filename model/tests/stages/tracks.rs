@@ -1,8 +1,8 @@
 //! `spec/3-stages.md#low-level-collision-check-llcc`, `spec/3-stages.md#stage-iii-trajectory-with-tracks`
 
-use mufasa_model::configuration::Configuration::PlanRemote;
-use mufasa_model::cycle::{Cycle, Profile, Track};
-use mufasa_model::verdict::Stage;
+use mufasa_model::input::cycle::{Cycle, Profile, Track};
+use mufasa_model::report::Stage;
+use mufasa_model::services::configuration::Configuration::PlanRemote;
 
 use crate::base::*;
 

@@ -6,14 +6,14 @@ use std::str::FromStr;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Subcommand};
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::bounds::Bounds;
+use mufasa_exploration::bounds::Bounds;
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::services::configuration::Configuration;
 
-use crate::conform::Kind;
 use crate::demo;
-use crate::drive::{GridSize, Injection, Options, Sensor, Tail};
-use crate::json::names;
+use mufasa_conform::Kind;
+use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
+use mufasa_records::names;
 
 #[derive(Args)]
 #[command(after_help = "\

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mufasa_model::composition::Composition;
-use mufasa_model::service::{CAV, Service, ServiceSet};
+use mufasa_model::services::composition::Composition;
+use mufasa_model::services::service::{CAV, Service, ServiceSet};
 
 /// Services and who provides for whom; the goal is node 0.
 #[derive(Clone, Debug, PartialEq, Eq)]

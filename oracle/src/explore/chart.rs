@@ -1,11 +1,11 @@
 //! A story of the exploration as a message sequence chart.
 
-use mufasa_model::requester::{Action, EventKind, Group, GroupState, Groups};
-use mufasa_proofs::explore::replay::{Look, Post, Scene, What};
-use mufasa_proofs::explore::system::System;
-use mufasa_proofs::explore::words;
+use mufasa_exploration::replay::{Look, Post, Scene, What};
+use mufasa_exploration::system::System;
+use mufasa_exploration::words;
+use mufasa_model::offloading::requester::{Action, EventKind, Group, GroupState, Groups};
 
-use crate::svg::sequence::{self, Arrow, Chart, Fate, Note, Partner, Span, State};
+use mufasa_drives::pictures::sequence::{self, Arrow, Chart, Fate, Note, Partner, Span, State};
 
 /// The chart of a story as an SVG document: CAVs, stations and, where there is one, the attacker.
 pub fn draw(system: &System, title: &str, subtitle: &str, scenes: &[Scene]) -> String {

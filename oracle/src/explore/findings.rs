@@ -3,16 +3,16 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::properties::Law;
-use mufasa_proofs::explore::replay::{self, ReplayError, Scene};
-use mufasa_proofs::explore::run::{Counterexample, Outcome};
-use mufasa_proofs::explore::system::System;
+use mufasa_exploration::properties::Law;
+use mufasa_exploration::replay::{self, ReplayError, Scene};
+use mufasa_exploration::run::{Counterexample, Outcome};
+use mufasa_exploration::system::System;
+use mufasa_model::input::cycle::Profile;
 
 use super::{chart, title, vector};
-use crate::check::files;
-use crate::json::{Trace, names};
-use crate::vectors::flag;
+use mufasa_conform::vectors::flag;
+use mufasa_records::files;
+use mufasa_records::{Trace, names};
 
 /// A counterexample, told with real numbers.
 pub struct Story<'a> {

@@ -2,14 +2,14 @@
 
 use std::fmt::Write as _;
 
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::bounds::Bounds;
-use mufasa_proofs::explore::properties::Law;
-use mufasa_proofs::explore::run::Outcome;
+use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::properties::Law;
+use mufasa_exploration::run::Outcome;
+use mufasa_model::input::cycle::Profile;
 use serde::Serialize;
 
 use super::tables;
-use crate::json::names;
+use mufasa_records::names;
 
 /// What was explored in one profile, and what it showed.
 #[derive(Debug, Serialize)]

@@ -1,9 +1,9 @@
 //! Tables of an exploration, for people.
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::properties::{Law, Sight};
-use mufasa_proofs::explore::run::Outcome;
+use mufasa_exploration::properties::{Law, Sight};
+use mufasa_exploration::run::Outcome;
+use mufasa_model::input::cycle::Profile;
 
 use super::report::Property;
 

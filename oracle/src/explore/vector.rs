@@ -1,12 +1,12 @@
 //! Offloading vectors of what was found (`spec/5-interfaces.md#vectors`).
 
-use mufasa_model::requester::Event;
-use mufasa_proofs::explore::replay::{Scene, What};
+use mufasa_exploration::replay::{Scene, What};
+use mufasa_model::offloading::requester::Event;
 
-use crate::json::offloading_answer::OffloadingAnswer;
-use crate::json::{Answer, Trace};
-use crate::vectors::book::{Input, Vector};
-use crate::vectors::{flag, record};
+use mufasa_conform::vectors::book::{Input, Vector};
+use mufasa_conform::vectors::{flag, record};
+use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::{Answer, Trace};
 
 /// The events of one CAV in a story.
 pub fn events(scenes: &[Scene], cav: usize) -> Vec<Event> {

@@ -11,7 +11,7 @@ const PARTS: [&str; 6] = [
     "proofs/src",
     "proofs/wasm",
     "scripts/prove-wasm",
-    "symbolic/src",
+    "proofs/compiled/src",
 ];
 
 /// A number of the paths and contents of the sources in this checkout: FNV-1a of 64 bits, in hex.

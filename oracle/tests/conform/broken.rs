@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use mufasa_oracle::conform::{Breach, Kind};
+use mufasa_conform::{Breach, Kind};
 
 use crate::{EACH, MUFASA, SAFE, conform, folder, script, summary, text};
 

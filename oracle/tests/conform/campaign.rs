@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use mufasa_oracle::conform::Summary;
+use mufasa_conform::Summary;
 
 use crate::{EACH, MUFASA, SAFE, conform, folder, summary, text};
 

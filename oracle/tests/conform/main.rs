@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mufasa_oracle::conform::Summary;
+use mufasa_conform::Summary;
 
 const MUFASA: &str = env!("CARGO_BIN_EXE_mufasa");
 

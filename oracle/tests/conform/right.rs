@@ -1,6 +1,6 @@
 //! Programs that are right.
 
-use mufasa_oracle::conform::Kind;
+use mufasa_conform::Kind;
 
 use crate::{MUFASA, conform, folder, summary, text};
 

@@ -1,6 +1,6 @@
 //! Programs that answer wrongly.
 
-use mufasa_oracle::conform::{Breach, Found, Scale};
+use mufasa_conform::{Breach, Found, Scale};
 
 use crate::{EACH, MUFASA, SAFE, script};
 

@@ -3,8 +3,8 @@
 
 use std::vec::Vec;
 
-use mufasa::cycle::Profile;
-use mufasa::requester::{
+use mufasa::input::cycle::Profile;
+use mufasa::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Source,
     StationRecord, Suspended,
 };

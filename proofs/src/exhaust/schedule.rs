@@ -1,11 +1,11 @@
 //! The laws of a cycle's report over every configuration, both profiles, and every input missing,
 //! too old, harmless or harmful (`spec/3-stages.md#schedule`).
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::schedule::check;
-use mufasa::scratch::{Column, Row, Scratch};
-use mufasa::verdict::{FailedStage, Report, Stage};
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::scratch::{Column, Row, Scratch};
+use mufasa::report::{FailedStage, Report, Stage};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use super::{Run, Topic};
 use crate::harness::scene::{Given, cycle};

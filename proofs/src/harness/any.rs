@@ -3,8 +3,8 @@
 
 #[cfg(not(kani))]
 use crate::kani;
-use mufasa::configuration::{Configuration, Group, Groups};
-use mufasa::cycle::Profile;
+use mufasa::input::cycle::Profile;
+use mufasa::services::configuration::{Configuration, Group, Groups};
 
 #[cfg(not(kani))]
 pub use crate::kani::{below, near, near_integer};

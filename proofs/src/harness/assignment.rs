@@ -1,11 +1,11 @@
 //! The assignment of stage i (`spec/3-stages.md#stage-i-track-validation`) against all there are.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Detection, DetectionList, Profile, Route, Track, TrackList};
-use mufasa::parameters::Parameters;
-use mufasa::schedule::check;
-use mufasa::scratch::{Column, Row, Scratch};
-use mufasa::verdict::Outcome;
+use mufasa::input::cycle::{Cycle, Detection, DetectionList, Profile, Route, Track, TrackList};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Row, Scratch};
+use mufasa::report::Outcome;
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use super::any::{below, index};
 use super::bounds::{COLUMNS, PLACES, TRACKS};

@@ -2,12 +2,14 @@
 //! always refused and names `s_follow`, and the trajectory points that stage iv examines show
 //! `s_valid`.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, DetectionList, Lead, Profile, Route, Trajectory, TrajectoryPoint};
-use mufasa::parameters::Parameters;
-use mufasa::schedule::check;
-use mufasa::scratch::{Column, Scratch};
-use mufasa::verdict::{Outcome, Report, Witness};
+use mufasa::input::cycle::{
+    Cycle, DetectionList, Lead, Profile, Route, Trajectory, TrajectoryPoint,
+};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Scratch};
+use mufasa::report::{Outcome, Report, Witness};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use super::any::within;
 use super::scene::{EGO, NOW_NS, STATIONS};
@@ -108,8 +110,14 @@ pub fn verify_s_valid_has_two_cases() {
     };
     let lead = v_lead.map(|speed| Lead { stamp_ns: NOW_NS, gap: 1e6, speed });
     let points = [point(0, 0.0), point(1, d)];
-    let object =
-        mufasa::cycle::Detection { x: d, y: 0.0, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 };
+    let object = mufasa::input::cycle::Detection {
+        x: d,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        length: 4.0,
+        width: 2.0,
+    };
     let items = [object];
     let mut cycle = behind(parameters, v_now, Lead { stamp_ns: NOW_NS, gap: 1e6, speed: 0.0 });
     cycle.lead = lead;

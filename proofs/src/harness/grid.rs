@@ -1,12 +1,12 @@
 //! Grid cells and their borders in stage v (`spec/3-stages.md#stage-v-trajectory-with-grid-map`)
 //! against integers.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Ego, Grid, Profile, Route, Trajectory, TrajectoryPoint};
-use mufasa::parameters::Parameters;
-use mufasa::schedule::check;
-use mufasa::scratch::Scratch;
-use mufasa::verdict::{Outcome, Report, Rule};
+use mufasa::input::cycle::{Cycle, Ego, Grid, Profile, Route, Trajectory, TrajectoryPoint};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::Scratch;
+use mufasa::report::{Outcome, Report, Rule};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use super::any::below;
 use super::bounds::{GRID, GRID_BYTES};

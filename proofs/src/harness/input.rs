@@ -1,15 +1,15 @@
 //! Invalid input (`spec/3-stages.md#invalid-input`): one bad value in a valid cycle is always found
 //! and never safe.
 
-use mufasa::configuration::{Configuration, Group};
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Station, Track, TrackList, Trajectory,
     TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::schedule::check;
-use mufasa::scratch::{Column, Row, Scratch};
-use mufasa::verdict::{FailedStage, Outcome, Reason};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::scratch::{Column, Row, Scratch};
+use mufasa::report::{FailedStage, Outcome, Reason};
+use mufasa::services::configuration::{Configuration, Group};
+use mufasa::stages::check;
 
 use super::any::{below, configuration, profile};
 use super::scene::{BESIDE, EGO, FREE, NOW_NS, SEEN_BESIDE, STATIONS, STRAIGHT};

@@ -1,7 +1,9 @@
 //! Quality of service (`spec/2-offloading.md#quality-of-service`), from an arbitrary state of the
 //! session: one step is enough, because every later one starts from such a state again.
 
-use mufasa::qos::{Arrivals, Element, Limits, Violation, latency_violation};
+use mufasa::offloading::quality_of_service::{
+    Arrivals, Element, Limits, Violation, latency_violation,
+};
 
 use super::any::{duration_ns, option, time_ns};
 #[cfg(not(kani))]

@@ -1,12 +1,12 @@
 //! The requester (`spec/2-offloading.md`) by induction: from every valid state every event keeps
 //! all laws and leads to a valid state, so they hold after any number of events.
 
-use mufasa::configuration::{Group, Source};
-use mufasa::cycle::Profile;
-use mufasa::requester::{
+use mufasa::input::cycle::Profile;
+use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester,
     RequesterError, Running, StationRecord, Suspended,
 };
+use mufasa::services::configuration::{Group, Source};
 
 use super::any::{
     below, duration_ns, group, groups, index, near_integer, option, profile, time_ns,

@@ -1,12 +1,12 @@
 //! One scene in which every input can be missing, too old, harmless or harmful: a straight road, a
 //! CAV that creeps along it, an object beside it or on its way.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
+use mufasa::input::parameters::Parameters;
+use mufasa::services::configuration::Configuration;
 
 /// How an input is: what a stage sees of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

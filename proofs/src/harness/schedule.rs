@@ -1,11 +1,11 @@
 //! The schedule (`spec/3-stages.md#schedule`): its table written a second time, as data, and what
 //! the text says of it, as far as it does not depend on what the stages compare.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::schedule::check;
-use mufasa::scratch::{Column, Row, Scratch};
-use mufasa::verdict::{FailedStage, Input, Outcome, Reason, Report, Rule, Stage};
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::scratch::{Column, Row, Scratch};
+use mufasa::report::{FailedStage, Input, Outcome, Reason, Report, Rule, Stage};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use super::any::{configuration, index, profile};
 use super::scene::{Given, cycle};

@@ -1,12 +1,12 @@
 //! The stages on arbitrary numbers, also invalid, NaN and infinite ones: none panics, every loop
 //! ends, and what is reported follows the schedule.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::Cycle;
-use mufasa::route_index::{Block, RouteIndex};
-use mufasa::schedule::{Valid, check, check_indexed};
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::verdict::{FailedStage, Input, InvalidInput, Outcome, Problem, Report, Stage};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::route_index::{Block, RouteIndex};
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{FailedStage, Input, InvalidInput, Outcome, Problem, Report, Stage};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::{Valid, check, check_indexed};
 
 use super::any::{index, profile};
 use super::bounds::{DETECTIONS, DISKS, TRACKS};

@@ -1,12 +1,12 @@
 //! A cycle of arbitrary numbers, of small sizes.
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{
+use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa::parameters::Parameters;
-use mufasa::verdict::Input;
+use mufasa::input::parameters::Parameters;
+use mufasa::report::Input;
+use mufasa::services::configuration::Configuration;
 
 use super::any::{index, near, near_integer, option};
 use super::bounds::{DETECTIONS, DISKS, GRID, GRID_BYTES, POINTS, ROUTE, TRACKS};

@@ -1,7 +1,7 @@
 //! Laws of the distances (`spec/3-stages.md#distances`), as far as a verdict shows them.
 
-use mufasa::cycle::Cycle;
-use mufasa::verdict::{Outcome, Report, Rule};
+use mufasa::input::cycle::Cycle;
+use mufasa::report::{Outcome, Report, Rule};
 
 /// A gap of at most `s_CAV` never passes: `s_follow` is never below `s_CAV`, whatever the lead's
 /// speed. Of cycles in which nothing before the gap fails and the gap is compared.

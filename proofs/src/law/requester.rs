@@ -1,7 +1,7 @@
 //! Laws of the requester (`spec/2-offloading.md`).
 
-use mufasa::cycle::Profile;
-use mufasa::requester::{
+use mufasa::input::cycle::Profile;
+use mufasa::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Parameters, Requester, Source,
 };
 

@@ -1,8 +1,8 @@
 //! Laws of a cycle's report (`spec/3-stages.md#schedule`).
 
-use mufasa::configuration::Configuration;
-use mufasa::cycle::{Cycle, Profile};
-use mufasa::verdict::{FailedStage, Outcome, Report, Stage};
+use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::report::{FailedStage, Outcome, Report, Stage};
+use mufasa::services::configuration::Configuration;
 
 /// A law of a cycle with valid input and its report.
 pub type Law = fn(&Cycle<'_>, &Report) -> bool;

@@ -1,20 +1,20 @@
 //! Cycles from the model's owned types to the implementation's borrowed ones.
 
-use mufasa::cycle as twin;
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{
+use mufasa::input::cycle as twin;
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa_model::parameters::Parameters;
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::services::configuration::Configuration;
 
 /// The lists of a cycle in the implementation's types; `borrow` makes the cycle of them.
 #[derive(Clone, Debug)]
 pub struct Owned {
     profile: twin::Profile,
-    parameters: mufasa::parameters::Parameters,
+    parameters: mufasa::input::parameters::Parameters,
     now_ns: i64,
-    configuration: mufasa::configuration::Configuration,
+    configuration: mufasa::services::configuration::Configuration,
     ego: twin::Ego,
     trajectory: Option<(i64, Vec<twin::TrajectoryPoint>)>,
     tracks: Option<(i64, Vec<twin::Track>)>,
@@ -91,7 +91,7 @@ impl Owned {
 }
 
 /// The parameters of the stages in the implementation's type.
-pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Parameters {
+pub fn cycle_parameters(parameters: &Parameters) -> mufasa::input::parameters::Parameters {
     let Parameters {
         theta_tr,
         theta_map,
@@ -111,7 +111,7 @@ pub fn cycle_parameters(parameters: &Parameters) -> mufasa::parameters::Paramete
         work_limit,
         delta,
     } = *parameters;
-    mufasa::parameters::Parameters {
+    mufasa::input::parameters::Parameters {
         theta_tr,
         theta_map,
         theta_obj,
@@ -140,12 +140,14 @@ pub fn profile_to_impl(profile: Profile) -> twin::Profile {
     }
 }
 
-fn configuration_to_impl(configuration: Configuration) -> mufasa::configuration::Configuration {
+fn configuration_to_impl(
+    configuration: Configuration,
+) -> mufasa::services::configuration::Configuration {
     match configuration {
-        Configuration::Local => mufasa::configuration::Configuration::Local,
-        Configuration::MotRemote => mufasa::configuration::Configuration::MotRemote,
-        Configuration::AllRemote => mufasa::configuration::Configuration::AllRemote,
-        Configuration::PlanRemote => mufasa::configuration::Configuration::PlanRemote,
+        Configuration::Local => mufasa::services::configuration::Configuration::Local,
+        Configuration::MotRemote => mufasa::services::configuration::Configuration::MotRemote,
+        Configuration::AllRemote => mufasa::services::configuration::Configuration::AllRemote,
+        Configuration::PlanRemote => mufasa::services::configuration::Configuration::PlanRemote,
     }
 }
 
@@ -211,7 +213,7 @@ mod tests {
     #[test]
     fn the_defaults_of_both_crates_are_the_same_doubles() {
         let model = cycle_parameters(&Parameters::default());
-        let implementation = mufasa::parameters::Parameters::default();
+        let implementation = mufasa::input::parameters::Parameters::default();
         assert_eq!(model, implementation);
         // `==` would let -0.0 pass for 0.0; the text of a double does not.
         assert_eq!(format!("{model:?}"), format!("{implementation:?}"));

@@ -1,8 +1,10 @@
 //! Events from the model's types to the implementation's; actions and states back.
 
-use mufasa::requester as twin;
-use mufasa_model::configuration::{Configuration, Source};
-use mufasa_model::requester::{Action, Event, EventKind, Group, GroupState, Groups, Parameters};
+use mufasa::offloading::requester as twin;
+use mufasa_model::offloading::requester::{
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters,
+};
+use mufasa_model::services::configuration::{Configuration, Source};
 
 /// The times of a requester in the implementation's type.
 pub fn parameters_to_impl(parameters: &Parameters) -> twin::Parameters {
@@ -87,13 +89,13 @@ pub fn source_from_impl(source: twin::Source) -> Source {
 
 /// A configuration in the model's type.
 pub fn configuration_from_impl(
-    configuration: mufasa::configuration::Configuration,
+    configuration: mufasa::services::configuration::Configuration,
 ) -> Configuration {
     match configuration {
-        mufasa::configuration::Configuration::Local => Configuration::Local,
-        mufasa::configuration::Configuration::MotRemote => Configuration::MotRemote,
-        mufasa::configuration::Configuration::AllRemote => Configuration::AllRemote,
-        mufasa::configuration::Configuration::PlanRemote => Configuration::PlanRemote,
+        mufasa::services::configuration::Configuration::Local => Configuration::Local,
+        mufasa::services::configuration::Configuration::MotRemote => Configuration::MotRemote,
+        mufasa::services::configuration::Configuration::AllRemote => Configuration::AllRemote,
+        mufasa::services::configuration::Configuration::PlanRemote => Configuration::PlanRemote,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Verdicts from the implementation's types to the model's.
 
-use mufasa::verdict as twin;
-use mufasa_model::verdict::{
+use mufasa::report as twin;
+use mufasa_model::report::{
     FailedStage, Input, InvalidInput, Outcome, Reason, Report, Rule, Stage, Witness,
 };
 

@@ -1,8 +1,8 @@
 //! The attacks of the paper's evaluation and the scenes of its findings
 //! (`spec/3-stages.md#findings`), with sizes and places drawn.
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
 use super::draw::Draw;

@@ -1,9 +1,11 @@
 //! A cycle that every stage accepts with room to spare; generators move one thing of it to a
 //! threshold.
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPoint};
-use mufasa_model::parameters::Parameters;
+use mufasa_model::input::cycle::{
+    Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPoint,
+};
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::services::configuration::Configuration;
 
 use super::draw::Draw;
 

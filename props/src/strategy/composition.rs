@@ -1,9 +1,8 @@
 //! Service sets and compositions one change away from keeping or breaking a rule
 //! (`spec/1-services.md`).
 
-use mufasa_model::composition::{Composition, Link};
-use mufasa_model::orchestrator::Task;
-use mufasa_model::service::Service;
+use mufasa_model::services::orchestrator::Task;
+use mufasa_model::services::service::Service;
 
 use super::draw::Draw;
 
@@ -50,40 +49,6 @@ pub fn later(draw: &mut Draw<'_>, list: &[Service]) -> Vec<Service> {
     list
 }
 
-/// The composition with one thing changed: a link, a member, a switch, or what it is called.
-pub fn changed(draw: &mut Draw<'_>, task: &Task, composition: &Composition) -> Composition {
-    let mut changed = composition.clone();
-    match draw.below(8) {
-        0 => {
-            let index = draw.below(changed.links.len().max(1));
-            if index < changed.links.len() {
-                changed.links.remove(index);
-            }
-        }
-        1 => changed.links.push(any_link(draw, task)),
-        2 => {
-            let index = draw.below(changed.links.len().max(1));
-            let provider = any_id(draw, task);
-            if let Some(link) = changed.links.get_mut(index) {
-                link.provider = provider;
-            }
-        }
-        3 => changed.members.push(any_id(draw, task)),
-        4 => {
-            let index = draw.below(changed.members.len().max(1));
-            if index < changed.members.len() {
-                changed.members.remove(index);
-            }
-        }
-        5 => changed.switches.push((any_id(draw, task), any_id(draw, task))),
-        6 => {
-            changed.switches.pop();
-        }
-        _ => changed.distributed = !changed.distributed,
-    }
-    changed
-}
-
 fn service(draw: &mut Draw<'_>, id: &str) -> Service {
     let station = draw.pick(&[0, 0, 1, 2]);
     let (requires, guarantees) = (interfaces(draw), interfaces(draw));
@@ -127,14 +92,4 @@ fn disturb(draw: &mut Draw<'_>, list: &mut Vec<Service>) {
 fn some_ids(draw: &mut Draw<'_>) -> Vec<String> {
     let n = draw.between(1, 3);
     (0..n).map(|_| draw.pick(&IDS).to_owned()).collect()
-}
-
-fn any_id(draw: &mut Draw<'_>, task: &Task) -> String {
-    let index = draw.below(task.services.len());
-    task.services[index].id.clone()
-}
-
-fn any_link(draw: &mut Draw<'_>, task: &Task) -> Link {
-    let (provider, consumer) = (any_id(draw, task), any_id(draw, task));
-    Link { provider, interface: draw.pick(&INTERFACES).to_owned(), consumer }
 }

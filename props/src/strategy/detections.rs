@@ -1,8 +1,8 @@
 //! Stage iv at its thresholds: gap and collisions
 //! (`spec/3-stages.md#stage-iv-trajectory-with-detections`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Detection, DetectionList, Lead, Profile, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Lead, Profile, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base;
 use super::draw::Draw;

@@ -1,8 +1,8 @@
 //! Remote trajectories that end before `s_stop`, and what stands beyond their end (H-04, H-12 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::input::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, seconds};
 use super::draw::Draw;

@@ -1,8 +1,8 @@
 //! Stage v at its thresholds: disks and cells, borders of cells and of the grid, horizons
 //! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-06).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Grid, Profile};
+use mufasa_model::input::cycle::{Cycle, Grid, Profile};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
 use super::draw::Draw;

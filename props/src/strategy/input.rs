@@ -1,8 +1,8 @@
 //! Values at and beyond the borders of the domain, and lists that break a rule
 //! (`spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`).
 
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::input::{Problem, first_problem};
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::input::domain::{Problem, first_problem};
 
 use super::base;
 use super::draw::Draw;

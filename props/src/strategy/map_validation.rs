@@ -1,10 +1,10 @@
 //! Stage ii at its thresholds: distance to the reference path, edges of the corridor, H-07, H-11
 //! and H-12 (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{
+use mufasa_model::input::cycle::{
     Cycle, DetectionList, Profile, Route, Station, Trajectory, TrajectoryPoint,
 };
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, seconds, station};
 use super::draw::Draw;

@@ -1,7 +1,7 @@
 //! Objects at the thresholds of the low-level collision check: touching rectangles, centre
 //! distances, horizons (`spec/3-stages.md#low-level-collision-check-llcc`).
 
-use mufasa_model::cycle::{Cycle, Profile, TrajectoryPoint};
+use mufasa_model::input::cycle::{Cycle, Profile, TrajectoryPoint};
 
 use super::base::{self, Frame, to_ns};
 use super::draw::Draw;

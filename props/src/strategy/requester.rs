@@ -1,8 +1,10 @@
 //! Event sequences for the requester, with times at its borders: deadlines, holds, silence,
 //! latency, the limits of 64 bits, time that runs backwards (`spec/2-offloading.md`).
 
-use mufasa_model::cycle::Profile;
-use mufasa_model::requester::{Event, EventKind, Group, GroupState, Groups, Parameters, Requester};
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::{
+    Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+};
 
 use super::draw::Draw;
 

@@ -1,8 +1,8 @@
 //! Which inputs are there and current, in every configuration
 //! (`spec/3-stages.md#schedule`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
 use super::draw::Draw;

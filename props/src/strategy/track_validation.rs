@@ -1,8 +1,8 @@
 //! Stage i at its thresholds: mean cost, `theta_track_max`, field-of-view radius, velocities
 //! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, seconds};
 use super::draw::Draw;

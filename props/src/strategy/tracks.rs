@@ -1,7 +1,7 @@
 //! Stage iii at its thresholds (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, seconds};
 use super::draw::Draw;

@@ -1,7 +1,7 @@
 //! Whole cycles: every configuration, every input present or missing, decided anywhere.
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
+use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
 use super::draw::Draw;

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
-use mufasa_model::parameters::Parameters;
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::conformance::name;
 use mufasa_props::strategy::draw::Draw;

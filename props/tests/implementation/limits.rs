@@ -2,14 +2,14 @@
 
 use std::thread;
 
-use mufasa::composition::{Composition, Link, Task};
-use mufasa::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::service::{Service, ServiceSet};
-use mufasa::verdict::{InvalidInput, Outcome, Problem};
-use mufasa_model::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
-use mufasa_model::cycle::{
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{InvalidInput, Outcome, Problem};
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
     Trajectory, TrajectoryPoint,
+};
+use mufasa_model::services::configuration::Configuration::{
+    self, AllRemote, MotRemote, PlanRemote,
 };
 use mufasa_props::bridge::{Owned, to_impl};
 
@@ -77,7 +77,7 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
     let length = 4.0;
     Cycle {
         profile,
-        parameters: mufasa_model::parameters::Parameters { n: 64, ..Default::default() },
+        parameters: mufasa_model::input::parameters::Parameters { n: 64, ..Default::default() },
         now_ns: 0,
         configuration,
         ego: Ego {
@@ -124,7 +124,7 @@ fn passed(cycles: &[Owned]) -> [u32; 5] {
     let reports: Vec<_> = on_small_stack(|| {
         let check = |cycle: &Owned| {
             let mut scratch = Scratch::new(&mut rows, &mut columns);
-            mufasa::schedule::check(&cycle.borrow(), &mut scratch)
+            mufasa::stages::check(&cycle.borrow(), &mut scratch)
         };
         cycles.iter().map(check).collect()
     });
@@ -157,37 +157,6 @@ fn the_largest_cycles_need_no_more_stack_than_small_ones() {
 }
 
 /// The same for a composition that is one chain of 1,000 services.
-#[test]
-fn a_long_composition_needs_no_more_stack_than_a_short_one() {
-    let names: Vec<String> = (0..1000).map(|i| format!("s{i}")).collect();
-    let ids: Vec<&str> = names.iter().map(String::as_str).collect();
-    let service = |i: usize| Service {
-        id: ids[i],
-        requires: ids.get(i + 1..=i + 1).unwrap_or_default(),
-        guarantees: &ids[i..=i],
-        station: 0,
-    };
-    let link = |i: usize| Link { provider: ids[i + 1], interface: ids[i + 1], consumer: ids[i] };
-    let services: Vec<_> = (0..ids.len()).map(service).collect();
-    let links: Vec<_> = (0..ids.len() - 1).map(link).collect();
-    for length in [3, ids.len()] {
-        let composition = Composition {
-            members: &ids[ids.len() - length..],
-            links: &links[ids.len() - length..],
-            switches: &[],
-            distributed: false,
-        };
-        let mut scratch = vec![0; length];
-        let goal = composition.members[0];
-        let checked = on_small_stack(|| {
-            let task = |services| Task { services, goal, same_station: &[], local_only: &[] };
-            let check = |task| mufasa::composition::check(&task, &composition, &mut scratch);
-            ServiceSet::new(&services).ok().map(task).map(check)
-        });
-        assert_eq!(checked, Some(Ok(())), "{length} services");
-    }
-}
-
 /// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: scratch that is one element too small
 /// is invalid input, whatever the rest; a truncated check would pass.
 #[test]
@@ -198,7 +167,7 @@ fn scratch_that_is_one_too_small_is_invalid_input() {
         let check = |rows: usize, columns: usize| {
             let (mut rows, mut columns) =
                 (vec![Row::default(); rows], vec![Column::default(); columns]);
-            mufasa::schedule::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+            mufasa::stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
         };
         assert!(check(rows, columns).is_ok());
         let problem = Problem::ScratchTooSmall;

@@ -1,14 +1,14 @@
 //! Assignments: the model's search against scipy's, and stage i of both against its means.
 
-use mufasa_model::assignment::{Costs, least_cost};
-use mufasa_model::configuration::Configuration;
-use mufasa_model::cycle::{
+use mufasa_model::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Profile, Route, Station, Track, TrackList,
 };
-use mufasa_model::parameters::Parameters;
-use mufasa_model::real::Real;
-use mufasa_model::schedule::check;
-use mufasa_model::verdict::Reading;
+use mufasa_model::input::parameters::Parameters;
+use mufasa_model::numbers::assignment::{Costs, least_cost};
+use mufasa_model::numbers::real::Real;
+use mufasa_model::report::Reading;
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages::check;
 use mufasa_props::bridge::check_impl;
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! Braking distances: numbers of ad-rss-lib's tests.
 
-use mufasa_model::distance::{s_b, s_follow};
-use mufasa_model::real::Real;
+use mufasa_model::numbers::real::Real;
+use mufasa_model::stages::distances::{s_b, s_follow};
 
 /// Tolerance of the peer's own comparison, m; its numbers have one decimal.
 const TOLERANCE: f64 = 0.05;

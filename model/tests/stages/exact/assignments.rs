@@ -2,10 +2,10 @@
 
 use std::ops::Add;
 
-use mufasa_model::assignment::{Costs, costs_less, least_cost};
-use mufasa_model::configuration::Configuration::MotRemote;
-use mufasa_model::cycle::{Cycle, Profile};
-use mufasa_model::real::Real;
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::numbers::assignment::{Costs, costs_less, least_cost};
+use mufasa_model::numbers::real::Real;
+use mufasa_model::services::configuration::Configuration::MotRemote;
 use pathfinding::matrix::Matrix;
 use pathfinding::prelude::kuhn_munkres_min;
 

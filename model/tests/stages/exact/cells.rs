@@ -1,8 +1,8 @@
 //! Cells of the dilated grid: every pair of cells compared, in integers.
 
-use mufasa_model::configuration::Configuration::MotRemote;
-use mufasa_model::cycle::{Grid, Profile};
-use mufasa_model::verdict::Stage;
+use mufasa_model::input::cycle::{Grid, Profile};
+use mufasa_model::report::Stage;
+use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use super::Draw;
 use crate::base::{NOW, base, passes};

@@ -1,12 +1,12 @@
 //! Distances to the reference path, lengths of trajectories and the gap: in integers.
 
-use mufasa_model::configuration::Configuration::{MotRemote, PlanRemote};
-use mufasa_model::cycle::{Profile, Route, Station, Trajectory};
-use mufasa_model::distance::arc_lengths;
-use mufasa_model::real::Real;
-use mufasa_model::scene::Point;
-use mufasa_model::vector::{Frame, Vector};
-use mufasa_model::verdict::Stage;
+use mufasa_model::input::cycle::{Profile, Route, Station, Trajectory};
+use mufasa_model::input::scene::Point;
+use mufasa_model::numbers::real::Real;
+use mufasa_model::numbers::vector::{Frame, Vector};
+use mufasa_model::report::Stage;
+use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
+use mufasa_model::stages::distances::arc_lengths;
 
 use super::Draw;
 use crate::base::{NOW, at_time, base, lead, passes};

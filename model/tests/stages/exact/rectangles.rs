@@ -1,8 +1,8 @@
 //! Whether two rectangles share a point: by corners inside and sides that cross, in integers.
 
-use mufasa_model::real::Real;
-use mufasa_model::rectangle::{Rectangle, share_a_point};
-use mufasa_model::vector::{Frame, Vector};
+use mufasa_model::numbers::real::Real;
+use mufasa_model::numbers::rectangle::{Rectangle, share_a_point};
+use mufasa_model::numbers::vector::{Frame, Vector};
 
 use super::Draw;
 

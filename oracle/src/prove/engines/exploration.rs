@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use indicatif::ProgressBar;
-use mufasa_model::cycle::Profile;
-use mufasa_proofs::explore::bounds::{Bounds, World};
-use mufasa_proofs::explore::properties::Law;
-use mufasa_proofs::explore::run;
+use mufasa_exploration::bounds::{Bounds, World};
+use mufasa_exploration::properties::Law;
+use mufasa_exploration::run;
+use mufasa_model::input::cycle::Profile;
 
 use crate::prove::line::{Answer, Line, Verdict};
 

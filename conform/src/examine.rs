@@ -1,0 +1,308 @@
+//! One record: asked, decided by the model, and compared
+//! (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Reading, Stage};
+use mufasa_model::stages::check;
+use mufasa_props::conformance::{Answer, Disagreement, name, rank, stage_conforms};
+use serde_json::{Map, Value};
+
+use super::answer::{self, Said};
+use super::class::{Breach, Class, Kind, Scale};
+use super::damage::Damaged;
+use super::error::ConformError;
+use super::question::{Question, event_type};
+use super::subject::{Broken, Subject};
+use mufasa_records::composition_answer::CompositionAnswer;
+use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::{self as json, LineError, Trace, compose, names};
+
+/// Margin within which a disagreement counts as one at the threshold, m.
+const ROUNDING_M: f64 = 1e-6;
+
+/// What the model says.
+#[derive(Clone, Debug)]
+pub enum Expected {
+    /// Of a cycle, exactly.
+    Cycle(Box<Answer>),
+    /// Of a trace.
+    Offloading(OffloadingAnswer),
+    /// Of a composition; `Err` is invalid input.
+    Composition(Result<CompositionAnswer, InvalidInput>),
+    /// What is wrong with a line; nothing, when it was made so small that nothing is.
+    Line(Option<LineError>),
+}
+
+/// A record, asked and compared.
+#[derive(Clone, Debug)]
+pub struct Examined {
+    /// The model's answer.
+    pub expected: Expected,
+    /// The line that came back, or what came instead.
+    pub answered: Result<Vec<u8>, Broken>,
+    /// The answer's breach of conformance, if any.
+    pub class: Option<Class>,
+    /// Whether only the tolerance makes the answer conform.
+    pub tolerated: bool,
+}
+
+impl Examined {
+    /// Whether no answer came in time.
+    pub fn hangs(&self) -> bool {
+        matches!(&self.answered, Err(broken) if broken.breach == Breach::Hangs)
+    }
+}
+
+/// Asks a record under this id. A disagreement that a margin of `tolerance` m explains is none.
+/// Errors: the program cannot be started again.
+pub fn examine(
+    subject: &mut Subject,
+    id: &str,
+    question: &Question,
+    tolerance: Option<f64>,
+) -> Result<Examined, ConformError> {
+    let (expected, answered) = subject.ask(&question.line(id), || expect(id, question))?;
+    let compared = match &answered {
+        Ok(line) => answer::object(line, id, question.kind() != Kind::Line)
+            .and_then(|object| compare(question, &expected, &object))
+            .map_err(|broken| subject.broke(broken)),
+        Err(broken) => Err(broken.clone()),
+    };
+    let (profile, configuration) = question.setting();
+    let class = |breach, place, profile: &str, configuration: &str, scale| Class {
+        kind: question.kind(),
+        breach,
+        place,
+        profile: profile.to_owned(),
+        configuration: configuration.to_owned(),
+        scale,
+    };
+    Ok(match compared {
+        Ok(None) => Examined { expected, answered, class: None, tolerated: false },
+        Ok(Some(differs)) => {
+            let within = |margin| match (question, differs.said) {
+                (Question::Cycle(cycle), Some(said)) => is_within(cycle, said, margin),
+                (_, _) => false,
+            };
+            let tolerated = tolerance.is_some_and(within);
+            let scale = if within(ROUNDING_M) { Scale::Threshold } else { Scale::Clear };
+            let class = class(differs.breach, differs.place, profile, configuration, scale);
+            Examined { expected, answered, class: Some(class).filter(|_| !tolerated), tolerated }
+        }
+        Err(broken) => {
+            let place = match question {
+                Question::Line(Damaged { damage, .. }) => damage.name(),
+                Question::Cycle(_) | Question::Offloading(_) | Question::Composition(_) => "",
+            };
+            let class = class(broken.breach, place.to_owned(), "", "", Scale::Clear);
+            Examined { expected, answered: Err(broken), class: Some(class), tolerated: false }
+        }
+    })
+}
+
+/// The model's answer to a record with this id.
+pub fn expect(id: &str, question: &Question) -> Expected {
+    match question {
+        Question::Cycle(cycle) => Expected::Cycle(Box::new(check(cycle, Reading::Exact))),
+        Question::Offloading(trace) => {
+            Expected::Offloading(OffloadingAnswer::run(id.to_owned(), trace))
+        }
+        Question::Composition(task) => {
+            let composed = compose(task);
+            let answer = |(_, answer)| CompositionAnswer::new(id.to_owned(), answer);
+            Expected::Composition(composed.map(answer))
+        }
+        Question::Line(damaged) => {
+            Expected::Line(json::parse(damaged.line(id).as_bytes(), 1).err())
+        }
+    }
+}
+
+/// A difference.
+struct Differs {
+    breach: Breach,
+    place: String,
+    /// The answer to a cycle, if it was a verdict.
+    said: Option<Said>,
+}
+
+impl Differs {
+    fn new(breach: Breach, place: impl Into<String>) -> Self {
+        Self { breach, place: place.into(), said: None }
+    }
+}
+
+fn compare(
+    question: &Question,
+    expected: &Expected,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    match (question, expected) {
+        (Question::Cycle(cycle), Expected::Cycle(exact)) => {
+            let differs = compare_cycle(cycle, exact, answer::said(object)?);
+            Ok(differs.or_else(|| compare_place(exact, object)))
+        }
+        (Question::Offloading(trace), Expected::Offloading(expected)) => {
+            compare_states(trace, expected, object)
+        }
+        (Question::Composition(_), Expected::Composition(expected)) => {
+            compare_compositions(expected, object)
+        }
+        (Question::Line(Damaged { damage, .. }), Expected::Line(Some(expected))) => {
+            Ok(compare_errors(damage.name(), expected, object))
+        }
+        // `expect` answers in kind; a line that was made smaller may have become a record.
+        (_, _) => Ok(None),
+    }
+}
+
+fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
+    let (report, said) = match (exact, said) {
+        (Err(_), Said::Error) => return None,
+        (Err(problem), Said::Verdict(said)) => {
+            let said = said.map_or("safe", |failed| name(Some(failed)));
+            let place = format!("{} {said} instead of error", part(problem));
+            return Some(Differs::new(Breach::Input, place));
+        }
+        (Ok(report), Said::Error) => {
+            let instead = name(report.failed_stage);
+            return Some(Differs::new(Breach::Input, format!("error instead of {instead}")));
+        }
+        (Ok(report), Said::Verdict(said)) => (report, said),
+    };
+    let exact = report.failed_stage;
+    if said == exact {
+        return None;
+    }
+    let strict = check(cycle, Reading::Strict).ok().and_then(|report| report.failed_stage);
+    let (breach, place) = match stage_conforms(exact, strict, said).err()? {
+        Disagreement::UnsafeAccepted { exact } => {
+            let mut place = name(Some(exact)).to_owned();
+            if let FailedStage::Stage(stage) = exact
+                && let Outcome::Failed(witness) = &report.stages[index(stage)]
+            {
+                place = format!("{place} {}", names::rule(witness.rule));
+            } else if let Some(problem) = &report.input {
+                place = format!("{place} {}", part(problem));
+            }
+            (Breach::Soundness, place)
+        }
+        Disagreement::SafeRejected { implementation } => {
+            (Breach::Completeness, name(Some(implementation)).to_owned())
+        }
+        Disagreement::WrongStage { .. }
+        | Disagreement::WrongInput { .. }
+        | Disagreement::ModelUnordered { .. } => {
+            (Breach::Stage, format!("{} instead of {}", name(said), name(exact)))
+        }
+    };
+    Some(Differs { breach, place, said: Some(Said::Verdict(said)) })
+}
+
+/// Invalid input: whoever says where must say so rightly.
+fn compare_place(exact: &Answer, object: &Map<String, Value>) -> Option<Differs> {
+    let (key, problem) = match exact {
+        Err(problem) => ("error", problem),
+        Ok(report) => ("input", report.input.as_ref()?),
+    };
+    let wrong = names_another(object.get(key), &problem.field, problem.index);
+    wrong.then(|| Differs::new(Breach::Input, format!("{} at another place", part(problem))))
+}
+
+/// Whether a place is named in an answer, but not this one.
+fn names_another(given: Option<&Value>, field: &str, index: Option<usize>) -> bool {
+    let named = given.and_then(|given| given.get("field"));
+    let at = given.and_then(|given| given.get("index")).unwrap_or(&Value::Null);
+    named.is_some_and(|named| *named != field || *at != Value::from(index))
+}
+
+/// Place of a stage in a report.
+pub fn index(stage: Stage) -> usize {
+    Stage::ALL.iter().position(|it| *it == stage).unwrap_or(0)
+}
+
+/// The input that a problem is in: the first word of its path.
+fn part(problem: &InvalidInput) -> &str {
+    problem.field.split('.').next().unwrap_or(&problem.field)
+}
+
+/// Whether the model with this margin could fail at this stage: it lies between the strict and
+/// the lax reading.
+pub fn is_within(cycle: &Cycle, said: Said, margin_m: f64) -> bool {
+    let Said::Verdict(said) = said else { return false };
+    let mut cycle = cycle.clone();
+    cycle.parameters.delta = margin_m;
+    let at = |reading| check(&cycle, reading).map(|report| rank(report.failed_stage));
+    match (at(Reading::Strict), at(Reading::Lax)) {
+        (Ok(strict), Ok(lax)) => (strict..=lax).contains(&rank(said)),
+        (Err(_), _) | (_, Err(_)) => false,
+    }
+}
+
+fn compare_states(
+    trace: &Trace,
+    expected: &OffloadingAnswer,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    if answer::is_error(object) {
+        return Ok(Some(Differs::new(Breach::States, "error")));
+    }
+    let states = answer::list(object, "states")?;
+    for ((event, expected), state) in trace.events.iter().zip(&expected.states).zip(states) {
+        // The states are plain data: they always become JSON.
+        let expected = serde_json::to_value(expected).unwrap_or_default();
+        for key in ["mot", "plan", "hold_until_ns", "actions"] {
+            if state.get(key) != expected.get(key) {
+                let place = format!("{key} after {}", event_type(event));
+                return Ok(Some(Differs::new(Breach::States, place)));
+            }
+        }
+    }
+    let same = states.len() == expected.states.len();
+    Ok((!same).then(|| Differs::new(Breach::States, "number of states")))
+}
+
+fn compare_compositions(
+    expected: &Result<CompositionAnswer, InvalidInput>,
+    object: &Map<String, Value>,
+) -> Result<Option<Differs>, Broken> {
+    let differs = |place| Ok(Some(Differs::new(Breach::Compositions, place)));
+    let expected = match (expected, answer::is_error(object)) {
+        (Err(problem), true) => {
+            let wrong = names_another(object.get("error"), &problem.field, problem.index);
+            return if wrong { differs("error at another place") } else { Ok(None) };
+        }
+        (Err(_), false) => return differs("invalid input taken for valid"),
+        (Ok(_), true) => return differs("error"),
+        (Ok(expected), false) => serde_json::to_value(expected).unwrap_or_default(),
+    };
+    let found = answer::list(object, "compositions")?;
+    let wanted = expected.get("compositions").and_then(Value::as_array);
+    let wanted = wanted.map_or(&[][..], Vec::as_slice);
+    if found.iter().any(|it| !wanted.contains(it)) {
+        return differs("one that is none, or in another form");
+    }
+    if wanted.iter().any(|it| !found.contains(it)) {
+        return differs("one is missing");
+    }
+    if found != wanted {
+        return differs("order or repetition");
+    }
+    if object.get("none").unwrap_or(&Value::Null) != expected.get("none").unwrap_or(&Value::Null) {
+        return differs("none");
+    }
+    Ok(None)
+}
+
+/// A line that is no record must be an error; whoever says where must say so rightly.
+fn compare_errors(
+    wrong: &str,
+    expected: &LineError,
+    object: &Map<String, Value>,
+) -> Option<Differs> {
+    if !answer::is_error(object) {
+        return Some(Differs::new(Breach::Schema, wrong));
+    }
+    names_another(object.get("error"), &expected.field, expected.index)
+        .then(|| Differs::new(Breach::Schema, format!("{wrong} at another place")))
+}

@@ -1,0 +1,219 @@
+//! A disagreement in words: what the program answered, what is right, and the two numbers that
+//! decide.
+
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::report::{FailedStage, Outcome, Reading, Report};
+use mufasa_model::stages::check;
+use mufasa_props::conformance::{Answer, name};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::answer::{self, Said};
+use super::class::Breach;
+use super::examine::{Examined, Expected, index, is_within};
+use super::question::{Question, event_type};
+use super::subject::Broken;
+use mufasa_drives::check::words;
+use mufasa_records::answer::decimal;
+use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::{Trace, names};
+
+/// Margins that are tried, m: those of the domain of `delta`.
+const MARGINS_M: [f64; 7] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+/// Most characters of an expected answer that are shown.
+const MOST: usize = 600;
+
+/// The line that came back, or what came instead.
+type Answered = Result<Vec<u8>, Broken>;
+
+/// What is told of a disagreement.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Told {
+    /// What came back.
+    pub answered: String,
+    /// What the exact model says.
+    pub expected: String,
+    /// What decides.
+    pub numbers: Option<Numbers>,
+}
+
+/// The two numbers that decide, as the model compares them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Numbers {
+    /// The comparison in words.
+    pub what: String,
+    /// Its left side.
+    pub left: String,
+    /// Its right side.
+    pub right: String,
+    /// How far they are apart.
+    pub margin: String,
+}
+
+/// A disagreement in words.
+pub fn explain(question: &Question, examined: &Examined) -> Told {
+    let answered = match &examined.answered {
+        Ok(line) => answer::in_short(line),
+        Err(broken) => broken.words.clone(),
+    };
+    let breach = examined.class.as_ref().map(|class| class.breach);
+    match (question, &examined.expected) {
+        (Question::Cycle(cycle), Expected::Cycle(exact)) => {
+            let broken = breach.is_none_or(Breach::is_broken);
+            let numbers = if broken { None } else { decide(cycle, exact, &examined.answered) };
+            Told { answered, expected: verdict(exact, &examined.answered), numbers }
+        }
+        (Question::Offloading(trace), Expected::Offloading(expected)) => {
+            match first_difference(trace, expected, &examined.answered) {
+                Some((expected, numbers)) => Told { answered, expected, numbers: Some(numbers) },
+                None => Told { answered, expected: shown(expected), numbers: None },
+            }
+        }
+        (_, Expected::Composition(Ok(expected))) => {
+            Told { answered, expected: shown(expected), numbers: None }
+        }
+        (_, Expected::Composition(Err(problem))) => {
+            let expected = format!("error: {}", words::invalid(problem));
+            Told { answered, expected, numbers: None }
+        }
+        (_, Expected::Line(Some(error))) => {
+            let place = match error.index {
+                Some(index) => format!("field {:?}, index {index}", error.field),
+                None => format!("field {:?}", error.field),
+            };
+            let expected = format!("error: {place}: {}", error.message);
+            Told { answered, expected, numbers: None }
+        }
+        // `expect` answers in kind.
+        (_, _) => Told { answered, expected: String::new(), numbers: None },
+    }
+}
+
+/// The program's verdict, if it gave one.
+fn answer_of(answered: &Answered) -> Option<Said> {
+    let object = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
+    answer::said(&object).ok()
+}
+
+/// The stage at which the program fails, if it does.
+fn said(answered: &Answered) -> Option<FailedStage> {
+    match answer_of(answered)? {
+        Said::Verdict(failed) => failed,
+        Said::Error => None,
+    }
+}
+
+/// The exact answer, and what became of the stage at which the program fails.
+fn verdict(exact: &Answer, answered: &Answered) -> String {
+    let text = match exact {
+        Ok(report) if report.failed_stage.is_some() => format!("unsafe: {}", words::answer(exact)),
+        Ok(_) => String::from("safe"),
+        Err(_) => format!("error: {}", words::answer(exact)),
+    };
+    match (exact, said(answered)) {
+        (Ok(report), Some(FailedStage::Stage(stage)))
+            if report.failed_stage != Some(FailedStage::Stage(stage)) =>
+        {
+            let outcome = match &report.stages[index(stage)] {
+                Outcome::Passed => String::from("passed"),
+                Outcome::Failed(_) => String::from("failed"),
+                Outcome::Skipped(reason) => format!("skipped ({})", names::reason(*reason)),
+                Outcome::NotApplicable(input) => {
+                    format!("not applicable (no current {})", names::input(*input))
+                }
+                Outcome::NotScheduled => String::from("not scheduled"),
+            };
+            format!("{text}; stage {} {outcome}", names::stage(stage))
+        }
+        (_, _) => text,
+    }
+}
+
+/// The numbers of the exact model's witness; where it passes, those of the comparison that a
+/// growing margin first makes fail.
+fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers> {
+    let report = exact.as_ref().ok()?;
+    if let Some(witness) = words::failed_witness(report) {
+        let [left, right] = witness.compared;
+        // A witness compares two numbers of several: the centres, not the sides, of rectangles.
+        let near = answer_of(answered)
+            .and_then(|said| MARGINS_M.into_iter().find(|it| is_within(cycle, said, *it)));
+        let margin = match near {
+            Some(near) => format!("at most {near}: with it the model could answer the same"),
+            None => decimal((left - right).abs()),
+        };
+        return Some(Numbers {
+            what: words::witness(witness),
+            left: decimal(left),
+            right: decimal(right),
+            margin,
+        });
+    }
+    let stage = said(answered)?;
+    for margin in MARGINS_M {
+        if let Some(numbers) = strictly(cycle, margin, stage) {
+            return Some(numbers);
+        }
+    }
+    None
+}
+
+/// The comparison that fails at a stage with this margin.
+fn strictly(cycle: &Cycle, margin_m: f64, stage: FailedStage) -> Option<Numbers> {
+    let mut cycle = cycle.clone();
+    cycle.parameters.delta = margin_m;
+    let report: Report = check(&cycle, Reading::Strict).ok()?;
+    if report.failed_stage != Some(stage) {
+        return None;
+    }
+    let witness = words::failed_witness(&report)?;
+    let [left, right] = witness.compared;
+    Some(Numbers {
+        what: format!(
+            "passes; with a margin of {margin_m} m it would fail at {}: {}",
+            name(Some(stage)),
+            words::witness(witness)
+        ),
+        left: decimal(left),
+        right: decimal(right),
+        margin: format!("at most {margin_m}"),
+    })
+}
+
+/// The first state that differs: what it must be, and both values.
+fn first_difference(
+    trace: &Trace,
+    expected: &OffloadingAnswer,
+    answered: &Answered,
+) -> Option<(String, Numbers)> {
+    let object: Value = serde_json::from_slice(answered.as_ref().ok()?).ok()?;
+    let states = object.get("states")?.as_array()?;
+    for (at, (event, state)) in trace.events.iter().zip(&expected.states).enumerate() {
+        let wanted = serde_json::to_value(state).ok()?;
+        for key in ["mot", "plan", "hold_until_ns", "actions"] {
+            let found = states.get(at).and_then(|state| state.get(key));
+            if found != wanted.get(key) {
+                let text = |value: Option<&Value>| {
+                    value.map_or_else(|| String::from("missing"), ToString::to_string)
+                };
+                let what = format!("{key} after event {at} ({})", event_type(event));
+                let (left, right) = (text(found), text(wanted.get(key)));
+                let expected = format!("{what} must be {right}, is {left}");
+                let apart = |left: Option<&Value>, right: Option<&Value>| {
+                    Some((i128::from(left?.as_i64()?) - i128::from(right?.as_i64()?)).abs())
+                };
+                let margin =
+                    apart(found, wanted.get(key)).map_or_else(String::new, |it| it.to_string());
+                return Some((expected, Numbers { what, left, right, margin }));
+            }
+        }
+    }
+    None
+}
+
+fn shown(answer: &impl Serialize) -> String {
+    let text = serde_json::to_string(answer).unwrap_or_default();
+    let short: String = text.chars().take(MOST).collect();
+    if short.len() < text.len() { short + "..." } else { short }
+}

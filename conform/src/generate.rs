@@ -1,0 +1,145 @@
+//! Generated cases: the strategies of `props`, each case from a tape of its own, so that a case
+//! is the same whatever the shard.
+
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_props::strategy::draw::{Draw, long_tape, tape};
+use mufasa_props::strategy::{composition, input, requester, schedule, whole};
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+use super::class::Kind;
+use super::damage::{Damage, Damaged};
+use super::question::Question;
+use mufasa_records::Trace;
+
+/// Where the cases of a campaign come from.
+#[derive(Clone, Debug)]
+pub struct Generator {
+    /// Seed of the campaign.
+    pub seed: u64,
+    /// Profile of cycles and traces.
+    pub profile: Profile,
+    /// Kinds of records, without repetition, at least one.
+    pub kinds: Vec<Kind>,
+}
+
+impl Generator {
+    /// Case number `case`.
+    pub fn question(&self, case: u64) -> Question {
+        self.read(self.kind(case), &self.tape(case))
+    }
+
+    /// The kind of a case: with all four, eight of eleven are cycles.
+    pub fn kind(&self, case: u64) -> Kind {
+        let weight = |kind: &Kind| match kind {
+            Kind::Cycle => 8,
+            Kind::Offloading | Kind::Composition | Kind::Line => 1,
+        };
+        let total: u64 = self.kinds.iter().map(weight).sum();
+        let mut drawn = mix(self.seed ^ mix(case)) % total.max(1);
+        for kind in &self.kinds {
+            if drawn < weight(kind) {
+                return *kind;
+            }
+            drawn -= weight(kind);
+        }
+        Kind::Cycle
+    }
+
+    /// The tape of a case.
+    pub fn tape(&self, case: u64) -> Vec<u32> {
+        let mut bytes = [0; 32];
+        bytes[..8].copy_from_slice(&self.seed.to_le_bytes());
+        bytes[8..16].copy_from_slice(&case.to_le_bytes());
+        let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+        let config = Config { failure_persistence: None, ..Config::default() };
+        let mut runner = TestRunner::new_with_rng(config, rng);
+        let drawn = match self.kind(case) {
+            Kind::Cycle | Kind::Composition | Kind::Line => {
+                tape().new_tree(&mut runner).map(|t| t.current())
+            }
+            Kind::Offloading => long_tape().new_tree(&mut runner).map(|t| t.current()),
+        };
+        // Vectors of any numbers reject nothing; an empty tape is the simplest case.
+        drawn.unwrap_or_default()
+    }
+
+    /// What a tape says.
+    pub fn read(&self, kind: Kind, tape: &[u32]) -> Question {
+        match kind {
+            Kind::Cycle => Question::Cycle(Box::new(cycle(&mut Draw::new(tape), self.profile))),
+            Kind::Offloading => {
+                // The first choice of a trace is its profile.
+                let first = match self.profile {
+                    Profile::Hardened => 0,
+                    Profile::Paper => u32::MAX,
+                };
+                let mut tape = tape.to_vec();
+                tape.iter_mut().take(1).for_each(|choice| *choice = first);
+                if tape.is_empty() {
+                    tape.push(first);
+                }
+                let requester::Trace { profile, parameters, events, near: _ } =
+                    requester::trace(&mut Draw::new(&tape));
+                Question::Offloading(Trace { profile, parameters, events })
+            }
+            Kind::Composition => Question::Composition(composition::task(&mut Draw::new(tape))),
+            Kind::Line => {
+                let mut draw = Draw::new(tape);
+                let damage = draw.pick(&Damage::ALL);
+                let at = draw.below(1 << 20);
+                // Records that the program is asked about anyhow.
+                let mut records = self.kinds.clone();
+                records.retain(|kind| *kind != Kind::Line);
+                let records = if records.is_empty() { &Kind::RECORDS[..] } else { &records };
+                let record = draw.pick(records);
+                let rest = tape.get(3..).unwrap_or_default();
+                Question::Line(Damaged::new(self.read(record, rest), damage, at))
+            }
+        }
+    }
+}
+
+/// A cycle at the threshold of a stage, of the schedule, or of what is valid.
+fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    match draw.below(10) {
+        0..=7 => whole::cycle(draw, profile),
+        8 => schedule::cycle(draw, profile),
+        _ => input::cycle(draw, profile),
+    }
+}
+
+/// Splitmix64: neighbours become unlike.
+pub fn mix(value: u64) -> u64 {
+    let mut z = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_is_the_same_each_time_and_another_with_another_seed() {
+        let generator =
+            |seed| Generator { seed, profile: Profile::Hardened, kinds: Kind::ALL.into() };
+        for case in 0..50 {
+            let line = |seed| generator(seed).question(case).line("x");
+            assert_eq!(line(1), line(1));
+            assert_ne!(line(1), line(2), "case {case}");
+        }
+    }
+
+    #[test]
+    fn traces_have_the_profile_asked_for() {
+        for profile in [Profile::Paper, Profile::Hardened] {
+            let generator = Generator { seed: 0, profile, kinds: vec![Kind::Offloading] };
+            for case in 0..20 {
+                let Question::Offloading(trace) = generator.question(case) else { panic!() };
+                assert_eq!(trace.profile, profile);
+            }
+        }
+    }
+}

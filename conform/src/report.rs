@@ -1,0 +1,155 @@
+//! What is printed, and the files that are kept.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::class::Kind;
+use super::error::ConformError;
+use super::junit;
+use super::summary::{Campaign, Found, Group, Summary};
+use mufasa_records::files;
+
+/// Longest record that is printed; the file has all.
+const MOST: usize = 4000;
+
+/// Prints a class with its smallest case.
+pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
+    let Found { class, name, told, shrunk, size, unit, record, .. } = found;
+    writeln!(out, "\nDISAGREES  {class}")?;
+    writeln!(out, "  program  {}", told.answered)?;
+    writeln!(out, "  exact    {}", told.expected)?;
+    if let Some(numbers) = &told.numbers {
+        writeln!(out, "  decides  {}", numbers.what)?;
+        write!(out, "           {} against {}", numbers.left, numbers.right)?;
+        if !numbers.margin.is_empty() {
+            write!(out, ", margin {}", numbers.margin)?;
+        }
+        writeln!(out)?;
+    }
+    let how = if *shrunk { "shrunk from case" } else { "does not occur when asked alone; case" };
+    let plural = if *size == 1 { "" } else { "s" };
+    writeln!(out, "  size     {size} {unit}{plural}, {how} {name}")?;
+    let text = record.get();
+    if text.len() <= MOST {
+        writeln!(out, "  record   {text}")
+    } else {
+        writeln!(out, "  record   {} bytes, see the file", text.len())
+    }
+}
+
+/// Prints what was asked, the classes with their counts, and one sentence.
+pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "\n{}", coverage(&summary.groups))?;
+    for found in &summary.classes {
+        let Found { class, count, size, unit, .. } = found;
+        let plural = if *size == 1 { "" } else { "s" };
+        writeln!(out, "{count:>8} x  {class} (smallest: {size} {unit}{plural})")?;
+    }
+    for kind in &summary.given_up {
+        let name = kind.name();
+        writeln!(out, "given up: {name} records, after too many restarts of the program")?;
+    }
+    let Campaign { cases, of, .. } = &summary.campaign;
+    write!(out, "{} of {cases} cases asked", summary.asked)?;
+    if *of > 1 {
+        write!(out, " ({} of {of} shards)", summary.shards.len())?;
+    }
+    if summary.skipped > 0 {
+        write!(out, ", {} left out", summary.skipped)?;
+    }
+    if summary.late > 0 {
+        let limit = summary.campaign.time_limit_ms;
+        write!(out, ", {} answered only when asked again, not within {limit} ms", summary.late)?;
+    }
+    if summary.tolerated > 0 {
+        write!(out, ", {} agree within the tolerance only", summary.tolerated)?;
+    }
+    match (summary.disagreements(), summary.asked) {
+        (_, 0) => writeln!(out, ": nothing was compared"),
+        (0, _) => writeln!(out, ": the program conforms in all of them"),
+        (count, _) => {
+            let classes = summary.classes.len();
+            let plural = if classes == 1 { "" } else { "es" };
+            writeln!(out, ": {count} DISAGREE, in {classes} class{plural}")
+        }
+    }
+}
+
+/// Cases by kind, profile and expected verdict, on one line each.
+fn coverage(groups: &[Group]) -> String {
+    let mut text = String::new();
+    for kind in Kind::ALL {
+        let of_kind = groups.iter().filter(|group| group.kind == kind);
+        let mut by_verdict: Vec<(&str, u64)> = Vec::new();
+        for group in of_kind {
+            match by_verdict.iter_mut().find(|(verdict, _)| *verdict == group.expected) {
+                Some((_, cases)) => *cases += group.cases,
+                None => by_verdict.push((&group.expected, group.cases)),
+            }
+        }
+        let total: u64 = by_verdict.iter().map(|(_, cases)| cases).sum();
+        if total == 0 {
+            continue;
+        }
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{:<12} {total:>7} cases", kind.name());
+        for (verdict, cases) in by_verdict.into_iter().filter(|(verdict, _)| !verdict.is_empty()) {
+            let _ = write!(text, ", {cases} {verdict}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The files of a campaign or shard in a folder.
+#[derive(Clone, Debug)]
+pub struct Files {
+    /// JSON.
+    pub summary: PathBuf,
+    /// For build servers.
+    pub junit: PathBuf,
+    /// The shrunk records, JSON Lines.
+    pub reproducers: PathBuf,
+}
+
+impl Files {
+    /// Prepares the folder and removes what an earlier run left under the same names, so that
+    /// nothing there looks like a result of this one before it is.
+    /// Errors: the folder cannot be written to.
+    pub fn prepare(folder: &Path, shard: Option<(u64, u64)>) -> Result<Self, ConformError> {
+        let denied = |error| ConformError::file(folder, format!("cannot be written to: {error}"));
+        files::prepare(folder).map_err(denied)?;
+        let part = shard.map_or(String::new(), |(at, of)| format!(".{at}-of-{of}"));
+        let these = Self {
+            summary: folder.join(format!("summary{part}.json")),
+            junit: folder.join(format!("junit{part}.xml")),
+            reproducers: folder.join(format!("reproducers{part}.jsonl")),
+        };
+        for file in [&these.summary, &these.junit, &these.reproducers] {
+            match fs::remove_file(file) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(denied(error)),
+                Ok(()) | Err(_) => {}
+            }
+        }
+        Ok(these)
+    }
+
+    /// Writes the files, the summary last. Errors: one cannot be written.
+    pub fn write(&self, summary: &Summary) -> Result<(), ConformError> {
+        let lines: String = summary.classes.iter().map(|found| found.line() + "\n").collect();
+        let json = serde_json::to_string_pretty(summary)
+            .map_err(|error| ConformError::file(&self.summary, error))?;
+        let all = [
+            (&self.reproducers, lines),
+            (&self.junit, junit::xml(summary)),
+            (&self.summary, json + "\n"),
+        ];
+        for (path, content) in all {
+            files::write(path, &content)
+                .map_err(|error| ConformError::file(path, format!("cannot be written: {error}")))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,72 @@
+//! Whom a vector binds (`spec/5-interfaces.md#vectors`).
+
+use std::fmt;
+
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::report::{FailedStage, Reading};
+use mufasa_model::stages::check;
+
+use mufasa_records::Trace;
+use mufasa_records::offloading_answer::OffloadingAnswer;
+
+/// Whom a vector binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flag {
+    /// Every conforming implementation: both profiles answer alike.
+    Must,
+    /// The paper profile; the hardened one answers otherwise.
+    PaperOnly,
+    /// The hardened profile; the paper's answers otherwise.
+    HardenedOnly,
+    /// Who reads the paper as this interpretation says.
+    Interpretation(&'static str),
+}
+
+impl fmt::Display for Flag {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Must => out.write_str("must"),
+            Self::PaperOnly => out.write_str("paper-only"),
+            Self::HardenedOnly => out.write_str("hardened-only"),
+            Self::Interpretation(name) => write!(out, "interpretation {name}"),
+        }
+    }
+}
+
+/// The flag of a record that has no profile, or is answered before the profile matters.
+pub const ALIKE: Flag = Flag::Must;
+
+/// The flag of a cycle: whether the other profile has another verdict or failed stage, in the
+/// exact or in the strict model.
+pub fn of_cycle(cycle: &Cycle) -> Flag {
+    let other = Cycle { profile: other(cycle.profile), ..cycle.clone() };
+    if verdicts(cycle) == verdicts(&other) { Flag::Must } else { only(cycle.profile) }
+}
+
+/// The flag of a trace: whether the other profile has another state or action anywhere.
+pub fn of_trace(trace: &Trace) -> Flag {
+    let other = Trace { profile: other(trace.profile), ..trace.clone() };
+    let run = |trace| OffloadingAnswer::run(String::new(), trace);
+    if run(trace) == run(&other) { Flag::Must } else { only(trace.profile) }
+}
+
+/// The other profile.
+pub const fn other(profile: Profile) -> Profile {
+    match profile {
+        Profile::Paper => Profile::Hardened,
+        Profile::Hardened => Profile::Paper,
+    }
+}
+
+const fn only(profile: Profile) -> Flag {
+    match profile {
+        Profile::Paper => Flag::PaperOnly,
+        Profile::Hardened => Flag::HardenedOnly,
+    }
+}
+
+/// Failed stages of the exact and the strict model; `Err` is invalid local input.
+fn verdicts(cycle: &Cycle) -> [Result<Option<FailedStage>, ()>; 2] {
+    [Reading::Exact, Reading::Strict]
+        .map(|reading| check(cycle, reading).map(|report| report.failed_stage).map_err(|_| ()))
+}

@@ -1,0 +1,78 @@
+//! Vectors: lines with the answers that they must get, for other implementations
+//! (`spec/5-interfaces.md#vectors`).
+
+pub mod base;
+pub mod book;
+pub mod edge;
+pub mod expected;
+pub mod flag;
+pub mod record;
+pub mod story;
+
+mod findings;
+mod hardened;
+mod interpretations;
+mod lines;
+mod offloading;
+mod random;
+mod services;
+mod stages;
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::io;
+use std::path::Path;
+
+use book::{Book, Refused, Vector};
+
+use mufasa_records::files;
+
+/// What people of other languages read first.
+const README: &str = include_str!("readme.md");
+
+/// All vectors by file, such as `stages/schedule`, or everything that is wrong with them: a vector
+/// on which its author and the model differ is refused.
+pub fn all() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
+    let mut book = Book::default();
+    services::add(&mut book);
+    offloading::add(&mut book);
+    stages::add(&mut book);
+    hardened::add(&mut book);
+    findings::add(&mut book);
+    interpretations::add(&mut book);
+    lines::add(&mut book);
+    random::add(&mut book);
+    book.finish()
+}
+
+/// Every file with its content: vectors, schemas, and a README.
+pub fn contents() -> Result<BTreeMap<String, String>, Vec<Refused>> {
+    let mut contents = BTreeMap::from([(String::from("README.md"), README.to_owned())]);
+    for (file, vectors) in all()? {
+        let mut lines = String::new();
+        for vector in vectors {
+            // Writing to a string cannot fail but for what the vector itself reports.
+            writeln!(lines, "{vector}").map_err(|error| {
+                vec![Refused { id: vector.id.clone(), problem: error.to_string() }]
+            })?;
+        }
+        contents.insert(format!("{file}.jsonl"), lines);
+    }
+    for (name, schema) in mufasa_records::schema::all() {
+        contents
+            .insert(format!("schemas/{name}.schema.json"), mufasa_records::schema::text(&schema));
+    }
+    Ok(contents)
+}
+
+/// Writes the files into a folder; other files there stay.
+pub fn write(folder: &Path, contents: &BTreeMap<String, String>) -> io::Result<()> {
+    for (name, content) in contents {
+        let file = folder.join(name);
+        if let Some(parent) = file.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        files::write(&file, content)?;
+    }
+    Ok(())
+}

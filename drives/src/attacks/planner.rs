@@ -1,0 +1,137 @@
+//! A planner in the hands of an attacker: it knows the route and the CAV, and no object.
+
+use mufasa_model::input::cycle::{Cycle, Ego, Track, TrajectoryPoint};
+
+use crate::scene::geometry::Rectangle;
+use crate::scene::geometry::{Point, Polyline, add, direction, distance, scale, sub};
+use crate::scene::lead::{Cav, lead};
+use crate::scene::object::Seen;
+
+/// Points of a trajectory, and the time between them, s and ns.
+const POINTS: u32 = 50;
+const STEP_S: f64 = 0.1;
+const STEP_NS: i64 = 100_000_000;
+/// The planner speeds up with this, m/s^2, until it drives at least so fast, m/s.
+const PULL: f64 = 2.0;
+const CRUISE: f64 = 8.0;
+/// A wrong lane is reached after this way, m, or this time, s.
+const ASIDE: [f64; 2] = [15.0, 2.0];
+/// Ghosts: ahead along the path and to the left, m; ids count down from the first.
+const GHOSTS: [(i64, Point); 3] = [(-1, [15.0, 0.0]), (-2, [10.0, 4.0]), (-3, [20.0, -4.0])];
+/// How far a lead is measured, m.
+const LEAD_RANGE: f64 = 80.0;
+
+/// The planner at one instant.
+pub(crate) struct Planner {
+    path: Polyline,
+    /// Width of the corridor where the CAV is, m.
+    pub(crate) width: f64,
+    /// Place and offset of the CAV on the path, m, and its speed, m/s.
+    s: f64,
+    lateral: f64,
+    speed: f64,
+}
+
+impl Planner {
+    pub(crate) fn new(cycle: &Cycle) -> Self {
+        let mut points: Vec<Point> = cycle.route.stations.iter().map(|s| [s.x, s.y]).collect();
+        if cycle.route.closed {
+            points.extend(points.first().copied());
+        }
+        let path = Polyline::new(points);
+        let foot = path.project([cycle.ego.x, cycle.ego.y]);
+        let width = foot.map_or(3.5, |f| {
+            let station = &cycle.route.stations[path.locate(f.s).0];
+            distance(station.left, station.right)
+        });
+        let (s, lateral) = foot.map_or((0.0, 0.0), |f| (f.s, f.lateral));
+        Self { path, width, s, lateral, speed: cycle.ego.speed }
+    }
+
+    /// Way made good and speed after a time.
+    fn after(&self, time_s: f64) -> (f64, f64) {
+        let pull_s = ((CRUISE - self.speed) / PULL).clamp(0.0, time_s.max(0.0));
+        let fast = self.speed + PULL * pull_s;
+        (self.speed.midpoint(fast) * pull_s + fast * (time_s - pull_s), fast)
+    }
+
+    /// The place `lateral` left of the path at arc length `s`; beyond its ends it goes straight
+    /// on. `None` when there is no path.
+    fn place(&self, s: f64, lateral: f64) -> Option<Point> {
+        if self.path.points.len() < 2 {
+            return None;
+        }
+        let (i, _) = self.path.locate(s);
+        let (a, b) = (self.path.points[i], self.path.points[i + 1]);
+        let length = distance(a, b);
+        if length <= 0.0 {
+            return None;
+        }
+        let along = scale(sub(b, a), 1.0 / length);
+        let foot = add(a, scale(along, s - self.path.arc[i]));
+        Some(add(foot, scale([-along[1], along[0]], lateral)))
+    }
+
+    /// A new trajectory from the CAV along the path, at its speed or faster, or backwards; ending
+    /// `aside` to the left of where it would.
+    pub(crate) fn replan(&self, cycle: &mut Cycle, backwards: bool, aside: f64) {
+        let now_ns = cycle.now_ns;
+        let Ego { x, y, cos, sin, speed, .. } = cycle.ego;
+        let ramp = ASIDE[0].max(ASIDE[1] * speed);
+        let mut points = vec![TrajectoryPoint { t_ns: now_ns, x, y, cos, sin }];
+        for k in 1..=POINTS {
+            let (driven, _) = self.after(f64::from(k) * STEP_S);
+            let u = (driven / ramp).min(1.0);
+            let lateral = self.lateral + aside * u * u * (3.0 - 2.0 * u);
+            let made = if backwards { -driven } else { driven };
+            let Some([x, y]) = self.place(self.s + made, lateral) else { return };
+            // The heading is that of the step, or of its reverse when driving backwards.
+            let last = &points[points.len() - 1];
+            let step = if backwards { [last.x - x, last.y - y] } else { [x - last.x, y - last.y] };
+            let still = step[0].hypot(step[1]) < 1e-6;
+            let [cos, sin] =
+                if still { [last.cos, last.sin] } else { direction(step[1].atan2(step[0])) };
+            let t_ns = now_ns.saturating_add(i64::from(k) * STEP_NS);
+            points.push(TrajectoryPoint { t_ns, x, y, cos, sin });
+        }
+        if let Some(trajectory) = &mut cycle.trajectory {
+            trajectory.points = points;
+        }
+    }
+
+    /// Moves the CAV to where it is `time_s` after this instant if it drives as planned, and
+    /// measures its lead anew, from the true objects.
+    pub(crate) fn execute(&self, cycle: &mut Cycle, time_s: f64, objects: &[Track]) {
+        let (driven, speed) = self.after(time_s);
+        let (here, next) = (self.s + driven, self.s + driven + 0.5);
+        let places = [self.place(here, self.lateral), self.place(next, self.lateral)];
+        let [Some([x, y]), Some(ahead)] = places else { return };
+        if driven > 0.0 {
+            let way = sub(ahead, [x, y]);
+            let [cos, sin] = direction(way[1].atan2(way[0]));
+            cycle.ego = Ego { x, y, cos, sin, speed, ..cycle.ego };
+        }
+        let seen: Vec<Seen> = objects.iter().map(seen).collect();
+        let cav = Cav { position: [x, y], length: cycle.ego.length, width: cycle.ego.width };
+        let stamp_ns = cycle.lead.as_ref().map_or(cycle.now_ns, |l| l.stamp_ns);
+        cycle.lead = lead(&cycle.route, stamp_ns, &cav, &seen, LEAD_RANGE);
+    }
+
+    /// Standing cars where there are none.
+    pub(crate) fn ghosts(&self, ego: &Ego) -> Vec<Track> {
+        let ghost = |(id, [ahead, left]): (i64, Point)| {
+            let place = self.place(self.s + ahead, left);
+            let [x, y] = place.unwrap_or([ego.x + ahead, ego.y + left]);
+            let (cos, sin) = (ego.cos, ego.sin);
+            Track { id, x, y, cos, sin, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
+        };
+        GHOSTS.map(ghost).to_vec()
+    }
+}
+
+fn seen(track: &Track) -> Seen {
+    let center = [track.x, track.y];
+    let heading = track.sin.atan2(track.cos);
+    let shape = Rectangle { center, heading, length: track.length, width: track.width };
+    Seen { id: track.id, shape, velocity: [track.vx, track.vy] }
+}

@@ -1,0 +1,248 @@
+//! Drives checked by the model and the implementation side by side.
+
+pub mod course;
+pub mod fallback;
+pub mod judge;
+pub mod pictures;
+pub mod records;
+pub mod report;
+pub mod sides;
+pub mod table;
+pub mod tally;
+pub mod words;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mufasa_model::offloading::requester::Parameters;
+
+use self::course::Checked;
+use self::judge::in_order;
+use self::tally::Tally;
+use crate::{Drive, ReadError};
+
+/// Errors of single cycles that are written out per drive.
+const ERRORS: usize = 10;
+
+/// What a check writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// A report of every drive, and the table over all drives when there are several.
+    Text,
+    /// The table over all drives.
+    Summary,
+    /// JSON Lines.
+    Json,
+}
+
+/// How drives are checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Parameters of the requester.
+    pub requester: Parameters,
+    /// What is written.
+    pub format: Format,
+    /// Where the pictures go, if anywhere; the folder must exist.
+    pub pictures: Option<PathBuf>,
+}
+
+/// What a run found.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Findings {
+    /// Drives checked.
+    pub drives: usize,
+    /// Drives that could not be read, or pictures that could not be written.
+    pub unreadable: usize,
+    /// The model's counts over all drives.
+    pub tally: Tally,
+    /// Breaches of conformance.
+    pub disagreements: usize,
+    /// Fallbacks that the model's requester started.
+    pub fallbacks: usize,
+    /// Pictures written.
+    pub pictures: Vec<PathBuf>,
+}
+
+impl Findings {
+    /// 0 all safe, 1 some cycle unsafe, 2 bad input, 3 model and implementation disagree; the
+    /// highest that applies.
+    pub fn exit_code(&self) -> u8 {
+        if self.disagreements > 0 {
+            3
+        } else if self.unreadable > 0 || self.tally.errors > 0 {
+            2
+        } else {
+            u8::from(self.tally.unsafe_cycles() > 0)
+        }
+    }
+
+    /// Adds what was found on a drive.
+    pub fn add(&mut self, checked: &Checked) {
+        self.drives += 1;
+        self.tally.merge(&checked.tallies()[0]);
+        self.disagreements += checked.disagreements();
+        self.fallbacks += checked.courses[0].fallbacks();
+    }
+
+    /// One sentence over the run.
+    pub fn summary(&self) -> String {
+        let Self { drives, unreadable, tally, disagreements, fallbacks, pictures } = self;
+        let agreement = match disagreements {
+            // Of nothing there is nothing to agree on.
+            0 if tally.cycles == 0 => String::new(),
+            0 => "; model and implementation agree".to_owned(),
+            count => format!("; model and implementation DISAGREE {count} times"),
+        };
+        let mut text = format!(
+            "{}, {}: {} safe, {} unsafe, {}{agreement}",
+            counted(*drives, "drive"),
+            counted(tally.cycles, "cycle"),
+            tally.safe,
+            tally.unsafe_cycles(),
+            counted(*fallbacks, "fallback"),
+        );
+        for (count, what) in [
+            (tally.errors, "cycle with invalid local input"),
+            (*unreadable, "file that could not be read or written"),
+            (pictures.len(), "picture"),
+        ] {
+            if count > 0 {
+                text.push_str("; ");
+                text.push_str(&counted(count, what));
+            }
+        }
+        text
+    }
+}
+
+/// Checks the drives, several at a time, and writes in their order what is found to `out`, what
+/// is wrong with the input to `err`. Errors are those of writing to `out`.
+pub fn run(
+    drives: &[Result<Drive, ReadError>],
+    settings: &Settings,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<Findings> {
+    let mut findings = Findings::default();
+    let mut lines = Vec::new();
+    let progress = progress(drives.iter().flatten().map(|drive| drive.cycles.len()).sum());
+    let readings = settings.format == Format::Json;
+    let judge = |index: usize| {
+        let drive = drives[index].as_ref()?;
+        let done = || progress.inc(1);
+        Ok(Checked::new(drive.clone(), &settings.requester, readings, done))
+    };
+    in_order(drives.len(), judge, |checked: Result<Checked, &ReadError>| {
+        match checked {
+            Ok(checked) => {
+                note(&checked, settings, &mut findings, err);
+                progress.suspend(|| write_drive(out, settings.format, &checked))?;
+                lines.push(report::line(&checked));
+            }
+            Err(error) => {
+                findings.unreadable += 1;
+                complain(err, &error.to_string());
+            }
+        }
+        io::Result::Ok(())
+    })?;
+    progress.finish_and_clear();
+    match settings.format {
+        Format::Text if lines.len() > 1 => writeln!(out, "{}", table::by_drive(&lines))?,
+        Format::Summary if !lines.is_empty() => writeln!(out, "{}", table::by_drive(&lines))?,
+        Format::Text | Format::Summary => {}
+        Format::Json => {
+            writeln!(out, "{}", records::last(&findings)?)?;
+            return Ok(findings);
+        }
+    }
+    writeln!(out, "{}", findings.summary())?;
+    Ok(findings)
+}
+
+/// Adds a drive to the findings, names its errors and draws its pictures.
+fn note(checked: &Checked, settings: &Settings, findings: &mut Findings, err: &mut impl Write) {
+    let drive = &checked.drive;
+    findings.add(checked);
+    let errors = checked.judged.iter().zip(&drive.cycles).filter_map(|(judged, cycle)| {
+        judged.model.as_ref().err().map(|problem| (problem, &cycle.id))
+    });
+    for (problem, id) in errors.take(ERRORS) {
+        complain(err, &format!("{}: cycle {id}: {}", drive.source, words::invalid(problem)));
+    }
+    if let Some(folder) = &settings.pictures {
+        match pictures::write(folder, checked, |_| true) {
+            Ok(written) => findings.pictures.extend(written),
+            Err((file, error)) => {
+                findings.unreadable += 1;
+                complain(err, &format!("{}: cannot be written: {error}", file.display()));
+            }
+        }
+    }
+}
+
+fn write_drive(out: &mut impl Write, format: Format, checked: &Checked) -> io::Result<()> {
+    match format {
+        Format::Text => report::write(out, checked)?,
+        Format::Summary => {}
+        Format::Json => {
+            for line in records::lines(checked)? {
+                writeln!(out, "{line}")?;
+            }
+        }
+    }
+    out.flush()
+}
+
+/// Says what is wrong. A closed standard error is no reason to stop.
+pub fn complain(err: &mut impl Write, message: &str) {
+    let _ = writeln!(err, "mufasa: {message}");
+}
+
+/// A bar over so many cycles; nothing is drawn when standard error is no terminal.
+pub fn progress(cycles: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} cycles, {eta} left");
+    let bar = ProgressBar::new(u64::try_from(cycles).unwrap_or(u64::MAX));
+    match style {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
+/// `1 drive`, `2 drives`; of several words the first takes the s.
+pub fn counted(count: usize, what: &str) -> String {
+    match what.split_once(' ') {
+        _ if count == 1 => format!("1 {what}"),
+        Some((first, rest)) => format!("{count} {first}s {rest}"),
+        None => format!("{count} {what}s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_finding_decides_the_exit_code() {
+        let mut findings = Findings::default();
+        assert_eq!(findings.exit_code(), 0);
+        (findings.tally.cycles, findings.tally.safe) = (3, 2);
+        assert_eq!(findings.exit_code(), 1);
+        findings.unreadable = 1;
+        assert_eq!(findings.exit_code(), 2);
+        findings.unreadable = 0;
+        (findings.tally.errors, findings.tally.cycles) = (1, 4);
+        assert_eq!(findings.exit_code(), 2);
+        findings.disagreements = 1;
+        assert_eq!(findings.exit_code(), 3);
+    }
+
+    #[test]
+    fn the_summary_counts() {
+        let findings = Findings { drives: 1, unreadable: 2, ..Findings::default() };
+        let text = findings.summary();
+        assert!(text.starts_with("1 drive, 0 cycles: 0 safe, 0 unsafe, 0 fallbacks; "), "{text}");
+        assert!(text.ends_with("fallbacks; 2 files that could not be read or written"), "{text}");
+    }
+}

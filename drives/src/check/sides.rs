@@ -1,0 +1,64 @@
+//! The two requesters behind one face, in the model's types.
+
+use mufasa::offloading::requester as implementation;
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::{
+    Action, Event, Group, GroupState, Parameters, Requester,
+};
+use mufasa_props::bridge;
+
+/// A requester, the model's or the implementation's.
+pub trait Side {
+    /// Takes one event; `Err` is a complaint in words.
+    fn step(&mut self, event: &Event) -> Result<Vec<Action>, String>;
+    /// State of a group.
+    fn state(&self, group: Group) -> GroupState;
+    /// End of the waiting time.
+    fn hold_until_ns(&self) -> Option<i64>;
+}
+
+impl Side for Requester {
+    fn step(&mut self, event: &Event) -> Result<Vec<Action>, String> {
+        Ok(Self::step(self, event))
+    }
+
+    fn state(&self, group: Group) -> GroupState {
+        Self::state(self, group)
+    }
+
+    fn hold_until_ns(&self) -> Option<i64> {
+        Self::hold_until_ns(self)
+    }
+}
+
+impl Side for implementation::Requester<'_> {
+    fn step(&mut self, event: &Event) -> Result<Vec<Action>, String> {
+        let event = bridge::event_to_impl(event);
+        let actions = Self::step(self, &event).map_err(|error| error.to_string())?;
+        Ok(actions.iter().map(|action| bridge::action_from_impl(*action)).collect())
+    }
+
+    fn state(&self, group: Group) -> GroupState {
+        bridge::state_from_impl(Self::state(self, bridge::group_to_impl(group)))
+    }
+
+    fn hold_until_ns(&self) -> Option<i64> {
+        Self::hold_until_ns(self)
+    }
+}
+
+/// Runs `job` with the implementation's requester; the only station of a drive needs one record.
+pub fn with_implementation<T>(
+    profile: Profile,
+    parameters: &Parameters,
+    job: impl FnOnce(&mut implementation::Requester<'_>) -> Result<T, String>,
+) -> Result<T, String> {
+    let mut table = [implementation::StationRecord::FREE; 1];
+    let profile = match profile {
+        Profile::Paper => mufasa::input::cycle::Profile::Paper,
+        Profile::Hardened => mufasa::input::cycle::Profile::Hardened,
+    };
+    let parameters = bridge::parameters_to_impl(parameters);
+    let requester = implementation::Requester::new(profile, parameters, &mut table);
+    job(&mut requester.map_err(|error| error.to_string())?)
+}

@@ -1,0 +1,199 @@
+//! Tables of outcomes, for people.
+
+use comfy_table::{CellAlignment, ContentArrangement, Row, Table, presets};
+use mufasa_model::report::Stage;
+
+use crate::check::tally::{StageTally, Tally};
+use crate::check::words;
+
+/// The outcomes by stage, model and implementation side by side.
+pub fn by_stage(model: &Tally, implementation: &Tally) -> String {
+    let both = [model, implementation];
+    let left = lines(&stages(model, both, true));
+    let right = lines(&stages(implementation, both, false));
+    let width = left.iter().map(|line| line.chars().count()).max().unwrap_or(0);
+    let label = left[0].find("run").unwrap_or(0);
+    let mut text =
+        format!("{:label$}{:rest$}   implementation\n", "", "model", rest = width - label);
+    for (left, right) in left.iter().zip(&right) {
+        text.extend([&format!("{left:width$} | "), right.trim_end(), "\n"]);
+    }
+    text
+}
+
+/// A line of the table over all drives.
+pub struct Line {
+    /// Name of the drive.
+    pub name: String,
+    /// The model's outcomes.
+    pub tally: Tally,
+    /// Fallbacks that the model's requester started.
+    pub fallbacks: usize,
+    /// Cycles that the implementation decides otherwise, within the rules or not.
+    pub otherwise: usize,
+    /// Cycles on which the two disagree beyond the rules.
+    pub disagreements: usize,
+}
+
+/// The unsafe cycles of many drives by stage, with a sum when there are several.
+pub fn by_drive(lines: &[Line]) -> String {
+    let mut table = bare();
+    let head = [
+        "drive",
+        "cycles",
+        "safe",
+        "unsafe",
+        "i",
+        "ii",
+        "iii",
+        "iv",
+        "v",
+        "other",
+        "errors",
+        "fallbacks",
+        "implementation",
+    ];
+    table.set_header(head);
+    let mut sum = Line {
+        name: format!("all {} drives", lines.len()),
+        tally: Tally::default(),
+        fallbacks: 0,
+        otherwise: 0,
+        disagreements: 0,
+    };
+    for line in lines {
+        table.add_row(cells(line));
+        sum.tally.merge(&line.tally);
+        sum.fallbacks += line.fallbacks;
+        sum.otherwise += line.otherwise;
+        sum.disagreements += line.disagreements;
+    }
+    if lines.len() > 1 {
+        table.add_row(cells(&sum));
+    }
+    numbers_right(&mut table, 1..12);
+    finished(&table)
+}
+
+fn cells(line: &Line) -> Row {
+    let Line { tally, .. } = line;
+    let other = tally.input + tally.no_obstacle_check;
+    let counts = [tally.cycles, tally.safe, tally.unsafe_cycles()]
+        .into_iter()
+        .chain(tally.stages.iter().map(|stage| stage.failed))
+        .chain([other, tally.errors, line.fallbacks])
+        .map(|count| count.to_string());
+    let agreement = match (line.otherwise, line.disagreements) {
+        (0, 0) => "the same".to_owned(),
+        (otherwise, 0) => format!("{otherwise} otherwise, within the margin"),
+        (_, disagreements) => format!("{disagreements} DISAGREE"),
+    };
+    Row::from(std::iter::once(line.name.clone()).chain(counts).chain([agreement]))
+}
+
+/// Rows of outcomes; those of the kinds that neither of the two has are left out.
+fn stages(tally: &Tally, both: [&Tally; 2], names: bool) -> Table {
+    let mut table = bare();
+    let head = ["run", "passed", "failed", "skipped", "n/a", "not sched."];
+    table.set_header(named(names, "stage").chain(head.map(String::from)));
+    for (stage, count) in Stage::ALL.into_iter().zip(&tally.stages) {
+        let StageTally { passed, failed, skipped, not_applicable, not_scheduled } = *count;
+        let counts = [count.run(), passed, failed, skipped, not_applicable, not_scheduled];
+        table.add_row(named(names, words::stage(stage)).chain(counts.map(|n| n.to_string())));
+    }
+    for (index, (name, count)) in others(tally).into_iter().enumerate() {
+        if both.iter().any(|tally| others(tally)[index].1 > 0) {
+            let counts = ["", "", &count.to_string(), "", "", ""].map(String::from);
+            table.add_row(named(names, name).chain(counts));
+        }
+    }
+    numbers_right(&mut table, usize::from(names)..usize::from(names) + 6);
+    table
+}
+
+/// Failures that belong to no stage.
+fn others(tally: &Tally) -> [(&'static str, usize); 3] {
+    [
+        ("no obstacle check", tally.no_obstacle_check),
+        ("invalid remote input", tally.input),
+        ("invalid local input", tally.errors),
+    ]
+}
+
+fn named(names: bool, name: &str) -> impl Iterator<Item = String> {
+    names.then(|| name.to_owned()).into_iter()
+}
+
+fn bare() -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table
+}
+
+fn numbers_right(table: &mut Table, columns: std::ops::Range<usize>) {
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_padding((0, 1));
+        if columns.contains(&index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+}
+
+fn lines(table: &Table) -> Vec<String> {
+    table.to_string().lines().map(str::to_owned).collect()
+}
+
+fn finished(table: &Table) -> String {
+    lines(table).iter().flat_map(|line| [line.trim_end(), "\n"]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tally(failed: usize) -> Tally {
+        let mut tally = Tally { cycles: 10, safe: 10 - failed, ..Tally::default() };
+        tally.stages[2].failed = failed;
+        tally.stages[2].passed = 10 - failed;
+        tally
+    }
+
+    #[test]
+    fn model_and_implementation_stand_side_by_side() {
+        let text = by_stage(&tally(3), &tally(4));
+        let line = text.lines().find(|line| line.contains("iii")).unwrap();
+        let numbers: Vec<_> =
+            line.split_whitespace().filter(|w| w.parse::<u32>().is_ok()).collect();
+        assert_eq!(numbers, ["10", "7", "3", "0", "0", "0", "10", "6", "4", "0", "0", "0"]);
+        assert!(!text.contains("invalid"));
+        assert_eq!(text.lines().count(), 7);
+    }
+
+    #[test]
+    fn rows_that_only_one_of_the_two_needs_are_shown_for_both() {
+        let remote = Tally { input: 2, ..tally(3) };
+        let text = by_stage(&tally(3), &remote);
+        let line = text.lines().find(|line| line.contains("invalid remote input")).unwrap();
+        let numbers: Vec<_> =
+            line.split_whitespace().filter(|w| w.parse::<u32>().is_ok()).collect();
+        assert_eq!(numbers, ["0", "2"]);
+    }
+
+    #[test]
+    fn several_drives_are_summed_and_disagreements_stand_out() {
+        let line = |name: &str, failed, disagreements| Line {
+            name: name.to_owned(),
+            tally: tally(failed),
+            fallbacks: 1,
+            otherwise: disagreements,
+            disagreements,
+        };
+        let text = by_drive(&[line("a", 3, 0), line("b", 1, 2)]);
+        let sum = text.lines().last().unwrap();
+        let words: Vec<_> = sum.split_whitespace().collect();
+        assert_eq!(words[..6], ["all", "2", "drives", "20", "16", "4"]);
+        assert!(sum.ends_with("2 DISAGREE"));
+        assert!(text.lines().nth(1).unwrap().ends_with("the same"));
+        assert_eq!(by_drive(&[line("a", 3, 0)]).lines().count(), 2);
+    }
+}

@@ -1,0 +1,179 @@
+//! Verdicts and witnesses in words.
+
+use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
+use mufasa_props::conformance::{Answer, name};
+
+/// Number and subject of a stage, such as `iii tracks`.
+pub fn stage(stage: Stage) -> &'static str {
+    match stage {
+        Stage::I => "i    track validation",
+        Stage::Ii => "ii   map",
+        Stage::Iii => "iii  tracks",
+        Stage::Iv => "iv   detections",
+        Stage::V => "v    grid",
+    }
+}
+
+/// A failing stage for a sentence, such as `stage iii`.
+pub fn failed_stage(failed: FailedStage) -> String {
+    match failed {
+        FailedStage::Input => "input".to_owned(),
+        FailedStage::Stage(_) => format!("stage {}", name(Some(failed))),
+        FailedStage::NoObstacleCheck => "no obstacle check (H-05)".to_owned(),
+    }
+}
+
+/// Why a cycle is not safe: `stage iii, point 4 meets track 7 (4.1 m < 5 m)`; `safe` otherwise.
+pub fn answer(answer: &Answer) -> String {
+    match answer {
+        Ok(report) => report_in_words(report),
+        Err(problem) => format!("invalid local input: {}", invalid(problem)),
+    }
+}
+
+/// A problem of the input: field, index, what is wrong.
+pub fn invalid(problem: &InvalidInput) -> String {
+    let InvalidInput { field, index, message } = problem;
+    match index {
+        Some(index) => format!("{field}[{index}]: {message}"),
+        None => format!("{field}: {message}"),
+    }
+}
+
+/// The witness of a failed stage, if a stage failed.
+pub fn failed_witness(report: &Report) -> Option<&Witness> {
+    report.stages.iter().find_map(|outcome| match outcome {
+        Outcome::Failed(witness) => Some(witness),
+        Outcome::Passed
+        | Outcome::Skipped(_)
+        | Outcome::NotApplicable(_)
+        | Outcome::NotScheduled => None,
+    })
+}
+
+fn report_in_words(report: &Report) -> String {
+    let Some(failed) = report.failed_stage else { return "safe".to_owned() };
+    let place = failed_stage(failed);
+    match (failed, &report.input, failed_witness(report)) {
+        (FailedStage::Input, Some(problem), _) => {
+            format!("invalid remote input: {}", invalid(problem))
+        }
+        (FailedStage::NoObstacleCheck, _, _) => {
+            format!("{place}: nothing compared the trajectory with obstacles")
+        }
+        (_, _, Some(found)) => format!("{place}, {}", witness(found)),
+        (FailedStage::Input | FailedStage::Stage(_), _, None) => place,
+    }
+}
+
+/// A witness in words, with the two numbers compared.
+pub fn witness(witness: &Witness) -> String {
+    let (what, unit, relation) = phrase(witness);
+    // The circumradius limit of H-03 includes equality, theta_obj does not.
+    let [left, right] = witness.compared;
+    let relation = if relation == "<" && left >= right { "<=" } else { relation };
+    let [left, right] = numbers(witness.compared);
+    let (left, right) = (with_unit(&left, unit), with_unit(&right, unit));
+    format!("{what} ({left} {relation} {right})")
+}
+
+/// What happened, the unit of the numbers compared, and how they compare.
+fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
+    let point = witness.point.map_or("the trajectory".to_owned(), |index| format!("point {index}"));
+    let object = match (witness.track, witness.detection) {
+        (Some(id), _) => format!("track {id}"),
+        (None, Some(index)) => format!("detection {index}"),
+        (None, None) => "an object".to_owned(),
+    };
+    let disk = witness.disk.map_or("a disk".to_owned(), |index| format!("disk {index}"));
+    let cell = match witness.cell {
+        Some((column, row)) => format!("cell ({column}, {row})"),
+        None => "a cell".to_owned(),
+    };
+    match witness.rule {
+        Rule::MeanCost => ("mean distance of the assigned pairs".to_owned(), "m", ">="),
+        Rule::WorkLimit => ("work of the assignment".to_owned(), "", ">"),
+        Rule::NoAssignment => {
+            ("tracks that can be paired below theta_track_max".to_owned(), "", "<")
+        }
+        Rule::Velocity => (format!("{object} did not move as its velocity says"), "m", ">"),
+        Rule::ThetaMap => {
+            (format!("{point} outside the corridor and off the reference path"), "m", ">")
+        }
+        Rule::StartTime => ("time of the first point is far from now".to_owned(), "s", ">"),
+        Rule::StartPosition => ("first point is far from the CAV".to_owned(), "m", ">"),
+        Rule::Corridor => {
+            (format!("{point} outside the corridor, off the reference path"), "m", ">")
+        }
+        Rule::Direction => (format!("{point} heads against the route"), "", "<"),
+        Rule::StepTime => (format!("step to {point} takes too long"), "s", ">"),
+        Rule::StepLength => (format!("step to {point} is longer than the CAV"), "m", ">"),
+        Rule::StepSpeed => (format!("step to {point} is faster than v_max"), "m", ">"),
+        Rule::StepForward => (format!("step to {point} goes backwards"), "", "<"),
+        Rule::StepLateral => (format!("step to {point} goes sideways"), "m", ">"),
+        Rule::StepTurn => (format!("heading turns too much at {point}"), "", "<"),
+        Rule::ArcTooShort => (format!("{point} is nearer than braking allows"), "m", "<"),
+        Rule::ArcTooLong => (format!("{point} is farther than the CAV can get"), "m", ">"),
+        Rule::EndsTooSoon => ("trajectory ends before standstill".to_owned(), "s", "<"),
+        Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
+        Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
+        Rule::CollisionStanding => (format!("{point} meets {object} if it stands still"), "m", "<"),
+        Rule::Occupied => (format!("{disk} of {point} touches occupied {cell}"), "m", "<="),
+        Rule::Unknown => (format!("{disk} of {point} touches unknown {cell}"), "m", "<="),
+        Rule::Outside => (format!("{disk} of {point} leaves the grid"), "m", "<="),
+    }
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+/// Two numbers with as few decimals as tell them apart, at least two.
+fn numbers([left, right]: [f64; 2]) -> [String; 2] {
+    let at = |decimals: usize| [left, right].map(|v| trimmed(&format!("{v:.decimals$}")));
+    let differ = |pair: &[String; 2]| pair[0] != pair[1];
+    // Equal numbers never differ; doubles that do, do so at the latest in `to_string`.
+    let equal = left.total_cmp(&right).is_eq();
+    let most = if equal { 2 } else { 12 };
+    (2..=most)
+        .map(at)
+        .find(|pair| equal || differ(pair))
+        .unwrap_or_else(|| [left, right].map(|v| v.to_string()))
+}
+
+fn trimmed(number: &str) -> String {
+    if !number.contains('.') {
+        return number.to_owned();
+    }
+    let short = number.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_but_told_apart() {
+        assert_eq!(numbers([4.1, 5.0]), ["4.1", "5"]);
+        assert_eq!(numbers([0.200_001, 0.2]), ["0.200001", "0.2"]);
+        assert_eq!(numbers([-0.000_1, 0.0]), ["-0.0001", "0"]);
+        assert_eq!(numbers([100.0, 20.0]), ["100", "20"]);
+        assert_eq!(numbers([f64::NAN, 1.0]), ["NaN", "1"]);
+    }
+
+    #[test]
+    fn a_collision_names_point_track_and_numbers() {
+        let found = Witness {
+            rule: Rule::Collision,
+            point: Some(4),
+            track: Some(7),
+            detection: None,
+            segment: None,
+            disk: None,
+            cell: None,
+            compared: [4.1, 5.0],
+        };
+        assert_eq!(witness(&found), "point 4 meets track 7 (4.1 m < 5 m)");
+    }
+}

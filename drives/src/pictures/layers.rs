@@ -1,0 +1,273 @@
+//! What lies under the witness: route, grid, objects, trajectory.
+
+use mufasa_model::input::cycle::{
+    Cycle, Detection, Grid, Route, Track, TrackList, TrajectoryPoint,
+};
+
+use super::canvas::Canvas;
+use super::frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
+
+/// A kind of thing in a picture, for the legend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layer {
+    /// Corridor and reference path.
+    Route,
+    /// Occupied cells.
+    Occupied,
+    /// Unknown cells.
+    Unknown,
+    /// Detections.
+    Detections,
+    /// Tracks at their stamp.
+    Tracks,
+    /// Tracks at the times of the trajectory.
+    Predictions,
+    /// Trajectory and footprints.
+    Trajectory,
+    /// The CAV now.
+    Ego,
+}
+
+/// Most predictions drawn per track.
+const PREDICTIONS: usize = 8;
+/// Most footprints drawn along the trajectory.
+const FOOTPRINTS: usize = 14;
+
+/// Draws all layers, lowest first; returns those that are there.
+pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) -> Vec<Layer> {
+    let mut drawn = vec![Layer::Route];
+    route(canvas, frame, &cycle.route);
+    if let Some(grid) = &cycle.grid {
+        if let Some(unknown) = &grid.unknown
+            && cells(canvas, frame, grid, unknown, "unknown")
+        {
+            drawn.push(Layer::Unknown);
+        }
+        if cells(canvas, frame, grid, &grid.occupied, "occupied") {
+            drawn.push(Layer::Occupied);
+        }
+    }
+    let points = cycle.trajectory.as_ref().map_or(&[][..], |it| &it.points);
+    if let Some(tracks) = cycle.tracks.as_ref().filter(|it| !it.items.is_empty()) {
+        drawn.push(Layer::Tracks);
+        if predictions(canvas, frame, tracks, points) {
+            drawn.push(Layer::Predictions);
+        }
+        for item in &tracks.items {
+            canvas.polygon(&frame.corners(&track(item, 0.0)), "track");
+        }
+    }
+    if let Some(detections) = cycle.detections.as_ref().filter(|it| !it.items.is_empty()) {
+        drawn.push(Layer::Detections);
+        for item in &detections.items {
+            canvas.polygon(&frame.corners(&detection(item)), "detection");
+        }
+    }
+    if !points.is_empty() {
+        drawn.push(Layer::Trajectory);
+        trajectory(canvas, frame, cycle, points);
+    }
+    drawn.push(Layer::Ego);
+    ego(canvas, frame, cycle);
+    drawn
+}
+
+/// A track's rectangle `seconds` after its stamp.
+pub fn track(track: &Track, seconds: f64) -> Rectangle {
+    Rectangle {
+        centre: [track.x + track.vx * seconds, track.y + track.vy * seconds],
+        direction: [track.cos, track.sin],
+        size: [track.length, track.width],
+    }
+}
+
+/// A detection's rectangle.
+pub fn detection(item: &Detection) -> Rectangle {
+    Rectangle {
+        centre: [item.x, item.y],
+        direction: [item.cos, item.sin],
+        size: [item.length, item.width],
+    }
+}
+
+/// The CAV's rectangle at a trajectory point.
+pub fn footprint(cycle: &Cycle, point: &TrajectoryPoint) -> Rectangle {
+    Rectangle::of_ego(&cycle.ego, [point.x, point.y], [point.cos, point.sin])
+}
+
+/// The square of a cell.
+pub fn cell(grid: &Grid, (column, row): (i64, i64)) -> Rectangle {
+    block(grid, [column, row], [1, 1])
+}
+
+/// Difference of two times, s.
+#[expect(clippy::cast_precision_loss)] // of a picture
+pub fn seconds(from_ns: i64, to_ns: i64) -> f64 {
+    (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
+}
+
+/// At most `most` indices below `count`, evenly spread, the last one included.
+pub fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let step = count.div_ceil(most).max(1);
+    (0..count).rev().step_by(step)
+}
+
+fn route(canvas: &mut Canvas, frame: &Frame, route: &Route) {
+    let stations = &route.stations;
+    let mut pairs: Vec<_> = stations.windows(2).map(|pair| (&pair[0], &pair[1])).collect();
+    if let (true, Some(first), Some(last)) = (route.closed, stations.first(), stations.last()) {
+        pairs.push((last, first));
+    }
+    for (from, to) in &pairs {
+        for corners in [[from.left, from.right, to.right], [from.left, to.right, to.left]] {
+            canvas.polygon(&corners.map(|corner| frame.at(corner)), "corridor");
+        }
+    }
+    for (from, to) in &pairs {
+        canvas.polyline(&[from.left, to.left].map(|p| frame.at(p)), "boundary");
+        canvas.polyline(&[from.right, to.right].map(|p| frame.at(p)), "boundary");
+        canvas.polyline(&[[from.x, from.y], [to.x, to.y]].map(|p| frame.at(p)), "reference");
+    }
+}
+
+/// Draws marked cells of the window as runs along the rows; tells whether there were any.
+fn cells(canvas: &mut Canvas, frame: &Frame, grid: &Grid, bitmap: &[u8], class: &str) -> bool {
+    let Some([columns, rows]) = visible(frame, grid) else { return false };
+    // Rows thinner than 1.5 px are drawn several at a time.
+    let rows_at_once = whole(1.5 / (grid.resolution * frame.scale)).max(1);
+    let mut any = false;
+    let mut row = rows[0];
+    while row < rows[1] {
+        let end = (row + rows_at_once).min(rows[1]);
+        let marked = |column| (row..end).any(|row| bit(grid, bitmap, column, row));
+        let mut column = columns[0];
+        while column < columns[1] {
+            let start = column;
+            while column < columns[1] && marked(column) {
+                column += 1;
+            }
+            if column > start {
+                any = true;
+                let run = block(grid, [start, row], [column - start, end - row]);
+                canvas.polygon(&frame.corners(&run), class);
+            }
+            column += 1;
+        }
+        row = end;
+    }
+    any
+}
+
+/// Ranges of columns and rows that the window can show.
+fn visible(frame: &Frame, grid: &Grid) -> Option<[[i64; 2]; 2]> {
+    let norm = grid.cos * grid.cos + grid.sin * grid.sin;
+    let cells = frame.window().map(|[x, y]| {
+        let [x, y] = [x - grid.x, y - grid.y];
+        let size = norm * grid.resolution;
+        [(x * grid.cos + y * grid.sin) / size, (y * grid.cos - x * grid.sin) / size]
+    });
+    let range = |axis: usize, count: i64| {
+        let low = cells.iter().map(|cell| cell[axis]).fold(f64::INFINITY, f64::min);
+        let high = cells.iter().map(|cell| cell[axis]).fold(f64::NEG_INFINITY, f64::max);
+        [whole(low.floor()).clamp(0, count), whole(high.ceil()).clamp(0, count)]
+    };
+    let sane = grid.width > 0 && grid.height > 0 && cells.iter().flatten().all(|v| v.is_finite());
+    sane.then(|| [range(0, grid.width), range(1, grid.height)])
+}
+
+fn bit(grid: &Grid, bitmap: &[u8], column: i64, row: i64) -> bool {
+    let index = i128::from(row) * i128::from(grid.width) + i128::from(column);
+    usize::try_from(index / 8)
+        .ok()
+        .and_then(|byte| bitmap.get(byte))
+        .is_some_and(|byte| byte >> (index % 8) & 1 == 1)
+}
+
+#[expect(clippy::cast_precision_loss)] // of a picture
+fn block(grid: &Grid, [column, row]: [i64; 2], [columns, rows]: [i64; 2]) -> Rectangle {
+    let size = [columns, rows].map(|n| n as f64 * grid.resolution);
+    let low = [column, row].map(|n| n as f64 * grid.resolution);
+    let origin =
+        Rectangle { centre: [grid.x, grid.y], direction: [grid.cos, grid.sin], size: [0.0; 2] };
+    let centre = origin.point([low[0] + size[0] / 2.0, low[1] + size[1] / 2.0]);
+    Rectangle { centre, direction: origin.direction, size }
+}
+
+#[expect(clippy::cast_possible_truncation)] // `as` saturates, and NaN becomes 0
+fn whole(number: f64) -> i64 {
+    number as i64
+}
+
+/// Draws the tracks at some of the trajectory's times; tells whether there were any.
+fn predictions(
+    canvas: &mut Canvas,
+    frame: &Frame,
+    tracks: &TrackList,
+    points: &[TrajectoryPoint],
+) -> bool {
+    let moving = |item: &&Track| item.vx.hypot(item.vy) > 0.3;
+    let mut any = false;
+    for item in tracks.items.iter().filter(moving) {
+        for index in spread(points.len(), PREDICTIONS) {
+            let later = seconds(tracks.stamp_ns, points[index].t_ns);
+            canvas.polygon(&frame.corners(&track(item, later)), "prediction");
+            any = true;
+        }
+    }
+    any
+}
+
+/// Draws the ids of the tracks, above everything else.
+pub fn ids(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) {
+    for item in cycle.tracks.iter().flat_map(|list| &list.items) {
+        id(canvas, frame, item);
+    }
+}
+
+/// The id of a track, where the window can show all of it.
+fn id(canvas: &mut Canvas, frame: &Frame, item: &Track) {
+    let Some([x, y]) = frame.at([item.x, item.y]).filter(|_| frame.sees([item.x, item.y])) else {
+        return;
+    };
+    let room = MARGIN + 12.0..PAGE_WIDTH - MARGIN - 12.0;
+    if room.contains(&x) && y > TITLE_HEIGHT + 8.0 {
+        canvas.text(Some([x, y + 4.0]), "id", &item.id.to_string());
+    }
+}
+
+fn trajectory(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, points: &[TrajectoryPoint]) {
+    for index in spread(points.len(), FOOTPRINTS) {
+        canvas.polygon(&frame.corners(&footprint(cycle, &points[index])), "footprint");
+    }
+    let line: Vec<_> = points.iter().map(|point| frame.at([point.x, point.y])).collect();
+    canvas.polyline(&line, "trajectory");
+    for at in line {
+        canvas.circle(at, 2.0, "point");
+    }
+}
+
+fn ego(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) {
+    let ego = &cycle.ego;
+    let rectangle = Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]);
+    canvas.polygon(&frame.corners(&rectangle), "ego");
+    let nose = [(0.5, 0.0), (0.25, 0.35), (0.25, -0.35)]
+        .map(|(a, b)| frame.at(rectangle.point([a * ego.length, b * ego.width])));
+    canvas.polygon(&nose, "nose");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_keeps_the_last_and_stays_below_the_limit() {
+        assert_eq!(spread(0, 3).count(), 0);
+        assert_eq!(spread(3, 5).collect::<Vec<_>>(), [2, 1, 0]);
+        assert_eq!(spread(10, 4).collect::<Vec<_>>(), [9, 6, 3, 0]);
+    }
+
+    #[test]
+    fn differences_of_extreme_times_do_not_overflow() {
+        assert!(seconds(i64::MIN, i64::MAX) > 1.8e10);
+    }
+}

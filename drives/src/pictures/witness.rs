@@ -1,0 +1,280 @@
+//! The witness in a strong colour, with a label that covers as little as possible.
+
+use mufasa_model::input::cycle::{Cycle, TrajectoryPoint};
+use mufasa_model::report::{FailedStage, Report, Rule, Witness};
+
+use super::canvas::Canvas;
+use super::frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
+use super::layers;
+use crate::check::words;
+use mufasa_records::names;
+
+/// Width of a character of a label, px.
+const CHARACTER: f64 = 7.1;
+/// Height of a label, px.
+const LABEL_HEIGHT: f64 = 24.0;
+
+/// What a witness points at.
+struct Marks {
+    /// Rectangles to be filled.
+    shapes: Vec<Rectangle>,
+    /// Lines, m on the map.
+    lines: Vec<[[f64; 2]; 2]>,
+    /// Circles: centre, radius, whether it is the witness itself; m.
+    circles: Vec<([f64; 2], f64, bool)>,
+    /// What the label points at, m.
+    anchor: [f64; 2],
+}
+
+/// Places of the map that a picture of this report has to show.
+pub fn places(cycle: &Cycle, report: &Report) -> Vec<[f64; 2]> {
+    let marks = marks(cycle, report);
+    let mut places: Vec<_> = marks.shapes.iter().flat_map(Rectangle::corners).collect();
+    places.push(marks.anchor);
+    places.extend(marks.lines.into_iter().flatten());
+    places
+}
+
+/// Draws the witness and its label, clear of the other objects where possible.
+pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, report: &Report) {
+    let marks = marks(cycle, report);
+    let stage = mufasa_props::conformance::name(report.failed_stage);
+    let rule = words::failed_witness(report).map_or("", |witness| names::rule(witness.rule));
+    canvas.open(&format!("id=\"witness\" data-stage=\"{stage}\" data-rule=\"{rule}\""));
+    for shape in &marks.shapes {
+        canvas.polygon(&frame.corners(shape), "witness");
+    }
+    for (centre, radius, strong) in &marks.circles {
+        let class = if *strong { "witness" } else { "disk" };
+        canvas.circle(frame.at(*centre), radius * frame.scale, class);
+    }
+    for line in &marks.lines {
+        canvas.polyline(&line.map(|place| frame.at(place)), "witness-line");
+    }
+    if marks.shapes.is_empty() && marks.circles.is_empty() && marks.lines.is_empty() {
+        canvas.circle(frame.at(marks.anchor), 16.0, "witness");
+    }
+    label(canvas, frame, cycle, &marks, &label_text(report));
+    canvas.close();
+}
+
+fn label_text(report: &Report) -> String {
+    match (report.failed_stage, words::failed_witness(report)) {
+        (_, Some(witness)) => words::witness(witness),
+        (Some(FailedStage::Input), None) => match &report.input {
+            Some(problem) => format!("invalid {}", problem.field),
+            None => "invalid input".to_owned(),
+        },
+        (Some(failed), None) => words::failed_stage(failed),
+        (None, None) => "safe".to_owned(),
+    }
+}
+
+fn marks(cycle: &Cycle, report: &Report) -> Marks {
+    let centre =
+        Rectangle::of_ego(&cycle.ego, [cycle.ego.x, cycle.ego.y], [cycle.ego.cos, cycle.ego.sin])
+            .centre;
+    let mut marks =
+        Marks { shapes: Vec::new(), lines: Vec::new(), circles: Vec::new(), anchor: centre };
+    let Some(witness) = words::failed_witness(report) else { return marks };
+    let point = witness
+        .point
+        .and_then(|index| cycle.trajectory.as_ref().and_then(|it| it.points.get(index)));
+    if let Some(point) = point {
+        let footprint = layers::footprint(cycle, point);
+        marks.anchor = footprint.centre;
+        if witness.disk.is_none() {
+            marks.shapes.push(footprint);
+        } else {
+            disks(cycle, &footprint, witness, &mut marks);
+        }
+    }
+    objects(cycle, witness, point, &mut marks);
+    if matches!(witness.rule, Rule::MeanCost | Rule::WorkLimit | Rule::NoAssignment) {
+        assignment(cycle, &mut marks);
+    } else if witness.rule == Rule::Gap {
+        gap(cycle, &mut marks);
+    } else if let (Rule::Corridor | Rule::ThetaMap, Some(point)) = (witness.rule, point) {
+        marks.circles.push(([point.x, point.y], 0.5, true));
+        marks.anchor = [point.x, point.y];
+    }
+    marks
+}
+
+/// Track, detection, cell and segment of the witness.
+fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, marks: &mut Marks) {
+    let mut objects = Vec::new();
+    if let (Some(id), Some(list)) = (witness.track, &cycle.tracks) {
+        let predicted = point.filter(|_| witness.rule == Rule::Collision);
+        let later = predicted.map_or(0.0, |point| layers::seconds(list.stamp_ns, point.t_ns));
+        let track = list.items.iter().find(|track| track.id == id);
+        objects.extend(track.map(|track| layers::track(track, later)));
+        if later != 0.0 {
+            let path = track.map(|track| [0.0, later].map(|t| layers::track(track, t).centre));
+            marks.lines.extend(path);
+        }
+        if witness.rule == Rule::Velocity {
+            velocity(cycle, id, marks);
+        }
+    }
+    if let (Some(index), Some(list)) = (witness.detection, &cycle.detections) {
+        objects.extend(list.items.get(index).map(layers::detection));
+    }
+    if let (Some(cell), Some(grid)) = (witness.cell, &cycle.grid) {
+        objects.push(layers::cell(grid, cell));
+    }
+    if let Some(first) = witness.segment {
+        let stations = &cycle.route.stations;
+        let next = if first + 1 < stations.len() { first + 1 } else { 0 };
+        if let (Some(from), Some(to)) = (stations.get(first), stations.get(next)) {
+            marks.lines.push([[from.x, from.y], [to.x, to.y]]);
+        }
+    }
+    if let Some(object) = objects.last() {
+        marks.anchor = object.centre;
+    }
+    marks.shapes.extend(objects);
+}
+
+/// H-09: where the track was, and where its velocity would have brought it.
+fn velocity(cycle: &Cycle, id: i64, marks: &mut Marks) {
+    let (Some(now), Some(before)) = (&cycle.tracks, &cycle.previous_tracks) else { return };
+    let find =
+        |items: &[mufasa_model::input::cycle::Track]| items.iter().find(|t| t.id == id).cloned();
+    if let (Some(track), Some(old)) = (find(&now.items), find(&before.items)) {
+        let dt = layers::seconds(before.stamp_ns, now.stamp_ns);
+        let said = [old.x + track.vx * dt, old.y + track.vy * dt];
+        marks.lines.push([[old.x, old.y], [track.x, track.y]]);
+        marks.circles.push((said, 0.4, true));
+    }
+}
+
+/// Stage v: the disks at the point, the one of the witness strong.
+#[expect(clippy::cast_precision_loss)] // of a picture
+fn disks(cycle: &Cycle, footprint: &Rectangle, witness: &Witness, marks: &mut Marks) {
+    let count = usize::try_from(cycle.parameters.n).unwrap_or(0).min(64);
+    let [length, width] = footprint.size;
+    let radius = (length / count as f64).hypot(width) / 2.0;
+    for index in 0..count {
+        let along = (2 * index + 1) as f64 * length / (2 * count) as f64 - length / 2.0;
+        let centre = footprint.point([along, 0.0]);
+        marks.circles.push((centre, radius, witness.disk == Some(index)));
+        if witness.disk == Some(index) {
+            marks.anchor = centre;
+        }
+    }
+}
+
+/// Stage i: from every track in the field of view to its nearest detection; those that are
+/// farther than `theta_track_max` are marked, and the loneliest one.
+fn assignment(cycle: &Cycle, marks: &mut Marks) {
+    let (Some(tracks), Some(detections)) = (&cycle.tracks, &cycle.detections) else { return };
+    let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let ego = [cycle.ego.x, cycle.ego.y];
+    let places: Vec<_> = detections.items.iter().map(|d| [d.x, d.y]).collect();
+    let view = places.iter().map(|place| distance(*place, ego)).fold(0.0, f64::max);
+    marks.circles.push((ego, view, false));
+    let limit = cycle.parameters.theta_track_max;
+    marks.shapes.clear();
+    let mut loneliest: Option<(f64, Rectangle)> = None;
+    for track in tracks.items.iter().filter(|track| distance([track.x, track.y], ego) <= view) {
+        let at = [track.x, track.y];
+        let nearest =
+            places.iter().copied().min_by(|a, b| distance(*a, at).total_cmp(&distance(*b, at)));
+        let Some(nearest) = nearest else { continue };
+        let apart = distance(nearest, at);
+        let rectangle = layers::track(track, 0.0);
+        if apart >= limit {
+            marks.shapes.push(rectangle);
+        }
+        if loneliest.as_ref().is_none_or(|(most, _)| apart > *most) {
+            loneliest = Some((apart, rectangle));
+        }
+        marks.lines.push([at, nearest]);
+    }
+    if let Some((apart, rectangle)) = loneliest {
+        marks.anchor = rectangle.centre;
+        if apart < limit {
+            marks.shapes.push(rectangle);
+        }
+    }
+}
+
+/// Stage iv: the free distance ahead of the CAV, as if the road were straight.
+fn gap(cycle: &Cycle, marks: &mut Marks) {
+    let Some(lead) = &cycle.lead else { return };
+    let ego = &cycle.ego;
+    let rectangle = Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]);
+    let front = rectangle.point([ego.length / 2.0, 0.0]);
+    let end = rectangle.point([ego.length / 2.0 + lead.gap, 0.0]);
+    let bar = [1.0, -1.0].map(|side| rectangle.point([ego.length / 2.0 + lead.gap, side]));
+    marks.lines.extend([[front, end], bar]);
+    marks.anchor = end;
+}
+
+/// A label with a line to the anchor, at the place that covers the fewest objects.
+fn label(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, marks: &Marks, text: &str) {
+    let Some(anchor) = frame.at(marks.anchor) else { return };
+    #[expect(clippy::cast_precision_loss)] // of a picture
+    let width = text.chars().count() as f64 * CHARACTER + 16.0;
+    let covered = covered(frame, cycle, marks);
+    let low = [MARGIN + 6.0, TITLE_HEIGHT + 6.0];
+    let high =
+        [PAGE_WIDTH - MARGIN - 6.0 - width, TITLE_HEIGHT + frame.height - 6.0 - LABEL_HEIGHT];
+    let cost = |corner: &[f64; 2]| {
+        let hits = covered.iter().filter(|[from, to]| {
+            corner[0] < to[0] + 4.0
+                && corner[0] + width > from[0] - 4.0
+                && corner[1] < to[1] + 4.0
+                && corner[1] + LABEL_HEIGHT > from[1] - 4.0
+        });
+        let middle = [corner[0] + width / 2.0, corner[1] + LABEL_HEIGHT / 2.0];
+        // An object covered is worse than any distance on the page.
+        2000.0 * f64::from(u32::try_from(hits.count()).unwrap_or(u32::MAX))
+            + (middle[0] - anchor[0]).hypot(middle[1] - anchor[1])
+    };
+    let offsets = [-260.0, -190.0, -130.0, -80.0, -45.0, 45.0, 80.0, 130.0, 190.0, 260.0];
+    let corners = offsets.iter().flat_map(|dy| {
+        [-0.5, -1.0, 0.0].map(|dx| {
+            [anchor[0] + dx * width + dx.signum() * 20.0, anchor[1] + dy - LABEL_HEIGHT / 2.0]
+        })
+    });
+    let inside = corners.map(|corner| {
+        [0, 1].map(|axis| corner[axis].clamp(low[axis].min(high[axis]), high[axis].max(low[axis])))
+    });
+    let Some(corner) = inside.min_by(|a, b| cost(a).total_cmp(&cost(b))) else { return };
+    let end = [
+        anchor[0].clamp(corner[0], corner[0] + width),
+        if corner[1] > anchor[1] { corner[1] } else { corner[1] + LABEL_HEIGHT },
+    ];
+    canvas.polyline(&[Some(anchor), Some(end)], "leader");
+    canvas.rect(corner, [width, LABEL_HEIGHT], "label");
+    canvas.text(Some([corner[0] + width / 2.0, corner[1] + 16.5]), "label-text", text);
+}
+
+/// Boxes on the page that a label should not cover.
+fn covered(frame: &Frame, cycle: &Cycle, marks: &Marks) -> Vec<[[f64; 2]; 2]> {
+    let ego = &cycle.ego;
+    let mut shapes = marks.shapes.clone();
+    shapes.push(Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]));
+    let tracks = cycle.tracks.iter().flat_map(|list| &list.items);
+    shapes.extend(tracks.map(|track| layers::track(track, 0.0)));
+    let detections = cycle.detections.iter().flat_map(|list| &list.items);
+    shapes.extend(detections.map(layers::detection));
+    let points = cycle.trajectory.iter().flat_map(|it| &it.points);
+    shapes.extend(points.map(|point| layers::footprint(cycle, point)));
+    shapes.iter().filter_map(|shape| bounds(frame, shape)).collect()
+}
+
+fn bounds(frame: &Frame, shape: &Rectangle) -> Option<[[f64; 2]; 2]> {
+    let mut low = [f64::INFINITY; 2];
+    let mut high = [f64::NEG_INFINITY; 2];
+    for corner in frame.corners(shape) {
+        let corner = corner?;
+        for axis in 0..2 {
+            low[axis] = low[axis].min(corner[axis]);
+            high[axis] = high[axis].max(corner[axis]);
+        }
+    }
+    Some([low, high])
+}

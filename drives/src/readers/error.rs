@@ -1,0 +1,122 @@
+//! What can be wrong with a file, and where.
+
+use std::fmt;
+use std::path::Path;
+
+/// Why a file gives no drive: the place as precisely as it is known, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// The file.
+    pub file: Box<Path>,
+    /// Line of the file, from 1; `None` for binary files and for errors of the whole file.
+    pub line: Option<u32>,
+    /// The element, as a path of tag names with ids, such as `commonRoad/lanelet[12]/leftBound`.
+    pub element: String,
+    /// The field within the element, empty when the element itself is meant.
+    pub field: String,
+    /// Index within a list (points, states, rows), from 0.
+    pub index: Option<usize>,
+    /// What is wrong and what would be right.
+    pub message: String,
+    /// More lines of the same file that are wrong, too; `None` when there are none.
+    pub others: Option<Box<OtherLines>>,
+}
+
+/// What is wrong with further lines of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OtherLines {
+    /// The first of them, in their order.
+    pub errors: Vec<ReadError>,
+    /// How many more there are.
+    pub more: usize,
+}
+
+/// Errors of one file that are told one by one.
+const LINES_MAX: usize = 10;
+
+impl ReadError {
+    /// An error about a file as a whole.
+    pub fn file(file: &Path, message: impl Into<String>) -> Self {
+        Self {
+            file: file.into(),
+            line: None,
+            element: String::new(),
+            field: String::new(),
+            index: None,
+            message: message.into(),
+            others: None,
+        }
+    }
+
+    /// The error of a recording, or of a drive along a map, that gives no cycle.
+    pub(crate) fn no_cycle(file: &Path) -> Self {
+        let message = "the drive of the CAV is shorter than braking takes (v / a_b); keep the \
+                       tail to have its cycles all the same";
+        Self::file(file, message)
+    }
+
+    /// The errors of the lines of one file as one error; `None` when there are none.
+    pub(crate) fn of_lines(mut errors: Vec<Self>) -> Option<Self> {
+        let more = errors.len().saturating_sub(LINES_MAX);
+        errors.truncate(LINES_MAX);
+        let mut errors = errors.into_iter();
+        let mut first = errors.next()?;
+        let errors: Vec<Self> = errors.collect();
+        if !errors.is_empty() {
+            first.others = Some(Box::new(OtherLines { errors, more }));
+        }
+        Some(first)
+    }
+
+    /// The same error at an element of the file.
+    #[must_use]
+    pub fn at(mut self, element: impl Into<String>, field: impl Into<String>) -> Self {
+        self.element = element.into();
+        self.field = field.into();
+        self
+    }
+
+    /// The same error at an index of a list.
+    #[must_use]
+    pub fn index(mut self, index: usize) -> Self {
+        self.index = Some(index);
+        self
+    }
+
+    /// The same error on a line of the file.
+    #[must_use]
+    pub fn line(mut self, line: u32) -> Self {
+        self.line = Some(line);
+        self
+    }
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        if !self.element.is_empty() {
+            write!(f, ": {}", self.element)?;
+        }
+        if !self.field.is_empty() {
+            write!(f, ": {}", self.field)?;
+        }
+        if let Some(index) = self.index {
+            write!(f, "[{index}]")?;
+        }
+        write!(f, ": {}", self.message)?;
+        let Some(others) = &self.others else { return Ok(()) };
+        for error in &others.errors {
+            write!(f, "\n{error}")?;
+        }
+        match others.more {
+            0 => Ok(()),
+            1 => write!(f, "\n{}: and 1 more line", self.file.display()),
+            more => write!(f, "\n{}: and {more} more lines", self.file.display()),
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}

@@ -1,0 +1,155 @@
+//! Reads drives from files. What a source does not say (which groups are remote, what the sensors
+//! saw, how old the data are) comes from [`Options`] and is written down in [`Drive::notes`].
+
+mod commonroad;
+pub mod error;
+mod lanes;
+mod map;
+mod npy;
+mod order;
+pub mod route;
+mod scenario;
+mod solution;
+mod xml;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::drive::{Drive, DriveCycle, PreviousTracks};
+use crate::options::Options;
+use error::ReadError;
+use scenario::Scenario;
+
+/// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
+/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines
+/// (`spec/5-interfaces.md#cycle`; the options do not touch them).
+///
+/// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
+/// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark
+/// id. The results are in the order of the files; an error names
+/// file, place and value, and does not stop the others. A file gives one error at most: the lines
+/// of JSON that are no cycles are in it together, and come before the drive of those that are.
+pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
+    let mut drives = Vec::new();
+    // The scenario last read, and whether a drive was made of it.
+    let mut scenario: Option<(&Path, Scenario, bool)> = None;
+    let paths = order::solutions_behind_scenarios(paths);
+    for path in &paths {
+        let content = load(path);
+        if !matches!(content, Ok(Content::Solution(_))) {
+            drives.extend(unsolved(scenario.take(), options));
+        }
+        match content {
+            Ok(Content::Scenario(text)) => match scenario::read(path, &text) {
+                Ok(read) => scenario = Some((path, read, false)),
+                Err(error) => drives.push(Err(error)),
+            },
+            Ok(Content::Solution(text)) => drives.push(match &mut scenario {
+                Some((file, scenario, used)) => {
+                    *used = true;
+                    solution::read(path, &text)
+                        .and_then(|s| commonroad::solved(scenario, &s, [file, path], options))
+                }
+                None => Err(ReadError::file(path, "no scenario that can be read is before it")),
+            }),
+            Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
+            Ok(Content::Lines(text)) => drives.extend(lines(path, &text)),
+            Err(error) => drives.push(Err(error)),
+        }
+    }
+    drives.extend(unsolved(scenario, options));
+    name_apart(&mut drives);
+    drives
+}
+
+/// Gives drives of the same name numbers from 2 on.
+fn name_apart(drives: &mut [Result<Drive, ReadError>]) {
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    for drive in drives.iter_mut().flatten() {
+        let n = count.entry(drive.name.clone()).or_insert(0);
+        *n += 1;
+        if *n > 1 {
+            drive.name = format!("{} ({n})", drive.name);
+        }
+    }
+}
+
+fn unsolved(
+    scenario: Option<(&Path, Scenario, bool)>,
+    options: &Options,
+) -> Option<Result<Drive, ReadError>> {
+    match scenario {
+        Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, file, options)),
+        Some((_, _, true)) | None => None,
+    }
+}
+
+/// A file by what it holds.
+enum Content {
+    Scenario(String),
+    Solution(String),
+    Map(Vec<u8>),
+    Lines(String),
+}
+
+fn load(path: &Path) -> Result<Content, ReadError> {
+    let bytes = std::fs::read(path).map_err(|e| ReadError::file(path, e.to_string()))?;
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(Content::Map(bytes));
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|e| ReadError::file(path, format!("neither text nor a map: {e}")))?;
+    // A byte order mark is no content.
+    let text = text.trim_start_matches('\u{feff}').to_owned();
+    match text.trim_start().chars().next() {
+        Some('{') => return Ok(Content::Lines(text)),
+        Some('<') => {}
+        _ => return Err(ReadError::file(path, "neither XML, nor JSON Lines, nor a map")),
+    }
+    match xml::with_root(path, &text, |root| Ok(root.name().to_owned()))?.as_str() {
+        "commonRoad" => Ok(Content::Scenario(text)),
+        "CommonRoadSolution" => Ok(Content::Solution(text)),
+        other => {
+            let message = format!("`{other}` is neither `commonRoad` nor `CommonRoadSolution`");
+            Err(ReadError::file(path, message))
+        }
+    }
+}
+
+/// The cycles of JSON Lines as one drive, after the error of the lines that are none.
+fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
+    let mut errors = Vec::new();
+    let mut cycles = Vec::new();
+    for line in mufasa_records::cycles_from_lines(text) {
+        match line {
+            Ok((id, cycle)) => cycles.push(DriveCycle { id, cycle }),
+            Err(error) => {
+                let element = error.id.map_or_else(String::new, |id| format!("cycle {id}"));
+                let read = ReadError::file(path, error.message)
+                    .line(u32::try_from(error.line).unwrap_or(u32::MAX));
+                let mut read = read.at(element, error.field);
+                read.index = error.index;
+                errors.push(read);
+            }
+        }
+    }
+    if cycles.is_empty() && is_one_document(text) {
+        let message = "one JSON document spread over lines; JSON Lines have every record on a \
+                       line of its own, as `jq -c . FILE` writes it";
+        errors = vec![ReadError::file(path, message)];
+    }
+    let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
+    if !cycles.is_empty() {
+        let notes = vec![format!("{} cycles as recorded", cycles.len())];
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let source = path.display().to_string();
+        let previous_tracks = PreviousTracks::AsGiven;
+        results.push(Ok(Drive { name, source, cycles, previous_tracks, notes }));
+    }
+    results
+}
+
+/// Whether a text of several lines is JSON as a whole.
+fn is_one_document(text: &str) -> bool {
+    text.trim().lines().nth(1).is_some() && serde_json::from_str::<serde_json::Value>(text).is_ok()
+}

@@ -1,0 +1,108 @@
+//! `CommonRoad` solutions: the trajectory of the ego vehicle.
+//!
+//! The states of the kinematic single-track model move like a rear axle (their heading is their
+//! direction of motion), but the benchmark's own solution checker puts the vehicle's rectangle
+//! around the position of the state without a shift. The drives follow the checker: the position
+//! of a state is the centre of the rectangle, hence `center_offset` is 0.
+
+use std::path::Path;
+
+use crate::readers::error::ReadError;
+use crate::readers::xml::{Element, with_root};
+use crate::scene::object::State;
+
+/// A solution of one planning problem.
+pub(crate) struct Solution {
+    /// Name of the scenario in the benchmark id.
+    pub scenario: String,
+    /// The part of the benchmark id before the scenario, such as `KS2:SM1`.
+    pub model: String,
+    /// Length and width of the vehicle, m.
+    pub size: [f64; 2],
+    /// One state for every time step.
+    pub states: Vec<State>,
+}
+
+/// Lengths and widths of the `CommonRoad` vehicles 1 (Ford Escort), 2 (BMW 320i) and 3 (VW
+/// Vanagon), m.
+const VEHICLES: [(char, [f64; 2]); 3] =
+    [('1', [4.298, 1.674]), ('2', [4.508, 1.610]), ('3', [4.569, 1.844])];
+
+/// Reads a solution from the text of a file.
+pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
+    with_root(file, text, |root| {
+        let id = root.attribute("benchmark_id")?;
+        let parts: Vec<&str> = id.split(':').collect();
+        let [model, cost, scenario, _version] = parts[..] else {
+            let message = format!("`{id}` is not of the form model:cost:scenario:version");
+            return Err(root.error("benchmark_id", message));
+        };
+        let size = size(model).ok_or_else(|| {
+            let message = format!("`{model}` names no KS, ST or MB model of vehicle 1, 2 or 3");
+            root.error("benchmark_id", message)
+        })?;
+        let mut trajectories = root.children();
+        let (Some(trajectory), None) = (trajectories.next(), trajectories.next()) else {
+            return Err(root.error("", "exactly one trajectory is needed"));
+        };
+        Ok(Solution {
+            scenario: scenario.to_owned(),
+            model: format!("{model}:{cost}"),
+            size,
+            states: states(trajectory)?,
+        })
+    })
+}
+
+fn size(model: &str) -> Option<[f64; 2]> {
+    let vehicle = ["KS", "ST", "MB"].iter().find_map(|kind| model.strip_prefix(kind))?;
+    VEHICLES.iter().find(|(name, _)| vehicle.chars().eq([*name])).map(|(_, size)| *size)
+}
+
+fn states(trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
+    let name = match trajectory.name() {
+        "ksTrajectory" => "ksState",
+        "stTrajectory" => "stState",
+        "mbTrajectory" => "mbState",
+        other => {
+            let message = format!("`{other}` is not read; KS, ST and MB trajectories are");
+            return Err(trajectory.error("", message));
+        }
+    };
+    let mut states: Vec<State> = Vec::new();
+    for (i, element) in trajectory.all(name).enumerate() {
+        let step = element.get("time")?.step()?;
+        let slip = element.find("slipAngle").map_or(Ok(0.0), Element::number)?;
+        let state = State {
+            step,
+            position: element.point()?,
+            heading: element.get("orientation")?.number()?,
+            speed: element.get("velocity")?.number()?,
+            slip,
+        };
+        if states.last().is_some_and(|last| last.step + 1 != step) {
+            let message = format!("time {step} is not the step after the last");
+            return Err(element.error("time", message).index(i));
+        }
+        states.push(state);
+    }
+    if states.is_empty() {
+        return Err(trajectory.error(name, "no state"));
+    }
+    Ok(states)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_vehicle_is_named_by_the_model() {
+        assert_eq!(size("KS2"), Some([4.508, 1.610]));
+        assert_eq!(size("ST1"), Some([4.298, 1.674]));
+        assert_eq!(size("MB3"), Some([4.569, 1.844]));
+        assert!(
+            ["PM1", "KS4", "KS", "[KS1,KS2]", "KST2", "ks2"].map(size).iter().all(Option::is_none)
+        );
+    }
+}

@@ -1,0 +1,225 @@
+//! XML with the place of every complaint. The parser descends recursively, so depth is bounded
+//! before it starts.
+
+use std::path::Path;
+
+use roxmltree::{Document, Node};
+
+use crate::readers::error::ReadError;
+use crate::scene::geometry::Point;
+
+/// `CommonRoad` files nest less than 10 deep.
+const DEPTH_MAX: usize = 64;
+/// Positions of `spec/4-arithmetic.md#domain`, m.
+const POSITION_MAX: f64 = 16_777_216.0;
+
+/// Parses a document and gives its root element to `read`.
+pub(crate) fn with_root<T>(
+    file: &Path,
+    text: &str,
+    read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
+) -> Result<T, ReadError> {
+    if too_deep(text) {
+        let message = format!("elements nest deeper than {DEPTH_MAX}; this is no CommonRoad file");
+        return Err(ReadError::file(file, message));
+    }
+    let document = Document::parse(text).map_err(|e| {
+        ReadError::file(file, format!("not well-formed XML: {e}")).line(e.pos().row)
+    })?;
+    read(Element { file, node: document.root_element() })
+}
+
+/// Whether elements nest deeper than `DEPTH_MAX`. Where the scan stops early, the parser stops
+/// with an error at the same place (an unclosed construct, or a document type, which it refuses).
+fn too_deep(text: &str) -> bool {
+    let mut depth: usize = 0;
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        let end = if rest.starts_with("<!--") {
+            after(rest, 4, "-->")
+        } else if rest.starts_with("<![CDATA[") {
+            after(rest, 9, "]]>")
+        } else if rest.starts_with("<?") {
+            after(rest, 2, "?>")
+        } else if rest.starts_with("<!") {
+            None
+        } else if rest.starts_with("</") {
+            depth = depth.saturating_sub(1);
+            after(rest, 2, ">")
+        } else {
+            let end = tag_end(rest);
+            if end.is_some_and(|e| !rest[..e].ends_with("/>")) {
+                depth += 1;
+            }
+            end
+        };
+        let Some(end) = end else { return false };
+        if depth > DEPTH_MAX {
+            return true;
+        }
+        rest = &rest[end..];
+    }
+    false
+}
+
+/// Where `text` goes on after the first `mark` from byte `from`.
+fn after(text: &str, from: usize, mark: &str) -> Option<usize> {
+    text[from..].find(mark).map(|i| from + i + mark.len())
+}
+
+/// Where `text`, which starts with a tag, goes on after it; `>` may stand in quotes.
+fn tag_end(text: &str) -> Option<usize> {
+    let mut quote = None;
+    for (i, byte) in text.bytes().enumerate() {
+        match (quote, byte) {
+            (None, b'"' | b'\'') => quote = Some(byte),
+            (None, b'>') => return Some(i + 1),
+            (Some(q), b) if q == b => quote = None,
+            _ => {}
+        }
+    }
+    None
+}
+
+/// An element of a document.
+#[derive(Clone, Copy)]
+pub(crate) struct Element<'a> {
+    file: &'a Path,
+    node: Node<'a, 'a>,
+}
+
+impl<'a> Element<'a> {
+    pub(crate) fn name(self) -> &'a str {
+        self.node.tag_name().name()
+    }
+
+    /// An error at this element.
+    pub(crate) fn error(self, field: &str, message: impl Into<String>) -> ReadError {
+        let position = self.node.document().text_pos_at(self.node.range().start);
+        ReadError::file(self.file, message).line(position.row).at(self.path(), field)
+    }
+
+    fn path(self) -> String {
+        let mut names: Vec<String> = self
+            .node
+            .ancestors()
+            .filter(Node::is_element)
+            .map(|n| match n.attribute("id") {
+                Some(id) => format!("{}[{id}]", n.tag_name().name()),
+                None => n.tag_name().name().to_owned(),
+            })
+            .collect();
+        names.reverse();
+        names.join("/")
+    }
+
+    pub(crate) fn children(self) -> impl Iterator<Item = Element<'a>> {
+        let file = self.file;
+        self.node.children().filter(Node::is_element).map(move |node| Element { file, node })
+    }
+
+    pub(crate) fn all(self, name: &'static str) -> impl Iterator<Item = Element<'a>> {
+        self.children().filter(move |e| e.name() == name)
+    }
+
+    pub(crate) fn find(self, name: &'static str) -> Option<Element<'a>> {
+        self.all(name).next()
+    }
+
+    pub(crate) fn get(self, name: &'static str) -> Result<Element<'a>, ReadError> {
+        self.find(name).ok_or_else(|| self.error(name, "this element is missing"))
+    }
+
+    pub(crate) fn text(self) -> &'a str {
+        self.node.text().unwrap_or("").trim()
+    }
+
+    pub(crate) fn attribute(self, name: &str) -> Result<&'a str, ReadError> {
+        let value = self.node.attribute(name);
+        value.ok_or_else(|| self.error(name, "this attribute is missing"))
+    }
+
+    /// An attribute that is an integer, such as `id` or `ref`.
+    pub(crate) fn integer_attribute(self, name: &str) -> Result<i64, ReadError> {
+        let value = self.attribute(name)?;
+        value.trim().parse().map_err(|_| self.error(name, format!("`{value}` is no integer")))
+    }
+
+    /// The text as a finite number.
+    pub(crate) fn number(self) -> Result<f64, ReadError> {
+        let number: f64 = self.text().parse().map_err(|_| self.not_a_number())?;
+        if number.is_finite() { Ok(number) } else { Err(self.not_a_number()) }
+    }
+
+    /// The text as an integer not below zero, such as a time step.
+    pub(crate) fn step(self) -> Result<i64, ReadError> {
+        let step: i64 = self.text().parse().map_err(|_| self.not_a_number())?;
+        if (0..=1_000_000).contains(&step) {
+            Ok(step)
+        } else {
+            Err(self.error("", format!("time step {step} is not within 0 and 1000000")))
+        }
+    }
+
+    fn not_a_number(self) -> ReadError {
+        self.error("", format!("`{}` is no number that can stand here", self.text()))
+    }
+
+    /// A number within bounds, in the child `name`.
+    pub(crate) fn number_in(
+        self,
+        name: &'static str,
+        low: f64,
+        high: f64,
+    ) -> Result<f64, ReadError> {
+        let child = self.get(name)?;
+        let number = child.number()?;
+        if (low..=high).contains(&number) {
+            Ok(number)
+        } else {
+            Err(child.error("", format!("{number} is not within {low} and {high}")))
+        }
+    }
+
+    /// The children x and y as a position.
+    pub(crate) fn point(self) -> Result<Point, ReadError> {
+        Ok([
+            self.number_in("x", -POSITION_MAX, POSITION_MAX)?,
+            self.number_in("y", -POSITION_MAX, POSITION_MAX)?,
+        ])
+    }
+
+    /// The children named `point`, each a position.
+    pub(crate) fn points(self) -> Result<Vec<Point>, ReadError> {
+        self.all("point").enumerate().map(|(i, p)| p.point().map_err(|e| e.index(i))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_document_too_deep_for_the_parser_is_refused_before_it() {
+        let text = "<a>".repeat(1_000_000);
+        let error = with_root(Path::new("deep.xml"), &text, |_| Ok(())).unwrap_err();
+        assert!(error.message.contains("deeper than 64"), "{error}");
+        let hidden = "<a b='/>'><!--</a>--><![CDATA[</a>]]>/>".repeat(100_000);
+        let error = with_root(Path::new("deep.xml"), &hidden, |_| Ok(())).unwrap_err();
+        assert!(error.message.contains("deeper than 64"), "{error}");
+        let wide = format!("<r>{}</r>", "<a b='&gt;'/><c></c>".repeat(1000));
+        with_root(Path::new("wide.xml"), &wide, |_| Ok(())).unwrap();
+    }
+
+    #[test]
+    fn an_error_names_line_element_and_value() {
+        let text = "<r>\n <lanelet id=\"7\">\n  <x>1e999</x></lanelet></r>";
+        let error = with_root(Path::new("f.xml"), text, |root| {
+            root.get("lanelet")?.number_in("x", 0.0, 1.0).map(drop)
+        });
+        let error = error.unwrap_err();
+        assert_eq!((error.line, error.element.as_str()), (Some(3), "r/lanelet[7]/x"));
+        assert!(error.message.contains("1e999"), "{error}");
+    }
+}

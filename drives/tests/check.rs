@@ -1,0 +1,218 @@
+//! Fallbacks over a drive, and what is said about disagreements.
+
+mod common;
+
+use mufasa_drives::check::course::Checked;
+use mufasa_drives::check::fallback::{Course, Hold};
+use mufasa_drives::check::judge::Judged;
+use mufasa_drives::check::{Findings, records, report};
+use mufasa_drives::{Drive, DriveCycle, PreviousTracks};
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_model::report::{FailedStage, Stage};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_props::conformance::Disagreement;
+use serde_json::Value;
+
+fn drive(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
+    let cycle = |index| DriveCycle {
+        id: format!("straight#{index}"),
+        cycle: common::cycle(index, blocked(index)),
+    };
+    Drive {
+        name: "straight".to_owned(),
+        source: "test".to_owned(),
+        cycles: (0..count).map(cycle).collect(),
+        previous_tracks: PreviousTracks::AsGiven,
+        notes: Vec::new(),
+    }
+}
+
+/// The same with lists that are carried, and a car that moves as it says.
+fn carried(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
+    let mut drive = Drive { previous_tracks: PreviousTracks::Carried, ..drive(count, blocked) };
+    for tracks in drive.cycles.iter_mut().filter_map(|cycle| cycle.cycle.tracks.as_mut()) {
+        tracks.items[0].vx = 10.0;
+    }
+    drive
+}
+
+fn checked(drive: &Drive) -> Checked {
+    Checked::new(drive.clone(), &Parameters::default(), false, || {})
+}
+
+fn text(checked: &Checked) -> String {
+    let mut out = Vec::new();
+    report::write(&mut out, checked).unwrap();
+    String::from_utf8(out).unwrap()
+}
+
+fn holds(course: &Course) -> Vec<(usize, Hold)> {
+    course.unsafe_cycles.iter().map(|cycle| (cycle.index, cycle.hold)).collect()
+}
+
+#[test]
+fn a_safe_drive_has_no_fallback_and_is_offloaded_throughout() {
+    let drive = drive(20, |_| false);
+    let checked = checked(&drive);
+    assert_eq!(checked.disagreements(), 0);
+    for course in &checked.courses {
+        assert_eq!((course.fallbacks(), course.offloaded, course.late), (0, 20, 0));
+    }
+    assert!(text(&checked).contains("20 cycles, AllRemote, hardened: 20 safe, 0 unsafe"));
+}
+
+#[test]
+fn unsafe_cycles_in_the_wait_start_no_fallback_and_the_one_at_its_end_does() {
+    // The wait of 10 s that cycle 5 starts ends at cycle 105, inclusively (I-08).
+    let drive = drive(110, |index| [5, 6, 50, 104, 105].contains(&index));
+    let checked = checked(&drive);
+    let start = drive.cycles[0].cycle.now_ns;
+    let until = |seconds: i64| Hold::Started { until_ns: start + seconds * 100_000_000 };
+    let expected = vec![
+        (5, until(105)),
+        (6, Hold::Running),
+        (50, Hold::Running),
+        (104, Hold::Running),
+        (105, until(205)),
+    ];
+    assert_eq!(holds(&checked.courses[0]), expected);
+    assert_eq!(checked.courses[0], checked.courses[1]);
+    assert_eq!(checked.courses[0].offloaded, 7);
+    assert_eq!(checked.disagreements(), 0);
+    let text = text(&checked);
+    assert!(text.contains("at 0.5 s: stage iii, point 3 meets track 7 (4.6 m < 5 m)"), "{text}");
+    assert!(text.contains("all local, wait until 10.5 s"), "{text}");
+    assert!(text.contains("0.6 s to 10.4 s: 3 more unsafe during that wait (iii 3)"), "{text}");
+}
+
+#[test]
+fn late_data_end_offloading_without_a_wait() {
+    let mut drive = drive(12, |index| index == 8);
+    for cycle in &mut drive.cycles[8..] {
+        // 60 ms: current for the stages, too late for the quality of service.
+        let cycle = &mut cycle.cycle;
+        cycle.tracks.as_mut().unwrap().stamp_ns -= 60_000_000;
+        cycle.trajectory.as_mut().unwrap().stamp_ns -= 60_000_000;
+    }
+    let checked = checked(&drive);
+    let course = &checked.courses[0];
+    assert_eq!(holds(course), [(8, Hold::Off)]);
+    assert_eq!((course.fallbacks(), course.offloaded), (0, 8));
+    // Both groups in every cycle: they are asked for again at the next tick.
+    assert_eq!(course.late, 8);
+    assert_eq!(course, &checked.courses[1]);
+    assert!(text(&checked).contains("data too late 8 times"));
+}
+
+#[test]
+fn a_silence_between_cycles_ends_offloading_without_a_wait() {
+    let mut drive = drive(6, |_| false);
+    for cycle in &mut drive.cycles[3..] {
+        let cycle = &mut cycle.cycle;
+        cycle.now_ns += 1;
+        let trajectory = cycle.trajectory.as_mut().unwrap();
+        trajectory.stamp_ns += 1;
+        trajectory.points.iter_mut().for_each(|point| point.t_ns += 1);
+        cycle.tracks.as_mut().unwrap().stamp_ns += 1;
+    }
+    let checked = checked(&drive);
+    let course = &checked.courses[0];
+    assert_eq!((course.silent, course.offloaded, course.late), (2, 5, 0));
+    assert_eq!(course, &checked.courses[1]);
+    assert!(text(&checked).contains("silence longer than dt_max 2 times"));
+}
+
+#[test]
+fn fabricated_disagreements_are_counted_written_out_and_decide_the_exit_code() {
+    let drive = drive(3, |index| index == 1);
+    let mut checked = checked(&drive);
+    let mut findings = Findings::default();
+    findings.add(&checked);
+    assert_eq!(findings.exit_code(), 1);
+    let exact = FailedStage::Stage(Stage::Iii);
+    checked.judged[1] = Judged {
+        implementation: checked.judged[0].model.clone(),
+        disagreement: Some(Disagreement::UnsafeAccepted { exact }),
+        ..checked.judged[1].clone()
+    };
+    assert_eq!((checked.disagreements(), checked.otherwise()), (1, 1));
+    let text = text(&checked);
+    assert!(text.contains("DISAGREEMENT in cycle straight#1: unsound"), "{text}");
+    assert!(text.contains("model: stage iii") && text.contains("implementation: safe"), "{text}");
+    findings.add(&checked);
+    assert_eq!(findings.exit_code(), 3);
+    assert!(findings.summary().contains("DISAGREE 1 time"));
+
+    let lines = records::lines(&checked).unwrap();
+    let records: Vec<Value> =
+        lines.iter().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(records[1]["disagreement"].as_str().unwrap().starts_with("unsound"));
+    assert_eq!(records[3]["disagreements"], 1);
+}
+
+#[test]
+fn a_difference_of_the_requesters_is_a_disagreement() {
+    let drive = drive(3, |_| false);
+    let mut checked = checked(&drive);
+    assert_eq!(checked.disagreements(), 0);
+    checked.protocol = Some("the requesters differ: here".to_owned());
+    assert_eq!(checked.disagreements(), 1);
+    assert!(text(&checked).contains("DISAGREEMENT: the requesters differ: here"));
+}
+
+/// H-09: the last list that stage i passed in a safe cycle.
+#[test]
+fn the_list_of_the_last_safe_cycle_is_carried_over_unsafe_ones() {
+    let mut drive = carried(6, |index| [2, 3].contains(&index));
+    // What a cycle holds beforehand does not matter.
+    drive.cycles[0].cycle.previous_tracks = drive.cycles[5].cycle.tracks.clone();
+    let checked = checked(&drive);
+    assert_eq!(checked.tallies()[0].safe, 4);
+    let of = |index: usize| drive.cycles[index].cycle.tracks.clone();
+    let held = checked.drive.cycles.iter().map(|cycle| cycle.cycle.previous_tracks.clone());
+    assert_eq!(held.collect::<Vec<_>>(), [None, of(0), of(1), of(1), of(1), of(4)]);
+}
+
+/// In `PlanRemote` stage i is not scheduled, so a safe cycle gives no list.
+#[test]
+fn a_list_that_stage_i_did_not_see_is_not_carried() {
+    let mut drive = carried(3, |_| false);
+    for cycle in &mut drive.cycles {
+        cycle.cycle.configuration = Configuration::PlanRemote;
+    }
+    let checked = checked(&drive);
+    assert_eq!(checked.tallies()[0].safe, 3);
+    assert!(checked.drive.cycles.iter().all(|cycle| cycle.cycle.previous_tracks.is_none()));
+}
+
+#[test]
+fn a_list_that_is_given_stays() {
+    let mut drive = drive(3, |_| false);
+    drive.cycles[1].cycle.previous_tracks = drive.cycles[0].cycle.tracks.clone();
+    let checked = checked(&drive);
+    assert_eq!(checked.drive, drive);
+}
+
+/// Velocities that are made up fail stage i, and the list with them does not become the previous
+/// one: the cycle after it is compared with the list from before the attack.
+#[test]
+fn a_list_that_failed_is_compared_with_by_nobody() {
+    let mut drive = carried(4, |_| false);
+    for cycle in &mut drive.cycles[2..] {
+        cycle.cycle.tracks.as_mut().unwrap().items[0].vx += 10.0;
+    }
+    let checked = checked(&drive);
+    let failed = FailedStage::Stage(Stage::I);
+    let stages = checked.judged.iter().map(|it| it.model.as_ref().unwrap().failed_stage);
+    assert_eq!(stages.collect::<Vec<_>>(), [None, None, Some(failed), Some(failed)]);
+    let held = &checked.drive.cycles[3].cycle.previous_tracks;
+    assert_eq!(*held, drive.cycles[1].cycle.tracks);
+}
+
+#[test]
+fn a_drive_without_cycles_is_no_error() {
+    let drive = drive(0, |_| false);
+    let checked = checked(&drive);
+    assert!(text(&checked).contains("0 cycles"));
+    assert_eq!(records::lines(&checked).unwrap().len(), 1);
+}

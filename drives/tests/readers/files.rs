@@ -1,0 +1,73 @@
+//! Files that the tests read, and files that they write.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use mufasa_drives::{Drive, Options, ReadError, read};
+
+/// A file of the crate's `data`.
+pub fn own(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name)
+}
+
+/// The folder of shared recordings, `MUFASA_DATA` or `shared/data` beside the workspace; says so
+/// when there is none.
+pub fn shared(what: &str) -> Option<PathBuf> {
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let folder = std::env::var_os("MUFASA_DATA").map_or(beside, PathBuf::from).join(what);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    let line = format!("NOT RUN: no recordings in {}; set MUFASA_DATA\n", folder.display());
+    // The macros' output is captured, and nobody would see it.
+    std::io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
+    None
+}
+
+/// A folder for the files of one test, removed at its end.
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    pub fn new() -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let n = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("mufasa-readers-{}-{n}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        Self(folder)
+    }
+
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, content).expect("a temporary file");
+        path
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // Nothing depends on it, and a panic here would hide the test's own.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The one drive of some files.
+pub fn one(paths: &[PathBuf], options: &Options) -> Result<Drive, ReadError> {
+    let mut drives = read(paths, options);
+    assert_eq!(drives.len(), 1, "{drives:?}");
+    drives.remove(0)
+}
+
+/// The drive of the small scenario with the solution of that name, or with a recorded vehicle.
+pub fn small(version: &str, solution: Option<&str>, options: &Options) -> Drive {
+    let mut paths = vec![own(&format!("readers/small-{version}.xml"))];
+    paths.extend(solution.map(|s| own(&format!("readers/small.{s}.solution.xml"))));
+    one(&paths, options).expect("the small scenario is read")
+}
+
+/// The drive of the demo.
+pub fn demo(options: &Options) -> Drive {
+    let paths = [own("demo/urban.xml"), own("demo/urban.solution.xml")];
+    one(&paths, options).expect("the demo is read")
+}

@@ -1,0 +1,215 @@
+//! The demo drive, clean and under every attack, as the exact model judges it.
+
+use std::str::FromStr;
+
+use mufasa_drives::check::course::Checked;
+use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, inject};
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_model::report::{FailedStage, Rule, Stage};
+use mufasa_model::services::configuration::Configuration;
+
+use super::files::demo;
+
+/// What failed first, and at which cycle.
+fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
+    checked(drive).judged.iter().enumerate().find_map(|(i, judged)| {
+        let report = judged.model.as_ref().expect("local input is valid");
+        report.failed_stage.map(|stage| (i, stage))
+    })
+}
+
+fn checked(drive: &Drive) -> Checked {
+    Checked::new(drive.clone(), &Parameters::default(), false, || {})
+}
+
+fn options(profile: Profile) -> Options {
+    Options { profile, ..Options::default() }
+}
+
+#[test]
+fn the_demo_is_clean_in_both_profiles() {
+    for profile in [Profile::Paper, Profile::Hardened] {
+        let drive = demo(&options(profile));
+        assert!(drive.cycles.len() > 150);
+        assert_eq!(first_failure(&drive), None, "{profile:?}");
+        // It is not clean for want of anything to see.
+        let leads = drive.cycles.iter().filter(|c| c.cycle.lead.is_some()).count();
+        assert_eq!(leads, drive.cycles.len());
+        assert!(drive.cycles.iter().all(|c| c.cycle.tracks.as_ref().unwrap().items.len() >= 5));
+    }
+}
+
+#[test]
+fn every_attack_on_the_demo_is_found_where_it_should_be() {
+    use FailedStage::Stage as At;
+    let cases = [
+        (Attack::WrongMap, Some(At(Stage::Ii)), Some(At(Stage::Ii))),
+        // F-14: with tracks received, were it none, the paper's profile looks no further.
+        (Attack::EmptyTracks, None, Some(At(Stage::Iv))),
+        // F-13, F-15: stage iii meets a lead that shrank or runs ahead, but later.
+        (Attack::FalseSizes, Some(At(Stage::Iii)), Some(At(Stage::Iv))),
+        (Attack::FalseVelocities, Some(At(Stage::Iii)), Some(At(Stage::I))),
+        (Attack::GhostTracks, Some(At(Stage::I)), Some(At(Stage::I))),
+        // The route begins 8 m behind the first position, where going back leaves it.
+        (Attack::Backwards, Some(At(Stage::Ii)), Some(At(Stage::Ii))),
+        // F-16, F-22.
+        (Attack::Frozen, None, Some(At(Stage::Ii))),
+        (Attack::TooFast, None, Some(At(Stage::Ii))),
+        // Late data are not used, which is safe.
+        (Attack::Late, None, None),
+    ];
+    assert_eq!(cases.len(), Attack::ALL.len());
+    let [paper, hardened] = [Profile::Paper, Profile::Hardened].map(|p| demo(&options(p)));
+    for (attack, in_paper, in_hardened) in cases {
+        let injection = Injection { attack, from_s: 2.0, to_s: f64::INFINITY };
+        for (clean, expected) in [(&paper, in_paper), (&hardened, in_hardened)] {
+            let attacked = inject(clean, &injection).unwrap();
+            let found = first_failure(&attacked);
+            assert_eq!(
+                found.map(|f| f.1),
+                expected,
+                "{attack:?} {:?}",
+                clean.cycles[0].cycle.profile
+            );
+            assert!(found.is_none_or(|f| f.0 >= 20), "{attack:?} found before it began: {found:?}");
+            assert_eq!(attacked.cycles[..20], clean.cycles[..20]);
+        }
+    }
+}
+
+/// F-13 as an accident: in the paper's profile nothing is found before the bumpers touch.
+#[test]
+fn false_velocities_are_found_at_the_impact_or_at_once() {
+    let injection = "false-velocities@2..".parse::<Injection>().unwrap();
+    let attacked = inject(&demo(&options(Profile::Paper)), &injection).unwrap();
+    let (found, _) = first_failure(&attacked).unwrap();
+    let lead = attacked.cycles[found].cycle.lead.as_ref().unwrap();
+    assert!(lead.gap <= 0.0, "{lead:?}");
+    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
+    assert_eq!(first_failure(&attacked), Some((20, FailedStage::Stage(Stage::I))));
+}
+
+/// F-14 as an accident: the CAV drives what is planned from empty lists. The hardened monitor
+/// stops it while the lead is still ahead; in the paper's profile it drives into it.
+#[test]
+fn empty_tracks_end_in_a_collision_unless_they_are_found() {
+    let injection = "empty-tracks@2..".parse::<Injection>().unwrap();
+    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
+    let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
+    let (found, _) = first_failure(&attacked).unwrap();
+    let checked = checked(&attacked);
+    let report = checked.judged[found].model.as_ref().unwrap();
+    let rules: Vec<Rule> = report
+        .stages
+        .iter()
+        .filter_map(|s| match s {
+            mufasa_model::report::Outcome::Failed(witness) => Some(witness.rule),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(rules, [Rule::Gap]);
+    let speed = attacked.cycles[found].cycle.ego.speed;
+    assert!(gap(found).unwrap() > speed * speed / 16.0, "it can still stop");
+    let crash = (found..attacked.cycles.len()).find(|i| gap(*i) == Some(0.0));
+    assert!(crash.is_some(), "without the monitor it would hit the lead");
+    assert_eq!(first_failure(&inject(&demo(&options(Profile::Paper)), &injection).unwrap()), None);
+}
+
+#[test]
+fn an_injection_changes_what_is_received_in_its_time_and_nothing_else() {
+    let clean = demo(&Options::default());
+    for attack in Attack::ALL {
+        let attacked = inject(&clean, &Injection { attack, from_s: 3.0, to_s: 4.0 }).unwrap();
+        for (i, (a, c)) in attacked.cycles.iter().zip(&clean.cycles).enumerate() {
+            // A frozen trajectory is the true one the first time.
+            let changed = (30..=40).contains(&i) && !(attack == Attack::Frozen && i == 30);
+            assert_eq!(a != c, changed, "{attack:?} at {i}");
+            let (a, c) = (&a.cycle, &c.cycle);
+            assert_eq!((&a.detections, &a.route, &a.grid), (&c.detections, &c.route, &c.grid));
+            assert_eq!(a.previous_tracks, c.previous_tracks);
+        }
+        let ends = attacked.cycles.len();
+        assert!(ends == clean.cycles.len() || ends == 41, "{attack:?} ends at {ends}");
+    }
+}
+
+#[test]
+fn injections_are_written_as_they_are_read() {
+    for text in ["wrong-map@2..3.5", "ghost-tracks@0..", "late@1..1.5"] {
+        assert_eq!(Injection::from_str(text).unwrap().to_string(), text);
+    }
+    assert_eq!(Injection::from_str("frozen").unwrap().to_string(), "frozen@0..");
+    for attack in Attack::ALL {
+        assert_eq!(attack.name().parse(), Ok(attack));
+    }
+    for text in ["", "wrongmap", "late@1", "late@-1..2", "late@a..b", "late@nan..", "late@2..x"] {
+        assert!(Injection::from_str(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn an_empty_span_is_refused() {
+    for text in ["wrong-map@3..2", "wrong-map@2..2", "late@..0", "late@inf.."] {
+        let error = Injection::from_str(text).unwrap_err();
+        assert!(matches!(error, ParseInjectionError::EmptySpan { .. }), "{text}: {error}");
+    }
+}
+
+#[test]
+fn an_injection_that_changes_nothing_is_an_error_of_the_drive() {
+    let drive = demo(&Options::default());
+    let refused = |drive: &Drive, text: &str| inject(drive, &text.parse().unwrap()).unwrap_err();
+    let late = refused(&drive, "ghost-tracks@90..100");
+    assert!(matches!(late, InjectError::Outside { .. }), "{late}");
+    // The first of the frozen trajectories is the true one.
+    let same = refused(&drive, "frozen@2..2.05");
+    assert!(matches!(same, InjectError::Unchanged { .. }), "{same}");
+    let mut bare = drive.clone();
+    for cycle in &mut bare.cycles {
+        cycle.cycle.tracks = None;
+    }
+    for attack in ["empty-tracks", "ghost-tracks", "false-sizes"] {
+        let absent = refused(&bare, attack);
+        assert!(matches!(absent, InjectError::Unchanged { .. }), "{absent}");
+    }
+    let error = late.of(&drive);
+    assert_eq!((error.file.to_str(), &error.message), (Some(&*drive.source), &late.to_string()));
+}
+
+/// Only what is received is changed, or what is made from it: the trajectory of a local planner
+/// that believes the received tracks.
+#[test]
+fn attacks_change_remote_data_only() {
+    use Attack::{EmptyTracks, FalseSizes, FalseVelocities, GhostTracks, Late};
+    for configuration in [
+        Configuration::Local,
+        Configuration::MotRemote,
+        Configuration::PlanRemote,
+        Configuration::AllRemote,
+    ] {
+        let clean = demo(&Options { configuration, ..Options::default() });
+        let remote = configuration.remote();
+        for attack in Attack::ALL {
+            let on_tracks = [EmptyTracks, FalseSizes, FalseVelocities, GhostTracks, Late];
+            let on_tracks = on_tracks.contains(&attack) && remote.mot;
+            let on_trajectory = match attack {
+                EmptyTracks | FalseSizes | FalseVelocities => remote.mot,
+                GhostTracks => false,
+                _ => remote.plan,
+            };
+            let injection = Injection { attack, from_s: 3.0, to_s: 4.0 };
+            let attacked = match inject(&clean, &injection) {
+                Ok(attacked) => attacked,
+                Err(error) => {
+                    let local = InjectError::Local { injection, configuration };
+                    assert_eq!((error, on_tracks || on_trajectory), (local, false));
+                    continue;
+                }
+            };
+            let [a, c] = [&attacked, &clean].map(|drive| &drive.cycles[35].cycle);
+            assert_eq!(a.tracks != c.tracks, on_tracks, "{attack:?} {configuration:?}");
+            assert_eq!(a.trajectory != c.trajectory, on_trajectory, "{attack:?} {configuration:?}");
+        }
+    }
+}

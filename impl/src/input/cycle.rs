@@ -1,0 +1,207 @@
+//! The record of one cycle: what the CAV knows when it decides (`spec/5-interfaces.md#cycle`).
+//!
+//! Everything is borrowed from the caller; numbers are the doubles as they came, and
+//! `stages::check` says what is wrong with them.
+
+use crate::input::parameters::Parameters;
+use crate::services::configuration::Configuration;
+
+/// The published method, or the published method with the rules H-nn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Profile {
+    /// The published method, read as the interpretations I-nn say.
+    Paper,
+    /// The published method and H-01 to H-12.
+    Hardened,
+}
+
+/// One cycle. Positions in m, speeds in m/s, times in ns, directions as (cos, sin).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle<'a> {
+    /// Profile in force.
+    pub profile: Profile,
+    /// Parameters in force.
+    pub parameters: Parameters,
+    /// Time of the decision on the CAV's monotonic clock, ns.
+    pub now_ns: i64,
+    /// Which groups are remote.
+    pub configuration: Configuration,
+    /// The CAV itself.
+    pub ego: Ego,
+    /// The planned trajectory; `None` is a missing input, here and below.
+    pub trajectory: Option<Trajectory<'a>>,
+    /// The track list.
+    pub tracks: Option<TrackList<'a>>,
+    /// The detections of all local detectors.
+    pub detections: Option<DetectionList<'a>>,
+    /// The leading vehicle.
+    pub lead: Option<Lead>,
+    /// The route.
+    pub route: Route<'a>,
+    /// The occupancy grid map.
+    pub grid: Option<Grid<'a>>,
+    /// H-09: the last list that stage i passed in a safe cycle.
+    pub previous_tracks: Option<TrackList<'a>>,
+}
+
+/// Pose, speed and size of the CAV.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ego {
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Direction.
+    pub cos: f64,
+    /// Direction.
+    pub sin: f64,
+    /// `v_now`, m/s.
+    pub speed: f64,
+    /// Length L, m.
+    pub length: f64,
+    /// Width W, m.
+    pub width: f64,
+    /// From the position forward to the centre of the rectangle, m.
+    pub center_offset: f64,
+}
+
+/// A trajectory with the time at which it was made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trajectory<'a> {
+    /// Time of generation, ns.
+    pub stamp_ns: i64,
+    /// Points in order of time.
+    pub points: &'a [TrajectoryPoint],
+}
+
+/// One pose of a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectoryPoint {
+    /// When the CAV is to be there, ns.
+    pub t_ns: i64,
+    /// Position, m.
+    pub x: f64,
+    /// Position, m.
+    pub y: f64,
+    /// Direction.
+    pub cos: f64,
+    /// Direction.
+    pub sin: f64,
+}
+
+/// A list of tracks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackList<'a> {
+    /// Time that the positions are valid for, ns.
+    pub stamp_ns: i64,
+    /// Tracks in list order.
+    pub items: &'a [Track],
+}
+
+/// A tracked object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Track {
+    /// Identity over time.
+    pub id: i64,
+    /// Centre, m.
+    pub x: f64,
+    /// Centre, m.
+    pub y: f64,
+    /// Direction.
+    pub cos: f64,
+    /// Direction.
+    pub sin: f64,
+    /// Velocity, m/s.
+    pub vx: f64,
+    /// Velocity, m/s.
+    pub vy: f64,
+    /// Length, m.
+    pub length: f64,
+    /// Width, m.
+    pub width: f64,
+}
+
+/// The detections of all local detectors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DetectionList<'a> {
+    /// Time of measurement, ns.
+    pub stamp_ns: i64,
+    /// Detections in list order.
+    pub items: &'a [Detection],
+}
+
+/// A detected object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detection {
+    /// Centre, m.
+    pub x: f64,
+    /// Centre, m.
+    pub y: f64,
+    /// Direction.
+    pub cos: f64,
+    /// Direction.
+    pub sin: f64,
+    /// Length, m.
+    pub length: f64,
+    /// Width, m.
+    pub width: f64,
+}
+
+/// The leading vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lead {
+    /// Time of measurement, ns.
+    pub stamp_ns: i64,
+    /// Free distance, m.
+    pub gap: f64,
+    /// `v_lead`, m/s.
+    pub speed: f64,
+}
+
+/// A route: reference path and boundaries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Route<'a> {
+    /// The last station is followed by the first.
+    pub closed: bool,
+    /// Stations in driving order.
+    pub stations: &'a [Station],
+}
+
+/// One station of a route.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// Reference point, m.
+    pub x: f64,
+    /// Reference point, m.
+    pub y: f64,
+    /// Left boundary point, m.
+    pub left: [f64; 2],
+    /// Right boundary point, m.
+    pub right: [f64; 2],
+}
+
+/// An occupancy grid map; the cell (column i, row k) is the square from (i, k) to (i+1, k+1)
+/// times `resolution` in the frame (x, y, cos, sin).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid<'a> {
+    /// Time of measurement, ns.
+    pub stamp_ns: i64,
+    /// Origin, m.
+    pub x: f64,
+    /// Origin, m.
+    pub y: f64,
+    /// Direction of the rows.
+    pub cos: f64,
+    /// Direction of the rows.
+    pub sin: f64,
+    /// Side of a cell, m.
+    pub resolution: f64,
+    /// Columns.
+    pub width: i64,
+    /// Rows.
+    pub height: i64,
+    /// Bit row * width + column, least significant bit of each byte first.
+    pub occupied: &'a [u8],
+    /// The same form; a cell both occupied and unknown is occupied.
+    pub unknown: Option<&'a [u8]>,
+}

@@ -1,0 +1,8 @@
+//! The record of a cycle, its domain, and what the caller lends.
+
+pub mod cycle;
+pub mod parameters;
+pub mod route_index;
+pub mod scratch;
+
+pub(crate) mod domain;

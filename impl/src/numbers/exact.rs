@@ -1,0 +1,174 @@
+//! Comparisons that must not have any error: which side of a line a point is on, which of two
+//! distances is larger, the norm of a direction, the end of a trajectory
+//! (`spec/4-arithmetic.md#strict-and-lax`).
+//!
+//! First the error bounds of `rounding` are tried; only when they leave the sign open are the
+//! doubles written out as fixed-point integers, of which every sum and product is exact.
+
+use core::cmp::Ordering;
+
+use crate::numbers::rounding::Real;
+
+/// One summand (a - b) * (c - d) of doubles; differences stay below 2^40 in size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Product(pub(crate) [f64; 2], pub(crate) [f64; 2]);
+
+/// The sign of the sum of the first products minus the sum of the second ones, exactly.
+pub(crate) fn compare(left: &[Product], right: &[Product]) -> Ordering {
+    let gap = sum(left) - sum(right);
+    if Real::ZERO.certainly_below(gap) {
+        Ordering::Greater
+    } else if gap.certainly_below(Real::ZERO) {
+        Ordering::Less
+    } else {
+        let mut total = Wide::default();
+        for &Product([a, b], [c, d]) in left {
+            total.add_product(&difference(a, b), &difference(c, d), false);
+        }
+        for &Product([a, b], [c, d]) in right {
+            total.add_product(&difference(a, b), &difference(c, d), true);
+        }
+        total.sign()
+    }
+}
+
+/// On which side of the line from `a` to `b` the point `c` is: `Greater` is left.
+pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+    let area = certain_orientation(a, b, c);
+    if area > 0.0 {
+        return Ordering::Greater;
+    }
+    if area < 0.0 {
+        return Ordering::Less;
+    }
+    let [ax, ay] = a;
+    let [bx, by] = b;
+    let [cx, cy] = c;
+    compare(&[Product([bx, ax], [cy, ay])], &[Product([by, ay], [cx, ax])])
+}
+
+/// The same in plain doubles: a number of the sign of the area of the triangle, or 0 when rounding
+/// leaves the sign open (Shewchuk 1997, bound A of "orient2d", which is 3.3e-16 of the sum).
+pub(crate) fn certain_orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    let ([ax, ay], [bx, by], [cx, cy]) = (a, b, c);
+    let (one, other) = ((bx - ax) * (cy - ay), (by - ay) * (cx - ax));
+    let area = one - other;
+    // 1e-300 is more than products lose to underflow.
+    let bound = (one.abs() + other.abs()) * 4e-16 + 1e-300;
+    if area > bound || area < -bound { area } else { 0.0 }
+}
+
+/// Compares the distance from `p` to `a` with the distance from `p` to `b`.
+pub(crate) fn compare_distances(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
+    let [px, py] = p;
+    let square = |[x, y]: [f64; 2]| [Product([x, px], [x, px]), Product([y, py], [y, py])];
+    compare(&square(a), &square(b))
+}
+
+fn sum(products: &[Product]) -> Real {
+    let factor = |[a, b]: [f64; 2]| Real::difference(a, b);
+    products.iter().fold(Real::ZERO, |total, &Product(x, y)| total + factor(x) * factor(y))
+}
+
+/// Limbs of a difference: 1074 bits after the point, 40 before it, rounded up.
+const NARROW: usize = 18;
+/// Limbs of a product: the point is after bit 2148; the sum of four stays below 2^84.
+const WIDE: usize = 36;
+
+/// A difference of two doubles in units of 2^-1074, as sign and size.
+struct Narrow {
+    negative: bool,
+    limbs: [u64; NARROW],
+}
+
+/// A sum of products in units of 2^-2148, in two's complement, lowest limb first.
+struct Wide([u64; WIDE]);
+
+impl Default for Wide {
+    fn default() -> Self {
+        Self([0; WIDE])
+    }
+}
+
+impl Wide {
+    /// Adds a * b, or subtracts it.
+    fn add_product(&mut self, a: &Narrow, b: &Narrow, subtract: bool) {
+        let negative = (a.negative != b.negative) != subtract;
+        let mut product = [0_u64; WIDE];
+        for (offset, &x) in a.limbs.iter().enumerate().filter(|&(_, &x)| x != 0) {
+            let mut carry = 0_u64;
+            let factors = b.limbs.iter().chain(core::iter::repeat(&0));
+            for (digit, &y) in product.iter_mut().skip(offset).zip(factors) {
+                // x y + digit + carry <= (2^64 - 1)^2 + 2 (2^64 - 1) < 2^128
+                let full = u128::from(x)
+                    .wrapping_mul(u128::from(y))
+                    .wrapping_add(u128::from(*digit))
+                    .wrapping_add(u128::from(carry));
+                (*digit, carry) = halves(full);
+            }
+        }
+        add(&mut self.0, &product, negative);
+    }
+
+    fn sign(&self) -> Ordering {
+        if self.0.last().is_some_and(|&top| top >> 63 == 1) {
+            Ordering::Less
+        } else if self.0.iter().any(|&limb| limb != 0) {
+            Ordering::Greater
+        } else {
+            Ordering::Equal
+        }
+    }
+}
+
+/// a - b in fixed point.
+fn difference(a: f64, b: f64) -> Narrow {
+    let mut limbs = [0; NARROW];
+    let (size_a, size_b) = (fixed(a), fixed(b));
+    add(&mut limbs, &size_a, a < 0.0);
+    add(&mut limbs, &size_b, b > 0.0);
+    let negative = limbs.last().is_some_and(|&top| top >> 63 == 1);
+    if negative {
+        let complement = limbs;
+        limbs = [0; NARROW];
+        add(&mut limbs, &complement, true);
+    }
+    Narrow { negative, limbs }
+}
+
+/// The size of a double below 2^40 in units of 2^-1074.
+fn fixed(value: f64) -> [u64; NARROW] {
+    let bits = value.to_bits();
+    let biased = (bits >> 52) & 0x7ff;
+    let fraction = bits & 0x000f_ffff_ffff_ffff;
+    let (mantissa, shift) =
+        if biased == 0 { (fraction, 0) } else { (fraction | 1 << 52, biased.wrapping_sub(1)) };
+    let first = usize::try_from(shift >> 6).unwrap_or(NARROW);
+    let (low, high) = halves(u128::from(mantissa) << (shift & 63));
+    let mut limbs = [0; NARROW];
+    for (limb, part) in limbs.iter_mut().skip(first).zip([low, high]) {
+        *limb = part;
+    }
+    limbs
+}
+
+/// total += summand or total -= summand, in two's complement.
+fn add<const N: usize>(total: &mut [u64; N], summand: &[u64; N], negative: bool) {
+    let mut carry = u128::from(negative);
+    for (digit, &part) in total.iter_mut().zip(summand) {
+        let part = if negative { !part } else { part };
+        let full = u128::from(*digit).wrapping_add(u128::from(part)).wrapping_add(carry);
+        let high;
+        (*digit, high) = halves(full);
+        carry = u128::from(high);
+    }
+}
+
+/// Low and high half.
+#[allow(clippy::cast_possible_truncation, reason = "the halves are what is wanted")]
+fn halves(full: u128) -> (u64, u64) {
+    (full as u64, (full >> 64) as u64)
+}
+
+#[cfg(test)]
+mod tests;

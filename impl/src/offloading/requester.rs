@@ -1,0 +1,272 @@
+//! The requester of the CAV: which group runs where, and the fallback to local services
+//! (`spec/2-offloading.md#requester`, `#quality-of-service`, `#fallback`).
+//!
+//! Where the text leaves a choice, this is how it is read:
+//!
+//! * A message speaks of a session only if station, group and number all fit: another station can
+//!   neither reject nor confirm it, and is answered as for any other session.
+//! * The hold bars requests. A group that the hold did not return to local (with `qos_hold`, the
+//!   other one) stays in use.
+//! * After the request numbered 2^63 - 1 no request is sent any more; everything else goes on.
+
+mod event;
+mod inspect;
+mod per_group;
+mod restore;
+mod slot;
+mod stations;
+mod steps;
+
+#[cfg(test)]
+mod tests;
+
+pub use self::event::{Action, Actions, Event, EventKind};
+pub use self::inspect::{Running, Suspended};
+pub use self::restore::{GroupRecord, Parts};
+pub use self::slot::GroupState;
+pub use self::stations::StationRecord;
+pub use crate::services::configuration::{Group, Groups, Source};
+
+use self::event::Outbox;
+use self::per_group::PerGroup;
+use self::slot::Slot;
+use self::stations::Stations;
+use self::steps::Farewell;
+use crate::input::cycle::Profile;
+use crate::offloading::quality_of_service::Limits;
+use crate::services::configuration::Configuration;
+
+/// The times of a requester, in ns, each from 0 to 2^63 - 1. Source:
+/// `spec/2-offloading.md`, `spec/4-arithmetic.md#domain`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Parameters {
+    /// How long offloading is barred after a safety issue.
+    pub t_wait_ns: i64,
+    /// How long a request waits for its confirmation.
+    pub request_timeout_ns: i64,
+    /// Largest latency that is no violation.
+    pub l_max_ns: i64,
+    /// Largest inter-arrival time that is no violation.
+    pub dt_max_ns: i64,
+    /// Whether a violation of quality of service starts a hold too (I-09).
+    pub qos_hold: bool,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self {
+            t_wait_ns: 10_000_000_000,
+            request_timeout_ns: 500_000_000,
+            l_max_ns: 50_000_000,
+            dt_max_ns: 100_000_000,
+            qos_hold: false,
+        }
+    }
+}
+
+impl Parameters {
+    const fn limits(&self) -> Limits {
+        Limits { l_max_ns: self.l_max_ns, dt_max_ns: self.dt_max_ns }
+    }
+
+    /// The first time below 0, in the order of the fields.
+    const fn problem(&self) -> Option<RequesterError> {
+        let field = if self.t_wait_ns < 0 {
+            "t_wait_ns"
+        } else if self.request_timeout_ns < 0 {
+            "request_timeout_ns"
+        } else if self.l_max_ns < 0 {
+            "l_max_ns"
+        } else if self.dt_max_ns < 0 {
+            "dt_max_ns"
+        } else {
+            return None;
+        };
+        Some(RequesterError::NegativeParameter { field })
+    }
+}
+
+/// Why a requester could not be made, or an event not be taken; then nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RequesterError {
+    /// A parameter is below 0; it must be from 0 to 2^63 - 1.
+    NegativeParameter {
+        /// The parameter.
+        field: &'static str,
+    },
+    /// The event names a station below 1; station 0 is the CAV itself.
+    Station {
+        /// The station's id.
+        station: i64,
+    },
+    /// An offer of a station that is not in the table, which is full. Lend a table of as many
+    /// places as there are stations that ever offer something.
+    TableFull {
+        /// The station's id.
+        station: i64,
+        /// Places of the table.
+        capacity: usize,
+    },
+}
+
+impl core::fmt::Display for RequesterError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match *self {
+            Self::NegativeParameter { field } => {
+                write!(f, "{field} is below 0; it must be from 0 to 2^63 - 1")
+            }
+            Self::Station { station } => {
+                write!(f, "station {station} is below 1; stations of events are remote")
+            }
+            Self::TableFull { station, capacity } => write!(
+                f,
+                "no place for station {station}: all {capacity} places of the table are taken; \
+                 lend a larger table"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for RequesterError {}
+
+/// The requester. The same events give the same states and actions; time is an argument of every
+/// event.
+#[derive(Debug)]
+pub struct Requester<'a> {
+    profile: Profile,
+    parameters: Parameters,
+    slots: PerGroup<Slot>,
+    hold_until_ns: Option<i64>,
+    area: Groups,
+    /// The number of requests so far, which is the last session.
+    sessions: i64,
+    dropped: PerGroup<u64>,
+    stations: Stations<'a>,
+}
+
+impl<'a> Requester<'a> {
+    /// Both groups local, no offers, no hold, all groups in the area. `table` is cleared.
+    ///
+    /// Errors: a parameter below 0. Source: `spec/2-offloading.md#requester`.
+    pub fn new(
+        profile: Profile,
+        parameters: Parameters,
+        table: &'a mut [StationRecord],
+    ) -> Result<Self, RequesterError> {
+        if let Some(problem) = parameters.problem() {
+            return Err(problem);
+        }
+        Ok(Self {
+            profile,
+            parameters,
+            slots: PerGroup::new(Slot::Local, Slot::Local),
+            hold_until_ns: None,
+            area: Groups::ALL,
+            sessions: 0,
+            dropped: PerGroup::new(0, 0),
+            stations: Stations::new(table),
+        })
+    }
+
+    /// Takes one event and says what has to be done about it, in this order.
+    ///
+    /// Errors: a station below 1; an offer that the table has no place for. Then nothing has
+    /// changed. Source: `spec/2-offloading.md`.
+    pub fn step(&mut self, event: &Event) -> Result<Actions, RequesterError> {
+        if let Some(station) = event.kind.station().filter(|&station| station < 1) {
+            return Err(RequesterError::Station { station });
+        }
+        let mut out = Outbox::default();
+        let now_ns = event.t_ns;
+        match event.kind {
+            EventKind::Offer { station, groups } => {
+                self.offer(station, groups, Farewell::Release, &mut out)?;
+            }
+            EventKind::Withdraw { station } => {
+                self.offer(station, Groups::NONE, Farewell::Release, &mut out)?;
+            }
+            EventKind::Lost { station } => {
+                self.offer(station, Groups::NONE, Farewell::Silent, &mut out)?;
+            }
+            EventKind::Area { groups } => self.set_area(groups, &mut out),
+            EventKind::Tick => self.tick(now_ns, &mut out),
+            EventKind::Confirm { station, group, session } => {
+                self.confirm(now_ns, station, group, session, &mut out);
+            }
+            EventKind::Reject { station, group, session } => self.reject(station, group, session),
+            EventKind::Data { station, group, session, generated_ns } => {
+                self.data(now_ns, (station, group, session), generated_ns, &mut out);
+            }
+            EventKind::Verdict { safe: true, groups } => self.safe(groups, &mut out),
+            EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
+        }
+        Ok(out.into_actions())
+    }
+
+    /// The state of a group.
+    pub const fn state(&self, group: Group) -> GroupState {
+        self.slots.get(group).state()
+    }
+
+    /// No request is sent before this time, in ns; the last value stays when it has passed.
+    /// `None`: there never was a hold.
+    pub const fn hold_until_ns(&self) -> Option<i64> {
+        self.hold_until_ns
+    }
+
+    /// Whose results of a group may reach control. Source: `spec/1-services.md#configuration`.
+    pub const fn source(&self, group: Group) -> Source {
+        self.slots.get(group).source()
+    }
+
+    /// The configuration for the stages: a group is remote from its confirmation on, also while
+    /// its local services still compute (H-08), because its results have to be checked first.
+    pub const fn configuration(&self) -> Configuration {
+        Configuration::of(Groups {
+            mot: matches!(self.state(Group::Mot), GroupState::Remote { .. }),
+            plan: matches!(self.state(Group::Plan), GroupState::Remote { .. }),
+        })
+    }
+
+    /// How many elements of a group were dropped because their session was not the running one.
+    pub const fn dropped(&self, group: Group) -> u64 {
+        *self.dropped.get(group)
+    }
+
+    /// The number of requests so far, which is the last session.
+    pub const fn sessions(&self) -> i64 {
+        self.sessions
+    }
+
+    /// Whether there is no number left for another request: none is sent any more.
+    pub const fn sessions_exhausted(&self) -> bool {
+        self.sessions == i64::MAX
+    }
+
+    /// The table with the stations that are remembered.
+    pub const fn stations(&self) -> &[StationRecord] {
+        self.stations.records()
+    }
+
+    /// What holds in every reachable state: a group in use is in the area, its station offers it
+    /// and was asked for it last in this session; sessions are numbered within the requests so
+    /// far, and no two are the same; local services are stopped only as the profile allows.
+    pub fn is_valid(&self) -> bool {
+        let group_is_valid = |group| {
+            let slot = self.slots.get(group);
+            slot.is_valid(self.profile)
+                && slot.in_use().is_none_or(|(station, session)| {
+                    let offered_and_asked = |record: &StationRecord| {
+                        record.offer().contains(group)
+                            && record.last_request(group) == Some(session)
+                    };
+                    self.area.contains(group)
+                        && self.stations.find(station).is_some_and(offered_and_asked)
+                })
+        };
+        self.parameters.problem().is_none()
+            && self.sessions >= 0
+            && self.stations.is_valid(self.sessions)
+            && Group::ALL.into_iter().all(group_is_valid)
+    }
+}

@@ -1,0 +1,207 @@
+//! What happens to a requester, and what it does about it
+//! (`spec/2-offloading.md#requester`, `spec/5-interfaces.md#offloading-trace`).
+
+use core::ops::Deref;
+
+use super::per_group::PerGroup;
+use crate::report::{InvalidInput, Report};
+use crate::services::configuration::{Group, Groups};
+
+/// Something that happens at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Event {
+    /// The CAV's monotonic clock, in ns. Never compared with a clock.
+    pub t_ns: i64,
+    /// What happens.
+    pub kind: EventKind,
+}
+
+/// What happens. Every `station` must be >= 1; sessions and generation times may be anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EventKind {
+    /// A station offers groups; this replaces its previous offer.
+    Offer {
+        /// The station's id.
+        station: i64,
+        /// What it offers from now on.
+        groups: Groups,
+    },
+    /// A station withdraws its offer.
+    Withdraw {
+        /// The station's id.
+        station: i64,
+    },
+    /// A station can no longer be reached.
+    Lost {
+        /// The station's id.
+        station: i64,
+    },
+    /// From now on these groups may be offloaded (CODM).
+    Area {
+        /// The groups of the area.
+        groups: Groups,
+    },
+    /// Time passes; deadlines, silence and requests are decided.
+    Tick,
+    /// A station confirms a session.
+    Confirm {
+        /// The station's id.
+        station: i64,
+        /// The group it names.
+        group: Group,
+        /// The session it names.
+        session: i64,
+    },
+    /// A station rejects a session.
+    Reject {
+        /// The station's id.
+        station: i64,
+        /// The group it names.
+        group: Group,
+        /// The session it names.
+        session: i64,
+    },
+    /// A result of a station arrives.
+    Data {
+        /// The station's id.
+        station: i64,
+        /// The group it names.
+        group: Group,
+        /// The session it names.
+        session: i64,
+        /// When the result was generated, in ns of the CAV's clock.
+        generated_ns: i64,
+    },
+    /// A cycle of the stages ended.
+    Verdict {
+        /// Whether the cycle was safe; one that ended in `error` is not.
+        safe: bool,
+        /// The groups whose data the cycle used.
+        groups: Groups,
+    },
+}
+
+impl EventKind {
+    /// The end of a cycle as an event. `answer`: what `stages::check` said; an error counts as
+    /// unsafe. `groups`: those whose data the cycle used. Source: `spec/2-offloading.md#fallback`.
+    pub const fn of_cycle(answer: &Result<Report, InvalidInput>, groups: Groups) -> Self {
+        let safe = match answer {
+            Ok(report) => report.failed_stage.is_none(),
+            Err(_) => false,
+        };
+        Self::Verdict { safe, groups }
+    }
+
+    /// The station that the event names, if it is of a kind that names one.
+    pub const fn station(&self) -> Option<i64> {
+        match *self {
+            Self::Offer { station, .. }
+            | Self::Withdraw { station }
+            | Self::Lost { station }
+            | Self::Confirm { station, .. }
+            | Self::Reject { station, .. }
+            | Self::Data { station, .. } => Some(station),
+            Self::Area { .. } | Self::Tick | Self::Verdict { .. } => None,
+        }
+    }
+}
+
+/// Something that the requester does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Action {
+    /// Ask a station to run a group.
+    Request {
+        /// The station's id.
+        station: i64,
+        /// The group.
+        group: Group,
+        /// The number of the request, from 1.
+        session: i64,
+    },
+    /// Tell a station that a session has ended.
+    Release {
+        /// The station's id.
+        station: i64,
+        /// The group.
+        group: Group,
+        /// The session.
+        session: i64,
+    },
+    /// Start the local services of a group.
+    Activate(Group),
+    /// Stop the local services of a group.
+    Deactivate(Group),
+    /// Do not use the element that arrived.
+    Drop(Group),
+}
+
+/// The actions of one event, in the order in which they are taken: drops, releases, activations
+/// and deactivations, requests; MOT before PLAN within each. Read it as a slice.
+#[derive(Clone, Copy, Debug)]
+pub struct Actions {
+    items: [Action; Outbox::CAPACITY],
+    len: usize,
+}
+
+impl Actions {
+    /// The actions in their order.
+    pub fn as_slice(&self) -> &[Action] {
+        self.items.get(..self.len).unwrap_or(&self.items)
+    }
+}
+
+impl Deref for Actions {
+    type Target = [Action];
+
+    fn deref(&self) -> &[Action] {
+        self.as_slice()
+    }
+}
+
+impl<'s> IntoIterator for &'s Actions {
+    type Item = &'s Action;
+    type IntoIter = core::slice::Iter<'s, Action>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.as_slice().iter()
+    }
+}
+
+impl PartialEq for Actions {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_slice() == other.as_slice()
+    }
+}
+
+impl Eq for Actions {}
+
+/// The actions of one event while they are being decided: one place for every kind and group,
+/// because no event leaves, starts, stops or asks for a group twice.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Outbox {
+    pub(super) drops: PerGroup<Option<Action>>,
+    pub(super) releases: PerGroup<Option<Action>>,
+    pub(super) services: PerGroup<Option<Action>>,
+    pub(super) requests: PerGroup<Option<Action>>,
+}
+
+impl Outbox {
+    /// Four kinds of two groups.
+    const CAPACITY: usize = 8;
+
+    /// The actions in the order of `spec/2-offloading.md#fallback`.
+    pub(super) fn into_actions(self) -> Actions {
+        let mut actions = Actions { items: [Action::Drop(Group::Mot); Self::CAPACITY], len: 0 };
+        for kind in [self.drops, self.releases, self.services, self.requests] {
+            for group in Group::ALL {
+                if let (Some(action), Some(place)) =
+                    (*kind.get(group), actions.items.get_mut(actions.len))
+                {
+                    *place = action;
+                    actions.len = actions.len.saturating_add(1);
+                }
+            }
+        }
+        actions
+    }
+}

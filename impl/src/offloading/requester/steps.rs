@@ -1,0 +1,221 @@
+//! What each event does (`spec/2-offloading.md`).
+
+use super::event::{Action, Outbox};
+use super::slot::Slot;
+use super::{Requester, RequesterError};
+use crate::offloading::quality_of_service::{Arrivals, Element};
+use crate::services::configuration::{Group, Groups};
+
+/// Whether the station hears that its session has ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Farewell {
+    Release,
+    Silent,
+}
+
+impl Requester<'_> {
+    /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.
+    pub(super) fn offer(
+        &mut self,
+        station: i64,
+        groups: Groups,
+        farewell: Farewell,
+        out: &mut Outbox,
+    ) -> Result<(), RequesterError> {
+        if !self.stations.set_offer(station, groups) {
+            let capacity = self.stations.records().len();
+            return Err(RequesterError::TableFull { station, capacity });
+        }
+        for group in Group::ALL {
+            let used = self.slots.get(group).in_use();
+            if !groups.contains(group) && used.is_some_and(|(used, _)| used == station) {
+                self.leave(group, farewell, out);
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
+        self.area = groups;
+        for group in Group::ALL {
+            if !groups.contains(group) {
+                self.leave(group, Farewell::Release, out);
+            }
+        }
+    }
+
+    /// Overdue requests, then silent sessions, then new requests.
+    pub(super) fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
+        let mut returned = Groups::NONE;
+        for group in Group::ALL {
+            if self.is_overdue(group, now_ns) {
+                self.leave(group, Farewell::Release, out);
+                returned = returned.with(group);
+            }
+        }
+        for group in Group::ALL {
+            if self.is_silent(group, now_ns) {
+                self.violate(group, now_ns, out);
+                returned = returned.with(group);
+            }
+        }
+        for group in Group::ALL {
+            if !returned.contains(group) && self.may_request(group, now_ns) {
+                self.request(group, now_ns, out);
+            }
+        }
+    }
+
+    pub(super) fn confirm(
+        &mut self,
+        now_ns: i64,
+        station: i64,
+        group: Group,
+        session: i64,
+        out: &mut Outbox,
+    ) {
+        let profile = self.profile;
+        let slot = self.slots.get_mut(group);
+        let names_it = slot.in_use() == Some((station, session));
+        match *slot {
+            Slot::Requested { deadline_ns, .. } if names_it && now_ns < deadline_ns => {
+                *slot = Slot::activated(profile, now_ns, station, session);
+                if !slot.local_computes() {
+                    *out.services.get_mut(group) = Some(Action::Deactivate(group));
+                }
+            }
+            Slot::Remote { .. } if names_it => {}
+            Slot::Local | Slot::Requested { .. } | Slot::Remote { .. } => {
+                let release = Action::Release { station, group, session };
+                *out.releases.get_mut(group) = Some(release);
+            }
+        }
+    }
+
+    pub(super) fn reject(&mut self, station: i64, group: Group, session: i64) {
+        let slot = self.slots.get_mut(group);
+        let names_it = slot.in_use() == Some((station, session));
+        if names_it && matches!(slot, Slot::Requested { .. }) {
+            *slot = Slot::Local;
+        }
+    }
+
+    pub(super) fn data(
+        &mut self,
+        now_ns: i64,
+        (station, group, session): (i64, Group, i64),
+        generated_ns: i64,
+        out: &mut Outbox,
+    ) {
+        let limits = self.parameters.limits();
+        let Some(arrivals) = self.running(station, group, session) else {
+            let dropped = self.dropped.get_mut(group);
+            *dropped = dropped.saturating_add(1);
+            *out.drops.get_mut(group) = Some(Action::Drop(group));
+            return;
+        };
+        match arrivals.arrive(now_ns, generated_ns, limits) {
+            Element::Used => {}
+            Element::Stale => *out.drops.get_mut(group) = Some(Action::Drop(group)),
+            Element::Violating(_) => {
+                *out.drops.get_mut(group) = Some(Action::Drop(group));
+                self.violate(group, now_ns, out);
+            }
+        }
+    }
+
+    /// H-08: the first safe verdict that names a group after a used result stops its local
+    /// services. In the paper profile they were stopped at the confirmation.
+    pub(super) fn safe(&mut self, groups: Groups, out: &mut Outbox) {
+        for group in Group::ALL {
+            if let Slot::Remote { arrivals, local_computes, .. } = self.slots.get_mut(group) {
+                if groups.contains(group) && *local_computes && arrivals.has_used() {
+                    *local_computes = false;
+                    *out.services.get_mut(group) = Some(Action::Deactivate(group));
+                }
+            }
+        }
+    }
+
+    pub(super) fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
+        for group in Group::ALL {
+            self.leave(group, Farewell::Release, out);
+        }
+        self.hold(now_ns);
+    }
+
+    /// The arrivals of the running session, if this is the one.
+    fn running(&mut self, station: i64, group: Group, session: i64) -> Option<&mut Arrivals> {
+        match self.slots.get_mut(group) {
+            Slot::Remote { station: running, session: number, arrivals, .. }
+                if (*running, *number) == (station, session) =>
+            {
+                Some(arrivals)
+            }
+            Slot::Local | Slot::Requested { .. } | Slot::Remote { .. } => None,
+        }
+    }
+
+    fn is_overdue(&self, group: Group, now_ns: i64) -> bool {
+        match *self.slots.get(group) {
+            Slot::Requested { deadline_ns, .. } => now_ns >= deadline_ns,
+            Slot::Local | Slot::Remote { .. } => false,
+        }
+    }
+
+    fn is_silent(&self, group: Group, now_ns: i64) -> bool {
+        match *self.slots.get(group) {
+            Slot::Remote { arrivals, .. } => {
+                arrivals.silence(now_ns, self.parameters.limits()).is_some()
+            }
+            Slot::Local | Slot::Requested { .. } => false,
+        }
+    }
+
+    fn may_request(&self, group: Group, now_ns: i64) -> bool {
+        matches!(self.slots.get(group), Slot::Local)
+            && self.area.contains(group)
+            && self.hold_until_ns.is_none_or(|hold_until_ns| now_ns >= hold_until_ns)
+    }
+
+    /// Asks the station whose turn it is; nobody without an offer or without a number left.
+    fn request(&mut self, group: Group, now_ns: i64, out: &mut Outbox) {
+        let Some(session) = self.sessions.checked_add(1) else { return };
+        let Some(station) = self.stations.next_for(group) else { return };
+        self.sessions = session;
+        self.stations.asked(station, group, session);
+        let deadline_ns = now_ns.saturating_add(self.parameters.request_timeout_ns);
+        *self.slots.get_mut(group) = Slot::Requested { station, session, deadline_ns };
+        *out.requests.get_mut(group) = Some(Action::Request { station, group, session });
+    }
+
+    /// A violation of quality of service.
+    fn violate(&mut self, group: Group, now_ns: i64, out: &mut Outbox) {
+        self.leave(group, Farewell::Release, out);
+        if self.parameters.qos_hold {
+            self.hold(now_ns);
+        }
+    }
+
+    /// Returns a group to local; nothing happens when it is local already.
+    fn leave(&mut self, group: Group, farewell: Farewell, out: &mut Outbox) {
+        let left = core::mem::replace(self.slots.get_mut(group), Slot::Local);
+        match (left.in_use(), farewell) {
+            (Some((station, session)), Farewell::Release) => {
+                let release = Action::Release { station, group, session };
+                *out.releases.get_mut(group) = Some(release);
+            }
+            (Some(_), Farewell::Silent) | (None, _) => {}
+        }
+        if !left.local_computes() {
+            *out.services.get_mut(group) = Some(Action::Activate(group));
+        }
+    }
+
+    /// Bars requests until `now + t_wait`, and never for less long than before.
+    fn hold(&mut self, now_ns: i64) {
+        let until_ns = now_ns.saturating_add(self.parameters.t_wait_ns);
+        let old_ns = self.hold_until_ns.unwrap_or(until_ns);
+        self.hold_until_ns = Some(until_ns.max(old_ns));
+    }
+}

@@ -1,0 +1,147 @@
+//! Stage i decided by a witness, which is enough nearly always: some one-to-one pairs of tracks
+//! and detections whose mean distance is below the threshold; the minimal assignment is at most as
+//! costly. Where no witness is found so, the assignment decides.
+//!
+//! Detections are hashed by the squares of a uniform grid, and every track takes the nearest free
+//! detection of its square that is within reach, else of the squares next to it: linear time
+//! unless many detections share a square.
+
+use crate::input::cycle::{Detection, Track};
+use crate::input::scratch::{Column, NONE, short};
+use crate::stages::i_track_validation::gate::{Gate, apart_squared};
+
+/// The rules that the pairs have to keep.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rules {
+    /// Every pair has to be closer, m.
+    pub(crate) limit: f64,
+    /// The mean has to be below, m.
+    pub(crate) theta_tr: f64,
+    /// So many gated tracks may stay without a detection.
+    pub(crate) spare: usize,
+}
+
+/// Whether there certainly are pairs of all gated tracks but `spare` that keep the rules. `p`: the
+/// CAV's position. Plain doubles: a distance, or the square of one, errs by less than 2^-50 of
+/// itself and 2^-400 m, a sum of at most 1024 by less than 2^-42 of itself more.
+pub(crate) fn certainly_pass(
+    p: [f64; 2],
+    tracks: &[Track],
+    detections: &[Detection],
+    rules: Rules,
+    columns: &mut [Column],
+) -> bool {
+    // Farther pairs would hardly keep the mean below the threshold.
+    let reach = (5.0 * rules.theta_tr).min(rules.limit * (1.0 - 1e-12));
+    let mut squares = Squares::new(detections, reach, columns);
+    let (mut gate, mut sum, mut gated, mut paired) = (Gate::new(p), 0.0, 0_usize, 0_usize);
+    for (index, detection) in detections.iter().enumerate() {
+        let place = [detection.x, detection.y];
+        gate.include(place);
+        squares.insert(index, place);
+    }
+    for track in tracks {
+        let place = [track.x, track.y];
+        match gate.admits(place) {
+            Some(true) => {}
+            Some(false) => continue,
+            None => return false,
+        }
+        gated = gated.saturating_add(1);
+        if let Some(squared) = squares.take(place) {
+            sum += libm::sqrt(squared);
+            paired = paired.saturating_add(1);
+        } else if gated.saturating_sub(paired) > rules.spare {
+            return false;
+        }
+    }
+    let k = gated.saturating_sub(rules.spare);
+    let k = u32::try_from(k).map_or(f64::INFINITY, f64::from);
+    k <= 0.0 || sum * (1.0 + 1e-12) + 1e-100 < k * rules.theta_tr
+}
+
+/// Detections by the square that they are in.
+struct Squares<'d, 's> {
+    detections: &'d [Detection],
+    /// `head` of a column: the last detection inserted of all squares with this hash; `next` of a
+    /// column: the detection inserted before the one with its index; `row`: it is taken.
+    columns: &'s mut [Column],
+    mask: u64,
+    reach: f64,
+    /// Squares per m: a side is eight times the reach.
+    scale: f64,
+}
+
+impl<'d, 's> Squares<'d, 's> {
+    fn new(detections: &'d [Detection], reach: f64, columns: &'s mut [Column]) -> Self {
+        for column in columns.iter_mut() {
+            column.head = NONE;
+            column.row = NONE;
+        }
+        let mask = match columns.len().checked_ilog2() {
+            Some(log) => (1_u64 << log).wrapping_sub(1),
+            None => 0,
+        };
+        Self { detections, columns, mask, reach, scale: 0.125 / reach }
+    }
+
+    fn hash(&self, [x, y]: [f64; 2]) -> usize {
+        /// Added to a number, this leaves the nearest integer in its low bits: the reach is at least
+        /// 1e-3 m (5 `theta_tr`, or the limit), so that it is at most 2^25 m / (8 * 0.99e-3 m),
+        /// below 2^32 and far below 2^51.
+        const INTEGER: f64 = 6_755_399_441_055_744.0;
+        let [i, k] = [x, y].map(|value| (value * self.scale + INTEGER).to_bits());
+        let mixed = i.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ k.wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
+        usize::try_from((mixed >> 32) & self.mask).unwrap_or(0)
+    }
+
+    fn insert(&mut self, index: usize, place: [f64; 2]) {
+        let hash = self.hash(place);
+        let Some(before) = self
+            .columns
+            .get_mut(hash)
+            .map(|column| core::mem::replace(&mut column.head, short(index)))
+        else {
+            return;
+        };
+        if let Some(column) = self.columns.get_mut(index) {
+            column.next = before;
+        }
+    }
+
+    /// Takes the nearest free detection within reach that is in the square of a place, else one of
+    /// a square beside it; the square of its distance, m^2.
+    fn take(&mut self, place: [f64; 2]) -> Option<f64> {
+        let own = self.hash(place);
+        self.take_from(own, place).or_else(|| self.take_beside(own, place))
+    }
+
+    /// For one track of thirty or so.
+    #[cold]
+    fn take_beside(&mut self, own: usize, place: [f64; 2]) -> Option<f64> {
+        let ([x, y], r) = (place, self.reach);
+        let corners = [[x - r, y - r], [x + r, y - r], [x - r, y + r], [x + r, y + r]];
+        corners.into_iter().find_map(|corner| {
+            let hash = self.hash(corner);
+            if hash == own { None } else { self.take_from(hash, place) }
+        })
+    }
+
+    fn take_from(&mut self, hash: usize, place: [f64; 2]) -> Option<f64> {
+        let mut nearest = self.reach * self.reach;
+        let mut found = None;
+        let mut next = self.columns.get(hash)?.head;
+        while let (Some(detection), Some(column)) =
+            (self.detections.get(usize::from(next)), self.columns.get(usize::from(next)))
+        {
+            let squared = apart_squared(place, [detection.x, detection.y]);
+            if squared < nearest && column.row == NONE {
+                nearest = squared;
+                found = Some(next);
+            }
+            next = column.next;
+        }
+        self.columns.get_mut(usize::from(found?))?.row = 0;
+        Some(nearest)
+    }
+}

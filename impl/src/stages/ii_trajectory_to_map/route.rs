@@ -1,0 +1,217 @@
+//! The route as geometry: reference path and corridor
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`).
+
+use core::cmp::Ordering;
+
+use crate::input::cycle::{Route, Station};
+use crate::input::route_index::{RouteIndex, candidates};
+use crate::numbers::exact::{certain_orientation, orientation};
+use crate::numbers::plane::{same_point, segment_distance};
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rounding::Real;
+
+/// A segment of the reference path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment {
+    pub(crate) index: usize,
+    pub(crate) from: [f64; 2],
+    pub(crate) to: [f64; 2],
+}
+
+/// A route, and its index when there is one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Way<'c, 'a> {
+    route: &'c Route<'a>,
+    index: Option<&'c RouteIndex<'a>>,
+}
+
+/// How far along the route a search goes for the place of the next trajectory point.
+const STEPS: usize = 64;
+
+impl<'c, 'a> Way<'c, 'a> {
+    pub(crate) const fn new(route: &'c Route<'a>, index: Option<&'c RouteIndex<'a>>) -> Self {
+        Self { route, index }
+    }
+
+    /// The segments of the reference path in order, at least those within `reach` of the point.
+    /// The closing segment of a closed route whose last and first reference point are equal is a
+    /// point of its neighbours, and none.
+    pub(crate) fn segments(&self, q: [f64; 2], reach: f64) -> impl Iterator<Item = Segment> {
+        candidates(self.index, self.pairs(), q, reach)
+            .filter_map(|index| self.segment(index))
+            .filter(move |segment| apart(*segment, q) <= reach)
+    }
+
+    pub(crate) fn segment(&self, index: usize) -> Option<Segment> {
+        let (a, b) = self.pair(index)?;
+        let (from, to) = ([a.x, a.y], [b.x, b.y]);
+        (!same_point(from, to)).then_some(Segment { index, from, to })
+    }
+
+    /// Whether the point is in the corridor; exact. `hint`: the stations that the point may be
+    /// between, and where it was found.
+    pub(crate) fn in_corridor(&self, q: [f64; 2], hint: &mut usize) -> bool {
+        if let Some(at) = self.walk(q, *hint) {
+            *hint = at;
+            return true;
+        }
+        self.search_corridor(q, hint)
+    }
+
+    /// As `in_corridor`, for a point that is not where it was expected; such points are few.
+    #[cold]
+    fn search_corridor(&self, q: [f64; 2], hint: &mut usize) -> bool {
+        let mut blocks = self.index.into_iter().flat_map(|index| index.near(q, 0.0));
+        if let Some(at) = blocks.find_map(|start| self.walk(q, start)) {
+            *hint = at;
+            return true;
+        }
+        let found = candidates(self.index, self.pairs(), q, 0.0).find(|&index| {
+            self.pair(index).is_some_and(|(a, b)| {
+                in_triangle([a.left, a.right, b.right], q)
+                    || in_triangle([a.left, b.right, b.left], q)
+            })
+        });
+        *hint = found.unwrap_or(*hint);
+        found.is_some()
+    }
+
+    /// Whether the point is certainly at most `limit` from the reference path.
+    pub(crate) fn certainly_near(&self, q: [f64; 2], limit: f64) -> bool {
+        self.segments(q, limit).any(|segment| {
+            segment_distance(q, segment.from, segment.to).certainly_at_most(Real::new(limit))
+        })
+    }
+
+    /// The distance to the reference path; `hint`: index of a segment that may be near. The index
+    /// of the segment returned depends on the hint, the distance does not but for its bound.
+    pub(crate) fn path_distance(&self, q: [f64; 2], hint: usize) -> (Real, usize) {
+        let length = |s: &Segment| segment_distance(q, s.from, s.to);
+        let unknown = (Real::new(f64::MAX), hint);
+        let start = self.segment(hint).map_or(unknown, |segment| (length(&segment), hint));
+        let reach = start.0.magnitude();
+        self.segments(q, reach).fold(start, |(best, at), segment| {
+            if apart(segment, q) > best.magnitude() {
+                return (best, at);
+            }
+            let candidate = length(&segment);
+            let nearer = (candidate - best).value() < 0.0;
+            let at = if nearer { segment.index } else { at };
+            (best.min(candidate), at)
+        })
+    }
+
+    /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.
+    /// Plain doubles err by less than 2^-22 m.
+    pub(crate) fn at_most(&self, q: [f64; 2], index: usize) -> f64 {
+        let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(index) else {
+            return f64::MAX;
+        };
+        let ([x, y], ux, uy) = (q, bx - ax, by - ay);
+        let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
+        let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
+        let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
+        libm::sqrt(dx * dx + dy * dy) + 1e-6
+    }
+
+    /// A segment that is at least as near as that of the hint, as far as walking along the route
+    /// leads there. A guess, in plain doubles.
+    pub(crate) fn nearer(&self, q: [f64; 2], hint: usize) -> usize {
+        let mut at = hint;
+        for _ in 0..STEPS {
+            let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(at) else {
+                break;
+            };
+            let ([x, y], ux, uy) = (q, bx - ax, by - ay);
+            let along = (x - ax) * ux + (y - ay) * uy;
+            let next = at.saturating_add(1);
+            if along > ux * ux + uy * uy && next < self.pairs() {
+                at = next;
+            } else {
+                break;
+            }
+        }
+        at
+    }
+
+    /// From the stations of the hint forward while the point is beyond the next ones, in plain
+    /// doubles; where it is certainly between.
+    fn walk(&self, q: [f64; 2], hint: usize) -> Option<usize> {
+        let (mut start, mut rest) = self.route.stations.get(hint..)?.split_first()?;
+        for at in (hint..).take(STEPS) {
+            let (end, after) = rest.split_first()?;
+            if !is_beyond(end, q) {
+                return certainly_between(start, end, q).then_some(at);
+            }
+            (start, rest) = (end, after);
+        }
+        None
+    }
+
+    /// How many pairs of consecutive stations there are, with the last and the first one of a
+    /// closed route.
+    fn pairs(&self) -> usize {
+        self.route.stations.len().saturating_sub(usize::from(!self.route.closed))
+    }
+
+    fn pair(&self, index: usize) -> Option<(&'a Station, &'a Station)> {
+        let stations = self.route.stations;
+        let next = stations.get(index.saturating_add(1));
+        let next = next.or_else(|| stations.first().filter(|_| self.route.closed));
+        stations.get(index).zip(next)
+    }
+}
+
+/// Lower bound on the distance from the point to the segment: to its bounding box, in plain
+/// doubles, taken down by more than the one rounding it has.
+pub(crate) fn apart(segment: Segment, q: [f64; 2]) -> f64 {
+    let [ax, ay] = segment.from;
+    let [bx, by] = segment.to;
+    let [x, y] = q;
+    let dx = larger(smaller(ax, bx) - x, x - larger(ax, bx));
+    let dy = larger(smaller(ay, by) - y, y - larger(ay, by));
+    larger(larger(dx, dy), 0.0) * (1.0 - 1e-15)
+}
+
+/// Whether the point is in front of the line through the boundaries, up to rounding.
+fn is_beyond(station: &Station, [x, y]: [f64; 2]) -> bool {
+    let ([lx, ly], [rx, ry]) = (station.left, station.right);
+    (lx - rx) * (y - ry) < (ly - ry) * (x - rx)
+}
+
+/// Whether the point is certainly in one of the two triangles between the stations, when their
+/// corners turn left, as they do where left is left: the diagonal says in which of the two, and
+/// two sides are left.
+fn certainly_between(a: &Station, b: &Station, q: [f64; 2]) -> bool {
+    let diagonal = certain_orientation(a.left, b.right, q);
+    if diagonal < 0.0 {
+        certain_orientation(a.left, a.right, q) > 0.0
+            && certain_orientation(a.right, b.right, q) > 0.0
+    } else {
+        diagonal > 0.0
+            && certain_orientation(b.right, b.left, q) > 0.0
+            && certain_orientation(b.left, a.left, q) > 0.0
+    }
+}
+
+/// Whether the point is in the closed triangle; exact. Outside the bounding box it never is;
+/// inside, the sides of a triangle without area see the point all on one side only on its line.
+fn in_triangle(corners: [[f64; 2]; 3], q: [f64; 2]) -> bool {
+    let [a, b, c] = corners;
+    if !(0..2).all(|axis| in_range(corners, q, axis)) {
+        return false;
+    }
+    let sides = [orientation(a, b, q), orientation(b, c, q), orientation(c, a, q)];
+    sides.iter().all(|&side| side != Ordering::Less)
+        || sides.iter().all(|&side| side != Ordering::Greater)
+}
+
+/// Whether the point is within the extent of the corners along one axis; comparisons are exact.
+fn in_range(corners: [[f64; 2]; 3], q: [f64; 2], axis: usize) -> bool {
+    let value = |[x, y]: [f64; 2]| if axis == 0 { x } else { y };
+    corners.iter().any(|&corner| value(corner) <= value(q))
+        && corners.iter().any(|&corner| value(corner) >= value(q))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,176 @@
+//! What the CAV sweeps over at some trajectory points: a box that contains all its rectangles. An
+//! object that stays outside this box touches none of them, which one test decides for all points
+//! (`spec/3-stages.md#low-level-collision-check-llcc`).
+//!
+//! Plain doubles: coordinates are below 2^26 m, and each comparison rounds less than 16 times, so
+//! that it errs by less than 2^-23 m; `MARGIN` is more than that. Whatever is not certainly apart
+//! is left to `collision`.
+
+use crate::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
+use crate::numbers::range::{EMPTY, extend, larger};
+
+/// m
+const MARGIN: f64 = 1e-6;
+
+/// A rectangle that moves with constant velocity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving {
+    /// Centre at the time 0, m.
+    pub(crate) centre: [f64; 2],
+    /// (cos, sin)
+    pub(crate) direction: [f64; 2],
+    /// m/s
+    pub(crate) velocity: [f64; 2],
+    /// Length and width, m.
+    pub(crate) size: [f64; 2],
+}
+
+impl Moving {
+    pub(crate) const fn track(track: &Track) -> Self {
+        let &Track { x, y, cos, sin, vx, vy, length, width, .. } = track;
+        Self { centre: [x, y], direction: [cos, sin], velocity: [vx, vy], size: [length, width] }
+    }
+
+    /// A detection stands still.
+    pub(crate) const fn detection(detection: &Detection) -> Self {
+        let &Detection { x, y, cos, sin, length, width } = detection;
+        Self { centre: [x, y], direction: [cos, sin], velocity: [0.0, 0.0], size: [length, width] }
+    }
+
+    /// The CAV at a trajectory point.
+    pub(crate) fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Self {
+        let &TrajectoryPoint { x, y, cos, sin, .. } = point;
+        Self {
+            centre: [x + ego.center_offset * cos, y + ego.center_offset * sin],
+            direction: [cos, sin],
+            velocity: [0.0, 0.0],
+            size: [ego.length, ego.width],
+        }
+    }
+
+    /// Where the centre is after a time in s.
+    fn after(&self, seconds: f64) -> [f64; 2] {
+        let ([x, y], [vx, vy]) = (self.centre, self.velocity);
+        [x + vx * seconds, y + vy * seconds]
+    }
+
+    /// At least half the extent along any direction.
+    fn reach(&self) -> f64 {
+        let [length, width] = self.size;
+        (length + width) * (0.5 * (1.0 + 1e-6))
+    }
+
+    /// Half the extents along a direction and across it.
+    fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
+        let ([length, width], [along, across]) = (self.size, split(axis, self.direction));
+        let (along, across) = (0.5 * along.abs(), 0.5 * across.abs());
+        [length * along + width * across, length * across + width * along]
+    }
+
+    /// Whether the rectangle certainly shares no point with another one, which has moved for so
+    /// many seconds: some side of one of the two separates them.
+    pub(crate) fn certainly_apart(&self, other: &Self, seconds: f64) -> bool {
+        let between = minus(other.after(seconds), self.centre);
+        let separates = |one: &Self, other: &Self| {
+            let [length, width] = one.size;
+            let [along, across] = split(one.direction, between);
+            let [reach_along, reach_across] = other.extents(one.direction);
+            // Directions may be shorter than 1 by 5e-7, and their squares by 1e-6.
+            let own = 0.5 * (1.0 + 1e-6);
+            along.abs() > own * length + reach_along + MARGIN
+                || across.abs() > own * width + reach_across + MARGIN
+        };
+        separates(self, other) || separates(other, self)
+    }
+
+    /// Whether the centres are certainly at least `limit` apart after so many seconds.
+    pub(crate) fn certainly_far(&self, other: &Self, seconds: f64, limit: f64) -> bool {
+        let [x, y] = minus(other.after(seconds), self.centre);
+        let limit = limit + MARGIN;
+        x * x + y * y > limit * limit * (1.0 + 1e-15)
+    }
+}
+
+/// Boxes that contain the CAV's rectangles at some points, and the times of these points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sweep {
+    /// Centre and half the extents of a box along the axes of the plane: what is far off, as most
+    /// objects are, misses it already when it is taken for a square as large as it is anyhow.
+    upright: [[f64; 2]; 2],
+    origin: [f64; 2],
+    /// Any direction: from the first place to the last one.
+    along: [f64; 2],
+    centre: [f64; 2],
+    half: [f64; 2],
+    /// The middle of the times, and half of their range, s.
+    seconds: [f64; 2],
+}
+
+impl Sweep {
+    /// `seconds`: the first and the last time.
+    pub(crate) fn new(ego: &Ego, points: &[TrajectoryPoint], seconds: [f64; 2]) -> Self {
+        let place = |point: &TrajectoryPoint| Moving::footprint(ego, point).centre;
+        let origin = points.first().map_or([0.0; 2], place);
+        let [x, y] = minus(points.last().map_or(origin, place), origin);
+        let length = libm::sqrt(x * x + y * y);
+        let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
+        let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
+        for point in points {
+            let footprint = Moving::footprint(ego, point);
+            let place = split(along, minus(footprint.centre, origin));
+            extend(&mut turned, place, footprint.extents(along));
+            extend(&mut upright, footprint.centre, [footprint.reach(); 2]);
+        }
+        let [first, last] = seconds;
+        let (middle, half) = (|[a, b]: [f64; 2]| 0.5 * (a + b), |[a, b]: [f64; 2]| 0.5 * (b - a));
+        Self {
+            upright: [upright.map(middle), upright.map(half)],
+            origin,
+            along,
+            centre: turned.map(middle),
+            half: turned.map(half),
+            seconds: [0.5 * (first + last), 0.5 * (last - first) + 1e-9],
+        }
+    }
+
+    /// Whether the object certainly touches the CAV at none of the points.
+    #[inline]
+    pub(crate) fn misses(&self, object: &Moving) -> bool {
+        self.misses_upright(object) || self.misses_turned(object)
+    }
+
+    /// Most objects end here. Inlined, so that of each of them only what is asked for is read: half
+    /// of the time of stages iii and iv.
+    #[inline]
+    fn misses_upright(&self, object: &Moving) -> bool {
+        let [middle, spread] = self.seconds;
+        let [[cx, cy], [hx, hy]] = self.upright;
+        let ([x, y], [vx, vy]) = (object.after(middle), object.velocity);
+        let gap_x = (x - cx).abs() - vx.abs() * spread - hx;
+        let gap_y = (y - cy).abs() - vy.abs() * spread - hy;
+        larger(gap_x, gap_y) > object.reach() + MARGIN
+    }
+
+    #[inline(never)]
+    fn misses_turned(&self, object: &Moving) -> bool {
+        let [middle, spread] = self.seconds;
+        let [a, b] = split(self.along, minus(object.after(middle), self.origin));
+        let [va, vb] = split(self.along, object.velocity);
+        let [reach_a, reach_b] = object.extents(self.along);
+        let ([ca, cb], [ha, hb]) = (self.centre, self.half);
+        (a - ca).abs() > ha + reach_a + va.abs() * spread + MARGIN
+            || (b - cb).abs() > hb + reach_b + vb.abs() * spread + MARGIN
+    }
+}
+
+fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
+    [ax - bx, ay - by]
+}
+
+/// The components of a vector along an axis and to the left of it.
+fn split([cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    [x * cos + y * sin, y * cos - x * sin]
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,85 @@
+//! Whatever plain doubles call apart is apart by the error bounds of `rectangle`.
+
+use std::vec::Vec;
+
+use super::{Moving, Sweep};
+use crate::input::cycle::{Ego, TrajectoryPoint};
+use crate::numbers::plane::Vector;
+use crate::numbers::rectangle::{Rectangle, possibly_touch};
+use crate::numbers::rounding::Real;
+use crate::random::Random;
+
+fn rectangle(moving: &Moving, t_ns: i64) -> Rectangle {
+    let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
+    let moved = vector(moving.velocity).times(Real::seconds(t_ns));
+    let [length, width] = moving.size;
+    let direction = vector(moving.direction);
+    Rectangle { centre: vector(moving.centre) + moved, direction, length, width }
+}
+
+fn number(random: &mut Random, size: f64) -> f64 {
+    (random.below(2_000_001) as f64 / 1e6 - 1.0) * size
+}
+
+fn direction(random: &mut Random) -> [f64; 2] {
+    let (sin, cos) = number(random, 3.2).sin_cos();
+    // As far from a unit vector as the domain allows.
+    let stretch = 1.0 + number(random, 4.9e-7);
+    [cos * stretch, sin * stretch]
+}
+
+fn object(random: &mut Random, far: f64) -> Moving {
+    Moving {
+        centre: [number(random, 12.0) + far, number(random, 12.0) - far],
+        direction: direction(random),
+        velocity: [number(random, 20.0), number(random, 20.0)],
+        size: [3.0 + number(random, 2.9), 2.0 + number(random, 1.9)],
+    }
+}
+
+#[test]
+fn what_is_certainly_apart_does_not_touch() {
+    let mut random = Random(11);
+    let (mut apart, mut missed, mut touching) = (0, 0, 0);
+    for round in 0..20_000 {
+        let far = [0.0, 1e7][round % 2];
+        let ego = Ego {
+            x: far,
+            y: -far,
+            cos: 1.0,
+            sin: 0.0,
+            speed: 5.0,
+            length: 4.8,
+            width: 1.9,
+            center_offset: number(&mut random, 2.0),
+        };
+        let (sin, cos) = number(&mut random, 3.2).sin_cos();
+        let points: Vec<TrajectoryPoint> = (0..4_i64)
+            .map(|i| {
+                let turn = number(&mut random, 0.3);
+                let [x, y] = [far + cos * i as f64, -far + sin * i as f64];
+                let (sin, cos) = (sin + turn, cos - turn);
+                let norm = sin.hypot(cos);
+                TrajectoryPoint { t_ns: i * 100_000_000, x, y, cos: cos / norm, sin: sin / norm }
+            })
+            .collect();
+        let object = object(&mut random, far);
+        let misses = Sweep::new(&ego, &points, [0.0, 0.3]).misses(&object);
+        missed += u32::from(misses);
+        for point in &points {
+            let cav = Moving::footprint(&ego, point);
+            let exact = rectangle(&object, point.t_ns);
+            let touches = possibly_touch(&rectangle(&cav, 0), &exact);
+            let seconds = point.t_ns as f64 / 1e9;
+            let certain = cav.certainly_apart(&object, seconds);
+            assert!(!(touches && (misses || certain)), "{object:?} {point:?}");
+            // The centre of the CAV's rectangle rounds at far places; the object's is given.
+            let far = cav.certainly_far(&object, seconds, 5.0);
+            let centres = (exact.centre - rectangle(&cav, 0).centre).norm();
+            assert!(!far || !centres.possibly_at_most(Real::new(5.0)));
+            apart += u32::from(certain);
+            touching += u32::from(touches);
+        }
+    }
+    assert!(apart > 10_000 && missed > 2_000 && touching > 4_000, "{apart} {missed} {touching}");
+}

@@ -1,0 +1,3 @@
+//! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`).
+
+pub mod trajectory_rules;

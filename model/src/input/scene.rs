@@ -1,0 +1,302 @@
+//! A valid cycle in exact numbers, and the reading in which it is decided.
+
+use crate::input::cycle::{Cycle, Profile, Route, TrackList};
+use crate::numbers::real::Real;
+use crate::numbers::vector::{Frame, Vector};
+use crate::report::Reading;
+use crate::services::configuration::Configuration;
+
+/// Everything that the stages look at. Lists that are missing or not current are `None`, except
+/// received tracks, which stage i checks whatever their age.
+#[derive(Debug)]
+pub struct Scene {
+    /// Profile in force.
+    pub profile: Profile,
+    /// Configuration in force.
+    pub configuration: Configuration,
+    /// Which of the three models decides.
+    pub reading: Reading,
+    /// Margin: +delta in the strict, -delta in the lax, 0 in the exact reading.
+    pub m: Real,
+    /// Exact parameters.
+    pub parameters: Thresholds,
+    /// Time of the decision, ns.
+    pub now_ns: i64,
+    /// The CAV.
+    pub ego: Ego,
+    /// The current trajectory.
+    pub trajectory: Option<Vec<Point>>,
+    /// The received or local track list of any age.
+    pub tracks: Option<Tracks>,
+    /// The track list is current.
+    pub tracks_current: bool,
+    /// Current detections.
+    pub detections: Option<Vec<Object>>,
+    /// The current leading vehicle: gap in m, v_lead in m/s.
+    pub lead: Option<Lead>,
+    /// The route.
+    pub route: Corridor,
+    /// The current grid map.
+    pub grid: Option<Grid>,
+    /// H-09: the last list that stage i passed in a safe cycle, not older than 60 s.
+    pub previous_tracks: Option<Tracks>,
+}
+
+/// The parameters as exact numbers, under the names of `spec/3-stages.md`.
+#[derive(Debug)]
+#[expect(missing_docs, reason = "documented at `parameters::Parameters`")]
+pub struct Thresholds {
+    pub theta_tr: Real,
+    pub theta_map: Real,
+    pub theta_obj: Real,
+    pub a_b: Real,
+    pub safety_time: Real,
+    pub n: i64,
+    pub theta_track_max: Real,
+    pub miss_budget: i64,
+    pub tau: Real,
+    pub a_max: Real,
+    pub start_tolerance: Real,
+    pub v_max: Real,
+    pub max_age_ns: i64,
+    pub step_max_ns: i64,
+    pub theta_velocity: Real,
+    pub work_limit: i64,
+    pub delta: Real,
+}
+
+/// The CAV.
+#[derive(Debug)]
+pub struct Ego {
+    /// Position p.
+    pub position: Vector,
+    /// v_now, m/s.
+    pub v_now: Real,
+    /// L, m.
+    pub length: Real,
+    /// W, m.
+    pub width: Real,
+    /// From a pose forward to the centre of the rectangle, m.
+    pub center_offset: Real,
+}
+
+/// A trajectory point.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// When, ns.
+    pub t_ns: i64,
+    /// Pose.
+    pub pose: Frame,
+}
+
+/// A rectangle in the plane with a centre, a direction and a size.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Centre and direction.
+    pub frame: Frame,
+    /// Length along the direction, m.
+    pub length: Real,
+    /// Width across, m.
+    pub width: Real,
+}
+
+/// A track list.
+#[derive(Debug)]
+pub struct Tracks {
+    /// Time that the positions are valid for, ns.
+    pub stamp_ns: i64,
+    /// In list order.
+    pub items: Vec<Track>,
+}
+
+/// A track.
+#[derive(Debug)]
+pub struct Track {
+    /// Identity.
+    pub id: i64,
+    /// Pose and size at the stamp of the list.
+    pub object: Object,
+    /// v, m/s.
+    pub velocity: Vector,
+}
+
+/// The leading vehicle.
+#[derive(Debug)]
+pub struct Lead {
+    /// Free distance, m.
+    pub gap: Real,
+    /// v_lead, m/s.
+    pub speed: Real,
+}
+
+/// A route in exact numbers.
+#[derive(Debug)]
+pub struct Corridor {
+    /// Reference points with left and right boundary points.
+    pub stations: Vec<[Vector; 3]>,
+    /// The last station is followed by the first.
+    pub closed: bool,
+}
+
+/// A grid map: exact frame, bitmaps as they came.
+#[derive(Debug)]
+pub struct Grid {
+    /// Origin and direction of the rows.
+    pub frame: Frame,
+    /// Side of a cell, m.
+    pub resolution: Real,
+    /// Columns.
+    pub width: i64,
+    /// Rows.
+    pub height: i64,
+    occupied: Vec<u8>,
+    unknown: Option<Vec<u8>>,
+}
+
+impl Grid {
+    /// The cell is inside the array and occupied.
+    pub fn is_occupied(&self, column: i64, row: i64) -> bool {
+        self.bit(&self.occupied, column, row)
+    }
+
+    /// The cell is inside the array, unknown, and not occupied.
+    pub fn is_unknown(&self, column: i64, row: i64) -> bool {
+        let unknown = self.unknown.as_ref().is_some_and(|bitmap| self.bit(bitmap, column, row));
+        unknown && !self.is_occupied(column, row)
+    }
+
+    fn bit(&self, bitmap: &[u8], column: i64, row: i64) -> bool {
+        if !(0..self.width).contains(&column) || !(0..self.height).contains(&row) {
+            return false;
+        }
+        let bit = row * self.width + column;
+        usize::try_from(bit / 8).is_ok_and(|byte| bitmap[byte] >> (bit % 8) & 1 == 1)
+    }
+}
+
+impl Scene {
+    /// Takes the numbers of a valid cycle (`input::first_problem` found none) as exact.
+    pub fn new(cycle: &Cycle, reading: Reading) -> Self {
+        let delta = Real::from_double(cycle.parameters.delta);
+        let is_current = |stamp_ns: i64| {
+            let age = i128::from(cycle.now_ns) - i128::from(stamp_ns);
+            (0..=i128::from(cycle.parameters.max_age_ns)).contains(&age)
+        };
+        let trajectory = cycle.trajectory.as_ref().filter(|list| is_current(list.stamp_ns));
+        Self {
+            profile: cycle.profile,
+            configuration: cycle.configuration,
+            reading,
+            m: match reading {
+                Reading::Exact => Real::zero(),
+                Reading::Strict => delta,
+                Reading::Lax => -delta,
+            },
+            parameters: thresholds(cycle),
+            now_ns: cycle.now_ns,
+            ego: ego(cycle),
+            trajectory: trajectory.map(|list| list.points.iter().map(point).collect()),
+            tracks: cycle.tracks.as_ref().map(tracks),
+            tracks_current: cycle.tracks.as_ref().is_some_and(|list| is_current(list.stamp_ns)),
+            detections: cycle.detections.as_ref().filter(|list| is_current(list.stamp_ns)).map(
+                |list| {
+                    let object = |d: &crate::input::cycle::Detection| {
+                        object([d.x, d.y], [d.cos, d.sin], [d.length, d.width])
+                    };
+                    list.items.iter().map(object).collect()
+                },
+            ),
+            lead: cycle.lead.as_ref().filter(|lead| is_current(lead.stamp_ns)).map(|lead| Lead {
+                gap: Real::from_double(lead.gap),
+                speed: Real::from_double(lead.speed),
+            }),
+            route: corridor(&cycle.route),
+            grid: cycle.grid.as_ref().filter(|grid| is_current(grid.stamp_ns)).map(grid),
+            previous_tracks: (cycle.previous_tracks.as_ref())
+                .filter(|list| !is_stale(cycle.now_ns, list.stamp_ns))
+                .map(tracks),
+        }
+    }
+}
+
+/// More than 60 s before now: a local list that old counts as missing
+/// (`spec/4-arithmetic.md#domain`).
+fn is_stale(now_ns: i64, stamp_ns: i64) -> bool {
+    i128::from(now_ns) - i128::from(stamp_ns) > 60_000_000_000
+}
+
+fn thresholds(cycle: &Cycle) -> Thresholds {
+    let parameters = &cycle.parameters;
+    Thresholds {
+        theta_tr: Real::from_double(parameters.theta_tr),
+        theta_map: Real::from_double(parameters.theta_map),
+        theta_obj: Real::from_double(parameters.theta_obj),
+        a_b: Real::from_double(parameters.a_b),
+        safety_time: Real::from_double(parameters.safety_time),
+        n: parameters.n,
+        theta_track_max: Real::from_double(parameters.theta_track_max),
+        miss_budget: parameters.miss_budget,
+        work_limit: parameters.work_limit,
+        tau: Real::from_double(parameters.tau),
+        a_max: Real::from_double(parameters.a_max),
+        start_tolerance: Real::from_double(parameters.start_tolerance),
+        v_max: Real::from_double(parameters.v_max),
+        max_age_ns: parameters.max_age_ns,
+        step_max_ns: parameters.step_max_ns,
+        theta_velocity: Real::from_double(parameters.theta_velocity),
+        delta: Real::from_double(parameters.delta),
+    }
+}
+
+fn ego(cycle: &Cycle) -> Ego {
+    Ego {
+        position: Vector::from_doubles(cycle.ego.x, cycle.ego.y),
+        v_now: Real::from_double(cycle.ego.speed),
+        length: Real::from_double(cycle.ego.length),
+        width: Real::from_double(cycle.ego.width),
+        center_offset: Real::from_double(cycle.ego.center_offset),
+    }
+}
+
+fn frame([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> Frame {
+    Frame { origin: Vector::from_doubles(x, y), direction: Vector::from_doubles(cos, sin) }
+}
+
+fn point(point: &crate::input::cycle::TrajectoryPoint) -> Point {
+    Point { t_ns: point.t_ns, pose: frame([point.x, point.y], [point.cos, point.sin]) }
+}
+
+fn object(centre: [f64; 2], direction: [f64; 2], [length, width]: [f64; 2]) -> Object {
+    Object {
+        frame: frame(centre, direction),
+        length: Real::from_double(length),
+        width: Real::from_double(width),
+    }
+}
+
+fn tracks(list: &TrackList) -> Tracks {
+    let track = |t: &crate::input::cycle::Track| Track {
+        id: t.id,
+        object: object([t.x, t.y], [t.cos, t.sin], [t.length, t.width]),
+        velocity: Vector::from_doubles(t.vx, t.vy),
+    };
+    Tracks { stamp_ns: list.stamp_ns, items: list.items.iter().map(track).collect() }
+}
+
+fn corridor(route: &Route) -> Corridor {
+    let station = |s: &crate::input::cycle::Station| {
+        [[s.x, s.y], s.left, s.right].map(|[x, y]| Vector::from_doubles(x, y))
+    };
+    Corridor { stations: route.stations.iter().map(station).collect(), closed: route.closed }
+}
+
+fn grid(grid: &crate::input::cycle::Grid) -> Grid {
+    Grid {
+        frame: frame([grid.x, grid.y], [grid.cos, grid.sin]),
+        resolution: Real::from_double(grid.resolution),
+        width: grid.width,
+        height: grid.height,
+        occupied: grid.occupied.clone(),
+        unknown: grid.unknown.clone(),
+    }
+}

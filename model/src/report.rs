@@ -1,0 +1,202 @@
+//! What a cycle reports: verdict, outcome of every stage, witness
+//! (`spec/3-stages.md#schedule`, `spec/5-interfaces.md#cycle`).
+
+use crate::numbers::real::Real;
+
+/// Which of the three models decides (`spec/4-arithmetic.md#strict-and-lax`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reading {
+    /// The model itself: every comparison as written.
+    Exact,
+    /// Every margin towards rejection; what an implementation must accept.
+    Strict,
+    /// Every margin towards acceptance; information only.
+    Lax,
+}
+
+/// The five stages in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Track validation.
+    I,
+    /// Trajectory to map.
+    Ii,
+    /// Trajectory with tracks.
+    Iii,
+    /// Trajectory with detections.
+    Iv,
+    /// Trajectory with grid map.
+    V,
+}
+
+impl Stage {
+    /// All stages in the order in which they run.
+    pub const ALL: [Self; 5] = [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V];
+}
+
+/// What made a cycle unsafe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FailedStage {
+    /// Invalid remote data.
+    Input,
+    /// A stage.
+    Stage(Stage),
+    /// H-05: a trajectory that nothing compared with obstacles.
+    NoObstacleCheck,
+}
+
+/// A kind of input data that stages need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Input {
+    /// `trajectory`
+    Trajectory,
+    /// `tracks`
+    Tracks,
+    /// `detections`
+    Detections,
+    /// `grid`
+    Grid,
+}
+
+/// Why a conditional stage did not run; with several reasons the first in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Reason {
+    /// An earlier stage failed.
+    AfterFailure,
+    /// Another stage made this one unnecessary.
+    OtherStageRan,
+    /// `no_current_trajectory`, `no_current_tracks`, `no_current_detections`, `no_current_grid`.
+    NoCurrent(Input),
+}
+
+/// What became of a stage in this cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It ran and found nothing.
+    Passed,
+    /// It found a safety issue.
+    Failed(Witness),
+    /// Conditional, or stopped by an earlier failure.
+    Skipped(Reason),
+    /// Scheduled always, but an input is missing.
+    NotApplicable(Input),
+    /// Not part of this configuration.
+    NotScheduled,
+}
+
+/// The comparison that decided a failure, in the order of `spec/`: first by rule, then by
+/// trajectory point, then by list order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Rule {
+    /// Stage i: mean assignment cost < theta_tr.
+    MeanCost,
+    /// Stage i, strict only: the assignment would take more work than work_limit.
+    WorkLimit,
+    /// H-01: fewer pairs closer than theta_track_max than tracks to be matched.
+    NoAssignment,
+    /// H-09: displacement since the previous list does not fit the velocity.
+    Velocity,
+    /// Stage ii: farther than theta_map from the reference path and outside the corridor.
+    ThetaMap,
+    /// H-07: time of the first point not within max_age of now.
+    StartTime,
+    /// H-07: first point too far from the CAV.
+    StartPosition,
+    /// H-07: a point outside the corridor.
+    Corridor,
+    /// H-07: heading against the nearest segments of the reference path.
+    Direction,
+    /// H-11: dt > step_max.
+    StepTime,
+    /// H-11: step longer than L.
+    StepLength,
+    /// H-11: step faster than v_max.
+    StepSpeed,
+    /// H-11: step against a heading.
+    StepForward,
+    /// H-11: step sideways by more than W/2.
+    StepLateral,
+    /// H-11: headings differ too much.
+    StepTurn,
+    /// H-12: arc length below what braking from v_lo covers.
+    ArcTooShort,
+    /// H-12: arc length above what accelerating from v_hi covers.
+    ArcTooLong,
+    /// H-12: the trajectory ends before standstill.
+    EndsTooSoon,
+    /// Stage iv, H-04: gap <= s_follow.
+    Gap,
+    /// Stages iii and iv: rectangles share a point.
+    Collision,
+    /// Stage iii, H-09: the rectangles share a point when the track stands still.
+    CollisionStanding,
+    /// Stage v: a disk on an occupied cell.
+    Occupied,
+    /// H-06: a disk on an unknown cell.
+    Unknown,
+    /// H-06: a disk beyond the border of the grid.
+    Outside,
+}
+
+/// Why a stage failed: the rule, where, and the two numbers that were compared, as the nearest
+/// doubles. `track` is an id; `point`, `detection`, `segment` (of the reference path) and `disk`
+/// are list indices; `cell` is (column, row).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Witness {
+    /// The rule that was broken.
+    pub rule: Rule,
+    /// Index of the trajectory point (the later one of a step); places behind the last
+    /// count on (H-04).
+    pub point: Option<usize>,
+    /// Id of the track.
+    pub track: Option<i64>,
+    /// Index of the detection.
+    pub detection: Option<usize>,
+    /// Index of the segment of the reference path.
+    pub segment: Option<usize>,
+    /// Index of the disk.
+    pub disk: Option<usize>,
+    /// Column and row of the grid cell.
+    pub cell: Option<(i64, i64)>,
+    /// The two numbers that were compared.
+    pub compared: [f64; 2],
+}
+
+impl Witness {
+    /// The witness of a rule with the nearest doubles of the two numbers, and no place yet.
+    pub fn new(rule: Rule, left: &Real, right: &Real) -> Self {
+        Self {
+            rule,
+            point: None,
+            track: None,
+            detection: None,
+            segment: None,
+            disk: None,
+            cell: None,
+            compared: [left.to_f64(), right.to_f64()],
+        }
+    }
+}
+
+/// A value that breaks the rules for input: the dotted path of the field without indices, the
+/// innermost list index, and what is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InvalidInput {
+    /// Dotted path, such as `tracks.items.vx`.
+    pub field: String,
+    /// Index in the innermost list, if the value is in one.
+    pub index: Option<usize>,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+/// The answer to one cycle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// `None`: the cycle is safe.
+    pub failed_stage: Option<FailedStage>,
+    /// Outcomes in the order of `Stage::ALL`.
+    pub stages: [Outcome; 5],
+    /// The problem, when `failed_stage` is `Input`.
+    pub input: Option<InvalidInput>,
+}

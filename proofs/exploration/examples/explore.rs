@@ -1,0 +1,36 @@
+//! Explores the small worlds named on the command line, or all, without the second engine, and
+//! says which properties fail: `profile world property moves`. `proofs/mutants/run` reads it.
+
+use std::process::ExitCode;
+
+use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::run;
+use mufasa_model::input::cycle::Profile;
+
+fn main() -> ExitCode {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    let mut fails = false;
+    for profile in [Profile::Paper, Profile::Hardened] {
+        for world in Bounds::Small.worlds() {
+            if !names.is_empty() && !names.iter().any(|name| name == world.name) {
+                continue;
+            }
+            let outcome = match run::run(world, profile, 0, |_| {}) {
+                Ok(outcome) => outcome,
+                Err(difference) => {
+                    println!("{profile:?} {} refinement: {difference}", world.name);
+                    fails = true;
+                    continue;
+                }
+            };
+            for finding in outcome.results.iter().filter(|it| it.law.is_claimed(profile)) {
+                if let Some(found) = &finding.counterexample {
+                    let moves = found.trace.len() + found.circle.len();
+                    println!("{profile:?} {} {} {moves}", world.name, finding.law.name());
+                    fails = true;
+                }
+            }
+        }
+    }
+    ExitCode::from(u8::from(fails))
+}

@@ -1,0 +1,193 @@
+//! The small worlds, explored by both engines: every property, every sight, and the number of
+//! reachable states, which is pinned so that a change of the protocol is seen.
+//!
+//! Covers `spec/2-offloading.md#properties-of-the-whole-protocol.1` to
+//! `spec/2-offloading.md#properties-of-the-whole-protocol.7`, F-12 and H-08 within the bounds of
+//! `proofs/exploration/src/bounds.rs`, and that model and implementation take every explored step
+//! alike (`System::new` fails at the first difference).
+
+use std::collections::BTreeSet;
+
+use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::moves::Move;
+use mufasa_exploration::properties::{Law, Sight};
+use mufasa_exploration::replay;
+use mufasa_exploration::run::{self, Outcome};
+use mufasa_model::input::cycle::Profile;
+
+/// Of a world: states of the requester, its steps compared, states of the system, moves; states
+/// from which offloading, and the end of a left session, lie ahead, and the most ticks until then.
+type Sizes = (&'static str, usize, usize, usize, u64, [Option<(usize, u16)>; 2]);
+
+const PAPER: &[Sizes] = &[
+    ("anything", 11_696, 804_912, 21_952, 1_600_704, [None, None]),
+    ("qos-hold", 1_611, 73_080, 2_932, 136_976, [None, None]),
+    ("link", 140, 5_912, 1_578_440, 87_210_464, [Some((2_476_806, 3)), Some((1_795_762, 2))]),
+    ("choice", 88, 2_768, 348_688, 15_595_228, [Some((1_153_220, 5)), Some((489_592, 2))]),
+    ("fleet", 22, 476, 1_439_518, 80_854_096, [None, Some((1_020_596, 2))]),
+    ("shared", 22, 326, 1_228_312, 29_855_184, [Some((1_468_426, 3)), Some((1_201_178, 2))]),
+    ("honest", 22, 326, 5_073, 77_615, [Some((3_302, 3)), Some((3_110, 2))]),
+    ("roam", 66, 1_482, 51_010, 1_679_378, [Some((32_762, 6)), Some((41_596, 3))]),
+];
+
+/// The states of the system are as many as in the paper profile: where one has stopped the local
+/// services, the other remembers what a stop still waits for, which the observer does in both.
+const HARDENED: &[Sizes] = &[
+    ("anything", 21_952, 1_600_704, 21_952, 1_600_704, [None, None]),
+    ("qos-hold", 2_852, 134_736, 2_932, 136_976, [None, None]),
+    ("link", 295, 12_874, 1_578_440, 87_210_464, [Some((2_476_806, 3)), Some((1_795_762, 2))]),
+    ("choice", 116, 3_832, 348_688, 15_595_228, [Some((1_153_220, 5)), Some((489_592, 2))]),
+    ("fleet", 29, 658, 1_439_518, 80_854_096, [None, Some((1_020_596, 2))]),
+    ("shared", 29, 445, 1_228_312, 29_855_184, [Some((1_468_426, 3)), Some((1_201_178, 2))]),
+    ("honest", 29, 445, 5_073, 77_615, [Some((3_302, 3)), Some((3_110, 2))]),
+    ("roam", 80, 1_888, 51_010, 1_679_378, [Some((32_762, 6)), Some((41_596, 3))]),
+];
+
+fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
+    let worlds = Bounds::Small.worlds();
+    let outcomes: Vec<_> = worlds
+        .iter()
+        .map(|world| run::run(world, profile, 1, |_| {}).unwrap_or_else(|it| panic!("{it}")))
+        .collect();
+    let sizes: Vec<Sizes> = outcomes
+        .iter()
+        .map(|outcome| {
+            let requesters = outcome.system.requesters();
+            let name = outcome.system.world().name;
+            let (states, moves) = (outcome.states, outcome.transitions);
+            println!("{profile:?} {name}: {states} states, {moves} moves, {:?}", outcome.time);
+            let endless = [Law::OffloadingReachedAgain, Law::LeftSessionEnds]
+                .map(|law| outcome.results.iter().find(|it| it.law == law).and_then(|it| it.ahead));
+            (name, requesters.len(), requesters.reactions(), states, moves, endless)
+        })
+        .collect();
+    assert_eq!(sizes, expected, "the protocol or the bounds have changed");
+    outcomes
+}
+
+/// The second engine finds as many states, and nothing broken.
+fn both_engines_agree(outcome: &Outcome) {
+    let name = outcome.system.world().name;
+    let (second, _) = outcome.second.as_ref().expect("it was asked");
+    assert_eq!(second.states, outcome.states, "{name}");
+    assert!(second.broken.is_empty(), "{name}: {:?}", second.broken);
+    assert!(second.offloaded, "{name}: nobody offloaded anything");
+}
+
+fn claimed_properties_hold(profile: Profile, outcome: &Outcome) {
+    for finding in outcome.results.iter().filter(|finding| finding.law.is_claimed(profile)) {
+        let name = outcome.system.world().name;
+        assert_eq!(finding.counterexample, None, "{name}: {}", finding.law.name());
+        // An aim that never lay ahead would have been reached by nobody.
+        assert_ne!(finding.ahead.map(|(states, _)| states), Some(0), "{name}");
+    }
+}
+
+/// Every property was asked somewhere, and everything was seen that it speaks of.
+fn no_property_is_empty(profile: Profile, outcomes: &[Outcome]) {
+    for law in Law::ALL {
+        let asked = outcomes.iter().flat_map(|it| &it.results).any(|it| it.law == law);
+        assert!(asked, "{} was asked nowhere", law.name());
+        for sight in law.companions().iter().filter(|sight| sight.is_expected(profile)) {
+            let seen = outcomes.iter().any(|it| it.moves_to(law, *sight).is_some());
+            assert!(seen, "{}: never seen: {}", law.name(), sight.name());
+        }
+    }
+}
+
+/// Each shortest trace to a sight, and each to what fails, can be walked by the real parts, and
+/// comes by the explored states.
+fn traces_are_real(outcome: &Outcome) {
+    let sights = outcome.seen.iter().map(|(_, trace)| trace.clone());
+    let failures = outcome.results.iter().filter_map(|it| it.counterexample.as_ref());
+    for trace in sights.chain(failures.map(|it| [&it.trace[..], &it.circle].concat())) {
+        let walked = replay::replay(&outcome.system, &trace);
+        let name = outcome.system.world().name;
+        assert_eq!(walked.map(|it| it.len()), Ok(trace.len()), "{name}: {trace:?}");
+    }
+}
+
+/// A station that waits for a left session does so for its lease at most.
+fn left_sessions_end_within_the_lease(outcome: &Outcome) {
+    let lease = outcome.system.world().ticks.lease;
+    let finding = outcome.results.iter().find(|it| it.law == Law::LeftSessionEnds);
+    if let Some((_, ticks)) = finding.and_then(|it| it.ahead) {
+        assert!(i64::from(ticks) <= lease, "{}: {ticks}", outcome.system.world().name);
+    }
+}
+
+/// The companion "lost release ended by the lease" as one trace: the release is lost, and time
+/// alone ends the session.
+#[test]
+fn a_session_whose_release_is_lost_ends_with_its_lease() {
+    let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").expect("honest");
+    for profile in [Profile::Paper, Profile::Hardened] {
+        let outcome = run::run(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
+        let mut seen = outcome.seen.iter();
+        let (_, trace) = seen.find(|(it, _)| *it == Sight::ReleaseLost).expect("a lost release");
+        let mut trace = trace.clone();
+        let mut ticks = 0;
+        loop {
+            let mut state = outcome.system.start();
+            for by in &trace {
+                state = outcome.system.apply(&state, *by).expect("it was explored").state;
+            }
+            match state.stations[0].runs[0][0] {
+                0 => break,
+                session => assert!(session > 1, "the CAV has left it"),
+            }
+            trace.push(Move::TimePasses);
+            ticks += 1;
+        }
+        assert!((1..=world.ticks.lease).contains(&ticks), "{ticks} ticks");
+        let walked = replay::replay(&outcome.system, &trace);
+        assert_eq!(walked.map(|it| it.len()), Ok(trace.len()));
+    }
+}
+
+#[test]
+fn all_properties_hold_in_the_hardened_profile() {
+    let outcomes = explore_all(Profile::Hardened, HARDENED);
+    for outcome in &outcomes {
+        both_engines_agree(outcome);
+        claimed_properties_hold(Profile::Hardened, outcome);
+        traces_are_real(outcome);
+        left_sessions_end_within_the_lease(outcome);
+    }
+    no_property_is_empty(Profile::Hardened, &outcomes);
+}
+
+/// In the paper profile all hold but one: F-12 is found in every world, and its trace, which is
+/// minimal, ends with the confirmation at which the local services stop.
+#[test]
+fn all_properties_but_f_12_hold_in_the_paper_profile() {
+    let outcomes = explore_all(Profile::Paper, PAPER);
+    for outcome in &outcomes {
+        both_engines_agree(outcome);
+        claimed_properties_hold(Profile::Paper, outcome);
+        traces_are_real(outcome);
+        left_sessions_end_within_the_lease(outcome);
+        let finding = outcome.results.iter().find(|it| it.law == Law::NoStopBeforeSafeCycle);
+        let found = finding.and_then(|it| it.counterexample.as_ref()).expect("F-12");
+        // Offer, tick, forged confirmation; or offer, tick, request and confirmation delivered.
+        let shortest = if outcome.system.world().attacker { 3 } else { 4 };
+        assert_eq!(found.trace.len(), shortest);
+        let scenes = replay::replay(&outcome.system, &found.trace).expect("it can be walked");
+        let last = scenes.last().expect("some moves");
+        assert!(!last.cavs[0].computes[0], "the local services stopped");
+        assert!(scenes.iter().rev().skip(1).all(|scene| scene.cavs[0].computes[0]));
+    }
+    no_property_is_empty(Profile::Paper, &outcomes);
+}
+
+#[test]
+fn the_bounds_are_stated() {
+    for bounds in [Bounds::Small, Bounds::Large] {
+        let names: BTreeSet<_> = bounds.worlds().iter().map(|world| world.name).collect();
+        assert_eq!(names.len(), bounds.worlds().len(), "names are used once");
+        for world in bounds.worlds() {
+            assert!(world.why.len() > 40, "{}: why?", world.name);
+            assert!(world.in_flight == 0 || world.in_flight >= 2, "a tick sends two messages");
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Bounds of the rounding errors of the distances, by Gappa.
+//!
+//! The scripts are generated from the operations of `model/src/stages/distances.rs`, as a program in doubles
+//! would do them in the order of the source. `tests/rounding.rs` holds the bounds against exact
+//! numbers. The implementation computes in double-doubles with bounds of its own.
+
+mod process;
+mod script;
+
+use std::io;
+use std::time::{Duration, Instant};
+
+pub use process::version;
+
+use crate::numbers::real::Real;
+use crate::prove::Verdict;
+use crate::stages::distances::{s_b, s_follow};
+use crate::theorem::Mutant;
+use script::Script;
+
+/// A bound on a rounding error.
+#[derive(Debug)]
+pub struct Bound {
+    /// Its name.
+    pub id: &'static str,
+    /// What is claimed.
+    pub statement: &'static str,
+    /// Of which numbers.
+    pub domain: &'static str,
+    /// A change of the source that must leave it without a proof.
+    pub mutant: Mutant,
+    /// Of `formula`, over the ranges of its inputs.
+    formula: fn() -> Real,
+    inputs: &'static [Input],
+    /// Whether the limit is one of the relative error.
+    relative: bool,
+    /// Values within the formula of which a bound is known from another line.
+    known: &'static [fn() -> Real],
+    /// What is known of these.
+    lemma: Known,
+    /// What is shown first of a value of which the maximum with 0 is taken, and used of that: the
+    /// maximum makes no error larger.
+    of_max: Known,
+    /// The limit claimed.
+    limit: &'static str,
+    /// A smaller one, for which there must be no proof.
+    wrong: &'static str,
+}
+
+/// An input: name, least and largest value.
+type Input = (&'static str, &'static str, &'static str);
+
+/// A value from 0 to `most` with an absolute error of at most `error`.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    most: &'static str,
+    error: &'static str,
+}
+
+const NOTHING: Known = Known { most: "0", error: "0" };
+
+/// All bounds. The last one starts from the one before it.
+pub const BOUNDS: [Bound; 3] = [
+    Bound {
+        id: "s_b_in_doubles_relative",
+        statement: "abs(s_b in doubles - s_b) <= 2^-52 (1 + 2^-54) s_b",
+        domain: "v from 1e-100 to 150 m/s, a_b from 0.1 to 100 m/s^2",
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "v.square() / (Real::from_integer(2) * a_b)",
+            to: "v.square() / Real::from_integer(3) / a_b",
+        },
+        formula: || s_b(&v(), &a_b()),
+        inputs: &[("v", "1e-100", "150"), ("a_b", "0.1", "100")],
+        relative: true,
+        known: &[],
+        lemma: NOTHING,
+        of_max: NOTHING,
+        limit: "0x1.00000000000004p-52",
+        wrong: "1b-53",
+    },
+    Bound {
+        id: "s_b_in_doubles_absolute",
+        statement: "abs(s_b in doubles - s_b) <= 4.6e-13 m",
+        domain: "v to 70 m/s, a_b from 1 to 12 m/s^2",
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "v.square() / (Real::from_integer(2) * a_b)",
+            to: "v.square() / (Real::from_integer(1) * a_b)",
+        },
+        formula: || s_b(&v(), &a_b()),
+        inputs: &[("v", "0", "70"), ("a_b", "1", "12")],
+        relative: false,
+        known: &[],
+        lemma: NOTHING,
+        of_max: NOTHING,
+        limit: "4.6e-13",
+        wrong: "1e-14",
+    },
+    Bound {
+        id: "s_follow_in_doubles_absolute",
+        statement: "abs(s_follow in doubles - s_follow) <= 1.5e-12 m",
+        domain: "speeds to 70 m/s, a_b from 1 to 12 m/s^2, safety_time to 2 s",
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "safety_time * v_now",
+            to: "safety_time * v_now * v_now",
+        },
+        formula: || s_follow(&v_now(), &v_lead(), &a_b(), &Real::named("safety_time")),
+        inputs: &[("v_now", "0", "70"), ("safety_time", "0", "2")],
+        relative: false,
+        known: &[|| s_b(&v_now(), &a_b()), || s_b(&v_lead(), &a_b())],
+        lemma: Known { most: "2450", error: "4.6e-13" },
+        of_max: Known { most: "2450", error: "1.15e-12" },
+        limit: "1.5e-12",
+        wrong: "1e-13",
+    },
+];
+
+fn v() -> Real {
+    Real::named("v")
+}
+
+fn v_now() -> Real {
+    Real::named("v_now")
+}
+
+fn v_lead() -> Real {
+    Real::named("v_lead")
+}
+
+fn a_b() -> Real {
+    Real::named("a_b")
+}
+
+impl Bound {
+    /// Proved, or not known: Gappa refutes nothing. The wrong bound must have no proof, or the
+    /// verdict is not known either. Errors are those of running Gappa.
+    pub fn judge(&self) -> io::Result<(Verdict, Duration)> {
+        let start = Instant::now();
+        let is_proved = self.are_proved(self.limit)? && !self.are_proved(self.wrong)?;
+        let verdict = if is_proved { Verdict::Proved } else { Verdict::Unknown };
+        Ok((verdict, start.elapsed()))
+    }
+
+    /// The texts for Gappa that together claim this limit.
+    pub fn scripts(&self, limit: &str) -> Vec<String> {
+        Script::new(self).texts(limit)
+    }
+
+    fn are_proved(&self, limit: &str) -> io::Result<bool> {
+        for script in self.scripts(limit) {
+            if !process::is_proved(&script)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,70 @@
+//! The theorems: statement, claim, a wrong variant that must be refuted, and a mutant of the
+//! source under which the theorem must fail.
+
+pub mod assignment;
+pub mod base;
+pub mod closure;
+pub mod collision;
+pub mod distance;
+pub mod grid;
+pub mod lemma;
+pub mod rectangle;
+pub mod rounding;
+pub mod stop;
+
+use crate::numbers::real::formula::Formula;
+
+/// A theorem over the reals.
+#[derive(Debug)]
+pub struct Theorem {
+    /// Its name, a sentence.
+    pub id: &'static str,
+    /// What is claimed, in the symbols of `spec/`.
+    pub statement: &'static str,
+    /// Of which numbers, and what is not covered.
+    pub domain: &'static str,
+    /// The claim, executed on every path.
+    pub claim: fn() -> Formula,
+    /// A statement near it that is false, which must be refuted: the claim is not one of nothing.
+    pub wrong: Wrong,
+    /// A change of the source that must make the claim fail.
+    pub mutant: Mutant,
+}
+
+/// A false variant of a theorem, under its assumptions or nearly so. Under exactly its assumptions
+/// stands the mutant.
+#[derive(Debug)]
+pub struct Wrong {
+    /// What it says.
+    pub statement: &'static str,
+    /// Its claim.
+    pub claim: fn() -> Formula,
+}
+
+/// One replacement in one file.
+#[derive(Debug)]
+pub struct Mutant {
+    /// The file, from the root of the project.
+    pub file: &'static str,
+    /// Text that occurs in it once.
+    pub from: &'static str,
+    /// What takes its place.
+    pub to: &'static str,
+}
+
+/// All theorems, in the order of `spec/`.
+pub fn all() -> impl Iterator<Item = &'static Theorem> {
+    [
+        distance::THEOREMS,
+        lemma::THEOREMS,
+        rectangle::THEOREMS,
+        collision::THEOREMS,
+        stop::THEOREMS,
+        grid::THEOREMS,
+        assignment::THEOREMS,
+        closure::THEOREMS,
+        rounding::THEOREMS,
+    ]
+    .into_iter()
+    .flatten()
+}

@@ -1,0 +1,169 @@
+//! H-04: the CAV can always stop within what was checked. Standing objects; the CAV brakes at a_b at
+//! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
+//! theorems make an induction over cycles is written in `findings/F-04.md`.
+
+use crate::input::cycle::Profile;
+use crate::numbers::real::Real;
+use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
+use crate::services::configuration::Configuration;
+use crate::stages::distances::{points_examined, s_b, s_stop, scene_s_stop, ways};
+use crate::theorem::base::{any_cav, home};
+use crate::theorem::rectangle::vector;
+use crate::theorem::{Mutant, Theorem, Wrong};
+
+const DOMAIN: &str = "all e, speeds, tau, a_max >= 0, a_b > 0; standing objects; the CAV is e along the \
+                      trajectory, which it follows";
+
+/// The theorems of this file.
+pub const THEOREMS: &[Theorem] = &[
+    Theorem {
+        id: "s_stop_is_beyond_where_the_CAV_stands",
+        statement: "e + s_b(v) <= s_stop(e, v)",
+        domain: DOMAIN,
+        claim: || {
+            let Vehicle { e, v, tau, a_max, a_b } = Vehicle::new();
+            at_most(&(&e + s_b(&v, &a_b)), &s_stop(&e, &v, &tau, &a_max, &a_b))
+        },
+        wrong: Wrong {
+            statement: "e + s_b(v + 1) <= s_stop(e, v)",
+            claim: || {
+                let Vehicle { e, v, tau, a_max, a_b } = Vehicle::new();
+                let braking = s_b(&(&v + Real::from_integer(1)), &a_b);
+                at_most(&(&e + braking), &s_stop(&e, &v, &tau, &a_max, &a_b))
+            },
+        },
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "+ s_b(&(v_now + a_max * tau), a_b)",
+            to: "",
+        },
+    },
+    Theorem {
+        id: "until_the_next_cycle_the_stop_invariant_is_kept",
+        statement: "after t <= tau at an acceleration a <= a_max: e + distance driven + s_b(v + a t) \
+                    <= s_stop(e, v)",
+        domain: DOMAIN,
+        claim: || {
+            let vehicle = Vehicle::new();
+            let (t, a) = reaction(&vehicle);
+            given(at_most(&t, &vehicle.tau));
+            kept(&vehicle, &t, &a)
+        },
+        wrong: Wrong {
+            statement: "after any time",
+            claim: || {
+                let vehicle = Vehicle::new();
+                let (t, a) = reaction(&vehicle);
+                kept(&vehicle, &t, &a)
+            },
+        },
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "v_now * tau + a_max",
+            to: "a_max",
+        },
+    },
+    Theorem {
+        id: "braking_keeps_the_stop_invariant",
+        statement: "braking at a_b for t: distance driven + s_b(v - a_b t) = s_b(v), down to standstill",
+        domain: DOMAIN,
+        claim: || braking(&Real::from_integer(1)),
+        wrong: Wrong { statement: "braking at half of a_b", claim: || braking(&Real::ratio(1, 2)) },
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "v.square() / (Real::from_integer(2) * a_b)",
+            to: "v.square() / (Real::from_integer(3) * a_b)",
+        },
+    },
+    Theorem {
+        id: "the_places_examined_reach_s_stop",
+        statement: "H-04: along a remote trajectory and straight on behind its end, the last place \
+                    examined is not before s_stop; when it is not the last point, it is behind s, too",
+        domain: "3 points anywhere, all headings along x, that end at most 1/2 m before s_stop, all \
+                 s >= 0, speeds, tau, a_max >= 0, a_b > 0; center_offset = 0",
+        claim: || reach(Configuration::PlanRemote),
+        wrong: Wrong {
+            statement: "also along a local trajectory",
+            claim: || reach(Configuration::MotRemote),
+        },
+        mutant: Mutant {
+            file: "model/src/stages/distances.rs",
+            from: "let count = within(ways(trajectory), &s.max(&s_stop).clone()) + 1;",
+            to: "let count = within(ways(trajectory), &s.max(&s_stop).clone());",
+        },
+    },
+];
+
+struct Vehicle {
+    e: Real,
+    v: Real,
+    tau: Real,
+    a_max: Real,
+    a_b: Real,
+}
+
+impl Vehicle {
+    fn new() -> Self {
+        let [e, v, tau, a_max, a_b] = ["e", "v", "tau", "a_max", "a_b"].map(Real::variable);
+        given(less(&Real::zero(), &a_b));
+        for number in [&e, &v, &tau, &a_max] {
+            given(at_most(&Real::zero(), number));
+        }
+        Self { e, v, tau, a_max, a_b }
+    }
+}
+
+/// A time and an acceleration that the vehicle can have had for it.
+fn reaction(vehicle: &Vehicle) -> (Real, Real) {
+    let [t, a] = ["t", "a"].map(Real::variable);
+    given(at_most(&Real::zero(), &t));
+    given(at_most(&a, &vehicle.a_max));
+    given(at_most(&Real::zero(), &(&vehicle.v + &a * &t)));
+    (t, a)
+}
+
+/// Distance driven in the time t at the acceleration a, m.
+fn driven(v: &Real, a: &Real, t: &Real) -> Real {
+    v * t + a * t.square() / Real::from_integer(2)
+}
+
+fn kept(vehicle: &Vehicle, t: &Real, a: &Real) -> Formula {
+    let Vehicle { e, v, tau, a_max, a_b } = vehicle;
+    let then = e + driven(v, a, t) + s_b(&(v + a * t), a_b);
+    at_most(&then, &s_stop(e, v, tau, a_max, a_b))
+}
+
+fn braking(share: &Real) -> Formula {
+    let Vehicle { v, a_b, .. } = Vehicle::new();
+    let t = Real::variable("t");
+    let a = -(share * &a_b);
+    given(at_most(&Real::zero(), &t));
+    given(at_most(&Real::zero(), &(&v + &a * &t)));
+    equal(&(driven(&v, &a, &t) + s_b(&(&v + &a * &t), &a_b)), &s_b(&v, &a_b))
+}
+
+fn reach(configuration: Configuration) -> Formula {
+    let Vehicle { v, tau, a_max, a_b, .. } = Vehicle::new();
+    let s = Real::variable("s");
+    given(at_most(&Real::zero(), &s));
+    let mut scene = any_cav(Profile::Hardened);
+    scene.configuration = configuration;
+    scene.ego.v_now = v;
+    (scene.parameters.tau, scene.parameters.a_max, scene.parameters.a_b) = (tau, a_max, a_b);
+    let trajectory = ["0", "1", "2"].map(|name| {
+        let mut point = home(&Real::from_integer(1));
+        point.pose.origin = vector(name);
+        point
+    });
+    let (arcs, s_stop) = (ways(&trajectory), scene_s_stop(&scene, &trajectory));
+    let end = &arcs[trajectory.len() - 1];
+    given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
+    let examined = points_examined(&scene, &trajectory, &s);
+    if examined.len() < trajectory.len() {
+        let arc = &arcs[examined.len() - 1];
+        return Formula::All(vec![less(&s, arc), less(&s_stop, arc)]);
+    }
+    let last = &examined[examined.len() - 1].pose.origin;
+    let beyond = (last - &trajectory[trajectory.len() - 1].pose.origin).length();
+    at_most(&s_stop, &(end + beyond))
+}

@@ -1,0 +1,326 @@
+//! The searches: a cycle with holes for each finding, as free of other faults as it can be, so that
+//! in the hardened profile nothing but the rule that closes the finding rejects it.
+
+use super::Search;
+use crate::input::cycle::{
+    Cycle, Detection, DetectionList, Grid, Lead, Profile, Station, Track, TrackList, Trajectory,
+};
+use crate::input::scene::Scene;
+use crate::numbers::real::Real;
+use crate::numbers::real::formula::{Formula, at_most, less};
+use crate::numbers::real::hole::hole;
+use crate::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
+use crate::stages::distances::s_b;
+use crate::theorem::base::{self, NOW_NS};
+
+/// All searches. Objects are as large as the CAV and along x, so that two of them meet when their
+/// centres on the x axis are at most 4 m apart.
+pub const SEARCHES: [Search; 19] = [
+    Search {
+        finding: "F-02",
+        cycle: |profile| {
+            let mut cycle = bare(profile, MotRemote);
+            cycle.tracks = Some(tracks(vec![track(1, 60.0), track(2, hole("x"))]));
+            cycle.detections = Some(detections(60.0));
+            cycle
+        },
+        conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &integer(50))],
+    },
+    Search {
+        finding: "F-03",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.tracks = Some(tracks(vec![Track { length: 12.0, ..track(1, hole("x")) }]));
+            cycle
+        },
+        conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(79, 10))],
+    },
+    Search {
+        finding: "F-04",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.ego.speed = hole("v_now");
+            cycle.trajectory = Some(every_four_metres());
+            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle
+        },
+        conditions: |scene| [both(within("v_now", 35, 40), within("x", 0, 110)), met(scene, 80)],
+    },
+    Search {
+        finding: "F-05",
+        cycle: |profile| {
+            let mut cycle = bare(profile, MotRemote);
+            cycle.ego.speed = hole("v_now");
+            cycle.trajectory = Some(every_four_metres());
+            cycle.lead = Some(Lead { stamp_ns: NOW_NS, gap: 200.0, speed: hole("v_lead") });
+            cycle.detections = Some(detections(hole("x")));
+            cycle
+        },
+        conditions: |scene| {
+            let speeds = both(within("v_now", 35, 40), within("v_lead", 0, 40));
+            [both(speeds, within("x", 0, 110)), met(scene, 80)]
+        },
+    },
+    Search {
+        finding: "F-06",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.trajectory = Some(straight(&[0.0, 1.0]));
+            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle
+        },
+        conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(49, 10))],
+    },
+    Search {
+        finding: "F-07",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle
+        },
+        conditions: |_| [within("end", 0, 1), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-08",
+        cycle: |profile| {
+            let mut cycle = bare(profile, MotRemote);
+            cycle.trajectory = Some(straight(&[0.0]));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[0].y = hole("y"));
+            cycle.grid = Some(grid(14, 13));
+            cycle
+        },
+        conditions: |_| {
+            let y = Real::named("y");
+            [both(less(&Real::zero(), &y), less(&y, &integer(1))), Formula::Known(true)]
+        },
+    },
+    Search {
+        finding: "F-09",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.trajectory = Some(straight(&[0.0, 1.0]));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[1].y = hole("y"));
+            let station = |x: f64| Station { x, y: 0.0, left: [x, 0.125], right: [x, -0.125] };
+            cycle.route.stations = vec![station(-50.0), station(150.0)];
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| {
+            let y = Real::named("y");
+            [at_most(&y, &Real::ratio(29, 100)), less(&Real::ratio(1, 8), &y)]
+        },
+    },
+    Search {
+        finding: "F-10",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.parameters.start_tolerance = 2.0;
+            cycle.ego.x = hole("x");
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| [within("x", -60, 0), less(&Real::named("x"), &integer(-2))],
+    },
+    Search {
+        finding: "F-11",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.ego.speed = 10.0;
+            cycle.parameters.step_max_ns = 1_000_000_000;
+            cycle.trajectory = Some(every(1_000_000_000, &[0.0, hole("end"), 20.0]));
+            cycle.tracks = Some(tracks(vec![Track { length: 1.0, ..track(1, hole("x")) }]));
+            cycle
+        },
+        conditions: |_| {
+            let [x, end] = ["x", "end"].map(Real::named);
+            let between = both(less(&Real::ratio(5, 2), &x), less(&x, &(end - Real::ratio(5, 2))));
+            [within("end", 0, 13), between]
+        },
+    },
+    Search {
+        finding: "F-13",
+        cycle: |profile| {
+            let mut cycle = bare(profile, AllRemote);
+            cycle.ego.speed = 5.0;
+            cycle.trajectory = Some(straight(&[0.0, 0.5, 1.0, 1.5, 2.0]));
+            cycle.tracks = Some(tracks(vec![Track { vx: hole("vx"), ..track(1, 4.5) }]));
+            cycle.detections = Some(detections(4.5));
+            cycle
+        },
+        conditions: |_| [within("vx", -50, 50), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-14",
+        cycle: |profile| {
+            let mut cycle = bare(profile, AllRemote);
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle.detections = Some(detections(hole("x")));
+            cycle
+        },
+        conditions: |_| [within("x", -4, 4), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-15",
+        cycle: |profile| {
+            let mut cycle = bare(profile, AllRemote);
+            cycle.ego.speed = 0.3;
+            cycle.trajectory = Some(straight(&[0.0, 0.5]));
+            cycle.tracks = Some(tracks(vec![Track { length: hole("length"), ..track(1, 4.2) }]));
+            cycle.detections = Some(detections(4.2));
+            cycle
+        },
+        conditions: |_| [within("length", 1, 10), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-16",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.parameters.step_max_ns = 2_000_000_000;
+            let mut later = every(2_000_000_000, &[0.0, 0.0]);
+            later.points.iter_mut().for_each(|point| point.t_ns += 5_000_000_000);
+            cycle.trajectory = Some(later);
+            cycle.tracks = Some(tracks(vec![Track { vx: hole("vx"), ..track(1, 20.0) }]));
+            cycle
+        },
+        conditions: |_| [within("vx", -12, -8), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-18",
+        cycle: |profile| {
+            let mut cycle = bare(profile, AllRemote);
+            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle
+        },
+        conditions: |_| [within("x", -60, 60), Formula::Known(true)],
+    },
+    Search {
+        finding: "F-22",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.parameters.start_tolerance = 2.0;
+            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| [within("end", 0, 4), less(&Real::ratio(206, 100), &Real::named("end"))],
+    },
+    Search {
+        finding: "F-23",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.ego.speed = 4.0;
+            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle.tracks = Some(tracks(vec![track(1, 4.9)]));
+            cycle
+        },
+        conditions: |_| [within("end", 0, 1), less(&Real::named("end"), &Real::ratio(9, 10))],
+    },
+    Search {
+        finding: "F-26",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.ego.speed = 10.0;
+            cycle.trajectory = Some(straight(&[0.0, 1.5, 3.0, 3.6, 4.0, 4.3, 4.5, hole("end")]));
+            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle
+        },
+        conditions: |_| {
+            let [x, end] = ["x", "end"].map(Real::named);
+            let reached = both(within("end", 4, 6), less(&Real::ratio(9, 2), &end));
+            [reached, both(less(&(end + integer(4)), &x), at_most(&x, &Real::ratio(41, 4)))]
+        },
+    },
+    Search {
+        finding: "F-28",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.parameters.start_tolerance = 2.0;
+            cycle.ego.speed = 10.0;
+            let mut zigzag = every(100_000_000, &[0.0; 14]);
+            zigzag.points.iter_mut().skip(1).step_by(2).for_each(|point| point.y = hole("y"));
+            cycle.trajectory = Some(zigzag);
+            cycle.tracks = Some(tracks(vec![track(1, 4.5)]));
+            cycle
+        },
+        conditions: |_| [within("y", 0, 1), Formula::Known(true)],
+    },
+];
+
+/// Nothing but a CAV that stands at a point; H-07 and H-12 forgive what is off by 1 km.
+fn bare(profile: Profile, configuration: Configuration) -> Cycle {
+    let mut cycle = base::cycle(profile, configuration);
+    cycle.parameters.start_tolerance = 1000.0;
+    cycle
+}
+
+fn integer(value: i64) -> Real {
+    Real::from_integer(value.into())
+}
+
+fn both(a: Formula, b: Formula) -> Formula {
+    Formula::All(vec![a, b])
+}
+
+fn within(name: &str, least: i64, most: i64) -> Formula {
+    let number = Real::named(name);
+    both(at_most(&integer(least), &number), at_most(&number, &integer(most)))
+}
+
+/// The car at x meets the CAV at the point this far along, which is within s_b.
+fn met(scene: &Scene, along: i64) -> Formula {
+    let (x, reach) = (Real::named("x"), Real::ratio(39, 10));
+    let s_b = s_b(&scene.ego.v_now, &scene.parameters.a_b);
+    Formula::All(vec![
+        less(&integer(along), &s_b),
+        at_most(&(integer(along) - &reach), &x),
+        at_most(&x, &(integer(along) + reach)),
+    ])
+}
+
+/// Points along x, 200 ms apart.
+fn straight(places: &[f64]) -> Trajectory {
+    every(200_000_000, places)
+}
+
+/// Points along x, from 0 to 100 m.
+fn every_four_metres() -> Trajectory {
+    let places: Vec<f64> = (0..=25).map(|i| 4.0 * f64::from(i)).collect();
+    straight(&places)
+}
+
+/// Points along x, so many ns apart.
+fn every(step_ns: i64, places: &[f64]) -> Trajectory {
+    let point = |(i, x): (i64, &f64)| base::point(NOW_NS + i * step_ns, *x, 0.0);
+    Trajectory { stamp_ns: NOW_NS, points: (0..).zip(places).map(point).collect() }
+}
+
+/// 24 by 24 cells of 1 m with the corner at (-12, -12), of which one is occupied.
+fn grid(column: usize, row: usize) -> Grid {
+    let (bit, mut occupied) = (row * 24 + column, vec![0; 72]);
+    occupied[bit / 8] = 1 << (bit % 8);
+    Grid {
+        stamp_ns: NOW_NS,
+        x: -12.0,
+        y: -12.0,
+        cos: 1.0,
+        sin: 0.0,
+        resolution: 1.0,
+        width: 24,
+        height: 24,
+        occupied,
+        unknown: None,
+    }
+}
+
+fn tracks(items: Vec<Track>) -> TrackList {
+    TrackList { stamp_ns: NOW_NS, items }
+}
+
+fn track(id: i64, x: f64) -> Track {
+    Track { id, x, y: 0.0, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.0, width: 2.0 }
+}
+
+fn detections(x: f64) -> DetectionList {
+    let detection = Detection { x, y: 0.0, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 };
+    DetectionList { stamp_ns: NOW_NS, items: vec![detection] }
+}

@@ -1,0 +1,231 @@
+//! Answers as JSON (`spec/5-interfaces.md#cycle`).
+
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::report::{InvalidInput, Outcome, Report, Witness};
+use mufasa_model::stages::readings::readings;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::composition_answer::CompositionAnswer;
+use crate::error::LineError;
+use crate::names;
+use crate::offloading_answer::OffloadingAnswer;
+use crate::schema::words;
+
+/// The answer to one line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Answer {
+    /// To a cycle.
+    Cycle(Box<CycleAnswer>),
+    /// To an offloading trace.
+    Offloading(OffloadingAnswer),
+    /// To a composition.
+    Composition(CompositionAnswer),
+    /// To a line that is no record, or to a record with invalid local input.
+    Error(ErrorAnswer),
+}
+
+/// The answer to one cycle.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
+pub struct CycleAnswer {
+    /// Id of the record.
+    pub id: String,
+    /// `safe` or `unsafe`, as the exact model decides.
+    #[schemars(with = "words::Verdict")]
+    pub verdict: &'static str,
+    /// `None` when the cycle is safe.
+    #[schemars(with = "Option<words::FailedStage>")]
+    pub failed_stage: Option<&'static str>,
+    /// Where the problem is, when the failed stage is `input`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub input: Option<InputProblem>,
+    /// What became of every stage.
+    pub stages: Stages,
+    /// Verdict of the strict reading.
+    #[schemars(with = "words::Verdict")]
+    pub strict: &'static str,
+    /// Verdict of the lax reading.
+    #[schemars(with = "words::Verdict")]
+    pub lax: &'static str,
+}
+
+/// A problem in remote data.
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+pub struct InputProblem {
+    /// Dotted path without indices.
+    pub field: String,
+    /// Index in the innermost list.
+    pub index: Option<usize>,
+}
+
+/// The outcomes of the five stages.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
+pub struct Stages {
+    /// Track validation.
+    pub i: StageAnswer,
+    /// Trajectory to map.
+    pub ii: StageAnswer,
+    /// Trajectory with tracks.
+    pub iii: StageAnswer,
+    /// Trajectory with detections.
+    pub iv: StageAnswer,
+    /// Trajectory with grid map.
+    pub v: StageAnswer,
+}
+
+/// The outcome of a stage.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
+#[serde(tag = "outcome", rename_all = "snake_case")]
+pub enum StageAnswer {
+    /// It ran and found nothing.
+    Passed,
+    /// It found a safety issue.
+    Failed {
+        /// What decided.
+        witness: WitnessAnswer,
+    },
+    /// Conditional, or stopped by an earlier failure.
+    Skipped {
+        /// Why.
+        #[schemars(with = "words::Reason")]
+        reason: &'static str,
+    },
+    /// Scheduled always, but an input is missing.
+    NotApplicable {
+        /// Key of that input in the record.
+        #[schemars(with = "words::Missing")]
+        missing: &'static str,
+    },
+    /// Not part of this configuration.
+    NotScheduled,
+}
+
+/// A witness; keys that its rule has no use for are left out.
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
+pub struct WitnessAnswer {
+    /// The rule that was broken.
+    #[schemars(with = "words::Rule")]
+    pub rule: &'static str,
+    /// Index of the trajectory point.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<usize>,
+    /// Id of the track.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub track: Option<i64>,
+    /// Index of the detection.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub detection: Option<usize>,
+    /// Index of the segment of the reference path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub segment: Option<usize>,
+    /// Index of the disk.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disk: Option<usize>,
+    /// Column and row of the grid cell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cell: Option<[i64; 2]>,
+    /// The two numbers that were compared, as shortest round-trip decimals.
+    pub compared: [String; 2],
+}
+
+/// The answer to a line that is no record, or to a record with invalid local input.
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+pub struct ErrorAnswer {
+    /// Id of the record, when it could be read.
+    pub id: Option<String>,
+    /// Always `error`.
+    #[schemars(with = "words::ErrorVerdict")]
+    pub verdict: &'static str,
+    /// Always null.
+    #[schemars(with = "()")]
+    pub failed_stage: Option<&'static str>,
+    /// What is wrong.
+    pub error: ErrorProblem,
+}
+
+/// What is wrong with a line.
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+pub struct ErrorProblem {
+    /// Dotted path without indices; empty for the record itself.
+    pub field: String,
+    /// Index in the innermost list.
+    pub index: Option<usize>,
+    /// What is wrong and what would be right.
+    pub message: String,
+    /// Number of the line, from 1.
+    pub line: usize,
+}
+
+impl CycleAnswer {
+    /// Decides a cycle in the three readings. `Err` is invalid local input.
+    pub fn decide(id: &str, cycle: &Cycle) -> Result<Self, InvalidInput> {
+        let [strict, exact, lax] = readings(cycle)?;
+        Ok(Self::new(id.to_owned(), exact, &strict, &lax))
+    }
+
+    /// The answer from the reports of the three readings.
+    pub fn new(id: String, exact: Report, strict: &Report, lax: &Report) -> Self {
+        let [i, ii, iii, iv, v] = exact.stages.each_ref().map(StageAnswer::new);
+        Self {
+            id,
+            verdict: verdict(&exact),
+            failed_stage: exact.failed_stage.map(names::failed_stage),
+            input: exact
+                .input
+                .map(|problem| InputProblem { field: problem.field, index: problem.index }),
+            stages: Stages { i, ii, iii, iv, v },
+            strict: verdict(strict),
+            lax: verdict(lax),
+        }
+    }
+}
+
+impl StageAnswer {
+    fn new(outcome: &Outcome) -> Self {
+        match outcome {
+            Outcome::Passed => Self::Passed,
+            Outcome::Failed(witness) => Self::Failed { witness: WitnessAnswer::new(witness) },
+            Outcome::Skipped(reason) => Self::Skipped { reason: names::reason(*reason) },
+            Outcome::NotApplicable(input) => Self::NotApplicable { missing: names::input(*input) },
+            Outcome::NotScheduled => Self::NotScheduled,
+        }
+    }
+}
+
+impl WitnessAnswer {
+    fn new(witness: &Witness) -> Self {
+        Self {
+            rule: names::rule(witness.rule),
+            point: witness.point,
+            track: witness.track,
+            detection: witness.detection,
+            segment: witness.segment,
+            disk: witness.disk,
+            cell: witness.cell.map(|(column, row)| [column, row]),
+            compared: witness.compared.map(decimal),
+        }
+    }
+}
+
+impl From<LineError> for ErrorAnswer {
+    fn from(error: LineError) -> Self {
+        let message = error.to_string();
+        let LineError { line, id, field, index, .. } = error;
+        Self {
+            id,
+            verdict: "error",
+            failed_stage: None,
+            error: ErrorProblem { field, index, message, line },
+        }
+    }
+}
+
+/// The shortest decimal that reads back to the double; `nan`, `inf` or `-inf`.
+pub fn decimal(value: f64) -> String {
+    if value.is_nan() { String::from("nan") } else { value.to_string() }
+}
+
+fn verdict(report: &Report) -> &'static str {
+    names::verdict(report.failed_stage.is_none())
+}

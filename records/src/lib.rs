@@ -1,0 +1,168 @@
+//! Records and answers as JSON, one per line (`spec/5-interfaces.md`).
+
+pub mod answer;
+pub mod composition_answer;
+pub mod error;
+pub mod files;
+pub mod names;
+pub mod offloading_answer;
+pub mod schema;
+pub mod write;
+
+mod composition;
+mod cycle;
+mod offloading;
+mod parameters;
+mod walk;
+
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::report::InvalidInput;
+use mufasa_model::services::orchestrator::{self, Task, TaskError};
+use mufasa_model::services::service::ServiceSet;
+use serde_json::value::RawValue;
+
+pub use answer::Answer;
+pub use error::LineError;
+pub use offloading::Trace;
+pub use walk::excerpt as shown;
+pub use write::cycle_to_line;
+
+use answer::CycleAnswer;
+use composition_answer::CompositionAnswer;
+use offloading_answer::OffloadingAnswer;
+use walk::Value;
+
+/// A record of one of the kinds of `spec/5-interfaces.md`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Record {
+    /// `kind` cycle.
+    Cycle {
+        /// Its id.
+        id: String,
+        /// The cycle.
+        cycle: Box<Cycle>,
+    },
+    /// `kind` offloading.
+    Offloading {
+        /// Its id.
+        id: String,
+        /// The trace.
+        trace: Trace,
+    },
+    /// `kind` composition.
+    Composition {
+        /// Its id.
+        id: String,
+        /// What to compose.
+        task: Task,
+    },
+}
+
+/// Reads the record on line number `number` (from 1), given without its newline. A record may
+/// also go over several lines, of which `number` is the first.
+pub fn parse(line: &[u8], number: usize) -> Result<Record, LineError> {
+    let text = std::str::from_utf8(line).map_err(|error| {
+        LineError::whole(number, format!("is not UTF-8 after byte {}", error.valid_up_to()))
+    })?;
+    if text.trim_ascii().is_empty() {
+        return Err(LineError::whole(number, String::from("is blank, a record was expected")));
+    }
+    let raw: &RawValue =
+        serde_json::from_str(text).map_err(|error| LineError::syntax(number, &error))?;
+    let record = Value::record(raw);
+    read(record).map_err(|problem| {
+        // A record that breaks the schema is still answered by its name, if it has one.
+        let id = record.field("id").and_then(|id| id.string()).ok();
+        LineError::new(number, id, problem)
+    })
+}
+
+/// Decides a record. `Err` is a record that cannot be answered.
+pub fn decide(record: Record) -> Result<Answer, (String, InvalidInput)> {
+    match record {
+        Record::Cycle { id, cycle } => match CycleAnswer::decide(&id, &cycle) {
+            Ok(answer) => Ok(Answer::Cycle(Box::new(answer))),
+            Err(problem) => Err((id, problem)),
+        },
+        Record::Offloading { id, trace } => {
+            Ok(Answer::Offloading(OffloadingAnswer::run(id, &trace)))
+        }
+        Record::Composition { id, task } => match compose(&task) {
+            Ok((_, answer)) => Ok(Answer::Composition(CompositionAnswer::new(id, answer))),
+            Err(problem) => Err((id, problem)),
+        },
+    }
+}
+
+/// Composes a task; also gives its services as a set. Errors: the rules of a service set, a goal
+/// that is no service, too many choices.
+pub fn compose(task: &Task) -> Result<(ServiceSet, orchestrator::Answer), InvalidInput> {
+    let services = ServiceSet::new(task.services.clone())
+        .map_err(|error| composition::problem(&TaskError::Services(error)))?;
+    let answer = orchestrator::compose(task).map_err(|error| composition::problem(&error))?;
+    Ok((services, answer))
+}
+
+/// The answer to line number `number` (from 1), given without its newline.
+pub fn answer(line: &[u8], number: usize) -> Answer {
+    parse(line, number)
+        .and_then(|record| {
+            decide(record).map_err(|(id, problem)| LineError::new(number, Some(id), problem))
+        })
+        .unwrap_or_else(|error| Answer::Error(error.into()))
+}
+
+/// The cycles of a text of JSON Lines, such as a drive, with their ids. A line that is no cycle
+/// is an error of its own and does not end the reading.
+pub fn cycles_from_lines(text: &str) -> Vec<Result<(String, Cycle), LineError>> {
+    text.lines()
+        .enumerate()
+        .map(|(index, line)| {
+            let number = index + 1;
+            match parse(line.as_bytes(), number)? {
+                Record::Cycle { id, cycle } => Ok((id, *cycle)),
+                Record::Offloading { id, .. } | Record::Composition { id, .. } => {
+                    Err(LineError::new(
+                        number,
+                        Some(id),
+                        InvalidInput {
+                            field: String::from("kind"),
+                            index: None,
+                            message: String::from("kind must be cycle"),
+                        },
+                    ))
+                }
+            }
+        })
+        .collect()
+}
+
+/// The kinds of records.
+#[derive(Clone, Copy)]
+enum Kind {
+    Cycle,
+    Offloading,
+    Composition,
+}
+
+impl Kind {
+    const ALL: [Self; 3] = [Self::Cycle, Self::Offloading, Self::Composition];
+
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Cycle => "cycle",
+            Self::Offloading => "offloading",
+            Self::Composition => "composition",
+        }
+    }
+}
+
+fn read(record: Value<'_, '_>) -> Result<Record, InvalidInput> {
+    let kind = record.field("kind")?.choice(&Kind::ALL, Kind::name)?;
+    let id = record.field("id")?.string()?;
+    Ok(match kind {
+        Kind::Cycle => Record::Cycle { id, cycle: Box::new(cycle::cycle(record)?) },
+        Kind::Offloading => Record::Offloading { id, trace: offloading::trace(record)? },
+        Kind::Composition => Record::Composition { id, task: composition::composition(record)? },
+    })
+}
