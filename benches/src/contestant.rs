@@ -24,7 +24,7 @@ impl<'a> Contestant<'a> {
     /// # Panics
     /// When the input is invalid.
     pub fn new(cycle: &'a Cycle<'a>) -> Self {
-        let blocks = vec![Block::default(); Block::needed(cycle.route.stations.len())].leak();
+        let blocks = vec![Block::default(); Block::needed(cycle.route.cross_sections.len())].leak();
         let index = RouteIndex::new(cycle.route, blocks).expect("the workloads are valid input");
         Self::with_index(cycle, Some(Box::leak(Box::new(index))))
     }

@@ -392,22 +392,22 @@ typedef struct MufasaEgo {
   double center_offset;
 } MufasaEgo;
 
-// One station of a route.
-typedef struct MufasaStation {
+// One cross section of a route.
+typedef struct MufasaCrossSection {
   double x;
   double y;
   double left[2];
   double right[2];
-} MufasaStation;
+} MufasaCrossSection;
 
 // Reference path and boundaries.
 typedef struct MufasaRoute {
-  // Not 0: the last station is followed by the first.
+  // Not 0: the last cross section is followed by the first.
   uint8_t closed;
   // Stations in driving order.
-  const struct MufasaStation *stations;
+  const struct MufasaCrossSection *cross_sections;
   // How many.
-  size_t stations_len;
+  size_t cross_sections_len;
 } MufasaRoute;
 
 // One pose of a trajectory.

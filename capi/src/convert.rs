@@ -4,16 +4,16 @@
 //! check to refuse it, whatever its length is, and scratch memory stays bounded.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
-    MufasaConfiguration, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid, MufasaParameters,
-    MufasaProfile, MufasaStation, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
+    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid,
+    MufasaParameters, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
 };
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
@@ -22,7 +22,7 @@ use crate::status::MufasaStatus;
 const TRACKS: usize = 1025;
 const DETECTIONS: usize = 2049;
 const POINTS: usize = 1025;
-const STATIONS: usize = 8193;
+const CROSS_SECTIONS: usize = 8193;
 const BITMAP_BYTES: usize = (1 << 21) + 1;
 
 /// How many elements of each kind scratch memory has to hold.
@@ -32,7 +32,7 @@ pub(crate) struct Counts {
     tracks: usize,
     previous: usize,
     detections: usize,
-    stations: usize,
+    cross_sections: usize,
     sizes: Sizes,
 }
 
@@ -43,7 +43,7 @@ impl Counts {
         tracks: TRACKS,
         previous: TRACKS,
         detections: DETECTIONS,
-        stations: STATIONS,
+        cross_sections: CROSS_SECTIONS,
         sizes: Sizes::MAX,
     };
 
@@ -68,7 +68,7 @@ impl Counts {
             tracks,
             previous: previous.min(TRACKS),
             detections,
-            stations: raw.route.stations_len.min(STATIONS),
+            cross_sections: raw.route.cross_sections_len.min(CROSS_SECTIONS),
             sizes: capped(Sizes { rows: tracks, columns }),
         })
     }
@@ -79,7 +79,7 @@ impl Counts {
             .saturating_add(Arena::bytes_of::<Track>(self.tracks))
             .saturating_add(Arena::bytes_of::<Track>(self.previous))
             .saturating_add(Arena::bytes_of::<Detection>(self.detections))
-            .saturating_add(Arena::bytes_of::<Station>(self.stations))
+            .saturating_add(Arena::bytes_of::<CrossSection>(self.cross_sections))
             .saturating_add(Arena::bytes_of::<Row>(self.sizes.rows))
             .saturating_add(Arena::bytes_of::<Column>(self.sizes.columns))
     }
@@ -119,8 +119,9 @@ pub(crate) unsafe fn cycle<'a>(
         }
     };
     // SAFETY: as above.
-    let stations = unsafe { list(raw.route.stations, raw.route.stations_len, STATIONS) }?;
-    let stations = arena.keep(stations.iter().map(station))?;
+    let cross_sections =
+        unsafe { list(raw.route.cross_sections, raw.route.cross_sections_len, CROSS_SECTIONS) }?;
+    let cross_sections = arena.keep(cross_sections.iter().map(cross_section))?;
     // SAFETY: as above.
     let lead = unsafe { optional(raw.lead) }?;
     Ok(Cycle {
@@ -134,7 +135,7 @@ pub(crate) unsafe fn cycle<'a>(
         tracks: unsafe { tracks(raw.tracks, arena) }?,
         detections,
         lead: lead.map(|it| Lead { stamp_ns: it.stamp_ns, gap: it.gap, speed: it.speed }),
-        route: Route { closed: raw.route.closed != 0, stations },
+        route: Route { closed: raw.route.closed != 0, cross_sections },
         // SAFETY: as above.
         grid: unsafe { grid(raw.grid) }?,
         // SAFETY: as above.
@@ -279,7 +280,7 @@ fn detection(raw: &MufasaDetection) -> Detection {
     Detection { x, y, cos, sin, length, width }
 }
 
-fn station(raw: &MufasaStation) -> Station {
-    let MufasaStation { x, y, left, right } = *raw;
-    Station { x, y, left, right }
+fn cross_section(raw: &MufasaCrossSection) -> CrossSection {
+    let MufasaCrossSection { x, y, left, right } = *raw;
+    CrossSection { x, y, left, right }
 }

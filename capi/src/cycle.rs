@@ -151,11 +151,11 @@ pub struct MufasaLead {
     pub speed: f64,
 }
 
-/// One station of a route.
+/// One cross section of a route.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
-pub struct MufasaStation {
+pub struct MufasaCrossSection {
     pub x: f64,
     pub y: f64,
     pub left: [f64; 2],
@@ -166,12 +166,12 @@ pub struct MufasaStation {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaRoute {
-    /// Not 0: the last station is followed by the first.
+    /// Not 0: the last cross section is followed by the first.
     pub closed: u8,
     /// Stations in driving order.
-    pub stations: *const MufasaStation,
+    pub cross_sections: *const MufasaCrossSection,
     /// How many.
-    pub stations_len: usize,
+    pub cross_sections_len: usize,
 }
 
 /// An occupancy grid map.

@@ -8,8 +8,8 @@ use mufasa_capi::check::{
     MUFASA_SCRATCH_BYTES_MAX, mufasa_check, mufasa_parameters_default, mufasa_scratch_bytes,
 };
 use mufasa_capi::cycle::{
-    MufasaConfiguration, MufasaCycle, MufasaDetection, MufasaDetectionList, MufasaEgo,
-    MufasaProfile, MufasaRoute, MufasaStation, MufasaTrack, MufasaTrackList, MufasaTrajectory,
+    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaDetectionList,
+    MufasaEgo, MufasaProfile, MufasaRoute, MufasaTrack, MufasaTrackList, MufasaTrajectory,
     MufasaTrajectoryPoint,
 };
 use mufasa_capi::event::{MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent, MufasaEventType};
@@ -92,9 +92,9 @@ fn a_check_allocates_nothing() {
         .map(|i| MufasaTrajectoryPoint { t_ns: i64::try_from(i).expect("small"), ..point(i) })
         .collect();
     let side = |y| [[-10.0, y], [2000.0, y]];
-    let station =
-        |i: usize, x| MufasaStation { x, y: 0.0, left: side(3.0)[i], right: side(-3.0)[i] };
-    let stations = [station(0, -10.0), station(1, 2000.0)];
+    let cross_section =
+        |i: usize, x| MufasaCrossSection { x, y: 0.0, left: side(3.0)[i], right: side(-3.0)[i] };
+    let cross_sections = [cross_section(0, -10.0), cross_section(1, 2000.0)];
     let trajectory = MufasaTrajectory { stamp_ns: 0, points: points.as_ptr(), points_len: 1024 };
     let tracks = MufasaTrackList { stamp_ns: 0, items: tracks.as_ptr(), items_len: 200 };
     let detections =
@@ -115,7 +115,11 @@ fn a_check_allocates_nothing() {
         now_ns: 0,
         parameters: mufasa_parameters_default(),
         ego,
-        route: MufasaRoute { closed: 0, stations: stations.as_ptr(), stations_len: 2 },
+        route: MufasaRoute {
+            closed: 0,
+            cross_sections: cross_sections.as_ptr(),
+            cross_sections_len: 2,
+        },
         trajectory: &raw const trajectory,
         tracks: &raw const tracks,
         detections: &raw const detections,

@@ -24,7 +24,7 @@ struct scene {
   struct MufasaTrajectoryPoint points[2];
   struct MufasaTrack track_items[1];
   struct MufasaDetection detection_items[1];
-  struct MufasaStation stations[2];
+  struct MufasaCrossSection cross_sections[2];
   struct MufasaTrajectory trajectory;
   struct MufasaTrackList tracks;
   struct MufasaDetectionList detections;
@@ -40,8 +40,8 @@ static void set_up(struct scene *s) {
   s->points[1] = (struct MufasaTrajectoryPoint){SECOND + SECOND / 10, 1, 0, 1, 0};
   s->track_items[0] = (struct MufasaTrack){7, 30, 0, 1, 0, 10, 0, 4.5, 1.8};
   s->detection_items[0] = (struct MufasaDetection){30, 0.1, 1, 0, 4.5, 1.8};
-  s->stations[0] = (struct MufasaStation){0, 0, {0, 2}, {0, -2}};
-  s->stations[1] = (struct MufasaStation){100, 0, {100, 2}, {100, -2}};
+  s->cross_sections[0] = (struct MufasaCrossSection){0, 0, {0, 2}, {0, -2}};
+  s->cross_sections[1] = (struct MufasaCrossSection){100, 0, {100, 2}, {100, -2}};
   s->trajectory = (struct MufasaTrajectory){SECOND, s->points, 2};
   s->tracks = (struct MufasaTrackList){SECOND, s->track_items, 1};
   s->detections = (struct MufasaDetectionList){SECOND, s->detection_items, 1};
@@ -52,7 +52,7 @@ static void set_up(struct scene *s) {
   s->cycle.now_ns = SECOND;
   s->cycle.parameters = mufasa_parameters_default();
   s->cycle.ego = (struct MufasaEgo){0, 0, 1, 0, 13.9, 4.8, 1.9, 1.4};
-  s->cycle.route = (struct MufasaRoute){0, s->stations, 2};
+  s->cycle.route = (struct MufasaRoute){0, s->cross_sections, 2};
   s->cycle.trajectory = &s->trajectory;
   s->cycle.tracks = &s->tracks;
   s->cycle.detections = &s->detections;

@@ -3,8 +3,8 @@
 use mufasa_drives::check::words;
 use mufasa_drives::pictures::{Scene, picture};
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::{
@@ -24,7 +24,7 @@ fn cycle() -> Cycle {
         let s = f64::from(index) * 5.0;
         let [x, y, _] = at(s, 0.0);
         let [left, right] = [at(s, 1.9), at(s, -1.9)].map(|[x, y, _]| [x, y]);
-        Station { x, y, left, right }
+        CrossSection { x, y, left, right }
     };
     let point = |index: i32| {
         let [x, y, angle] = at(f64::from(index) * 2.0, 0.0);
@@ -77,7 +77,7 @@ fn cycle() -> Cycle {
             items: vec![detection(22.1, 0.2), detection(30.0, 3.5), detection(44.0, -6.0)],
         }),
         lead: Some(Lead { stamp_ns: 1_000_000_000, gap: 17.0, speed: 3.0 }),
-        route: Route { closed: false, stations: (-4..18).map(route).collect() },
+        route: Route { closed: false, cross_sections: (-4..18).map(route).collect() },
         grid: Some(Grid {
             stamp_ns: 1_000_000_000,
             x: x - 10.0,
@@ -225,7 +225,7 @@ fn numbers_that_cannot_be_drawn_do_not_reach_the_document() {
     broken.trajectory.as_mut().unwrap().points[3].x = f64::INFINITY;
     broken.tracks.as_mut().unwrap().items[0].vx = f64::NAN;
     broken.detections.as_mut().unwrap().items[1].cos = 1e300;
-    broken.route.stations[2].left = [f64::NAN, 1e308];
+    broken.route.cross_sections[2].left = [f64::NAN, 1e308];
     let grid = broken.grid.as_mut().unwrap();
     (grid.resolution, grid.width) = (0.0, i64::MAX);
     for (name, report) in reports() {

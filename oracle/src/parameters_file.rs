@@ -179,7 +179,7 @@ fn outside_domain(settings: &Settings) -> Option<(String, String)> {
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations: Vec::new() },
+        route: Route { closed: false, cross_sections: Vec::new() },
         grid: None,
         previous_tracks: None,
     };

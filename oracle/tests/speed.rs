@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
@@ -49,10 +49,10 @@ impl Street {
         TrajectoryPoint { t_ns, x, y, cos: self.cos, sin: self.sin }
     }
 
-    fn station(&self, tens: i32) -> Station {
+    fn cross_section(&self, tens: i32) -> CrossSection {
         let side = |w| self.at(f64::from(tens) * 10.0, w).into();
         let (x, y) = self.at(f64::from(tens) * 10.0, 0.0);
-        Station { x, y, left: side(3.0), right: side(-3.0) }
+        CrossSection { x, y, left: side(3.0), right: side(-3.0) }
     }
 
     /// Kerbs and parked cars are occupied.
@@ -114,7 +114,10 @@ fn urban(profile: Profile, configuration: Configuration, degrees: f64) -> Cycle 
         tracks: Some(TrackList { stamp_ns: NOW, items: tracks(0.0) }),
         detections: Some(DetectionList { stamp_ns: NOW, items: seen.chain(clutter).collect() }),
         lead: None,
-        route: Route { closed: false, stations: (-10..=20).map(|i| street.station(i)).collect() },
+        route: Route {
+            closed: false,
+            cross_sections: (-10..=20).map(|i| street.cross_section(i)).collect(),
+        },
         grid: Some(street.grid(&objects)),
         previous_tracks: Some(TrackList { stamp_ns: NOW - 100_000_000, items: tracks(-0.1) }),
     }

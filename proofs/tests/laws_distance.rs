@@ -4,7 +4,7 @@
 //! Domain: speeds 0 to 150 m/s in steps of 2.5, gaps at and around `s_CAV` and `s_follow`.
 
 use mufasa::input::cycle::{
-    Cycle, DetectionList, Ego, Lead, Profile, Route, Station, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Ego, Lead, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::Scratch;
@@ -16,9 +16,9 @@ use mufasa_proofs::law::distance::{
     s_follow_never_below_s_cav,
 };
 
-const STATIONS: [Station; 2] = [
-    Station { x: -10.0, y: 0.0, left: [-10.0, 3.0], right: [-10.0, -3.0] },
-    Station { x: 10.0, y: 0.0, left: [10.0, 3.0], right: [10.0, -3.0] },
+const CROSS_SECTIONS: [CrossSection; 2] = [
+    CrossSection { x: -10.0, y: 0.0, left: [-10.0, 3.0], right: [-10.0, -3.0] },
+    CrossSection { x: 10.0, y: 0.0, left: [10.0, 3.0], right: [10.0, -3.0] },
 ];
 const POINTS: [TrajectoryPoint; 1] =
     [TrajectoryPoint { t_ns: 0, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 }];
@@ -44,7 +44,7 @@ fn cycle(v_now: f64, v_lead: f64, gap: f64) -> Cycle<'static> {
         tracks: None,
         detections: Some(DetectionList { stamp_ns: 0, items: &[] }),
         lead: Some(Lead { stamp_ns: 0, gap, speed: v_lead }),
-        route: Route { closed: false, stations: &STATIONS },
+        route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: None,
         previous_tracks: None,
     }

@@ -43,7 +43,7 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
 /// The same values in lists of another capacity, so at another place in memory.
 fn moved(cycle: &Cycle) -> Cycle {
     let mut moved = cycle.clone();
-    moved.route.stations.reserve(57);
+    moved.route.cross_sections.reserve(57);
     if let Some(list) = &mut moved.tracks {
         list.items.reserve(33);
     }

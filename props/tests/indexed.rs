@@ -5,7 +5,7 @@ use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, Outcome, Stage, Witness};
 use mufasa::stages::{check, check_indexed};
-use mufasa_model::input::cycle::{Cycle, Profile, Station};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile};
 use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
@@ -23,17 +23,17 @@ fn without_segment(outcome: Outcome) -> Outcome {
     }
 }
 
-/// A cycle whose route goes on for up to 700 stations, away and back beside itself.
+/// A cycle whose route goes on for up to 700 cross sections, away and back beside itself.
 fn long_route(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let mut cycle = map_validation::cycle(draw, profile);
     let count = draw.pick(&[0_u32, 3, 40, 300, 700]);
-    let Some(last) = cycle.route.stations.last().cloned() else { return cycle };
+    let Some(last) = cycle.route.cross_sections.last().cloned() else { return cycle };
     for i in 1..=count {
         let far = f64::from(i.min(count - i)) + 1.0;
         let shift = |[x, y]: [f64; 2]| [x + far, y + 0.01 * f64::from(i)];
         let [x, y] = shift([last.x, last.y]);
         let (left, right) = (shift(last.left), shift(last.right));
-        cycle.route.stations.push(Station { x, y, left, right });
+        cycle.route.cross_sections.push(CrossSection { x, y, left, right });
     }
     cycle
 }
@@ -49,7 +49,8 @@ fn an_index_changes_no_answer() {
             let sizes = Sizes::for_cycle(&cycle);
             let mut rows = vec![Row::default(); sizes.rows];
             let mut columns = vec![Column::default(); sizes.columns];
-            let mut blocks = vec![Block::default(); Block::needed(cycle.route.stations.len())];
+            let mut blocks =
+                vec![Block::default(); Block::needed(cycle.route.cross_sections.len())];
             let mut scratch = Scratch::new(&mut rows, &mut columns);
             let plain = check(&cycle, &mut scratch);
             if let Ok(index) = RouteIndex::new(cycle.route, &mut blocks) {

@@ -3,8 +3,8 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::report::InvalidInput;
 use mufasa_model::services::configuration::Configuration;
@@ -157,12 +157,12 @@ fn lead(value: Value<'_, '_>) -> Result<Lead, InvalidInput> {
 
 fn route(value: Value<'_, '_>) -> Result<Route, InvalidInput> {
     let [closed, stations] = value.object(["closed", "stations"])?;
-    Ok(Route { closed: closed.boolean()?, stations: stations.list(station)? })
+    Ok(Route { closed: closed.boolean()?, cross_sections: stations.list(station)? })
 }
 
-fn station(value: Value<'_, '_>) -> Result<Station, InvalidInput> {
+fn station(value: Value<'_, '_>) -> Result<CrossSection, InvalidInput> {
     let [x, y, left, right] = value.object(["x", "y", "left", "right"])?;
-    Ok(Station { x: x.float()?, y: y.float()?, left: pair(left)?, right: pair(right)? })
+    Ok(CrossSection { x: x.float()?, y: y.float()?, left: pair(left)?, right: pair(right)? })
 }
 
 /// A point; its errors have the index of the station, as those of the model.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Grid, Lead, Station, Track, TrackList, Trajectory,
+    CrossSection, Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, Trajectory,
     TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
@@ -44,7 +44,7 @@ pub fn cycle_to_line(id: &str, cycle: &Cycle) -> String {
     record.nullable("lead", cycle.lead.as_ref(), lead);
     let mut route = Object::new();
     route.put("closed", if cycle.route.closed { "true" } else { "false" });
-    route.put("stations", &list(&cycle.route.stations, station));
+    route.put("stations", &list(&cycle.route.cross_sections, station));
     record.put("route", &route.close());
     record.nullable("grid", cycle.grid.as_ref(), grid);
     record.nullable("previous_tracks", cycle.previous_tracks.as_ref(), tracks);
@@ -189,7 +189,7 @@ fn lead(lead: &Lead) -> String {
     object.close()
 }
 
-fn station(station: &Station) -> String {
+fn station(station: &CrossSection) -> String {
     let mut object = floats(&[("x", station.x), ("y", station.y)]);
     object.put("left", &list(&station.left, |number| float(*number)));
     object.put("right", &list(&station.right, |number| float(*number)));

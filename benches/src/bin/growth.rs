@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1).ok_or("growth FILE.svg")?;
     // A wide place, so that there is room for a thousand tracks, and a coarse grid on it.
     let base = Size { tracks: 30, detections: 40, points: 50, ..SIZES[2] };
-    let base = Size { cells: 1000, resolution: 0.4, stations: 1000, step: 1.0, ..base };
+    let base = Size { cells: 1000, resolution: 0.4, cross_sections: 1000, step: 1.0, ..base };
     let counts = [1, 3, 10, 30, 100, 300, 1000];
     let panels = [
         panel("stages i and iii", "tracks", &[Stage::I, Stage::Iii], &counts, |count| {
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }),
         panel("stage ii", "stations", &[Stage::Ii], &[8, 24, 80, 240, 800, 2400, 8000], |count| {
             let step = 1000.0 / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
-            Workload::new(&Size { stations: count, step, ..base }, Variant::Pass)
+            Workload::new(&Size { cross_sections: count, step, ..base }, Variant::Pass)
         }),
         panel(
             "stage v",

@@ -78,7 +78,7 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         false,
         Box::new(plain_loop),
     ));
-    let blocks = vec![Block::default(); Block::needed(paper.route.stations.len())].leak();
+    let blocks = vec![Block::default(); Block::needed(paper.route.cross_sections.len())].leak();
     let build = || RouteIndex::new(black_box(paper.route), &mut *blocks).is_ok();
     contestants.push(contestant("index", OURS.to_owned(), false, Box::new(build)));
     let build = || Trees::new(black_box(&paper)).is_built();

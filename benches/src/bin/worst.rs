@@ -6,7 +6,7 @@
 use std::time::SystemTime;
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
@@ -19,9 +19,9 @@ const CELLS: i64 = 4096;
 
 fn main() {
     println!("| stage | input | paper, ms | hardened, ms |\n|---|---|---|---|");
-    let stations = road(8192);
+    let cross_sections = road(8192);
     let grid = vec![0; 4096 * 4096 / 8];
-    let base = base(&stations, &grid);
+    let base = base(&cross_sections, &grid);
 
     let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
     let line: Vec<_> = places(2048, 1.0).map(|x| detection(x, 0.0)).collect();
@@ -135,7 +135,7 @@ fn cpu_ms() -> f64 {
     )
 }
 
-fn base<'a>(stations: &'a [Station], grid: &'a [u8]) -> Cycle<'a> {
+fn base<'a>(cross_sections: &'a [CrossSection], grid: &'a [u8]) -> Cycle<'a> {
     Cycle {
         profile: Profile::Paper,
         parameters: Parameters {
@@ -160,7 +160,7 @@ fn base<'a>(stations: &'a [Station], grid: &'a [u8]) -> Cycle<'a> {
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations },
+        route: Route { closed: false, cross_sections },
         grid: Some(Grid {
             stamp_ns: NOW_NS,
             x: 0.0,
@@ -177,12 +177,12 @@ fn base<'a>(stations: &'a [Station], grid: &'a [u8]) -> Cycle<'a> {
     }
 }
 
-fn road(count: u32) -> Vec<Station> {
-    let station = |i: u32| {
+fn road(count: u32) -> Vec<CrossSection> {
+    let cross_section = |i: u32| {
         let x = 0.02 * f64::from(i);
-        Station { x, y: 0.0, left: [x, 0.0], right: [x, 0.0] }
+        CrossSection { x, y: 0.0, left: [x, 0.0], right: [x, 0.0] }
     };
-    (0..count).map(station).collect()
+    (0..count).map(cross_section).collect()
 }
 
 fn track(id: i64, x: f64, y: f64) -> Track {

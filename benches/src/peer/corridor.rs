@@ -19,7 +19,7 @@ pub struct Trees {
 impl Trees {
     /// From the stations of the cycle's route, which is open and does not cross itself.
     pub fn new(cycle: &Cycle<'_>) -> Self {
-        let stations = cycle.route.stations;
+        let stations = cycle.route.cross_sections;
         let ring = stations.iter().map(|s| s.left).chain(stations.iter().rev().map(|s| s.right));
         let ring: Vec<Coord<f64>> = ring.map(|[x, y]| Coord { x, y }).collect();
         let polygon = Polygon::new(LineString(ring), Vec::new());

@@ -5,7 +5,7 @@ mod geometry;
 pub mod recipe;
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
@@ -25,7 +25,7 @@ pub const SIZES: [Size; 3] = [
         tracks: 30,
         detections: 40,
         points: 50,
-        stations: 200,
+        cross_sections: 200,
         step: 1.0,
         cells: 600,
         resolution: 0.2,
@@ -36,7 +36,7 @@ pub const SIZES: [Size; 3] = [
         tracks: 200,
         detections: 260,
         points: 100,
-        stations: 1000,
+        cross_sections: 1000,
         step: 0.5,
         cells: 2000,
         resolution: 0.1,
@@ -47,7 +47,7 @@ pub const SIZES: [Size; 3] = [
         tracks: 1000,
         detections: 1200,
         points: 200,
-        stations: 5000,
+        cross_sections: 5000,
         step: 0.2,
         cells: 4000,
         resolution: 0.1,
@@ -79,7 +79,7 @@ pub struct Workload {
     points: Vec<TrajectoryPoint>,
     tracks: Vec<Track>,
     detections: Vec<Detection>,
-    stations: Vec<Station>,
+    cross_sections: Vec<CrossSection>,
     resolution: f64,
     cells: i64,
     occupied: Vec<u8>,
@@ -120,18 +120,18 @@ impl Workload {
         let previous = tracks.iter().map(before).collect();
         let detections = numbers.detections.iter().map(detection).collect();
         let boundaries = numbers.left.iter().zip(&numbers.right);
-        let stations = numbers
+        let cross_sections = numbers
             .reference
             .iter()
             .zip(boundaries)
-            .map(|(&[x, y], (&left, &right))| Station { x, y, left, right });
+            .map(|(&[x, y], (&left, &right))| CrossSection { x, y, left, right });
         let mut workload = Self {
             name: format!("W{}", size.number),
             ego,
             points,
             tracks,
             detections,
-            stations: stations.collect(),
+            cross_sections: cross_sections.collect(),
             resolution: size.resolution,
             cells: i64::try_from(size.cells).expect("a few thousand"),
             occupied: bitmap(&numbers.occupied),
@@ -234,7 +234,7 @@ impl Workload {
             tracks: Some(TrackList { stamp_ns, items: &self.tracks }),
             detections: Some(DetectionList { stamp_ns, items: &self.detections }),
             lead: None,
-            route: Route { closed: false, stations: &self.stations },
+            route: Route { closed: false, cross_sections: &self.cross_sections },
             grid: Some(Grid {
                 stamp_ns,
                 x,

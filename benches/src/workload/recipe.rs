@@ -16,8 +16,8 @@ pub struct Size {
     pub detections: usize,
     /// Trajectory points, over 5 s.
     pub points: usize,
-    /// Route stations.
-    pub stations: usize,
+    /// Route cross sections.
+    pub cross_sections: usize,
     /// From station to station, m.
     pub step: f64,
     /// Columns and rows of the grid.
@@ -81,7 +81,7 @@ pub struct Numbers {
 impl Numbers {
     /// Draws everything.
     pub fn new(size: &Size) -> Self {
-        let road = Road::new(size.stations, size.step);
+        let road = Road::new(size.cross_sections, size.step);
         let scene = Scene::new(size, road);
         let tracks = scene.tracks();
         let detections = scene.detections(&tracks);

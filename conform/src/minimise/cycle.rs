@@ -41,7 +41,7 @@ fn lists(case: &mut Case<'_, Cycle>) {
     case.thin(|cycle| cycle.tracks.as_mut().map(|list| &mut list.items));
     case.thin(|cycle| cycle.detections.as_mut().map(|list| &mut list.items));
     case.thin(|cycle| cycle.trajectory.as_mut().map(|list| &mut list.points));
-    case.thin(|cycle| Some(&mut cycle.route.stations));
+    case.thin(|cycle| Some(&mut cycle.route.cross_sections));
     case.change(|cycle| cycle.route.closed = false);
 }
 

@@ -12,7 +12,7 @@ pub fn places(cycle: &mut Cycle) -> Vec<(&mut f64, &mut f64)> {
     all.extend(tracks.map(|track| (&mut track.x, &mut track.y)));
     let detections = cycle.detections.iter_mut().flat_map(|list| &mut list.items);
     all.extend(detections.map(|it| (&mut it.x, &mut it.y)));
-    for station in &mut cycle.route.stations {
+    for station in &mut cycle.route.cross_sections {
         all.push((&mut station.x, &mut station.y));
         for [x, y] in [&mut station.left, &mut station.right] {
             all.push((x, y));
@@ -70,7 +70,7 @@ pub fn numbers(cycle: &mut Cycle) -> Vec<&mut f64> {
         all.extend([&mut it.length, &mut it.width]);
     }
     all.extend(cycle.lead.iter_mut().flat_map(|lead| [&mut lead.gap, &mut lead.speed]));
-    for station in &mut cycle.route.stations {
+    for station in &mut cycle.route.cross_sections {
         all.extend([&mut station.x, &mut station.y]);
         all.extend(station.left.iter_mut().chain(&mut station.right));
     }

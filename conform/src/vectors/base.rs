@@ -2,8 +2,8 @@
 //! one thing.
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -90,12 +90,12 @@ pub fn shift(cycle: &mut Cycle, by_ns: i64) {
 
 /// A straight road along x, 3 m to each side.
 pub fn road(from: f64, to: f64) -> Route {
-    Route { closed: false, stations: vec![station(from, 3.0), station(to, 3.0)] }
+    Route { closed: false, cross_sections: vec![cross_section(from, 3.0), cross_section(to, 3.0)] }
 }
 
-/// A station at (x, 0) of a road along x, `half` m to each side.
-pub fn station(x: f64, half: f64) -> Station {
-    Station { x, y: 0.0, left: [x, half], right: [x, -half] }
+/// A cross section at (x, 0) of a road along x, `half` m to each side.
+pub fn cross_section(x: f64, half: f64) -> CrossSection {
+    CrossSection { x, y: 0.0, left: [x, half], right: [x, -half] }
 }
 
 /// A standing car of 4 m by 2 m that looks along x.

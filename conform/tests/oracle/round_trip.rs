@@ -1,8 +1,8 @@
 //! A cycle that is written out is read back the same.
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -88,7 +88,10 @@ fn cycle(random: &mut Random) -> Cycle {
             gap: float(random),
             speed: float(random),
         }),
-        route: Route { closed: random.bits() & 1 == 0, stations: list(random, station) },
+        route: Route {
+            closed: random.bits() & 1 == 0,
+            cross_sections: list(random, cross_section),
+        },
         grid: maybe(random, grid),
         previous_tracks: maybe(random, tracks),
     }
@@ -179,8 +182,8 @@ fn detection(random: &mut Random) -> Detection {
     }
 }
 
-fn station(random: &mut Random) -> Station {
-    Station {
+fn cross_section(random: &mut Random) -> CrossSection {
+    CrossSection {
         x: float(random),
         y: float(random),
         left: [float(random), float(random)],

@@ -34,14 +34,15 @@ pub(crate) struct Planner {
 
 impl Planner {
     pub(crate) fn new(cycle: &Cycle) -> Self {
-        let mut points: Vec<Point> = cycle.route.stations.iter().map(|s| [s.x, s.y]).collect();
+        let mut points: Vec<Point> =
+            cycle.route.cross_sections.iter().map(|s| [s.x, s.y]).collect();
         if cycle.route.closed {
             points.extend(points.first().copied());
         }
         let path = Polyline::new(points);
         let foot = path.project([cycle.ego.x, cycle.ego.y]);
         let width = foot.map_or(3.5, |f| {
-            let station = &cycle.route.stations[path.locate(f.s).0];
+            let station = &cycle.route.cross_sections[path.locate(f.s).0];
             distance(station.left, station.right)
         });
         let (s, lateral) = foot.map_or((0.0, 0.0), |f| (f.s, f.lateral));

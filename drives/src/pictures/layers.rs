@@ -113,7 +113,7 @@ pub fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
 }
 
 fn route(canvas: &mut Canvas, frame: &Frame, route: &Route) {
-    let stations = &route.stations;
+    let stations = &route.cross_sections;
     let mut pairs: Vec<_> = stations.windows(2).map(|pair| (&pair[0], &pair[1])).collect();
     if let (true, Some(first), Some(last)) = (route.closed, stations.first(), stations.last()) {
         pairs.push((last, first));

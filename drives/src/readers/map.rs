@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use mufasa_model::input::cycle::{Cycle, Route, Station};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Route};
 
 use crate::drive::Drive;
 use crate::options::{Options, Sensor};
@@ -21,10 +21,10 @@ use crate::scene::{self, Recording};
 
 /// Length and width of the test vehicle in the scenarios that come with the maps, m.
 const SIZE: [f64; 2] = [5.1, 1.89];
-/// Control points nearer than this to the last station are passed over, m. Maps have one every
+/// Control points nearer than this to the last cross section are passed over, m. Maps have one every
 /// half metre, which changes the corridor by centimetres and costs the exact model a minute.
 const SPACING: f64 = 2.0;
-/// Stations of a route (`spec/4-arithmetic.md#domain`), m.
+/// Cross sections of a route (`spec/4-arithmetic.md#domain`), m.
 const STATIONS_MAX: usize = 8192;
 /// A route whose ends are nearer than this, and go on in each other's direction within `TURN`
 /// (rad), is closed; the maps of round courses leave up to a few car lengths between their ends.
@@ -50,7 +50,7 @@ const BEGIN: f64 = 1.0;
 pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Drive, ReadError> {
     let mut notes = Vec::new();
     let rows = checked(file, npy::table::<6>(file, bytes)?)?;
-    let (points, closed) = stations(file, &rows, &mut notes)?;
+    let (points, closed) = cross_sections(file, &rows, &mut notes)?;
     let path = Course::new(&points, closed);
     let ego = path.states(&mut notes);
     let every = ego.len().div_ceil(CYCLES_MAX).max(1);
@@ -89,13 +89,13 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
 
 /// Cuts the route of a cycle to the neighbourhood of the CAV.
 fn window(cycle: &mut Cycle) {
-    let stations = &mut cycle.route.stations;
-    let path = Polyline::new(stations.iter().map(|s| [s.x, s.y]).collect());
+    let cross_sections = &mut cycle.route.cross_sections;
+    let path = Polyline::new(cross_sections.iter().map(|s| [s.x, s.y]).collect());
     let Some(here) = path.project([cycle.ego.x, cycle.ego.y]) else { return };
     let (first, _) = path.locate(here.s - WINDOW[0]);
     let (last, _) = path.locate(here.s + WINDOW[1]);
-    stations.truncate(last + 2);
-    stations.drain(..first);
+    cross_sections.truncate(last + 2);
+    cross_sections.drain(..first);
 }
 
 /// A control point.
@@ -128,8 +128,8 @@ fn checked(file: &Path, rows: Vec<[f64; 6]>) -> Result<Vec<Control>, ReadError> 
     Ok(rows.into_iter().map(control).collect())
 }
 
-/// The control points that become stations, and whether they close.
-fn stations(
+/// The control points that become cross sections, and whether they close.
+fn cross_sections(
     file: &Path,
     rows: &[Control],
     notes: &mut Vec<String>,
@@ -222,15 +222,15 @@ impl<'a> Course<'a> {
     }
 
     fn route(&self) -> Route {
-        let station = |(c, heading): (&Control, &f64)| {
+        let cross_section = |(c, heading): (&Control, &f64)| {
             let normal = [-heading.sin(), heading.cos()];
             let [x, y] = c.at;
             let left = add(c.at, scale(normal, c.left));
             let right = add(c.at, scale(normal, -c.right));
-            Station { x, y, left, right }
+            CrossSection { x, y, left, right }
         };
-        let stations = self.points.iter().zip(&self.headings).map(station).collect();
-        Route { closed: self.closed, stations }
+        let cross_sections = self.points.iter().zip(&self.headings).map(cross_section).collect();
+        Route { closed: self.closed, cross_sections }
     }
 
     /// States along the path, once round a closed one and on to where it began.

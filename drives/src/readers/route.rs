@@ -4,14 +4,14 @@
 //! from one centre line to the other. There the corridor spans both lanes, elsewhere it is the
 //! lane driven.
 
-use mufasa_model::input::cycle::{Route, Station};
+use mufasa_model::input::cycle::{CrossSection, Route};
 
 use crate::readers::lanes::{Change, Network, Run};
 use crate::scene::geometry::{Point, Polyline, add, cross, distance, mix, scale, sub};
 
-/// Distance between stations, m; more where there would be too many.
+/// Distance between cross sections, m; more where there would be too many.
 const SPACING: f64 = 2.0;
-/// Stations of a route; the domain allows 8192.
+/// Cross sections of a route; the domain allows 8192.
 const STATIONS_MAX: f64 = 8000.0;
 /// Length of the route behind the first and ahead of the last point of the drive, m.
 const BEHIND: f64 = 30.0;
@@ -25,26 +25,29 @@ const CHANGE_MARGIN: f64 = 10.0;
 const BESIDE: f64 = 8.0;
 
 /// The route along the runs of a drive with these positions and speeds; `None` when no two
-/// different stations come of it.
+/// different cross sections come of it.
 pub(crate) fn route(network: &Network, runs: &[Run], drive: &[(Point, f64)]) -> Option<Route> {
     let strips: Vec<Strip> =
         runs.iter().map(|run| Strip::new(network, run)).collect::<Option<_>>()?;
     let spans = spans(runs, &strips, drive)?;
     let total: f64 = spans.iter().map(|s| s.to - s.from).sum();
     let spacing = SPACING.max(total / STATIONS_MAX);
-    let mut stations: Vec<Station> = Vec::new();
+    let mut cross_sections: Vec<CrossSection> = Vec::new();
     for (k, span) in spans.iter().enumerate() {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8001")]
         let n = ((span.to - span.from) / spacing).ceil().max(1.0) as u32;
         for i in 0..=n {
             let s = span.from + (span.to - span.from) * f64::from(i) / f64::from(n);
-            let station = station(&strips, &spans, k, s);
-            if stations.last().is_none_or(|l| distance([l.x, l.y], [station.x, station.y]) > 0.05) {
-                stations.push(station);
+            let cross_section = cross_section(&strips, &spans, k, s);
+            if cross_sections
+                .last()
+                .is_none_or(|l| distance([l.x, l.y], [cross_section.x, cross_section.y]) > 0.05)
+            {
+                cross_sections.push(cross_section);
             }
         }
     }
-    (stations.len() >= 2).then_some(Route { closed: false, stations })
+    (cross_sections.len() >= 2).then_some(Route { closed: false, cross_sections })
 }
 
 /// A lane as long as the drive may need it: corresponding points of centre line and bounds.
@@ -130,8 +133,8 @@ fn crossing(run: &Run, next: &Run, drive: &[(Point, f64)]) -> Option<Point> {
     (run.change == Some(Change::Lane)).then(|| mix(drive[run.last].0, drive[next.first].0, 0.5))
 }
 
-/// The station of run `k` at arc length `s`.
-fn station(strips: &[Strip], spans: &[Span], k: usize, s: f64) -> Station {
+/// The cross section of run `k` at arc length `s`.
+fn cross_section(strips: &[Strip], spans: &[Span], k: usize, s: f64) -> CrossSection {
     let [center, left, right] = strips[k].at(s);
     let (i, _) = strips[k].center.locate(s);
     let along = sub(strips[k].center.points[i + 1], strips[k].center.points[i]);
@@ -159,14 +162,14 @@ fn station(strips: &[Strip], spans: &[Span], k: usize, s: f64) -> Station {
             bounds[1] = r;
         }
     }
-    Station { x: reference[0], y: reference[1], left: bounds[0], right: bounds[1] }
+    CrossSection { x: reference[0], y: reference[1], left: bounds[0], right: bounds[1] }
 }
 
 /// Whether a point is in the corridor, in doubles: for notes and tests, not for verdicts.
 pub(crate) fn in_corridor(route: &Route, p: Point) -> bool {
-    let next = route.stations.iter().cycle().skip(1);
-    let segments = route.stations.len() - usize::from(!route.closed);
-    route.stations.iter().zip(next).take(segments).any(|(a, b)| {
+    let next = route.cross_sections.iter().cycle().skip(1);
+    let segments = route.cross_sections.len() - usize::from(!route.closed);
+    route.cross_sections.iter().zip(next).take(segments).any(|(a, b)| {
         in_triangle(p, [a.left, a.right, b.right]) || in_triangle(p, [a.left, b.right, b.left])
     })
 }

@@ -28,7 +28,7 @@ pub(crate) fn lead(
     objects: &[Seen],
     range_m: f64,
 ) -> Option<Lead> {
-    let mut points: Vec<_> = route.stations.iter().map(|s| [s.x, s.y]).collect();
+    let mut points: Vec<_> = route.cross_sections.iter().map(|s| [s.x, s.y]).collect();
     if route.closed {
         points.extend(points.first().copied());
     }
@@ -80,11 +80,11 @@ fn along(path: &Polyline, closed: bool, from: f64, s: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::scene::geometry::Rectangle;
-    use mufasa_model::input::cycle::Station;
+    use mufasa_model::input::cycle::CrossSection;
 
     fn road(closed: bool) -> Route {
-        let station = |x: f64| Station { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
-        Route { closed, stations: vec![station(0.0), station(100.0)] }
+        let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
+        Route { closed, cross_sections: vec![cross_section(0.0), cross_section(100.0)] }
     }
 
     fn object(x: f64, y: f64, heading: f64, speed: f64) -> Seen {

@@ -1,8 +1,8 @@
 //! A drive along a straight road.
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Profile, Route, Station, Track, TrackList, Trajectory,
-    TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Profile, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -20,7 +20,7 @@ pub fn cycle(index: u32, blocked: bool) -> Cycle {
         cos: 1.0,
         sin: 0.0,
     };
-    let station = |x: i32| Station {
+    let cross_section = |x: i32| CrossSection {
         x: f64::from(x),
         y: 0.0,
         left: [x.into(), 2.0],
@@ -57,7 +57,10 @@ pub fn cycle(index: u32, blocked: bool) -> Cycle {
         tracks: Some(TrackList { stamp_ns: now_ns, items: vec![track] }),
         detections: Some(DetectionList { stamp_ns: now_ns, items: vec![car] }),
         lead: None,
-        route: Route { closed: false, stations: (-2..40).map(|k| station(k * 10)).collect() },
+        route: Route {
+            closed: false,
+            cross_sections: (-2..40).map(|k| cross_section(k * 10)).collect(),
+        },
         grid: None,
         previous_tracks: None,
     }

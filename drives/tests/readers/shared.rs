@@ -61,8 +61,8 @@ fn assert_sane(drive: &Drive) {
             let dt = pair[1].t_ns - pair[0].t_ns;
             assert!(dt > 0 && dt <= 200_000_000, "{name}: {dt}");
         }
-        assert!(cycle.route.stations.len() <= 8192);
-        for pair in cycle.route.stations.windows(2) {
+        assert!(cycle.route.cross_sections.len() <= 8192);
+        for pair in cycle.route.cross_sections.windows(2) {
             let step = [pair[1].x - pair[0].x, pair[1].y - pair[0].y];
             assert!(step[0].hypot(step[1]) > 0.0, "{name}: equal stations");
             let across = [pair[0].left[0] - pair[0].right[0], pair[0].left[1] - pair[0].right[1]];

@@ -94,13 +94,14 @@ fn the_route_of_one_lane_is_that_lane() {
     let drive = small("2018b", Some("KS2"), &Options::default());
     let route = &drive.cycles[0].cycle.route;
     assert!(!route.closed);
-    for station in &route.stations {
+    for station in &route.cross_sections {
         assert!(
             near(station.y, -1.75) && near(station.left[1], 0.0) && near(station.right[1], -3.5)
         );
         assert!(near(station.left[0], station.x) && near(station.right[0], station.x));
     }
-    let [first, last] = [&route.stations[0], &route.stations[route.stations.len() - 1]];
+    let [first, last] =
+        [&route.cross_sections[0], &route.cross_sections[route.cross_sections.len() - 1]];
     // 30 m behind the first and 80 m ahead of the last position, where the lanes are that long.
     assert!(near(first.x, 0.0) && near(last.x, 110.0));
 }
@@ -108,7 +109,7 @@ fn the_route_of_one_lane_is_that_lane() {
 #[test]
 fn a_change_of_lane_crosses_over_and_opens_both_lanes() {
     let drive = small("2018b", Some("ST1"), &Options::default());
-    let Route { stations, .. } = &drive.cycles[0].cycle.route;
+    let Route { cross_sections: stations, .. } = &drive.cycles[0].cycle.route;
     assert!(drive.notes.iter().any(|n| n == "route along lanelets 1 | lane change | 2"));
     assert!(near(stations[0].y, -1.75) && near(stations[stations.len() - 1].y, 1.75));
     for pair in stations.windows(2) {

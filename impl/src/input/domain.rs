@@ -17,7 +17,9 @@ use crate::numbers::plane::same_point;
 use crate::report::{InvalidInput, Problem};
 use crate::services::configuration::Configuration;
 
-use self::lists::{Seen, detections_are_fine, points_are_fine, stations_are_fine, tracks_are_fine};
+use self::lists::{
+    Seen, cross_sections_are_fine, detections_are_fine, points_are_fine, tracks_are_fine,
+};
 use self::own::{check_ego, check_parameters};
 
 /// Whose data are invalid.
@@ -110,25 +112,25 @@ fn check_lead(lead: &Lead, now_ns: i64) -> Check {
 
 /// The rules for a route.
 pub(crate) fn check_route(route: &Route<'_>) -> Check {
-    Place { index: None }.size("route.stations", route.stations.len(), [2, 8192])?;
-    if stations_are_fine(route.stations) {
+    Place { index: None }.size("route.stations", route.cross_sections.len(), [2, 8192])?;
+    if cross_sections_are_fine(route.cross_sections) {
         return Ok(());
     }
     let mut before: Option<[f64; 2]> = None;
-    for (index, station) in route.stations.iter().enumerate() {
+    for (index, cross_section) in route.cross_sections.iter().enumerate() {
         let at = Place { index: Some(index) };
-        at.number("route.stations.x", station.x, POSITION)?;
-        at.number("route.stations.y", station.y, POSITION)?;
-        for value in station.left {
+        at.number("route.stations.x", cross_section.x, POSITION)?;
+        at.number("route.stations.y", cross_section.y, POSITION)?;
+        for value in cross_section.left {
             at.number("route.stations.left", value, POSITION)?;
         }
-        for value in station.right {
+        for value in cross_section.right {
             at.number("route.stations.right", value, POSITION)?;
         }
-        if before.is_some_and(|before| same_point(before, [station.x, station.y])) {
+        if before.is_some_and(|before| same_point(before, [cross_section.x, cross_section.y])) {
             return at.problem("route.stations.x", Problem::EqualPoints);
         }
-        before = Some([station.x, station.y]);
+        before = Some([cross_section.x, cross_section.y]);
     }
     Ok(())
 }

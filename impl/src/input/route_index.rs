@@ -1,14 +1,14 @@
 //! A route that has been checked and indexed once, for many cycles: maps change rarely
 //! (`spec/3-stages.md#stage-ii-trajectory-to-map`). No verdict depends on it, only time.
 
-use crate::input::cycle::{Route, Station};
+use crate::input::cycle::{CrossSection, Route};
 use crate::input::domain::check_route;
 use crate::report::{InvalidInput, Problem};
 
-/// Stations, or blocks, that are under one box.
+/// Cross sections, or blocks, that are under one box.
 const FAN: usize = 16;
 
-/// Working memory for the index: the box around some stations, or around some boxes.
+/// Working memory for the index: the box around some cross sections, or around some boxes.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     least: [f64; 2],
@@ -23,8 +23,8 @@ impl Default for Block {
 
 impl Block {
     /// How many blocks the index of a route needs.
-    pub const fn needed(stations: usize) -> usize {
-        stations.div_ceil(FAN).saturating_add(stations.div_ceil(FAN * FAN))
+    pub const fn needed(cross_sections: usize) -> usize {
+        cross_sections.div_ceil(FAN).saturating_add(cross_sections.div_ceil(FAN * FAN))
     }
 
     fn include(&mut self, point: [f64; 2]) {
@@ -53,14 +53,14 @@ pub struct RouteIndex<'a> {
 
 impl<'a> RouteIndex<'a> {
     /// Checks the route and indexes it in the caller's memory, at least `Block::needed` of the
-    /// number of stations. Time: linear in the stations.
+    /// number of cross sections. Time: linear in the cross sections.
     ///
     /// Errors: the first invalid value; too little memory. Source:
     /// `spec/3-stages.md#invalid-input`.
     pub fn new(route: Route<'a>, memory: &'a mut [Block]) -> Result<Self, InvalidInput> {
         check_route(&route)?;
-        let count = route.stations.len().div_ceil(FAN);
-        let needed = Block::needed(route.stations.len());
+        let count = route.cross_sections.len().div_ceil(FAN);
+        let needed = Block::needed(route.cross_sections.len());
         let Some((leaves, groups)) =
             memory.get_mut(..needed).and_then(|all| all.split_at_mut_checked(count))
         else {
@@ -70,12 +70,12 @@ impl<'a> RouteIndex<'a> {
         groups.fill(Block::default());
         for (index, leaf) in leaves.iter_mut().enumerate() {
             *leaf = Block::default();
-            // The last station of a block is the first one of the next: a segment is in one block.
+            // The last cross section of a block is the first one of the next: a segment is in one block.
             let first = index.saturating_mul(FAN);
-            let own = route.stations.iter().skip(first).take(FAN.saturating_add(1));
+            let own = route.cross_sections.iter().skip(first).take(FAN.saturating_add(1));
             let is_last = index.saturating_add(1) == count;
-            let closing = route.stations.first().filter(|_| route.closed && is_last);
-            for &Station { x, y, left, right } in own.chain(closing) {
+            let closing = route.cross_sections.first().filter(|_| route.closed && is_last);
+            for &CrossSection { x, y, left, right } in own.chain(closing) {
                 [[x, y], left, right].into_iter().for_each(|point| leaf.include(point));
             }
             if let Some(group) = groups.get_mut(index.wrapping_div(FAN)) {
@@ -86,13 +86,14 @@ impl<'a> RouteIndex<'a> {
         Ok(Self { route, leaves, groups })
     }
 
-    /// Whether this is the index of these very stations: they are borrowed, so that they have not
+    /// Whether this is the index of these very cross sections: they are borrowed, so that they have not
     /// changed since.
     pub(crate) fn is_of(&self, route: &Route<'_>) -> bool {
-        self.route.closed == route.closed && core::ptr::eq(self.route.stations, route.stations)
+        self.route.closed == route.closed
+            && core::ptr::eq(self.route.cross_sections, route.cross_sections)
     }
 
-    /// The first station of each block that has a point at most `reach` away along both axes.
+    /// The first cross section of each block that has a point at most `reach` away along both axes.
     pub(crate) fn near(&self, point: [f64; 2], reach: f64) -> impl Iterator<Item = usize> {
         let Self { leaves, groups, .. } = *self;
         let near = move |blocks: &[Block], at: usize| {

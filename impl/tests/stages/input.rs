@@ -22,7 +22,10 @@ fn local_problems_are_errors() {
         (|cycle| cycle.ego.x = f64::NAN, invalid("ego.x", None, Problem::NotFinite)),
         (|cycle| cycle.ego.sin = 0.0011, invalid("ego.cos", None, Problem::NotADirection)),
         (|cycle| cycle.ego.speed = -1e-300, invalid("ego.speed", None, Problem::OutOfDomain)),
-        (|cycle| cycle.route.stations = &[], invalid("route.stations", None, Problem::TooFew)),
+        (
+            |cycle| cycle.route.cross_sections = &[],
+            invalid("route.stations", None, Problem::TooFew),
+        ),
         (
             |cycle| cycle.grid.as_mut().expect("a grid").width = 201,
             invalid("grid.occupied", None, Problem::BitmapLength),

@@ -1,7 +1,7 @@
 //! A cycle in which everything is in order, and how to check it.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Station, Track, TrackList,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
@@ -23,7 +23,7 @@ pub struct Scene {
     pub points: Vec<TrajectoryPoint>,
     pub tracks: Option<Vec<Track>>,
     pub detections: Option<Vec<Detection>>,
-    pub stations: Vec<Station>,
+    pub cross_sections: Vec<CrossSection>,
     pub occupied: Option<Vec<u8>>,
     pub change: fn(&mut Cycle<'_>),
 }
@@ -41,9 +41,9 @@ pub fn scene(profile: Profile, configuration: Configuration, origin: [f64; 2]) -
         cos: 1.0,
         sin: 0.0,
     };
-    let station = |i: i32| {
+    let cross_section = |i: i32| {
         let at = x + 20.0 * f64::from(i) - 40.0;
-        Station { x: at, y, left: [at, y + 2.0], right: [at, y - 2.0] }
+        CrossSection { x: at, y, left: [at, y + 2.0], right: [at, y - 2.0] }
     };
     Scene {
         profile,
@@ -53,7 +53,7 @@ pub fn scene(profile: Profile, configuration: Configuration, origin: [f64; 2]) -
         points: (0..30).map(point).collect(),
         tracks: Some(vec![track(1, x + 3.0, y + 50.0)]),
         detections: Some(vec![detection(x + 3.0, y + 50.1)]),
-        stations: (0..10).map(station).collect(),
+        cross_sections: (0..10).map(cross_section).collect(),
         occupied: Some(vec![0; 5000]),
         change: |_| (),
     }
@@ -84,7 +84,7 @@ impl Scene {
             tracks: self.tracks.as_deref().map(list),
             detections: self.detections.as_deref().map(|items| DetectionList { stamp_ns, items }),
             lead: None,
-            route: Route { closed: false, stations: &self.stations },
+            route: Route { closed: false, cross_sections: &self.cross_sections },
             grid: self.occupied.as_deref().map(|occupied| Grid {
                 stamp_ns,
                 x: self.ego.x - 100.0,

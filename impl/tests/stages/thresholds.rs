@@ -175,7 +175,7 @@ fn a_truck_is_examined_up_to_the_sum_of_the_circumradii() {
 fn theta_map_and_the_corridor() {
     for [x, y] in PLACES {
         let mut scene = scene(Paper, MotRemote, [x, y]);
-        for station in &mut scene.stations {
+        for station in &mut scene.cross_sections {
             station.left = [station.x, y + 0.25];
             station.right = [station.x, y - 0.25];
         }
@@ -186,7 +186,7 @@ fn theta_map_and_the_corridor() {
         };
         assert_eq!(off(0.25), None);
         assert_eq!(off(0.25 + 1e-7), Some((Rule::ThetaMap, Some(7))));
-        for station in &mut scene.stations {
+        for station in &mut scene.cross_sections {
             (station.left, station.right) = ([station.x, y], [station.x, y]);
         }
         let mut off = |away: f64| {
@@ -205,7 +205,7 @@ fn a_trajectory_has_to_fit_route_and_car() {
     let changes: [(Change, Rule); 11] = [
         (|scene| scene.ego.x -= 2.1, Rule::StartPosition),
         (|scene| scene.points.iter_mut().for_each(|p| p.t_ns += 100_000_001), Rule::StartTime),
-        (|scene| scene.stations[2].left[1] -= 3.0, Rule::Corridor),
+        (|scene| scene.cross_sections[2].left[1] -= 3.0, Rule::Corridor),
         (|scene| scene.points.iter_mut().for_each(|p| p.cos = -1.0), Rule::Direction),
         (|scene| scene.parameters.step_max_ns = 99_999_999, Rule::StepTime),
         (|scene| scene.ego.length = 0.499, Rule::StepLength),

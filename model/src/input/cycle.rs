@@ -161,15 +161,15 @@ pub struct Lead {
 /// A route: reference path and boundaries.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// The last station is followed by the first.
+    /// The last cross section is followed by the first.
     pub closed: bool,
-    /// Stations in driving order.
-    pub stations: Vec<Station>,
+    /// Cross sections in driving order.
+    pub cross_sections: Vec<CrossSection>,
 }
 
-/// One station of a route.
+/// One cross section of a route.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Station {
+pub struct CrossSection {
     /// Reference point, m.
     pub x: f64,
     /// Reference point, m.

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 use crate::input::cycle::{
-    Cycle, DetectionList, Ego, Grid, Lead, Route, Station, TrackList, Trajectory,
+    CrossSection, Cycle, DetectionList, Ego, Grid, Lead, Route, TrackList, Trajectory,
 };
 use crate::input::parameters::Parameters;
 use crate::report::InvalidInput;
@@ -35,7 +35,7 @@ const NEAR_NOW: i128 = 60_000_000_000;
 const TRACKS: usize = 1024;
 const DETECTIONS: usize = 2048;
 const POINTS: usize = 1024;
-const STATIONS: usize = 8192;
+const CROSS_SECTIONS: usize = 8192;
 
 /// The first local problem; without one the first in remote data.
 pub fn first_problem(cycle: &Cycle) -> Option<Problem> {
@@ -204,20 +204,21 @@ fn check_lead(lead: Option<&Lead>, now: i64) -> Result<(), InvalidInput> {
 
 fn check_route(route: &Route) -> Result<(), InvalidInput> {
     let list = "route.stations";
-    at(list, None).size(route.stations.len(), 2, STATIONS)?;
-    let mut previous: Option<&Station> = None;
-    for (i, station) in route.stations.iter().enumerate() {
+    at(list, None).size(route.cross_sections.len(), 2, CROSS_SECTIONS)?;
+    let mut previous: Option<&CrossSection> = None;
+    for (i, cross_section) in route.cross_sections.iter().enumerate() {
         let s = at(list, Some(i));
-        s.position(station.x, station.y)?;
-        for (name, bound) in [("left", station.left), ("right", station.right)] {
+        s.position(cross_section.x, cross_section.y)?;
+        for (name, bound) in [("left", cross_section.left), ("right", cross_section.right)] {
             s.number(name, bound[0], &POSITION)?;
             s.number(name, bound[1], &POSITION)?;
         }
         #[expect(clippy::float_cmp, reason = "the rule asks for equal points")]
-        if previous.is_some_and(|before| before.x == station.x && before.y == station.y) {
+        if previous.is_some_and(|before| before.x == cross_section.x && before.y == cross_section.y)
+        {
             return Err(s.problem("x", "the reference point equals the one before".into()));
         }
-        previous = Some(station);
+        previous = Some(cross_section);
     }
     Ok(())
 }

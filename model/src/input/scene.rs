@@ -133,8 +133,8 @@ pub struct Lead {
 #[derive(Debug)]
 pub struct Corridor {
     /// Reference points with left and right boundary points.
-    pub stations: Vec<[Vector; 3]>,
-    /// The last station is followed by the first.
+    pub cross_sections: Vec<[Vector; 3]>,
+    /// The last cross section is followed by the first.
     pub closed: bool,
 }
 
@@ -284,10 +284,13 @@ fn tracks(list: &TrackList) -> Tracks {
 }
 
 fn corridor(route: &Route) -> Corridor {
-    let station = |s: &crate::input::cycle::Station| {
+    let cross_section = |s: &crate::input::cycle::CrossSection| {
         [[s.x, s.y], s.left, s.right].map(|[x, y]| Vector::from_doubles(x, y))
     };
-    Corridor { stations: route.stations.iter().map(station).collect(), closed: route.closed }
+    Corridor {
+        cross_sections: route.cross_sections.iter().map(cross_section).collect(),
+        closed: route.closed,
+    }
 }
 
 fn grid(grid: &crate::input::cycle::Grid) -> Grid {

@@ -41,12 +41,12 @@ pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
         .or_else(|| end_failure(scene, trajectory))
 }
 
-/// A segment of the reference polyline; a closed route has one from its last to its first station.
+/// A segment of the reference polyline; a closed route has one from its last to its first cross section.
 fn segments(route: &Corridor) -> Vec<[&[Vector; 3]; 2]> {
-    let stations = &route.stations;
-    let mut segments: Vec<_> = stations.windows(2).map(|pair| [&pair[0], &pair[1]]).collect();
+    let cross_sections = &route.cross_sections;
+    let mut segments: Vec<_> = cross_sections.windows(2).map(|pair| [&pair[0], &pair[1]]).collect();
     if route.closed {
-        segments.push([&stations[stations.len() - 1], &stations[0]]);
+        segments.push([&cross_sections[cross_sections.len() - 1], &cross_sections[0]]);
     }
     segments
 }

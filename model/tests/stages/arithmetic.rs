@@ -1,6 +1,6 @@
 //! `spec/4-arithmetic.md`: exactness, the strict and the lax reading, margin by margin.
 
-use mufasa_model::input::cycle::{Cycle, Profile, Station, Track, TrackList, Trajectory};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track, TrackList, Trajectory};
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::numbers::real::unfiltered;
 use mufasa_model::report::Reading;
@@ -170,8 +170,9 @@ const NEAR: &[Near] = &[
         (points(c)[1].cos, points(c)[1].sin) = (0.96, 0.28);
     }),
     ("heading . route segment >= m", PlanRemote, Profile::Hardened, |c, e| {
-        c.route.stations =
-            [-0.5, 0.5].map(|x| Station { x, y: 0.0, left: [x, 9.0], right: [x, -9.0] }).into();
+        c.route.cross_sections = [-0.5, 0.5]
+            .map(|x| CrossSection { x, y: 0.0, left: [x, 9.0], right: [x, -9.0] })
+            .into();
         c.ego.speed = 0.0;
         c.trajectory = Some(Trajectory { stamp_ns: NOW, points: vec![at_time(0, 0.0, 0.0)] });
         (points(c)[0].cos, points(c)[0].sin) = (-e, 1.0);
@@ -199,8 +200,8 @@ fn points(cycle: &mut Cycle) -> &mut Vec<mufasa_model::input::cycle::TrajectoryP
 }
 
 fn narrow(cycle: &mut Cycle, half_width: f64) {
-    for station in &mut cycle.route.stations {
-        (station.left[1], station.right[1]) = (half_width, -half_width);
+    for cross_section in &mut cycle.route.cross_sections {
+        (cross_section.left[1], cross_section.right[1]) = (half_width, -half_width);
     }
 }
 
@@ -289,12 +290,13 @@ fn nearest_segments_within_delta_are_asked() {
     let with = |y: f64| {
         let mut cycle = base(Profile::Hardened, PlanRemote);
         // Two parallel ways, 2 m apart, the second against the first.
-        let station = |x: f64, y: f64| Station { x, y, left: [x, 90.0], right: [x, -90.0] };
-        cycle.route.stations = vec![
-            station(-300.0, -1.0),
-            station(300.0, -1.0),
-            station(300.0, 1.0),
-            station(-300.0, 1.0),
+        let cross_section =
+            |x: f64, y: f64| CrossSection { x, y, left: [x, 90.0], right: [x, -90.0] };
+        cycle.route.cross_sections = vec![
+            cross_section(-300.0, -1.0),
+            cross_section(300.0, -1.0),
+            cross_section(300.0, 1.0),
+            cross_section(-300.0, 1.0),
         ];
         for point in points(&mut cycle) {
             point.y = y;

@@ -2,8 +2,8 @@
 #![expect(clippy::unnecessary_wraps, reason = "the fields of a cycle are optional")]
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage, Witness};
@@ -57,8 +57,8 @@ pub fn at_time(after_ns: i64, x: f64, y: f64) -> TrajectoryPoint {
 }
 
 pub fn straight_route(from: f64, to: f64) -> Route {
-    let station = |x: f64| Station { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] };
-    Route { closed: false, stations: vec![station(from), station(to)] }
+    let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] };
+    Route { closed: false, cross_sections: vec![cross_section(from), cross_section(to)] }
 }
 
 /// A standing car of 4 m by 2 m that looks along x.

@@ -1,7 +1,7 @@
 //! `spec/3-stages.md#hardened-profile`: the rules of the trajectory (H-07, H-11, H-12) on both
 //! sides of their thresholds, and the paper profile beside them.
 
-use mufasa_model::input::cycle::{Cycle, Profile, Route, Station, Trajectory};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Route, Trajectory};
 use mufasa_model::report::{Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
@@ -56,8 +56,8 @@ fn h_07_the_trajectory_starts_here() {
 fn h_07_every_point_is_inside_the_corridor() {
     let with = |y: f64| {
         hardened_and_paper(|cycle| {
-            for station in &mut cycle.route.stations {
-                (station.left[1], station.right[1]) = (0.125, -0.125);
+            for cross_section in &mut cycle.route.cross_sections {
+                (cross_section.left[1], cross_section.right[1]) = (0.125, -0.125);
             }
             cycle.trajectory.as_mut().expect("there is one").points[9].y = y;
         })
@@ -96,18 +96,19 @@ fn h_07_nothing_drives_against_the_route() {
 /// 0 is none.
 #[test]
 fn h_07_one_of_the_nearest_segments_is_enough() {
-    let station = |x: f64, y: f64| Station { x, y, left: [x, y + 50.0], right: [x, y - 50.0] };
-    let with = |closed: bool, last: Station| {
+    let cross_section =
+        |x: f64, y: f64| CrossSection { x, y, left: [x, y + 50.0], right: [x, y - 50.0] };
+    let with = |closed: bool, last: CrossSection| {
         let mut cycle = base(Profile::Hardened, PlanRemote);
         // A hairpin at the CAV: towards it along +x, away from it along -x.
-        let stations = vec![station(-20.0, 0.0), station(0.0, 0.0), last];
-        cycle.route = Route { closed, stations };
+        let cross_sections = vec![cross_section(-20.0, 0.0), cross_section(0.0, 0.0), last];
+        cycle.route = Route { closed, cross_sections };
         cycle.ego.speed = 0.0;
         let points = vec![at_time(0, 0.0, 0.0)];
         cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
         cycle
     };
-    let mut hairpin = with(false, station(-20.0, 1.0));
+    let mut hairpin = with(false, cross_section(-20.0, 1.0));
     assert_eq!(rule(&hairpin, Stage::Ii), None);
     heading(&mut hairpin, -1.0, 0.0);
     assert_eq!(rule(&hairpin, Stage::Ii), None);
@@ -116,11 +117,11 @@ fn h_07_one_of_the_nearest_segments_is_enough() {
     (point.x, point.y) = (-1.0, -0.5);
     assert_eq!(rule(&hairpin, Stage::Ii), Some(Rule::Direction));
 
-    // First and last station equal, the CAV there and turned round: the segments that meet there
+    // First and last cross section equal, the CAV there and turned round: the segments that meet there
     // both go forward, and between them there is one of length 0.
     let mut cycle = base(Profile::Hardened, PlanRemote);
-    let wide = |x: f64, y: f64| Station { x, y, left: [x, 50.0], right: [x, -50.0] };
-    let stations = vec![
+    let wide = |x: f64, y: f64| CrossSection { x, y, left: [x, 50.0], right: [x, -50.0] };
+    let cross_sections = vec![
         wide(0.0, 0.0),
         wide(30.0, 0.0),
         wide(30.0, 20.0),
@@ -128,7 +129,7 @@ fn h_07_one_of_the_nearest_segments_is_enough() {
         wide(-30.0, 0.0),
         wide(0.0, 0.0),
     ];
-    cycle.route = Route { closed: true, stations };
+    cycle.route = Route { closed: true, cross_sections };
     cycle.ego.speed = 0.0;
     cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: vec![at_time(0, 0.0, 0.0)] });
     assert_eq!(rule(&cycle, Stage::Ii), None);

@@ -64,11 +64,15 @@ fn values_outside_the_domain_are_invalid() {
         (|c| list!(c.lead).gap = -1e-300, "lead.gap", None),
         (|c| list!(c.lead).speed = f64::NAN, "lead.speed", None),
         (|c| list!(c.lead).stamp_ns = NOW + 60_000_000_001, "lead.stamp_ns", None),
-        (|c| c.route.stations[1].y = f64::NAN, "route.stations.y", Some(1)),
-        (|c| c.route.stations[1].left[1] = f64::INFINITY, "route.stations.left", Some(1)),
-        (|c| c.route.stations[0].right[0] = 1e9, "route.stations.right", Some(0)),
-        (|c| c.route.stations.truncate(1), "route.stations", None),
-        (|c| c.route.stations[1] = c.route.stations[0].clone(), "route.stations.x", Some(1)),
+        (|c| c.route.cross_sections[1].y = f64::NAN, "route.stations.y", Some(1)),
+        (|c| c.route.cross_sections[1].left[1] = f64::INFINITY, "route.stations.left", Some(1)),
+        (|c| c.route.cross_sections[0].right[0] = 1e9, "route.stations.right", Some(0)),
+        (|c| c.route.cross_sections.truncate(1), "route.stations", None),
+        (
+            |c| c.route.cross_sections[1] = c.route.cross_sections[0].clone(),
+            "route.stations.x",
+            Some(1),
+        ),
         (|c| list!(c.grid).resolution = 10.0f64.next_up(), "grid.resolution", None),
         (|c| list!(c.grid).width = 0, "grid.width", None),
         (|c| list!(c.grid).height = 32769, "grid.height", None),
@@ -142,7 +146,7 @@ fn the_first_problem_is_named() {
         ("parameters.n", |c| c.parameters.n = 0),
         ("ego.x", |c| c.ego.x = f64::NAN),
         ("lead.gap", |c| list!(c.lead).gap = -1.0),
-        ("route.stations.x", |c| c.route.stations[0].x = f64::NAN),
+        ("route.stations.x", |c| c.route.cross_sections[0].x = f64::NAN),
         ("grid.x", |c| list!(c.grid).x = f64::NAN),
         ("detections.items.x", |c| list!(c.detections).items[0].x = f64::NAN),
         ("previous_tracks.items.x", |c| list!(c.previous_tracks).items[0].x = f64::NAN),
@@ -225,8 +229,8 @@ fn old_local_data_are_missing_old_remote_data_invalid() {
 fn a_closed_route_may_end_where_it_begins() {
     let closed: Change = |c| {
         c.route.closed = true;
-        let first = c.route.stations[0].clone();
-        c.route.stations.push(first);
+        let first = c.route.cross_sections[0].clone();
+        c.route.cross_sections.push(first);
     };
     assert_eq!(problem(PlanRemote, closed), None);
 }

@@ -1,6 +1,6 @@
 //! `spec/3-stages.md#stage-ii-trajectory-to-map`
 
-use mufasa_model::input::cycle::{Cycle, Profile, Route, Station};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Route};
 use mufasa_model::report::{Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
 
@@ -15,8 +15,8 @@ fn with_point(index: usize, x: f64, y: f64) -> Cycle {
 }
 
 fn narrow(mut cycle: Cycle) -> Cycle {
-    for station in &mut cycle.route.stations {
-        (station.left[1], station.right[1]) = (0.125, -0.125);
+    for cross_section in &mut cycle.route.cross_sections {
+        (cross_section.left[1], cross_section.right[1]) = (0.125, -0.125);
     }
     cycle
 }
@@ -41,9 +41,9 @@ fn far_and_outside_fails() {
 fn distance_is_that_to_the_polyline() {
     let end = |x: f64, y: f64| {
         let mut cycle = narrow(with_point(50, x, y));
-        cycle.route.stations[1].x = 40.0;
-        cycle.route.stations[1].left[0] = 40.0;
-        cycle.route.stations[1].right[0] = 40.0;
+        cycle.route.cross_sections[1].x = 40.0;
+        cycle.route.cross_sections[1].left[0] = 40.0;
+        cycle.route.cross_sections[1].right[0] = 40.0;
         cycle.parameters.theta_map = 5.0;
         let points = &mut cycle.trajectory.as_mut().expect("there is one").points;
         points.drain(41..50);
@@ -54,18 +54,19 @@ fn distance_is_that_to_the_polyline() {
 }
 
 /// spec/3-stages.md#stage-ii-trajectory-to-map.1, spec/3-stages.md#stage-ii-trajectory-to-map.2: a
-/// closed route has a segment and a piece of corridor from the last station to the first.
+/// closed route has a segment and a piece of corridor from the last cross section to the first.
 #[test]
 fn a_closed_route_has_a_closing_segment() {
-    let station = |x: f64, y: f64, l: [f64; 2], r: [f64; 2]| Station { x, y, left: l, right: r };
-    let stations = vec![
-        station(100.0, 0.0, [100.0, 1.0], [100.0, -1.0]),
-        station(100.0, 100.0, [99.0, 99.0], [101.0, 101.0]),
-        station(-100.0, 100.0, [-99.0, 99.0], [-101.0, 101.0]),
-        station(-100.0, 0.0, [-100.0, 1.0], [-100.0, -1.0]),
+    let cross_section =
+        |x: f64, y: f64, l: [f64; 2], r: [f64; 2]| CrossSection { x, y, left: l, right: r };
+    let cross_sections = vec![
+        cross_section(100.0, 0.0, [100.0, 1.0], [100.0, -1.0]),
+        cross_section(100.0, 100.0, [99.0, 99.0], [101.0, 101.0]),
+        cross_section(-100.0, 100.0, [-99.0, 99.0], [-101.0, 101.0]),
+        cross_section(-100.0, 0.0, [-100.0, 1.0], [-100.0, -1.0]),
     ];
     let mut cycle = base(Profile::Paper, PlanRemote);
-    cycle.route = Route { closed: true, stations };
+    cycle.route = Route { closed: true, cross_sections };
     assert!(passes(&cycle, Stage::Ii));
     cycle.route.closed = false;
     assert!(!passes(&cycle, Stage::Ii));
@@ -78,9 +79,9 @@ fn corridor_is_the_union_of_the_two_triangles() {
     // point (70, -1) would be inside.
     let with = |x: f64, y: f64| {
         let mut cycle = with_point(20, x, y);
-        cycle.route.stations = vec![
-            Station { x: 0.0, y: 0.0, left: [0.0, 8.0], right: [0.0, -8.0] },
-            Station { x: 100.0, y: 0.0, left: [100.0, 8.0], right: [10.0, 2.0] },
+        cycle.route.cross_sections = vec![
+            CrossSection { x: 0.0, y: 0.0, left: [0.0, 8.0], right: [0.0, -8.0] },
+            CrossSection { x: 100.0, y: 0.0, left: [100.0, 8.0], right: [10.0, 2.0] },
         ];
         cycle
     };

@@ -9,7 +9,7 @@ use mufasa::stages::check;
 
 use super::any::{below, index};
 use super::bounds::{COLUMNS, PLACES, TRACKS};
-use super::scene::{EGO, NOW_NS, STATIONS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -161,7 +161,7 @@ fn passes(profile: Profile, budget: u8, tracks: &[u8], detections: &[u8]) -> boo
             items: &detection_items[..detections.len()],
         }),
         lead: None,
-        route: Route { closed: false, stations: &STATIONS },
+        route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: None,
         previous_tracks: None,
     };

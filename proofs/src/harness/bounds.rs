@@ -3,7 +3,7 @@
 
 /// Places of a requester's table. One for the station in use and one for another: no law speaks
 /// of more than two stations at once.
-pub const STATIONS: usize = 2;
+pub const CROSS_SECTIONS: usize = 2;
 
 /// Tracks and previous tracks: two are the fewest that can share an id, compete for a detection,
 /// and be one with and one without a predecessor.

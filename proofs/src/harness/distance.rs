@@ -12,7 +12,7 @@ use mufasa::services::configuration::Configuration;
 use mufasa::stages::check;
 
 use super::any::within;
-use super::scene::{EGO, NOW_NS, STATIONS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
 #[cfg(not(kani))]
 use crate::kani;
 use crate::law::distance::{
@@ -161,7 +161,7 @@ fn behind(parameters: Parameters, v_now: f64, lead: Lead) -> Cycle<'static> {
         tracks: None,
         detections: Some(DetectionList { stamp_ns: NOW_NS, items: &[] }),
         lead: Some(lead),
-        route: Route { closed: false, stations: &STATIONS },
+        route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: None,
         previous_tracks: None,
     }

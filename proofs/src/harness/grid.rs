@@ -10,7 +10,7 @@ use mufasa::stages::check;
 
 use super::any::below;
 use super::bounds::{GRID, GRID_BYTES};
-use super::scene::{EGO, NOW_NS, STATIONS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -123,7 +123,7 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations: &STATIONS },
+        route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: Some(Grid {
             stamp_ns: NOW_NS,
             x: 0.0,

@@ -2,8 +2,8 @@
 //! and never safe.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Station, Track, TrackList, Trajectory,
-    TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch};
@@ -12,7 +12,7 @@ use mufasa::services::configuration::{Configuration, Group};
 use mufasa::stages::check;
 
 use super::any::{below, configuration, profile};
-use super::scene::{BESIDE, EGO, FREE, NOW_NS, SEEN_BESIDE, STATIONS, STRAIGHT};
+use super::scene::{BESIDE, CROSS_SECTIONS, EGO, FREE, NOW_NS, SEEN_BESIDE, STRAIGHT};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -87,7 +87,7 @@ struct Lists {
     tracks: [Track; 2],
     previous: [Track; 1],
     detections: [Detection; 2],
-    stations: [Station; 3],
+    cross_sections: [CrossSection; 3],
 }
 
 impl Lists {
@@ -99,7 +99,7 @@ impl Lists {
             tracks: [track, other],
             previous: [Track { id: 3, ..track }],
             detections: SEEN_BESIDE,
-            stations: STATIONS,
+            cross_sections: CROSS_SECTIONS,
         }
     }
 }
@@ -112,7 +112,7 @@ struct Single {
     grid: Grid<'static>,
     /// Stamps of trajectory, tracks, previous tracks and detections.
     stamps_ns: [i64; 4],
-    /// Points and stations that are given.
+    /// Points and cross sections that are given.
     counts: [usize; 2],
 }
 
@@ -141,7 +141,7 @@ impl Single {
 
     fn cycle<'a>(&self, lists: &'a Lists, configuration: Configuration) -> Cycle<'a> {
         let [trajectory, tracks, previous, detections] = self.stamps_ns;
-        let [points, stations] = self.counts;
+        let [points, cross_sections] = self.counts;
         Cycle {
             profile: profile(),
             parameters: self.parameters,
@@ -152,7 +152,7 @@ impl Single {
             tracks: Some(TrackList { stamp_ns: tracks, items: &lists.tracks }),
             detections: Some(DetectionList { stamp_ns: detections, items: &lists.detections }),
             lead: Some(self.lead),
-            route: Route { closed: false, stations: &lists.stations[..stations] },
+            route: Route { closed: false, cross_sections: &lists.cross_sections[..cross_sections] },
             grid: Some(self.grid),
             previous_tracks: Some(TrackList { stamp_ns: previous, items: &lists.previous }),
         }
@@ -169,7 +169,7 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
     let [_, track] = &mut lists.tracks;
     let [previous] = &mut lists.previous;
     let [_, detection] = &mut lists.detections;
-    let [_, station, _] = &mut lists.stations;
+    let [_, cross_section, _] = &mut lists.cross_sections;
     let value = match place {
         0 => &mut p.theta_tr,
         1 => &mut p.theta_map,
@@ -193,10 +193,10 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
         19 => &mut ego.center_offset,
         20 => &mut lead.gap,
         21 => &mut lead.speed,
-        22 => &mut station.x,
-        23 => &mut station.y,
-        24 => &mut station.left[0],
-        25 => &mut station.right[1],
+        22 => &mut cross_section.x,
+        23 => &mut cross_section.y,
+        24 => &mut cross_section.left[0],
+        25 => &mut cross_section.right[1],
         26 => &mut grid.x,
         27 => &mut grid.y,
         28 => &mut grid.cos,
@@ -259,7 +259,7 @@ fn spoil(lists: &mut Lists, single: &mut Single, place: u8) -> Owner {
         14 => stamps_ns[2] = LATER_NS,
         15 => stamps_ns[3] = LATER_NS,
         16 => counts[1] = 1,
-        17 => lists.stations[1] = lists.stations[0],
+        17 => lists.cross_sections[1] = lists.cross_sections[0],
         18 => stamps_ns[1] = LATER_NS,
         19 => lists.tracks[1].id = lists.tracks[0].id,
         20 => stamps_ns[0] = LATER_NS,

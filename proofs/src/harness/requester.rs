@@ -11,7 +11,7 @@ use mufasa::services::configuration::{Group, Source};
 use super::any::{
     below, duration_ns, group, groups, index, near_integer, option, profile, time_ns,
 };
-use super::bounds::STATIONS;
+use super::bounds::CROSS_SECTIONS;
 #[cfg(not(kani))]
 use crate::kani;
 use crate::law::requester::{self as law, Seen, Step};
@@ -23,7 +23,7 @@ use crate::law::requester::{self as law, Seen, Step};
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_requester_starts_valid() {
     let parameters = parameters();
-    let mut table = [(); STATIONS].map(|()| any_record());
+    let mut table = [(); CROSS_SECTIONS].map(|()| any_record());
     let requester = Requester::new(profile(), parameters, &mut table);
     let Ok(requester) = requester else { unreachable!("times are >= 0") };
     assert!(requester.is_valid());
@@ -258,7 +258,7 @@ pub fn verify_requester_refuses_without_a_trace() {
             assert!(station == Some(named) && named < 1);
         }
         RequesterError::TableFull { station: named, capacity } => {
-            assert!(station == Some(named) && capacity == STATIONS && !known);
+            assert!(station == Some(named) && capacity == CROSS_SECTIONS && !known);
             assert!(matches!(event.kind, EventKind::Offer { .. }));
         }
         RequesterError::NegativeParameter { .. } => unreachable!("times are >= 0"),
@@ -292,8 +292,8 @@ fn any_record() -> StationRecord {
 
 /// Any state at all; `is_valid` has to be assumed. That a group in use names a station of the
 /// table and its last request is only one of the choices.
-fn any_state() -> ([StationRecord; STATIONS], Suspended, Profile, Parameters) {
-    let table = [(); STATIONS].map(|()| any_record());
+fn any_state() -> ([StationRecord; CROSS_SECTIONS], Suspended, Profile, Parameters) {
+    let table = [(); CROSS_SECTIONS].map(|()| any_record());
     let (profile, parameters) = (profile(), parameters());
     let parts = Parts {
         profile,
@@ -308,11 +308,12 @@ fn any_state() -> ([StationRecord; STATIONS], Suspended, Profile, Parameters) {
 }
 
 /// Everything is drawn first and chosen from then; see `any::option`.
-fn any_group(table: &[StationRecord; STATIONS], group: Group) -> GroupRecord {
+fn any_group(table: &[StationRecord; CROSS_SECTIONS], group: Group) -> GroupRecord {
     let ids = |place: &StationRecord| {
         (place.station().unwrap_or(0), place.last_request(group).unwrap_or(0))
     };
-    let (first, last, free) = (ids(&table[0]), ids(&table[STATIONS - 1]), (station(), session()));
+    let (first, last, free) =
+        (ids(&table[0]), ids(&table[CROSS_SECTIONS - 1]), (station(), session()));
     let (kind, place, deadline_ns) = (below(3), below(4), time_ns());
     let (last_arrival_ns, last_used_ns) = (time_ns(), option(time_ns));
     let local_computes = kani::any();

@@ -2,8 +2,8 @@
 //! CAV that creeps along it, an object beside it or on its way.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::services::configuration::Configuration;
@@ -30,8 +30,8 @@ impl Given {
 pub const NOW_NS: i64 = 1_000_000_000;
 const OLD_NS: i64 = 800_000_000;
 
-const fn station(x: f64) -> Station {
-    Station { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] }
+const fn cross_section(x: f64) -> CrossSection {
+    CrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] }
 }
 
 const fn point(t_ns: i64, x: f64, y: f64) -> TrajectoryPoint {
@@ -47,7 +47,8 @@ const fn detection(x: f64, y: f64) -> Detection {
 }
 
 /// The road, 6 m wide.
-pub const STATIONS: [Station; 3] = [station(-40.0), station(0.0), station(80.0)];
+pub const CROSS_SECTIONS: [CrossSection; 3] =
+    [cross_section(-40.0), cross_section(0.0), cross_section(80.0)];
 /// Along the road at 2 m/s.
 pub const STRAIGHT: [TrajectoryPoint; 4] = [
     point(NOW_NS, 0.0, 0.0),
@@ -110,7 +111,7 @@ pub fn cycle(profile: Profile, configuration: Configuration, given: [Given; 5]) 
             let gap = if harmful { 1.0 } else { 100.0 };
             Lead { stamp_ns, gap, speed: 2.0 }
         }),
-        route: Route { closed: false, stations: &STATIONS },
+        route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: grid.map(|(stamp_ns, harmful)| Grid {
             stamp_ns,
             x: -20.0,

@@ -116,7 +116,7 @@ pub fn verify_index_changes_nothing() {
     let cycle = world.cycle(profile(), Configuration::AllRemote, &[Input::Trajectory]);
     let mut memory = [Block::default(); 2];
     let memory = &mut memory[..index(3)];
-    let fits = memory.len() >= Block::needed(cycle.route.stations.len());
+    let fits = memory.len() >= Block::needed(cycle.route.cross_sections.len());
     let answer = check(&cycle, &mut Scratch::new(&mut [], &mut []));
     let index = RouteIndex::new(cycle.route, memory);
     if let Ok(index) = &index {

@@ -1,8 +1,8 @@
 //! A cycle of arbitrary numbers, of small sizes.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::report::Input;
@@ -23,7 +23,7 @@ pub struct World {
     previous: [Track; TRACKS],
     detections: [Detection; DETECTIONS],
     points: [TrajectoryPoint; POINTS],
-    stations: [Station; ROUTE],
+    cross_sections: [CrossSection; ROUTE],
     occupied: [u8; GRID_BYTES],
     unknown: [u8; GRID_BYTES],
 }
@@ -36,7 +36,7 @@ impl World {
             previous: [(); TRACKS].map(|()| track()),
             detections: [(); DETECTIONS].map(|()| detection()),
             points: core::array::from_fn(point),
-            stations: core::array::from_fn(station),
+            cross_sections: core::array::from_fn(cross_section),
             occupied: [kani::any(), kani::any()],
             unknown: [kani::any(), kani::any()],
         }
@@ -71,7 +71,10 @@ impl World {
                 gap: near(0.0, 1e3),
                 speed: near(0.0, 60.0),
             }),
-            route: Route { closed: kani::any(), stations: &self.stations[..index(ROUTE + 1)] },
+            route: Route {
+                closed: kani::any(),
+                cross_sections: &self.cross_sections[..index(ROUTE + 1)],
+            },
             grid: given(holds, Input::Grid, || self.grid()),
             previous_tracks: given(holds, Input::Tracks, || list(&self.previous)),
         }
@@ -150,13 +153,13 @@ fn point(at: usize) -> TrajectoryPoint {
     TrajectoryPoint { t_ns, x: position(), y: position(), cos, sin }
 }
 
-/// Consecutive stations go on, or are anywhere.
-fn station(at: usize) -> Station {
+/// Consecutive cross sections go on, or are anywhere.
+fn cross_section(at: usize) -> CrossSection {
     const FIRST: [f64; ROUTE] = [-40.0, -5.0, 20.0];
     let x = near(FIRST[at], FIRST[at] + 20.0);
     let left = [near(x, x), near(3.0, FAR)];
     let right = [near(x, x), near(-FAR, -3.0)];
-    Station { x, y: near(-1.0, 1.0), left, right }
+    CrossSection { x, y: near(-1.0, 1.0), left, right }
 }
 
 fn ego() -> Ego {

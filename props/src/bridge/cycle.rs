@@ -2,8 +2,8 @@
 
 use mufasa::input::cycle as twin;
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -21,7 +21,7 @@ pub struct Owned {
     detections: Option<(i64, Vec<twin::Detection>)>,
     lead: Option<twin::Lead>,
     closed: bool,
-    stations: Vec<twin::Station>,
+    cross_sections: Vec<twin::CrossSection>,
     grid: Option<Grid>,
     previous_tracks: Option<(i64, Vec<twin::Track>)>,
 }
@@ -42,7 +42,7 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
         grid,
         previous_tracks,
     } = cycle;
-    let Route { closed, stations } = route;
+    let Route { closed, cross_sections } = route;
     Owned {
         profile: profile_to_impl(*profile),
         parameters: cycle_parameters(parameters),
@@ -58,7 +58,7 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
         }),
         lead: lead.as_ref().map(lead_to_impl),
         closed: *closed,
-        stations: stations.iter().map(station_to_impl).collect(),
+        cross_sections: cross_sections.iter().map(cross_section_to_impl).collect(),
         grid: grid.clone(),
         previous_tracks: previous_tracks.as_ref().map(tracks_to_impl),
     }
@@ -83,7 +83,7 @@ impl Owned {
                 .as_ref()
                 .map(|(stamp_ns, items)| twin::DetectionList { stamp_ns: *stamp_ns, items }),
             lead: self.lead,
-            route: twin::Route { closed: self.closed, stations: &self.stations },
+            route: twin::Route { closed: self.closed, cross_sections: &self.cross_sections },
             grid: self.grid.as_ref().map(borrow_grid),
             previous_tracks: self.previous_tracks.as_ref().map(borrow_tracks),
         }
@@ -181,9 +181,9 @@ fn lead_to_impl(lead: &Lead) -> twin::Lead {
     twin::Lead { stamp_ns, gap, speed }
 }
 
-fn station_to_impl(station: &Station) -> twin::Station {
-    let Station { x, y, left, right } = *station;
-    twin::Station { x, y, left, right }
+fn cross_section_to_impl(cross_section: &CrossSection) -> twin::CrossSection {
+    let CrossSection { x, y, left, right } = *cross_section;
+    twin::CrossSection { x, y, left, right }
 }
 
 fn borrow_tracks((stamp_ns, items): &(i64, Vec<twin::Track>)) -> twin::TrackList<'_> {

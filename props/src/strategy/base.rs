@@ -2,7 +2,7 @@
 //! threshold.
 
 use mufasa_model::input::cycle::{
-    Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Ego, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -125,16 +125,16 @@ pub fn straight(ego: &Ego, frame: Frame, now_ns: i64, parameters: &Parameters) -
 
 /// A straight road from 40 m behind to 120 m ahead of the frame.
 pub fn road(frame: Frame, half_width: f64) -> Route {
-    let stations = [-40.0, 0.0, 40.0, 120.0];
-    let stations = stations.map(|a| station(frame, a, 0.0, half_width));
-    Route { closed: false, stations: stations.to_vec() }
+    let cross_sections = [-40.0, 0.0, 40.0, 120.0];
+    let cross_sections = cross_sections.map(|a| cross_section(frame, a, 0.0, half_width));
+    Route { closed: false, cross_sections: cross_sections.to_vec() }
 }
 
-/// A station at (a, b) of the frame with boundaries `half_width` to both sides.
-pub fn station(frame: Frame, a: f64, b: f64, half_width: f64) -> Station {
+/// A cross section at (a, b) of the frame with boundaries `half_width` to both sides.
+pub fn cross_section(frame: Frame, a: f64, b: f64, half_width: f64) -> CrossSection {
     let (x, y) = frame.at(a, b);
     let (left, right) = (frame.at(a, b + half_width), frame.at(a, b - half_width));
-    Station { x, y, left: [left.0, left.1], right: [right.0, right.1] }
+    CrossSection { x, y, left: [left.0, left.1], right: [right.0, right.1] }
 }
 
 /// Seconds of a time in ns.

@@ -188,7 +188,7 @@ fn numbers(cycle: &mut Cycle) -> Vec<(&mut f64, Limits)> {
     if let Some(lead) = &mut cycle.lead {
         fields.extend([(&mut lead.gap, GAP), (&mut lead.speed, SPEED)]);
     }
-    for station in &mut cycle.route.stations {
+    for station in &mut cycle.route.cross_sections {
         fields.extend([(&mut station.x, POSITION), (&mut station.y, POSITION)]);
         fields.extend(station.left.iter_mut().map(|value| (value, POSITION)));
         fields.extend(station.right.iter_mut().map(|value| (value, POSITION)));
@@ -284,9 +284,11 @@ fn list(draw: &mut Draw<'_>, cycle: &mut Cycle) {
                 last.t_ns = before.t_ns - draw.pick(&[0, 1, -1]);
             }
         }
-        2 => cycle.route.stations.truncate(draw.pick(&[0, 1, 2])),
+        2 => cycle.route.cross_sections.truncate(draw.pick(&[0, 1, 2])),
         3 | 4 => {
-            let [first, second, .., last] = cycle.route.stations.as_mut_slice() else { return };
+            let [first, second, .., last] = cycle.route.cross_sections.as_mut_slice() else {
+                return;
+            };
             match draw.below(3) {
                 0 => (second.x, second.y) = (first.x, first.y),
                 1 => (last.x, last.y) = (first.x, first.y),
@@ -299,7 +301,7 @@ fn list(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         7 => cycle.tracks.iter_mut().for_each(|list| oversize(&mut list.items, 1024)),
         8 => cycle.detections.iter_mut().for_each(|list| oversize(&mut list.items, 2048)),
         9 => cycle.trajectory.iter_mut().for_each(|list| oversize(&mut list.points, 1024)),
-        10 => oversize(&mut cycle.route.stations, 8192),
+        10 => oversize(&mut cycle.route.cross_sections, 8192),
         _ => cycle.previous_tracks.iter_mut().for_each(|list| oversize(&mut list.items, 1024)),
     }
 }

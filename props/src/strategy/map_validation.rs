@@ -2,11 +2,11 @@
 //! and H-12 (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
 use mufasa_model::input::cycle::{
-    Cycle, DetectionList, Profile, Route, Station, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{self, Frame, seconds, station};
+use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
 use super::{end, obstacle};
 
@@ -39,7 +39,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 }
 
 /// Points near `theta_map` from the reference path of a corridor that does not reach so far,
-/// beside a segment, beside a station, or behind the end.
+/// beside a segment, beside a cross section, or behind the end.
 fn reference_distance(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let theta_map = cycle.parameters.theta_map;
     let half_width = draw.pick(&[0.5 * theta_map, theta_map, 0.01]);
@@ -64,13 +64,13 @@ fn reference_distance(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 /// triangles share.
 fn corridor_edge(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let half_width = draw.pick(&[1.0, 0.75, 3.0]);
-    let stations = [-40.0, -8.0, draw.pick(&[0.0, 1.0, 4.0]), 40.0, 120.0];
-    let stations = stations.map(|a| station(frame, a, 0.0, half_width));
-    cycle.route = Route { closed: false, stations: stations.to_vec() };
+    let cross_sections = [-40.0, -8.0, draw.pick(&[0.0, 1.0, 4.0]), 40.0, 120.0];
+    let cross_sections = cross_sections.map(|a| cross_section(frame, a, 0.0, half_width));
+    cycle.route = Route { closed: false, cross_sections: cross_sections.to_vec() };
     if draw.one_in(3) {
         // A left boundary that comes in: the edge of the corridor is no longer parallel.
         let (x, y) = frame.at(0.0, 0.4 * half_width);
-        cycle.route.stations[2].left = [x, y];
+        cycle.route.cross_sections[2].left = [x, y];
     }
     let side = draw.pick(&[1.0, -1.0]);
     let offset = side * draw.near(half_width);
@@ -81,7 +81,8 @@ fn corridor_edge(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         for point in &mut trajectory.points {
             let along = (point.x - first.0).hypot(point.y - first.1);
             let place = if diagonal {
-                let [r, l] = [cycle.route.stations[2].right, cycle.route.stations[3].left];
+                let [r, l] =
+                    [cycle.route.cross_sections[2].right, cycle.route.cross_sections[3].left];
                 let part = (along / 40.0).min(1.0);
                 let slope = (l[0] - r[0], l[1] - r[1]);
                 (r[0] + part * slope.0 - shift * frame.sin, r[1] + part * slope.1)
@@ -98,10 +99,10 @@ fn corridor_edge(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 }
 
 /// Takes away the triangle (left, right, right) of every pair by laying both left points of the
-/// first station on its right one: the diagonal becomes an outer edge.
+/// first cross section on its right one: the diagonal becomes an outer edge.
 fn cut_corridor(cycle: &mut Cycle) {
-    if let Some(station) = cycle.route.stations.get_mut(2) {
-        station.left = station.right;
+    if let Some(cross_section) = cycle.route.cross_sections.get_mut(2) {
+        cross_section.left = cross_section.right;
     }
 }
 
@@ -113,25 +114,25 @@ fn follow(cycle: &mut Cycle) {
 }
 
 /// Roads with corners, loops and boundaries that cross, and a trajectory of a few points near
-/// stations, boundaries and midpoints.
+/// cross sections, boundaries and midpoints.
 fn crooked_road(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     const CORNERS: [(f64, f64); 6] =
         [(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0), (-6.0, 4.0), (4.0, -6.0)];
     let n = draw.between(2, 6);
-    let mut stations: Vec<Station> = Vec::new();
+    let mut cross_sections: Vec<CrossSection> = Vec::new();
     for &(a, b) in CORNERS.iter().take(n) {
         let half = draw.pick(&[1.0, 0.5, 2.0]);
-        stations.push(station(frame, a, b, half));
+        cross_sections.push(cross_section(frame, a, b, half));
     }
     let closed = draw.one_in(2);
     if closed && draw.one_in(3) {
-        stations.push(stations[0].clone());
+        cross_sections.push(cross_sections[0].clone());
     }
     if draw.one_in(4) {
-        let station = &mut stations[1];
-        std::mem::swap(&mut station.left, &mut station.right);
+        let cross_section = &mut cross_sections[1];
+        std::mem::swap(&mut cross_section.left, &mut cross_section.right);
     }
-    cycle.route = Route { closed, stations };
+    cycle.route = Route { closed, cross_sections };
     for index in 0..draw.between(1, 3) {
         let place = road_place(draw, cycle);
         if let Some(point) = point_at(cycle, index) {
@@ -143,9 +144,9 @@ fn crooked_road(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 
 /// A place near an edge of the corridor, a corner of it, or `theta_map` beside the path.
 fn road_place(draw: &mut Draw<'_>, cycle: &Cycle) -> (f64, f64) {
-    let stations = &cycle.route.stations;
-    let from = draw.below(stations.len());
-    let (here, next) = (&stations[from], &stations[(from + 1) % stations.len()]);
+    let cross_sections = &cycle.route.cross_sections;
+    let from = draw.below(cross_sections.len());
+    let (here, next) = (&cross_sections[from], &cross_sections[(from + 1) % cross_sections.len()]);
     let edge = draw.below(5);
     let (a, b) = match edge {
         0 => (here.left, next.left),
@@ -202,10 +203,10 @@ fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
 fn direction(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let (a, b) = draw.pick(&[(3.0, 4.0), (4.0, 3.0), (0.0, 5.0), (-3.0, 4.0), (-4.0, -3.0)]);
     let side = draw.pick(&[1.0, -1.0]);
-    let ends = [station(frame, -5.0, 0.0, 8.0), station(frame, 0.0, 0.0, 8.0)];
-    let mut stations = ends.to_vec();
-    stations.push(station(frame, a, side * b, 8.0));
-    cycle.route = Route { closed: false, stations };
+    let ends = [cross_section(frame, -5.0, 0.0, 8.0), cross_section(frame, 0.0, 0.0, 8.0)];
+    let mut cross_sections = ends.to_vec();
+    cross_sections.push(cross_section(frame, a, side * b, 8.0));
+    cycle.route = Route { closed: false, cross_sections };
     cycle.ego.speed = 0.0;
     // Straight up, away from the turn: the corner is nearest, or both segments are.
     let up = -side * draw.pick(&[0.5, 1.0, 0.0, 2.0]);

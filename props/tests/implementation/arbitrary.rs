@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
@@ -103,9 +103,9 @@ impl Any<'_> {
         Detection { x, y, cos, sin, length, width }
     }
 
-    fn station(&mut self, s: f64) -> Station {
+    fn cross_section(&mut self, s: f64) -> CrossSection {
         let mut n = || self.number(-s, s);
-        Station { x: n(), y: n(), left: [n(), n()], right: [n(), n()] }
+        CrossSection { x: n(), y: n(), left: [n(), n()], right: [n(), n()] }
     }
 
     fn parameters(&mut self) -> Parameters {
@@ -220,7 +220,10 @@ pub fn cycle(tape: &[u32]) -> Cycle {
             gap: any.number(0.0, 1e6),
             speed: any.number(0.0, 150.0),
         }),
-        route: Route { closed: any.draw.below(2) == 0, stations: any.list(1, 7, Any::station, s) },
+        route: Route {
+            closed: any.draw.below(2) == 0,
+            cross_sections: any.list(1, 7, Any::cross_section, s),
+        },
         grid: any.maybe(|any| any.grid(now_ns, s)),
         previous_tracks: any.maybe(tracks),
     }

@@ -5,8 +5,8 @@ use std::thread;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{InvalidInput, Outcome, Problem};
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Station, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
+    TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::services::configuration::Configuration::{
     self, AllRemote, MotRemote, PlanRemote,
@@ -23,18 +23,18 @@ struct Counts {
     tracks: u16,
     detections: u16,
     points: u16,
-    stations: u16,
+    cross_sections: u16,
     columns: i64,
     rows: i64,
 }
 
 const SMALL: Counts =
-    Counts { tracks: 2, detections: 3, points: 90, stations: 3, columns: 64, rows: 64 };
+    Counts { tracks: 2, detections: 3, points: 90, cross_sections: 3, columns: 64, rows: 64 };
 const LARGE: Counts = Counts {
     tracks: 1024,
     detections: 2048,
     points: 1024,
-    stations: 8192,
+    cross_sections: 8192,
     columns: 1 << 15,
     rows: 1 << 9,
 };
@@ -56,10 +56,10 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
         let t_ns = i64::from(i) * 10_000_000;
         TrajectoryPoint { t_ns, x: 0.05 * f64::from(i), y: 0.0, cos: 1.0, sin: 0.0 }
     });
-    let step = 200.0 / f64::from(counts.stations - 1);
-    let stations = (0..counts.stations).map(|i| {
+    let step = 200.0 / f64::from(counts.cross_sections - 1);
+    let cross_sections = (0..counts.cross_sections).map(|i| {
         let x = step * f64::from(i) - 50.0;
-        Station { x, y: 0.0, left: [x, 4.0], right: [x, -4.0] }
+        CrossSection { x, y: 0.0, left: [x, 4.0], right: [x, -4.0] }
     });
     let cells = usize::try_from(counts.columns * counts.rows).expect("positive");
     let grid = Grid {
@@ -94,7 +94,7 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
         tracks: Some(TrackList { stamp_ns: 0, items: items.clone() }),
         detections: Some(DetectionList { stamp_ns: 0, items: detections.collect() }),
         lead: Some(Lead { stamp_ns: 0, gap: 500.0, speed: 5.0 }),
-        route: Route { closed: false, stations: stations.collect() },
+        route: Route { closed: false, cross_sections: cross_sections.collect() },
         grid: Some(grid),
         previous_tracks: Some(TrackList { stamp_ns: -50_000_000, items }),
     }

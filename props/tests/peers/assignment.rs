@@ -1,7 +1,7 @@
 //! Assignments: the model's search against scipy's, and stage i of both against its means.
 
 use mufasa_model::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Profile, Route, Station, Track, TrackList,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Profile, Route, Track, TrackList,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::numbers::assignment::{Costs, least_cost};
@@ -91,7 +91,7 @@ fn position_that_gates_all(tracks: &[(f64, f64)], detections: &[(f64, f64)]) -> 
 }
 
 fn cycle(position: (f64, f64), tracks: &[(f64, f64)], detections: &[(f64, f64)]) -> Cycle {
-    let station = |x| Station { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
+    let cross_section = |x| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
     let (cos, sin, length, width) = (1.0, 0.0, 4.5, 1.8);
     let track = |((x, y), id): (&(f64, f64), i64)| Track {
         id,
@@ -127,7 +127,10 @@ fn cycle(position: (f64, f64), tracks: &[(f64, f64)], detections: &[(f64, f64)])
             items: detections.iter().map(detection).collect(),
         }),
         lead: None,
-        route: Route { closed: false, stations: vec![station(0.0), station(10.0)] },
+        route: Route {
+            closed: false,
+            cross_sections: vec![cross_section(0.0), cross_section(10.0)],
+        },
         grid: None,
         previous_tracks: None,
     }

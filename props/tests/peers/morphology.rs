@@ -2,7 +2,7 @@
 //! cell centres exactly.
 
 use mufasa_model::input::cycle::{
-    Cycle, Ego, Grid, Profile, Route, Station, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Ego, Grid, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::Reading;
@@ -74,8 +74,11 @@ fn stand_in(cycle: &mut Cycle, column: usize, row: usize) {
     let (x, y) = (RESOLUTION * (column as f64 + 0.5), RESOLUTION * (row as f64 + 0.5));
     let point = TrajectoryPoint { t_ns: 0, x, y, cos: 1.0, sin: 0.0 };
     cycle.trajectory = Some(Trajectory { stamp_ns: 0, points: vec![point] });
-    let station = |x: f64| Station { x, y, left: [x, y + 1.0], right: [x, y - 1.0] };
-    cycle.route = Route { closed: false, stations: vec![station(x - 1.0), station(x + 1.0)] };
+    let cross_section = |x: f64| CrossSection { x, y, left: [x, y + 1.0], right: [x, y - 1.0] };
+    cycle.route = Route {
+        closed: false,
+        cross_sections: vec![cross_section(x - 1.0), cross_section(x + 1.0)],
+    };
 }
 
 /// The grid under a CAV with one disk of this radius: sides 3 k and 4 k, so the diagonal is 5 k.
@@ -112,7 +115,7 @@ fn cycle(occupied: &Table, radius_in_cells: f64) -> Cycle {
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations: Vec::new() },
+        route: Route { closed: false, cross_sections: Vec::new() },
         grid: Some(Grid {
             stamp_ns: 0,
             x: 0.0,

@@ -4,8 +4,8 @@ use mufasa_model::input::cycle::Track;
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 use crate::vectors::base::{
-    base, detection, detections, lead, move_point, point, points, road, station, straight, track,
-    tracks, turn, with,
+    base, cross_section, detection, detections, lead, move_point, point, points, road, straight,
+    track, tracks, turn, with,
 };
 use crate::vectors::book::Book;
 use crate::vectors::expected::{fails, fails_by, safe};
@@ -110,7 +110,8 @@ fn map(book: &mut Book) {
     witness(book, topic, ("", note), &fails_by("ii", "corridor"), |profile| {
         bare(profile, PlanRemote, |cycle| {
             cycle.tracks = Some(tracks(vec![]));
-            cycle.route.stations = vec![station(-100.0, 0.125), station(200.0, 0.125)];
+            cycle.route.cross_sections =
+                vec![cross_section(-100.0, 0.125), cross_section(200.0, 0.125)];
             move_point(cycle, 9, [9.0, 0.2]);
         })
     });
@@ -118,7 +119,8 @@ fn map(book: &mut Book) {
     witness(book, topic, ("footprint", note), &safe(), |profile| {
         bare(profile, PlanRemote, |cycle| {
             cycle.tracks = Some(tracks(vec![]));
-            cycle.route.stations = vec![station(-100.0, 0.5), station(200.0, 0.5)];
+            cycle.route.cross_sections =
+                vec![cross_section(-100.0, 0.5), cross_section(200.0, 0.5)];
         })
     });
     let topic = finding("findings/F-10", "F-10");

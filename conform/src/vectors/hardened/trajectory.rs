@@ -1,6 +1,6 @@
 //! H-07, H-11, H-12: where and when a trajectory starts, its steps, whether it can be driven.
 
-use mufasa_model::input::cycle::{Cycle, Route, Station};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Route};
 
 use crate::vectors::base::{TENTH, move_point, point, points, shift, straight, tracks, turn, with};
 use crate::vectors::book::{Book, Topic};
@@ -62,8 +62,8 @@ fn h_07(book: &mut Book) {
     };
     book.sides(H_07, &sides, |y| {
         plan(|cycle| {
-            for station in &mut cycle.route.stations {
-                (station.left[1], station.right[1]) = (0.125, -0.125);
+            for cross_section in &mut cycle.route.cross_sections {
+                (cross_section.left[1], cross_section.right[1]) = (0.125, -0.125);
             }
             move_point(cycle, 9, [9.0, y]);
         })
@@ -88,7 +88,7 @@ fn directions(book: &mut Book) {
         let expected = if is_allowed { safe() } else { fails_by("ii", "direction") };
         book.cycle(H_07, name, note, &cycle, &expected);
     }
-    let wide = |x: f64, y: f64| Station { x, y, left: [x, y + 50.0], right: [x, y - 50.0] };
+    let wide = |x: f64, y: f64| CrossSection { x, y, left: [x, y + 50.0], right: [x, y - 50.0] };
     for (name, at, cos, is_allowed) in [
         ("hairpin-forward", [0.0, 0.0], 1.0, true),
         ("hairpin-back", [0.0, 0.0], -1.0, true),
@@ -99,8 +99,8 @@ fn directions(book: &mut Book) {
         let cycle = plan(|cycle| {
             cycle.ego.speed = 0.0;
             cycle.trajectory = Some(straight(1, 1.0));
-            let stations = vec![wide(-20.0, 0.0), wide(0.0, 0.0), wide(-20.0, 1.0)];
-            cycle.route = Route { closed: false, stations };
+            let cross_sections = vec![wide(-20.0, 0.0), wide(0.0, 0.0), wide(-20.0, 1.0)];
+            cycle.route = Route { closed: false, cross_sections };
             move_point(cycle, 0, at);
             turn(cycle, cos, 0.0);
         });
@@ -115,9 +115,10 @@ fn directions(book: &mut Book) {
             cycle.trajectory = Some(straight(1, 1.0));
             let corners =
                 [(0.0, 0.0), (30.0, 0.0), (30.0, 20.0), (-30.0, 20.0), (-30.0, 0.0), (0.0, 0.0)];
-            let station = |(x, y): (f64, f64)| Station { x, y, left: [x, 50.0], right: [x, -50.0] };
-            let stations = corners.into_iter().map(station).collect();
-            cycle.route = Route { closed: true, stations };
+            let cross_section =
+                |(x, y): (f64, f64)| CrossSection { x, y, left: [x, 50.0], right: [x, -50.0] };
+            let cross_sections = corners.into_iter().map(cross_section).collect();
+            cycle.route = Route { closed: true, cross_sections };
             turn(cycle, cos, 0.0);
         });
         let expected = if is_allowed { safe() } else { fails_by("ii", "direction") };

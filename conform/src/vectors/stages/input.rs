@@ -49,11 +49,13 @@ const ALWAYS_LOCAL: [Spoilt; 48] = [
     ("lead.gap", None, |c| c.lead.iter_mut().for_each(|lead| lead.gap = -1e-300)),
     ("lead.speed", None, |c| c.lead.iter_mut().for_each(|lead| lead.speed = f64::NAN)),
     ("lead.stamp_ns", None, |c| c.lead.iter_mut().for_each(|lead| lead.stamp_ns = NOW + LONG)),
-    ("route.stations.y", Some(1), |c| c.route.stations[1].y = f64::NAN),
-    ("route.stations.left", Some(1), |c| c.route.stations[1].left[1] = f64::INFINITY),
-    ("route.stations.right", Some(0), |c| c.route.stations[0].right[0] = 1e9),
-    ("route.stations", None, |c| c.route.stations.truncate(1)),
-    ("route.stations.x", Some(1), |c| c.route.stations[1] = c.route.stations[0].clone()),
+    ("route.stations.y", Some(1), |c| c.route.cross_sections[1].y = f64::NAN),
+    ("route.stations.left", Some(1), |c| c.route.cross_sections[1].left[1] = f64::INFINITY),
+    ("route.stations.right", Some(0), |c| c.route.cross_sections[0].right[0] = 1e9),
+    ("route.stations", None, |c| c.route.cross_sections.truncate(1)),
+    ("route.stations.x", Some(1), |c| {
+        c.route.cross_sections[1] = c.route.cross_sections[0].clone()
+    }),
     ("grid.x", None, |c| c.grid.iter_mut().for_each(|grid| grid.x = f64::NAN)),
     ("grid.cos", None, |c| c.grid.iter_mut().for_each(|grid| grid.cos = 0.0)),
     ("grid.resolution", None, |c| c.grid.iter_mut().for_each(|grid| grid.resolution = 11.0)),
@@ -225,8 +227,8 @@ fn ends(book: &mut Book) {
     let note = "A closed route may end where it begins.";
     let cycle = with(whole(Profile::Paper, PlanRemote), |cycle| {
         cycle.route.closed = true;
-        let first = cycle.route.stations[0].clone();
-        cycle.route.stations.push(first);
+        let first = cycle.route.cross_sections[0].clone();
+        cycle.route.cross_sections.push(first);
     });
     book.cycle(DOMAIN, "closed-route", note, &cycle, &safe());
     for (name, count, expected) in
@@ -248,7 +250,7 @@ fn order(book: &mut Book) {
         ("parameters.n", None, |c| c.parameters.n = 0),
         ("ego.x", None, |c| c.ego.x = f64::NAN),
         ("lead.gap", None, |c| c.lead = lead(-1.0, 0.0)),
-        ("route.stations.x", Some(0), |c| c.route.stations[0].x = f64::NAN),
+        ("route.stations.x", Some(0), |c| c.route.cross_sections[0].x = f64::NAN),
         ("grid.x", None, |c| c.grid.iter_mut().for_each(|grid| grid.x = f64::NAN)),
         ALWAYS_LOCAL[40],
         ("previous_tracks.items.x", Some(0), |c| {

@@ -1,9 +1,9 @@
 //! `spec/3-stages.md#stage-ii-trajectory-to-map`
 
-use mufasa_model::input::cycle::{Cycle, Profile, Route, Station};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Route};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
-use crate::vectors::base::{base, move_point, station, tracks, with};
+use crate::vectors::base::{base, cross_section, move_point, tracks, with};
 use crate::vectors::book::{Book, Topic};
 use crate::vectors::edge::{Sides, above};
 use crate::vectors::expected::{fails_by, safe};
@@ -32,8 +32,8 @@ pub fn add(book: &mut Book) {
 }
 
 fn narrow(cycle: &mut Cycle) {
-    for station in &mut cycle.route.stations {
-        (station.left[1], station.right[1]) = (0.125, -0.125);
+    for cross_section in &mut cycle.route.cross_sections {
+        (cross_section.left[1], cross_section.right[1]) = (0.125, -0.125);
     }
 }
 
@@ -48,7 +48,8 @@ fn reference(book: &mut Book) {
     };
     book.sides(REFERENCE, &sides, |x| {
         with(stage_ii(Profile::Paper), |cycle| {
-            cycle.route.stations = vec![station(-100.0, 0.125), station(15.0, 0.125)];
+            cycle.route.cross_sections =
+                vec![cross_section(-100.0, 0.125), cross_section(15.0, 0.125)];
             cycle.parameters.theta_map = 5.0;
             move_point(cycle, 1, [x, 4.0]);
             if let Some(trajectory) = &mut cycle.trajectory {
@@ -57,22 +58,22 @@ fn reference(book: &mut Book) {
         })
     });
     for (name, closed) in [("closed", true), ("open", false)] {
-        let note = "The trajectory follows the segment from the last station to the first, which \
+        let note = "The trajectory follows the segment from the last cross_section to the first, which \
                     only a closed route has.";
         let cycle = with(stage_ii(Profile::Paper), |cycle| {
-            let corner = |x: f64, y: f64, d: f64| Station {
+            let corner = |x: f64, y: f64, d: f64| CrossSection {
                 x,
                 y,
                 left: [x - d, y - 1.0],
                 right: [x + d, y + 1.0],
             };
-            let stations = vec![
-                station(100.0, 1.0),
+            let cross_sections = vec![
+                cross_section(100.0, 1.0),
                 corner(100.0, 100.0, 1.0),
                 corner(-100.0, 100.0, -1.0),
-                station(-100.0, 1.0),
+                cross_section(-100.0, 1.0),
             ];
-            cycle.route = Route { closed, stations };
+            cycle.route = Route { closed, cross_sections };
         });
         let expected = if closed { safe() } else { fails_by("ii", "theta_map") };
         book.cycle(REFERENCE, &format!("{name}-route"), note, &cycle, &expected);
@@ -95,9 +96,9 @@ fn corridor(book: &mut Book) {
              ({x}, {y}).",
         );
         let cycle = with(stage_ii(Profile::Paper), |cycle| {
-            cycle.route.stations = vec![
-                Station { x: 0.0, y: 0.0, left: [0.0, 8.0], right: [0.0, -8.0] },
-                Station { x: 100.0, y: 0.0, left: [100.0, 8.0], right: [10.0, 2.0] },
+            cycle.route.cross_sections = vec![
+                CrossSection { x: 0.0, y: 0.0, left: [0.0, 8.0], right: [0.0, -8.0] },
+                CrossSection { x: 100.0, y: 0.0, left: [100.0, 8.0], right: [10.0, 2.0] },
             ];
             move_point(cycle, 20, [x, y]);
         });

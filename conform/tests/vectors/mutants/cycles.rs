@@ -164,17 +164,17 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
     sees!("center_offset backwards", |c| c.ego.center_offset = -c.ego.center_offset),
     sees!("routes open", |c| c.route.closed = false),
     sees!("routes closed", |c| c.route.closed = true),
-    sees!("corridor a millimetre narrower", |c| c.route.stations.iter_mut().for_each(|s| {
+    sees!("corridor a millimetre narrower", |c| c.route.cross_sections.iter_mut().for_each(|s| {
         (s.left[1], s.right[1]) = (s.left[1] - 1e-3, s.right[1] + 1e-3);
     })),
-    sees!("corridor ignored", |c| c.route.stations.iter_mut().for_each(|s| {
+    sees!("corridor ignored", |c| c.route.cross_sections.iter_mut().for_each(|s| {
         (s.left, s.right) = ([s.x, s.y], [s.x, s.y]);
     })),
-    sees!("corridor endless", |c| c.route.stations.iter_mut().for_each(|s| {
+    sees!("corridor endless", |c| c.route.cross_sections.iter_mut().for_each(|s| {
         (s.left[1], s.right[1]) = (s.y + 1e4, s.y - 1e4);
     })),
     sees!("left and right swapped", |c| {
-        c.route.stations.iter_mut().for_each(|s| std::mem::swap(&mut s.left, &mut s.right));
+        c.route.cross_sections.iter_mut().for_each(|s| std::mem::swap(&mut s.left, &mut s.right));
     }),
     sees!("CAV a centimetre larger", |c| stretch(c, 0.01)),
     sees!("CAV a centimetre smaller", |c| stretch(c, -0.01)),

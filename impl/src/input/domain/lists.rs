@@ -1,17 +1,17 @@
 //! Whole lists at a first look, and ids that may have been there before.
 
 use super::{HORIZON_NS, POSITION, SIZE, VELOCITY, elapsed_ns};
-use crate::input::cycle::{Detection, Station, Track, Trajectory, TrajectoryPoint};
+use crate::input::cycle::{CrossSection, Detection, Track, Trajectory, TrajectoryPoint};
 use crate::input::domain::screen::Screen;
 use crate::numbers::plane::same_point;
 
-/// Whether all stations are clearly valid; here and below the checks of single values decide, and
+/// Whether all cross sections are clearly valid; here and below the checks of single values decide, and
 /// say what is wrong, when it is not so.
-pub(super) fn stations_are_fine(stations: &[Station]) -> bool {
+pub(super) fn cross_sections_are_fine(cross_sections: &[CrossSection]) -> bool {
     let [_, most] = POSITION;
     let mut screen = Screen::default();
     let mut before = [f64::NAN; 2];
-    for &Station { x, y, left, right } in stations {
+    for &CrossSection { x, y, left, right } in cross_sections {
         [[x, y], left, right].into_iter().for_each(|place| screen.sizes(place, most));
         screen.holds(!same_point(before, [x, y]));
         before = [x, y];

@@ -3,7 +3,7 @@
 
 use core::cmp::Ordering;
 
-use crate::input::cycle::{Route, Station};
+use crate::input::cycle::{CrossSection, Route};
 use crate::input::route_index::{RouteIndex, candidates};
 use crate::numbers::exact::{certain_orientation, orientation};
 use crate::numbers::plane::{same_point, segment_distance};
@@ -48,7 +48,7 @@ impl<'c, 'a> Way<'c, 'a> {
         (!same_point(from, to)).then_some(Segment { index, from, to })
     }
 
-    /// Whether the point is in the corridor; exact. `hint`: the stations that the point may be
+    /// Whether the point is in the corridor; exact. `hint`: the cross sections that the point may be
     /// between, and where it was found.
     pub(crate) fn in_corridor(&self, q: [f64; 2], hint: &mut usize) -> bool {
         if let Some(at) = self.walk(q, *hint) {
@@ -134,10 +134,10 @@ impl<'c, 'a> Way<'c, 'a> {
         at
     }
 
-    /// From the stations of the hint forward while the point is beyond the next ones, in plain
+    /// From the cross sections of the hint forward while the point is beyond the next ones, in plain
     /// doubles; where it is certainly between.
     fn walk(&self, q: [f64; 2], hint: usize) -> Option<usize> {
-        let (mut start, mut rest) = self.route.stations.get(hint..)?.split_first()?;
+        let (mut start, mut rest) = self.route.cross_sections.get(hint..)?.split_first()?;
         for at in (hint..).take(STEPS) {
             let (end, after) = rest.split_first()?;
             if !is_beyond(end, q) {
@@ -148,17 +148,17 @@ impl<'c, 'a> Way<'c, 'a> {
         None
     }
 
-    /// How many pairs of consecutive stations there are, with the last and the first one of a
+    /// How many pairs of consecutive cross sections there are, with the last and the first one of a
     /// closed route.
     fn pairs(&self) -> usize {
-        self.route.stations.len().saturating_sub(usize::from(!self.route.closed))
+        self.route.cross_sections.len().saturating_sub(usize::from(!self.route.closed))
     }
 
-    fn pair(&self, index: usize) -> Option<(&'a Station, &'a Station)> {
-        let stations = self.route.stations;
-        let next = stations.get(index.saturating_add(1));
-        let next = next.or_else(|| stations.first().filter(|_| self.route.closed));
-        stations.get(index).zip(next)
+    fn pair(&self, index: usize) -> Option<(&'a CrossSection, &'a CrossSection)> {
+        let cross_sections = self.route.cross_sections;
+        let next = cross_sections.get(index.saturating_add(1));
+        let next = next.or_else(|| cross_sections.first().filter(|_| self.route.closed));
+        cross_sections.get(index).zip(next)
     }
 }
 
@@ -174,15 +174,15 @@ pub(crate) fn apart(segment: Segment, q: [f64; 2]) -> f64 {
 }
 
 /// Whether the point is in front of the line through the boundaries, up to rounding.
-fn is_beyond(station: &Station, [x, y]: [f64; 2]) -> bool {
-    let ([lx, ly], [rx, ry]) = (station.left, station.right);
+fn is_beyond(cross_section: &CrossSection, [x, y]: [f64; 2]) -> bool {
+    let ([lx, ly], [rx, ry]) = (cross_section.left, cross_section.right);
     (lx - rx) * (y - ry) < (ly - ry) * (x - rx)
 }
 
-/// Whether the point is certainly in one of the two triangles between the stations, when their
+/// Whether the point is certainly in one of the two triangles between the cross sections, when their
 /// corners turn left, as they do where left is left: the diagonal says in which of the two, and
 /// two sides are left.
-fn certainly_between(a: &Station, b: &Station, q: [f64; 2]) -> bool {
+fn certainly_between(a: &CrossSection, b: &CrossSection, q: [f64; 2]) -> bool {
     let diagonal = certain_orientation(a.left, b.right, q);
     if diagonal < 0.0 {
         certain_orientation(a.left, a.right, q) > 0.0

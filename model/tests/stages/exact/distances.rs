@@ -1,6 +1,6 @@
 //! Distances to the reference path, lengths of trajectories and the gap: in integers.
 
-use mufasa_model::input::cycle::{Profile, Route, Station, Trajectory};
+use mufasa_model::input::cycle::{CrossSection, Profile, Route, Trajectory};
 use mufasa_model::input::scene::Point;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::numbers::vector::{Frame, Vector};
@@ -56,11 +56,11 @@ fn a_point_is_too_far_from_the_reference_path_as_integers_say() {
         let metres = |quarters: i128| f64::from(i32::try_from(quarters).expect("small")) / 4.0;
         let mut cycle = base(Profile::Paper, PlanRemote);
         cycle.tracks = None;
-        let station = |[x, y]: [i128; 2]| {
+        let cross_section = |[x, y]: [i128; 2]| {
             let (x, y) = (metres(x), metres(y));
-            Station { x, y, left: [x, y], right: [x, y] }
+            CrossSection { x, y, left: [x, y], right: [x, y] }
         };
-        cycle.route = Route { closed: false, stations: path.map(station).into() };
+        cycle.route = Route { closed: false, cross_sections: path.map(cross_section).into() };
         let point = at_time(0, metres(p[0]), metres(p[1]));
         cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points: vec![point] });
         cycle.parameters.theta_map = metres(limit);

@@ -1,6 +1,6 @@
 //! A cycle with nothing in it, whose numbers may be holes: a hole stands for any number.
 
-use crate::input::cycle::{Cycle, Ego, Profile, Route, Station, Trajectory, TrajectoryPoint};
+use crate::input::cycle::{CrossSection, Cycle, Ego, Profile, Route, Trajectory, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
@@ -15,7 +15,7 @@ pub const NOW_NS: i64 = 0;
 /// The CAV at the origin along x, L = 4 m, W = 2 m, on a straight route, with a trajectory of the
 /// point that it is at, and nothing else.
 pub fn cycle(profile: Profile, configuration: Configuration) -> Cycle {
-    let station = |x: f64| Station { x, y: 0.0, left: [x, 5.0], right: [x, -5.0] };
+    let cross_section = |x: f64| CrossSection { x, y: 0.0, left: [x, 5.0], right: [x, -5.0] };
     Cycle {
         profile,
         parameters: Parameters::default(),
@@ -35,7 +35,10 @@ pub fn cycle(profile: Profile, configuration: Configuration) -> Cycle {
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations: vec![station(-50.0), station(150.0)] },
+        route: Route {
+            closed: false,
+            cross_sections: vec![cross_section(-50.0), cross_section(150.0)],
+        },
         grid: None,
         previous_tracks: None,
     }

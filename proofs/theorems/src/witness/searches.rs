@@ -3,7 +3,8 @@
 
 use super::Search;
 use crate::input::cycle::{
-    Cycle, Detection, DetectionList, Grid, Lead, Profile, Station, Track, TrackList, Trajectory,
+    CrossSection, Cycle, Detection, DetectionList, Grid, Lead, Profile, Track, TrackList,
+    Trajectory,
 };
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
@@ -100,8 +101,9 @@ pub const SEARCHES: [Search; 19] = [
             let mut cycle = bare(profile, PlanRemote);
             cycle.trajectory = Some(straight(&[0.0, 1.0]));
             cycle.trajectory.iter_mut().for_each(|list| list.points[1].y = hole("y"));
-            let station = |x: f64| Station { x, y: 0.0, left: [x, 0.125], right: [x, -0.125] };
-            cycle.route.stations = vec![station(-50.0), station(150.0)];
+            let cross_section =
+                |x: f64| CrossSection { x, y: 0.0, left: [x, 0.125], right: [x, -0.125] };
+            cycle.route.cross_sections = vec![cross_section(-50.0), cross_section(150.0)];
             cycle.tracks = Some(tracks(Vec::new()));
             cycle
         },

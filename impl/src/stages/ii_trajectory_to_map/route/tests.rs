@@ -1,11 +1,11 @@
 //! Borders and shared edges of the corridor, and the reference path.
 
 use super::{Segment, Way};
-use crate::input::cycle::{Route, Station};
+use crate::input::cycle::{CrossSection, Route};
 use crate::numbers::rounding::Real;
 
-fn station(x: f64, y: f64) -> Station {
-    Station { x, y, left: [x, y + 2.0], right: [x, y - 2.0] }
+fn cross_section(x: f64, y: f64) -> CrossSection {
+    CrossSection { x, y, left: [x, y + 2.0], right: [x, y - 2.0] }
 }
 
 fn in_corridor(route: &Route<'_>, q: [f64; 2]) -> bool {
@@ -20,13 +20,14 @@ fn path_distance(route: &Route<'_>, q: [f64; 2], hint: usize) -> (Real, usize) {
 }
 
 fn segments<'a>(route: &'a Route<'_>) -> impl Iterator<Item = Segment> + 'a {
-    (0..route.stations.len()).filter_map(|index| Way::new(route, None).segment(index))
+    (0..route.cross_sections.len()).filter_map(|index| Way::new(route, None).segment(index))
 }
 
 #[test]
 fn the_corridor_is_closed() {
-    let stations = [station(0.0, 0.0), station(3.0, 0.0), station(7.0, 1.0)];
-    let route = Route { closed: false, stations: &stations };
+    let cross_sections =
+        [cross_section(0.0, 0.0), cross_section(3.0, 0.0), cross_section(7.0, 1.0)];
+    let route = Route { closed: false, cross_sections: &cross_sections };
     let above = f64::from_bits(2.0_f64.to_bits() + 1);
     for inside in [[0.0, 2.0], [3.0, -2.0], [3.0, 0.0], [1.5, 0.0], [1.5, 2.0], [7.0, 3.0]] {
         assert!(in_corridor(&route, inside), "{inside:?}");
@@ -38,9 +39,9 @@ fn the_corridor_is_closed() {
 
 #[test]
 fn points_next_to_a_shared_edge_are_inside() {
-    let (a, b) = (station(1.1, 0.3), station(4.7, 1.9));
-    let stations = [a, b];
-    let route = Route { closed: false, stations: &stations };
+    let (a, b) = (cross_section(1.1, 0.3), cross_section(4.7, 1.9));
+    let cross_sections = [a, b];
+    let route = Route { closed: false, cross_sections: &cross_sections };
     // Along the diagonal from left_i to right_i+1, where no double is exactly on the edge.
     for step in 1..1000_u32 {
         let t = f64::from(step) / 1000.0;
@@ -55,30 +56,31 @@ fn points_next_to_a_shared_edge_are_inside() {
 
 #[test]
 fn a_triangle_without_area_is_its_segment() {
-    let (mut a, b) = (station(0.0, 0.0), station(4.0, 0.0));
+    let (mut a, b) = (cross_section(0.0, 0.0), cross_section(4.0, 0.0));
     (a.left, a.right) = ([0.0, 0.0], [0.0, 0.0]);
-    let flat = Station { left: [4.0, 0.0], right: [4.0, 0.0], ..b };
-    let stations = [a, flat];
-    let route = Route { closed: false, stations: &stations };
+    let flat = CrossSection { left: [4.0, 0.0], right: [4.0, 0.0], ..b };
+    let cross_sections = [a, flat];
+    let route = Route { closed: false, cross_sections: &cross_sections };
     assert!(in_corridor(&route, [1.0, 0.0]) && in_corridor(&route, [4.0, 0.0]));
     assert!(!in_corridor(&route, [5.0, 0.0]) && !in_corridor(&route, [1.0, 5e-324]));
 }
 
 #[test]
 fn a_closed_route_has_a_last_segment_unless_it_is_a_point() {
-    let open = [station(0.0, 0.0), station(4.0, 0.0), station(4.0, 3.0)];
-    let route = Route { closed: true, stations: &open };
+    let open = [cross_section(0.0, 0.0), cross_section(4.0, 0.0), cross_section(4.0, 3.0)];
+    let route = Route { closed: true, cross_sections: &open };
     assert_eq!(segments(&route).map(|segment| segment.index).max(), Some(2));
     assert!((path_distance(&route, [2.0, 1.5], 0).0.value()).abs() < 1e-15);
     let shut = [open[0], open[1], open[2], open[0]];
-    let route = Route { closed: true, stations: &shut };
+    let route = Route { closed: true, cross_sections: &shut };
     assert_eq!(segments(&route).count(), 3);
 }
 
 #[test]
 fn the_hint_does_not_change_the_distance() {
-    let stations: [Station; 20] = core::array::from_fn(|i| station(i as f64, (i * i) as f64 / 7.0));
-    let route = Route { closed: false, stations: &stations };
+    let cross_sections: [CrossSection; 20] =
+        core::array::from_fn(|i| cross_section(i as f64, (i * i) as f64 / 7.0));
+    let route = Route { closed: false, cross_sections: &cross_sections };
     for q in [[3.3, 1.0], [19.0, 60.0], [-4.0, 2.0], [9.5, 30.0]] {
         let (first, _) = path_distance(&route, q, 0);
         for hint in 0..19 {

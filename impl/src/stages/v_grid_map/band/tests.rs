@@ -42,7 +42,7 @@ fn cycle(random: &mut Random, grid: Grid<'static>) -> Cycle<'static> {
         tracks: None,
         detections: None,
         lead: None,
-        route: Route { closed: false, stations: &[] },
+        route: Route { closed: false, cross_sections: &[] },
         grid: Some(grid),
         previous_tracks: None,
     }
