@@ -1,6 +1,6 @@
 //! What each event does (`spec/2-offloading.md`).
 
-use super::event::{Action, Outbox};
+use super::event::{Action, Actions, Event, EventKind, Outbox};
 use super::slot::Slot;
 use super::{Requester, RequesterError};
 use crate::offloading::quality_of_service::{Arrivals, Element};
@@ -8,14 +8,49 @@ use crate::services::configuration::{Group, Groups};
 
 /// Whether the station hears that its session has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Farewell {
+enum Farewell {
     Release,
     Silent,
 }
 
 impl Requester<'_> {
+    /// Takes one event and says what has to be done about it, in this order.
+    ///
+    /// Errors: a station below 1; an offer that the table has no place for. Then nothing has
+    /// changed. Source: `spec/2-offloading.md`.
+    pub fn step(&mut self, event: &Event) -> Result<Actions, RequesterError> {
+        if let Some(station) = event.kind.station().filter(|&station| station < 1) {
+            return Err(RequesterError::Station { station });
+        }
+        let mut out = Outbox::default();
+        let now_ns = event.t_ns;
+        match event.kind {
+            EventKind::Offer { station, groups } => {
+                self.offer(station, groups, Farewell::Release, &mut out)?;
+            }
+            EventKind::Withdraw { station } => {
+                self.offer(station, Groups::NONE, Farewell::Release, &mut out)?;
+            }
+            EventKind::Lost { station } => {
+                self.offer(station, Groups::NONE, Farewell::Silent, &mut out)?;
+            }
+            EventKind::Area { groups } => self.set_area(groups, &mut out),
+            EventKind::Tick => self.tick(now_ns, &mut out),
+            EventKind::Confirm { station, group, session } => {
+                self.confirm(now_ns, station, group, session, &mut out);
+            }
+            EventKind::Reject { station, group, session } => self.reject(station, group, session),
+            EventKind::Data { station, group, session, generated_ns } => {
+                self.data(now_ns, (station, group, session), generated_ns, &mut out);
+            }
+            EventKind::Verdict { safe: true, groups } => self.safe(groups, &mut out),
+            EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
+        }
+        Ok(out.into_actions())
+    }
+
     /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.
-    pub(super) fn offer(
+    fn offer(
         &mut self,
         station: i64,
         groups: Groups,
@@ -35,7 +70,7 @@ impl Requester<'_> {
         Ok(())
     }
 
-    pub(super) fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
+    fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
         self.area = groups;
         for group in Group::ALL {
             if !groups.contains(group) {
@@ -45,7 +80,7 @@ impl Requester<'_> {
     }
 
     /// Overdue requests, then silent sessions, then new requests.
-    pub(super) fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
+    fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
         let mut returned = Groups::NONE;
         for group in Group::ALL {
             if self.is_overdue(group, now_ns) {
@@ -66,14 +101,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn confirm(
-        &mut self,
-        now_ns: i64,
-        station: i64,
-        group: Group,
-        session: i64,
-        out: &mut Outbox,
-    ) {
+    fn confirm(&mut self, now_ns: i64, station: i64, group: Group, session: i64, out: &mut Outbox) {
         let profile = self.profile;
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
@@ -92,7 +120,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn reject(&mut self, station: i64, group: Group, session: i64) {
+    fn reject(&mut self, station: i64, group: Group, session: i64) {
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
         if names_it && matches!(slot, Slot::Requested { .. }) {
@@ -100,7 +128,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn data(
+    fn data(
         &mut self,
         now_ns: i64,
         (station, group, session): (i64, Group, i64),
@@ -126,7 +154,7 @@ impl Requester<'_> {
 
     /// H-08: the first safe verdict that names a group after a used result stops its local
     /// services. In the paper profile they were stopped at the confirmation.
-    pub(super) fn safe(&mut self, groups: Groups, out: &mut Outbox) {
+    fn safe(&mut self, groups: Groups, out: &mut Outbox) {
         for group in Group::ALL {
             if let Slot::Remote { arrivals, local_computes, .. } = self.slots.get_mut(group) {
                 if groups.contains(group) && *local_computes && arrivals.has_used() {
@@ -137,7 +165,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
+    fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
         for group in Group::ALL {
             self.leave(group, Farewell::Release, out);
         }
