@@ -184,17 +184,16 @@ enum Scheduled {
 /// The table.
 fn scheduled(cycle: &Cycle<'_>, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    use Scheduled::{Always, Conditional, Never};
     match (stage, cycle.configuration) {
-        (Stage::V, PlanRemote) if grid_map_in_plan_remote(cycle) => Scheduled::Conditional,
-        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => {
-            Scheduled::Never
-        }
+        (Stage::V, PlanRemote) if grid_map_in_plan_remote(cycle) => Conditional,
+        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
         (Stage::I, MotRemote | AllRemote)
         | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
         | (Stage::Iii, PlanRemote)
-        | (Stage::V, MotRemote) => Scheduled::Always,
+        | (Stage::V, MotRemote) => Always,
         (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
-            Scheduled::Conditional
+            Conditional
         }
     }
 }

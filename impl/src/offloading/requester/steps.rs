@@ -8,7 +8,7 @@ use crate::services::configuration::{Group, Groups};
 
 /// Whether the station hears that its session has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Farewell {
+pub(super) enum Farewell {
     Release,
     Silent,
 }
@@ -50,7 +50,7 @@ impl Requester<'_> {
     }
 
     /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.
-    fn offer(
+    pub(super) fn offer(
         &mut self,
         station: i64,
         groups: Groups,
@@ -70,7 +70,7 @@ impl Requester<'_> {
         Ok(())
     }
 
-    fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
+    pub(super) fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
         self.area = groups;
         for group in Group::ALL {
             if !groups.contains(group) {
@@ -80,7 +80,7 @@ impl Requester<'_> {
     }
 
     /// Overdue requests, then silent sessions, then new requests.
-    fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
+    pub(super) fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
         let mut returned = Groups::NONE;
         for group in Group::ALL {
             if self.is_overdue(group, now_ns) {
@@ -101,7 +101,14 @@ impl Requester<'_> {
         }
     }
 
-    fn confirm(&mut self, now_ns: i64, station: i64, group: Group, session: i64, out: &mut Outbox) {
+    pub(super) fn confirm(
+        &mut self,
+        now_ns: i64,
+        station: i64,
+        group: Group,
+        session: i64,
+        out: &mut Outbox,
+    ) {
         let profile = self.profile;
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
@@ -120,7 +127,7 @@ impl Requester<'_> {
         }
     }
 
-    fn reject(&mut self, station: i64, group: Group, session: i64) {
+    pub(super) fn reject(&mut self, station: i64, group: Group, session: i64) {
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
         if names_it && matches!(slot, Slot::Requested { .. }) {
@@ -128,7 +135,7 @@ impl Requester<'_> {
         }
     }
 
-    fn data(
+    pub(super) fn data(
         &mut self,
         now_ns: i64,
         (station, group, session): (i64, Group, i64),
@@ -154,7 +161,7 @@ impl Requester<'_> {
 
     /// H-08: the first safe verdict that names a group after a used result stops its local
     /// services. In the paper profile they were stopped at the confirmation.
-    fn safe(&mut self, groups: Groups, out: &mut Outbox) {
+    pub(super) fn safe(&mut self, groups: Groups, out: &mut Outbox) {
         for group in Group::ALL {
             if let Slot::Remote { arrivals, local_computes, .. } = self.slots.get_mut(group) {
                 if groups.contains(group) && *local_computes && arrivals.has_used() {
@@ -165,7 +172,7 @@ impl Requester<'_> {
         }
     }
 
-    fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
+    pub(super) fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
         for group in Group::ALL {
             self.leave(group, Farewell::Release, out);
         }
