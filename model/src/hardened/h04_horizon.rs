@@ -33,7 +33,7 @@ pub fn ways(trajectory: &[Point]) -> Vec<Real> {
 
 /// The points with way <= max(s, s_stop), the next one, and the places beyond the end of a remote
 /// trajectory.
-pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
+pub fn points_to_s_stop(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
     let s_stop = s_stop_along(scene, trajectory);
     let horizon = s.max(&s_stop);
     let within = |way: &&Real| scene.reads.may_be_at_most(way, horizon);

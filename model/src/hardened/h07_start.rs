@@ -5,7 +5,8 @@ use crate::numbers::polyline::{Beside, Segment};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 
-/// `places` of the trajectory points beside the reference path; `is_inside` the corridor, by index.
+/// The trajectory does not start now and here, leaves the corridor, or heads against the route.
+/// `places` of its points beside the reference path; `is_inside` the corridor, by index.
 pub fn failure(
     scene: &Scene,
     trajectory: &[Point],
@@ -14,18 +15,28 @@ pub fn failure(
     is_inside: impl Fn(usize) -> bool,
 ) -> Option<Witness> {
     start_failure(scene, trajectory)
-        .or_else(|| {
-            let outside = (0..places.len()).find(|&i| !is_inside(i))?;
-            let Beside { distance, nearest, .. } = &places[outside];
-            let witness = Witness::new(Rule::Corridor, distance, &Real::zero()).at_point(outside);
-            Some(Witness { segment: Some(*nearest), ..witness })
-        })
-        .or_else(|| {
-            trajectory.iter().zip(places).enumerate().find_map(|(i, (point, place))| {
-                let witness = heading_failure(scene, point, path, place)?.at_point(i);
-                Some(Witness { segment: Some(place.nearest), ..witness })
-            })
-        })
+        .or_else(|| corridor_failure(places, is_inside))
+        .or_else(|| direction_failure(scene, trajectory, path, places))
+}
+
+/// Every point is inside the corridor, however near the reference path.
+fn corridor_failure(places: &[Beside], is_inside: impl Fn(usize) -> bool) -> Option<Witness> {
+    let i = (0..places.len()).find(|&i| !is_inside(i))?;
+    let witness = Witness::new(Rule::Corridor, &places[i].distance, &Real::zero());
+    Some(Witness { segment: Some(places[i].nearest), ..witness.at_point(i) })
+}
+
+/// Every point heads along the route.
+fn direction_failure(
+    scene: &Scene,
+    trajectory: &[Point],
+    path: &[Segment],
+    places: &[Beside],
+) -> Option<Witness> {
+    trajectory.iter().zip(places).enumerate().find_map(|(i, (point, place))| {
+        let witness = heading_failure(scene, point, path, place)?.at_point(i);
+        Some(Witness { segment: Some(place.nearest), ..witness })
+    })
 }
 
 /// heading . segment >= 0 for at least one nearest segment of the reference path.

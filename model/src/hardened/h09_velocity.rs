@@ -8,7 +8,7 @@ use crate::services::configuration::Configuration;
 use crate::stages::llcc::first_collision;
 
 /// abs(p - p_prev - v dt) <= theta_velocity dt for every track whose id the previous list holds.
-pub fn failure(scene: &Scene, tracks: &Tracks) -> Option<Witness> {
+pub fn velocity_failure(scene: &Scene, tracks: &Tracks) -> Option<Witness> {
     let (previous, dt) = previous_list(scene, tracks)?;
     tracks.items.iter().find_map(|track| {
         let before = previous.items.iter().find(|before| before.id == track.id)?;

@@ -6,7 +6,7 @@ use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
 /// Every step is one that a vehicle of this size can drive: the first rule of which some step fails.
-pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+pub fn step_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     const RULES: [fn(&Scene, &Step) -> Option<Witness>; 6] =
         [step_time, step_length, step_speed, step_forward, step_lateral, step_turn];
     let steps: Vec<Step> =

@@ -14,7 +14,7 @@ const LONGEST_NEEDED: i128 = 50;
 /// b(t) - start_tolerance <= way, s_stop - L <= last way,
 /// arc length <= v_hi t + a_max t^2 / 2 + start_tolerance, and last t >= min(v_lo / a_b, 50 s), where
 /// d = abs(now - t0), v_lo = max(v_now - a_max d, 0), v_hi = v_now + a_b d.
-pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+pub fn progress_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let p = &scene.parameters;
     let two = Real::from_integer(2);
     let t0 = i128::from(trajectory[0].t_ns);

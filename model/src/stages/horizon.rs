@@ -8,14 +8,14 @@ use crate::numbers::real::Real;
 
 /// The points that a stage with the horizon `s` examines: those whose arc length is <= s, and always
 /// the first.
-pub fn points_within(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
+pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
     match scene.profile {
         Profile::Paper => {
             let within = |length: &&Real| scene.reads.may_be_at_most(length, s);
             let count = arc_lengths(trajectory).iter().filter(within).count();
             trajectory[..count.max(1)].to_vec()
         }
-        Profile::Hardened => h04_horizon::points_examined(scene, trajectory, s),
+        Profile::Hardened => h04_horizon::points_to_s_stop(scene, trajectory, s),
     }
 }
 

@@ -23,7 +23,7 @@ pub fn track_validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -
     );
     match scene.profile {
         Profile::Paper => failure,
-        Profile::Hardened => failure.or_else(|| h09_velocity::failure(scene, tracks)),
+        Profile::Hardened => failure.or_else(|| h09_velocity::velocity_failure(scene, tracks)),
     }
 }
 

@@ -26,8 +26,8 @@ pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness>
         Profile::Paper => failure,
         Profile::Hardened => failure
             .or_else(|| h07_start::failure(scene, trajectory, &path, &places, is_inside))
-            .or_else(|| h11_steps::failure(scene, trajectory))
-            .or_else(|| h12_progress::failure(scene, trajectory)),
+            .or_else(|| h11_steps::step_failure(scene, trajectory))
+            .or_else(|| h12_progress::progress_failure(scene, trajectory)),
     }
 }
 

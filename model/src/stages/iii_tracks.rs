@@ -7,7 +7,7 @@ use crate::input::scene::{Object, Point, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_cav;
-use crate::stages::horizon::points_within;
+use crate::stages::horizon::points_examined;
 use crate::stages::llcc::first_collision;
 
 /// Compares the trajectory within s_CAV with the predicted tracks; `None` passes. `list_was_checked`:
@@ -19,7 +19,7 @@ pub fn trajectory_with_tracks(
     list_was_checked: bool,
 ) -> Option<Witness> {
     let s_cav = s_cav(&scene.parameters.safety_time, &scene.ego.v_now);
-    let points = points_within(scene, trajectory, &s_cav);
+    let points = points_examined(scene, trajectory, &s_cav);
     let predicted = |point: &Point, track: &Track| {
         let t_ns = i128::from(point.t_ns) - i128::from(tracks.stamp_ns);
         predicted(track, &Real::seconds(t_ns))

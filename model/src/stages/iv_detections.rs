@@ -4,7 +4,7 @@
 use crate::input::scene::{Object, Point, Scene};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::{s_follow, s_valid};
-use crate::stages::horizon::points_within;
+use crate::stages::horizon::points_examined;
 use crate::stages::llcc::first_collision;
 
 /// Compares the gap with s_follow, and the trajectory within s_valid with the detections, which are
@@ -18,7 +18,7 @@ pub fn trajectory_with_detections(
         let p = &scene.parameters;
         let v_lead = scene.lead.as_ref().map(|lead| &lead.speed);
         let s_valid = s_valid(&scene.ego.v_now, v_lead, &p.a_b, &p.safety_time);
-        let points = points_within(scene, trajectory, &s_valid);
+        let points = points_examined(scene, trajectory, &s_valid);
         let (i, j, collision) =
             first_collision(scene, &points, detections, |_, detection| detection.clone())?;
         let witness = Witness::new(Rule::Collision, &collision.distance, &collision.limit);

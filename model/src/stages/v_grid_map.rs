@@ -9,7 +9,7 @@ use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
-use crate::stages::horizon::points_within;
+use crate::stages::horizon::points_examined;
 use crate::stages::llcc::centre;
 
 /// Checks the centres of the disks that cover the footprint, at the trajectory points within s_b, in
@@ -23,7 +23,7 @@ pub fn trajectory_with_grid_map(
     let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
     let r = disk_radius(&ego.length, &ego.width, &n);
-    let points = points_within(scene, trajectory, &s_b);
+    let points = points_examined(scene, trajectory, &s_b);
     let disks: Vec<Vec<Vector>> = points.iter().map(|p| disk_centres(scene, grid, p)).collect();
     let first = |rule: Rule, collides: &dyn Fn(&Vector) -> Option<Hit>| {
         disks.iter().enumerate().find_map(|(i, disks)| {

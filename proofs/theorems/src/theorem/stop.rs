@@ -2,12 +2,13 @@
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
 //! theorems make an induction over cycles is written in `findings/F-04.md`.
 
-use crate::hardened::h04_horizon::{points_examined, s_stop, s_stop_along, ways};
+use crate::hardened::h04_horizon::{s_stop, s_stop_along, ways};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::services::configuration::Configuration;
 use crate::stages::distances::s_b;
+use crate::stages::horizon::points_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Mutant, Theorem, Wrong};
