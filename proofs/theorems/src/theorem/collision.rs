@@ -1,12 +1,13 @@
 //! Which objects the low-level collision check examines (H-03, F-03).
 
+use crate::hardened::h03_circumradii::circumradius;
 use crate::input::cycle::Profile;
 use crate::input::scene::Object;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, forget_of_what_roots_are, given, less};
 use crate::numbers::vector::{Frame, Vector};
 use crate::services::configuration::Configuration;
-use crate::stages::llcc::{circumradius, llcc};
+use crate::stages::llcc::llcc;
 use crate::theorem::base::{self, any_cav, home};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;
@@ -35,7 +36,7 @@ pub const THEOREMS: &[Theorem] = &[
             },
         },
         mutant: Mutant {
-            file: "model/src/stages/llcc.rs",
+            file: "model/src/hardened/h03_circumradii.rs",
             from: "(Real::from_integer(1) + Real::from_double(1e-6))",
             to: "(Real::from_integer(1) - Real::from_double(1e-6))",
         },
@@ -52,7 +53,7 @@ pub const THEOREMS: &[Theorem] = &[
             claim: paper_finds_a_lorry,
         },
         mutant: Mutant {
-            file: "model/src/stages/llcc.rs",
+            file: "model/src/hardened/h03_circumradii.rs",
             from: "+ circumradius(&object.length, &object.width)",
             to: "- circumradius(&object.length, &object.width)",
         },

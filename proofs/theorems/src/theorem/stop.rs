@@ -2,11 +2,13 @@
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
 //! theorems make an induction over cycles is written in `findings/F-04.md`.
 
+use crate::hardened::h04_horizon::{s_stop, s_stop_along, ways};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::services::configuration::Configuration;
-use crate::stages::distances::{points_examined, s_b, s_stop, scene_s_stop, ways};
+use crate::stages::distances::s_b;
+use crate::stages::horizon::points_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Mutant, Theorem, Wrong};
@@ -33,7 +35,7 @@ pub const THEOREMS: &[Theorem] = &[
             },
         },
         mutant: Mutant {
-            file: "model/src/stages/distances.rs",
+            file: "model/src/hardened/h04_horizon.rs",
             from: "+ s_b(&(v_now + a_max * tau), a_b)",
             to: "",
         },
@@ -58,7 +60,7 @@ pub const THEOREMS: &[Theorem] = &[
             },
         },
         mutant: Mutant {
-            file: "model/src/stages/distances.rs",
+            file: "model/src/hardened/h04_horizon.rs",
             from: "v_now * tau + a_max",
             to: "a_max",
         },
@@ -87,9 +89,9 @@ pub const THEOREMS: &[Theorem] = &[
             claim: || reach(Configuration::MotRemote),
         },
         mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "let count = within(ways(trajectory), &s.max(&s_stop).clone()) + 1;",
-            to: "let count = within(ways(trajectory), &s.max(&s_stop).clone());",
+            file: "model/src/hardened/h04_horizon.rs",
+            from: "count().max(1) + 1",
+            to: "count().max(1)",
         },
     },
 ];
@@ -155,7 +157,7 @@ fn reach(configuration: Configuration) -> Formula {
         point.pose.origin = vector(name);
         point
     });
-    let (arcs, s_stop) = (ways(&trajectory), scene_s_stop(&scene, &trajectory));
+    let (arcs, s_stop) = (ways(&trajectory), s_stop_along(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
     let examined = points_examined(&scene, &trajectory, &s);
