@@ -81,7 +81,7 @@ fn ghost_is_caught(factor: fn(i128) -> Real) -> Formula {
         Some(distance)
     });
     let bound = Real::from_integer(number(k)) * &theta_tr;
-    Formula::from(costs_less(&costs, columns, k, &bound).is_ok_and(|answer| !answer.less))
+    Formula::from(costs_less(&costs, k, &bound).is_ok_and(|answer| !answer.less))
 }
 
 fn ghost_hides(beyond: i128) -> Formula {
@@ -100,7 +100,7 @@ fn ghost_hides(beyond: i128) -> Formula {
         Some(other)
     });
     let bound = Real::from_integer(number(k)) * &theta_tr;
-    Formula::from(costs_less(&costs, k, k, &bound).is_ok_and(|answer| answer.less))
+    Formula::from(costs_less(&costs, k, &bound).is_ok_and(|answer| answer.less))
 }
 
 fn no_assignment(alone: bool) -> Formula {
@@ -109,5 +109,5 @@ fn no_assignment(alone: bool) -> Formula {
         let near = if row == 0 { !alone } else { coin() };
         near.then(|| distance(&format!("c {row} {column}")))
     });
-    Formula::from(costs_less(&costs, columns, k, &theta_tr()).is_err())
+    Formula::from(costs_less(&costs, k, &theta_tr()).is_err())
 }

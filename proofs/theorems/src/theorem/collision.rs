@@ -1,12 +1,13 @@
 //! Which objects the low-level collision check examines (H-03, F-03).
 
+use crate::hardened::h03_circumradii::circumradius;
 use crate::input::cycle::Profile;
 use crate::input::scene::Object;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, forget_of_what_roots_are, given, less};
 use crate::numbers::vector::{Frame, Vector};
 use crate::services::configuration::Configuration;
-use crate::stages::llcc::{circumradius, llcc};
+use crate::stages::llcc::llcc;
 use crate::theorem::base::{self, any_cav, home};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;

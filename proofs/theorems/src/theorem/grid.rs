@@ -1,11 +1,12 @@
 //! Stage v: disks, cells, and what the two ways to compare them can miss (H-06, F-08).
 
+use crate::numbers::cells::distance_to_cell;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{
     Formula, at_most, equal, forget_of_what_roots_are, given, less,
 };
 use crate::numbers::vector::Vector;
-use crate::stages::v_grid_map::{disk_offset, disk_radius, distance_to_cell};
+use crate::stages::v_grid_map::{disk_offset, disk_radius};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Theorem, Wrong};

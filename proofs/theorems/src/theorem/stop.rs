@@ -2,11 +2,13 @@
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
 //! theorems make an induction over cycles is written in `findings/F-04.md`.
 
+use crate::hardened::h04_horizon::{s_stop, s_stop_along, ways};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::services::configuration::Configuration;
-use crate::stages::distances::{points_examined, s_b, s_stop, scene_s_stop, ways};
+use crate::stages::distances::s_b;
+use crate::stages::horizon::points_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Theorem, Wrong};
@@ -135,7 +137,7 @@ fn reach(configuration: Configuration) -> Formula {
         point.pose.origin = vector(name);
         point
     });
-    let (arcs, s_stop) = (ways(&trajectory), scene_s_stop(&scene, &trajectory));
+    let (arcs, s_stop) = (ways(&trajectory), s_stop_along(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
     let examined = points_examined(&scene, &trajectory, &s);
