@@ -53,7 +53,11 @@ fn the_tables_of_the_page_are_those_of_a_run() {
     let worlds = Bounds::Small.worlds().iter().map(|world| world.name.to_owned());
     let laws = Law::ALL.iter().map(|law| law.name().replace('_', " "));
     for name in worlds.chain(laws) {
-        assert_eq!(rows(&tables, &name).len(), 2, "{name}: mufasa explore --into docs/exploration.md");
+        assert_eq!(
+            rows(&tables, &name).len(),
+            2,
+            "{name}: mufasa explore --into docs/exploration.md"
+        );
     }
     let today = Report::new(Profile::Paper, Bounds::Small, &honest()).markdown();
     // Up to the depth; what follows depends on the machine.

@@ -42,9 +42,9 @@ use crate::stages::v_grid_map::grid;
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells.
 ///
 /// Only stage i has a limit. The default of `work_limit`, 10^10, is above the most work there is,
-/// 1024^2 * 2112 = 2.2e9 steps: no verdict of the paper depends on it, and whoever has to be in
-/// time has to choose a smaller one (`docs/speed.md` has the time for a work). The other stages do
-/// what the sizes say: whoever has to be in time gives short lists, few disks and no tiny cells.
+/// 1024^2 * 2112 = 2.2e9 steps: no verdict of the paper depends on it. To bound the run time,
+/// choose a smaller one (`docs/speed.md` has the time for a work), and for the other stages, whose
+/// work follows from the sizes, limit the lists, the number of disks and of cells.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     decide(cycle, None, scratch)
 }
