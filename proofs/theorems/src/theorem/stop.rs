@@ -11,7 +11,7 @@ use crate::stages::distances::s_b;
 use crate::stages::horizon::points_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all e, speeds, tau, a_max >= 0, a_b > 0; standing objects; the CAV is e along the \
                       trajectory, which it follows";
@@ -34,11 +34,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&(&e + braking), &s_stop(&e, &v, &tau, &a_max, &a_b))
             },
         },
-        mutant: Mutant {
-            file: "model/src/hardened/h04_horizon.rs",
-            from: "+ s_b(&(v_now + a_max * tau), a_b)",
-            to: "",
-        },
     },
     Theorem {
         id: "until_the_next_cycle_the_stop_invariant_is_kept",
@@ -59,11 +54,6 @@ pub const THEOREMS: &[Theorem] = &[
                 kept(&vehicle, &t, &a)
             },
         },
-        mutant: Mutant {
-            file: "model/src/hardened/h04_horizon.rs",
-            from: "v_now * tau + a_max",
-            to: "a_max",
-        },
     },
     Theorem {
         id: "braking_keeps_the_stop_invariant",
@@ -71,11 +61,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: DOMAIN,
         claim: || braking(&Real::from_integer(1)),
         wrong: Wrong { statement: "braking at half of a_b", claim: || braking(&Real::ratio(1, 2)) },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(3) * a_b)",
-        },
     },
     Theorem {
         id: "the_places_examined_reach_s_stop",
@@ -87,11 +72,6 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "also along a local trajectory",
             claim: || reach(Configuration::MotRemote),
-        },
-        mutant: Mutant {
-            file: "model/src/hardened/h04_horizon.rs",
-            from: "count().max(1) + 1",
-            to: "count().max(1)",
         },
     },
 ];
