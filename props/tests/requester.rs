@@ -116,7 +116,7 @@ fn follow(trace: &Trace, seen: &mut Seen) -> Result<(), String> {
 fn a_full_table_is_an_error_and_changes_nothing() {
     let mut table = [implementation::StationRecord::FREE; 1];
     let parameters = bridge::parameters_to_impl(&Parameters::default());
-    let profile = mufasa::input::cycle::Profile::Hardened;
+    let profile = mufasa::input::profile::Profile::Hardened;
     let mut twin = implementation::Requester::new(profile, parameters, &mut table)
         .expect("the defaults are in the domain");
     let groups = mufasa_model::offloading::requester::Groups::ALL;

@@ -8,7 +8,7 @@ mod quality;
 use super::{
     Action, Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
 };
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 
 type TestResult = Result<(), RequesterError>;
 
