@@ -5,7 +5,8 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;

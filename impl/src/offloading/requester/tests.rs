@@ -5,7 +5,7 @@
 use super::{
     Action, Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
 };
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
 
 type TestResult = Result<(), RequesterError>;
