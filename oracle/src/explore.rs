@@ -202,7 +202,7 @@ fn explore(
     world: &'static World,
     profile: Profile,
     threads: usize,
-) -> Result<Outcome, Box<mufasa_exploration::refine::Difference>> {
+) -> Result<Outcome, Box<mufasa_props::refine::Difference>> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
         bar.set_style(style);
