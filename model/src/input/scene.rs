@@ -1,6 +1,8 @@
 //! A valid cycle in exact numbers, and the reading in which it is decided.
 
-use crate::input::cycle::{Cycle, Profile, Route, TrackList};
+use crate::input::cycle::{Cycle, Route, TrackList};
+use crate::input::parameters::Parameters;
+use crate::input::profile::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Reading;
@@ -42,28 +44,39 @@ pub struct Scene {
     pub previous_tracks: Option<Tracks>,
 }
 
-/// The parameters as exact numbers, under the names of `spec/3-stages.md`.
-#[derive(Debug)]
-#[expect(missing_docs, reason = "documented at `parameters::Parameters`")]
-pub struct Thresholds {
-    pub theta_tr: Real,
-    pub theta_map: Real,
-    pub theta_obj: Real,
-    pub a_b: Real,
-    pub safety_time: Real,
-    pub n: i64,
-    pub theta_track_max: Real,
-    pub miss_budget: i64,
-    pub tau: Real,
-    pub a_max: Real,
-    pub start_tolerance: Real,
-    pub v_max: Real,
-    pub max_age_ns: i64,
-    pub step_max_ns: i64,
-    pub theta_velocity: Real,
-    pub work_limit: i64,
-    pub delta: Real,
+macro_rules! exact_parameters {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        /// The parameters as exact numbers.
+        #[derive(Debug)]
+        pub struct Thresholds {
+            $($(#[$doc])* pub $name: exact!($number),)*
+        }
+
+        impl Thresholds {
+            fn new(parameters: &Parameters) -> Self {
+                Self { $($name: exact!($number, parameters.$name),)* }
+            }
+        }
+    };
 }
+
+/// The exact type of a parameter, and its value in it.
+macro_rules! exact {
+    (f64) => {
+        Real
+    };
+    (i64) => {
+        i64
+    };
+    (f64, $value:expr) => {
+        Real::from_double($value)
+    };
+    (i64, $value:expr) => {
+        $value
+    };
+}
+
+crate::parameters!(exact_parameters);
 
 /// The CAV.
 #[derive(Debug)]
@@ -192,7 +205,7 @@ impl Scene {
                 Reading::Strict => delta,
                 Reading::Lax => -delta,
             },
-            parameters: thresholds(cycle),
+            parameters: Thresholds::new(&cycle.parameters),
             now_ns: cycle.now_ns,
             ego: ego(cycle),
             trajectory: trajectory.map(|list| list.points.iter().map(point).collect()),
@@ -223,29 +236,6 @@ impl Scene {
 /// (`spec/4-arithmetic.md#domain`).
 fn is_stale(now_ns: i64, stamp_ns: i64) -> bool {
     i128::from(now_ns) - i128::from(stamp_ns) > 60_000_000_000
-}
-
-fn thresholds(cycle: &Cycle) -> Thresholds {
-    let parameters = &cycle.parameters;
-    Thresholds {
-        theta_tr: Real::from_double(parameters.theta_tr),
-        theta_map: Real::from_double(parameters.theta_map),
-        theta_obj: Real::from_double(parameters.theta_obj),
-        a_b: Real::from_double(parameters.a_b),
-        safety_time: Real::from_double(parameters.safety_time),
-        n: parameters.n,
-        theta_track_max: Real::from_double(parameters.theta_track_max),
-        miss_budget: parameters.miss_budget,
-        work_limit: parameters.work_limit,
-        tau: Real::from_double(parameters.tau),
-        a_max: Real::from_double(parameters.a_max),
-        start_tolerance: Real::from_double(parameters.start_tolerance),
-        v_max: Real::from_double(parameters.v_max),
-        max_age_ns: parameters.max_age_ns,
-        step_max_ns: parameters.step_max_ns,
-        theta_velocity: Real::from_double(parameters.theta_velocity),
-        delta: Real::from_double(parameters.delta),
-    }
 }
 
 fn ego(cycle: &Cycle) -> Ego {

@@ -1,6 +1,6 @@
 //! The distances that the stages look ahead (`spec/3-stages.md#distances`).
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Frame;

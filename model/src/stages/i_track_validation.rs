@@ -1,6 +1,6 @@
 //! Stage i: track validation (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Object, Scene, Track, Tracks};
 use crate::numbers::assignment::{Costs, costs_less};
 use crate::numbers::real::Real;

@@ -1,7 +1,7 @@
 //! Stage ii: trajectory to map (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07).
 
 use crate::hardened::trajectory_rules::{end_failure, start_failure, step_failure};
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Corridor, Point, Scene};
 use crate::numbers::polygon::{Triangle, contains_point, square, union_contains, union_meets};
 use crate::numbers::real::Real;

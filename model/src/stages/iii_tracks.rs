@@ -1,6 +1,6 @@
 //! Stage iii: trajectory with tracks (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-09).
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Object, Point, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};

@@ -1,6 +1,6 @@
 //! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, share_a_point};

@@ -9,8 +9,9 @@ pub mod llcc;
 pub mod readings;
 pub mod v_grid_map;
 
-use crate::input::cycle::{Cycle, Profile};
+use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
+use crate::input::profile::Profile;
 use crate::input::scene::Scene;
 use crate::report::{
     FailedStage, Input, InvalidInput, Outcome, Reading, Reason, Report, Stage, Witness,

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
