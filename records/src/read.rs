@@ -100,7 +100,7 @@ fn problem(path: &Path, error: &str) -> InvalidInput {
     // These three are errors of the object; which key is wrong stands in their text alone. A key
     // that no struct has ends the path already, one that another type of event has does not.
     let key_after = |start: &str| error.strip_prefix(start)?.split('`').next();
-    let is_at_key = matches!(path.iter().last(), Some(Segment::Map { .. }));
+    let is_at_key = matches!(path.iter().next_back(), Some(Segment::Map { .. }));
     let what = if let Some(key) = key_after("missing field `") {
         place.enter(key);
         String::from("is missing")

@@ -5,7 +5,7 @@ use mufasa_model::offloading::requester as protocol;
 use mufasa_model::report::InvalidInput;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::value::{Integer, Number};
 use super::{Recorded, from_object};
@@ -57,10 +57,7 @@ macro_rules! overrides {
                 let mut fields = vec![
                     $((stringify!($field), json!(self.$field), json!(usual.$field)),)*
                 ];
-                // As text, because 0.0 and -0.0 are equal.
-                fields.retain(|(_, value, usual)| {
-                    self.whole || value.to_string() != usual.to_string()
-                });
+                fields.retain(|(_, value, usual)| self.whole || differ(value, usual));
                 fields.sort_by_key(|(_, value, _)| value.is_i64() || value.is_boolean());
                 json.collect_map(fields.into_iter().map(|(name, value, _)| (name, value)))
             }
@@ -83,6 +80,12 @@ macro_rules! overrides {
             }
         }
     };
+}
+
+/// Whether two values are written differently: 0.0 and -0.0 are equal and do differ.
+fn differ(value: &Value, usual: &Value) -> bool {
+    let [value, usual] = [value, usual].map(Value::to_string);
+    value != usual
 }
 
 macro_rules! stage_parameters {
