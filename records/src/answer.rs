@@ -4,7 +4,7 @@ use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{
     FailedStage, Input, InvalidInput, Outcome, Reason, Report, Rule, Witness,
 };
-use mufasa_model::stages::readings::readings;
+use mufasa_model::stages::readings;
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -53,7 +53,8 @@ pub fn id(json: &str) -> Option<String> {
     serde_json::from_str(json).ok().map(|Name { id }| id)
 }
 
-fn typed<T: DeserializeOwned>(json: &str) -> Result<T, InvalidInput> {
+/// Reads a part of a record. Errors name the field below `json`.
+pub fn typed<T: DeserializeOwned>(json: &str) -> Result<T, InvalidInput> {
     serde_json::from_str(json).map_err(|error| {
         // The path costs time and is only needed when there is an error.
         let mut reader = serde_json::Deserializer::from_str(json);

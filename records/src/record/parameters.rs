@@ -1,14 +1,16 @@
 //! The parameters of records: defaults overridden by name (`spec/5-interfaces.md#cycle`).
 
+use mufasa_model::input::domain::check_parameters;
 use mufasa_model::input::parameters as stages;
 use mufasa_model::offloading::requester as protocol;
 use mufasa_model::report::InvalidInput;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::value::{Integer, Number};
 use super::{Recorded, from_object};
+use crate::read::typed;
 
 /// How a parameter of this type is written.
 macro_rules! written {
@@ -150,4 +152,19 @@ impl ProtocolParameters {
             }
         }
     }
+}
+
+/// The parameters of the stages and of the protocol that an object overrides by name. Errors: an
+/// unknown name, a value of the wrong type or outside its domain.
+pub fn settings(
+    object: Map<String, Value>,
+) -> Result<(stages::Parameters, protocol::Parameters), InvalidInput> {
+    let names = json!(ProtocolParameters { whole: true, ..ProtocolParameters::default() });
+    let is_protocol = |(name, _): &(String, Value)| names.get(name).is_some();
+    let (protocol, stages): (Map<_, _>, Map<_, _>) = object.into_iter().partition(is_protocol);
+    let protocol: ProtocolParameters = typed(&Value::Object(protocol).to_string())?;
+    let stages: StageParameters = typed(&Value::Object(stages).to_string())?;
+    let (stages, protocol) = (stages.into_model(), protocol.check()?);
+    check_parameters(&stages)?;
+    Ok((stages, protocol))
 }
