@@ -156,7 +156,7 @@ fn parameters_files_are_read_and_their_errors_name_the_line() {
     assert_eq!(code(&output), 1);
     assert!(stdout(&output).contains("wait until 0.2 s"), "{}", stdout(&output));
     for (text, problem) in [
-        ("\nspeed = 3", ":2: speed: is no parameter"),
+        ("\nspeed = 3", ":2: speed: is no field"),
         ("theta_tr = -1.0", ":1: theta_tr: "),
         ("t_wait_ns = 1.5", ":1: t_wait_ns: must be an integer"),
         ("= 3", ":1: is not TOML"),
@@ -361,48 +361,4 @@ fn help_is_no_error() {
         assert_eq!(code(&output), 0);
         assert!(!output.stdout.is_empty());
     }
-}
-
-#[test]
-fn without_arguments_the_demo_shows_what_it_should() {
-    let folder = folder("demo");
-    let output = Command::new(env!("CARGO_BIN_EXE_mufasa")).current_dir(&folder).output().unwrap();
-    let text = stdout(&output);
-    assert_eq!(code(&output), 0, "{text}{}", stderr(&output));
-    assert_eq!(stderr(&output), "");
-    let (hardened, paper) = text.split_once("PAPER PROFILE").unwrap();
-    for (attack, stage) in [("wrong-map", "ii"), ("empty-tracks", "iv"), ("ghost-tracks", "i")] {
-        let (_, told) = hardened.split_once(&format!("{attack}: from")).unwrap();
-        let verdict = told.lines().find(|line| line.starts_with("  caught at ")).unwrap();
-        assert!(verdict.contains(&format!(" by stage {stage}, ")), "{attack}: {verdict}");
-    }
-    assert!(hardened.contains("cycles safe, no fallback"));
-    assert!(paper.contains("empty-tracks: NOT caught") && paper.contains("F-14"));
-    assert!(text.lines().last().unwrap().contains("model and implementation agree"));
-    let pictures = text.lines().filter_map(|line| line.strip_prefix("picture: "));
-    let witnesses = pictures.map(|picture| {
-        let text = fs::read_to_string(folder.join(picture)).unwrap();
-        let document = Document::parse(&text).unwrap();
-        document.descendants().filter(|node| node.attribute("id") == Some("witness")).count()
-    });
-    let witnesses: Vec<_> = witnesses.collect();
-    assert!(witnesses.len() >= 3 && witnesses.iter().all(|count| *count == 1), "{witnesses:?}");
-    // The command that it names next works.
-    let (_, more) = text.split_once("more: mufasa ").unwrap();
-    let more = more.lines().next().unwrap().split(' ');
-    let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .args(more)
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    assert_eq!(code(&output), 1, "{}", stderr(&output));
-}
-
-#[test]
-fn a_demo_that_cannot_write_says_so() {
-    let folder = folder("demo-unwritable");
-    let file = write(&folder, "file", "");
-    let output = mufasa(["demo", "--out", &file]);
-    assert_eq!(code(&output), 2);
-    assert!(stderr(&output).contains(&file));
 }
