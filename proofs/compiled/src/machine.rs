@@ -15,7 +15,7 @@ use crate::term::{Op, Term, Terms};
 /// Calls in calls before the machine gives up.
 const CALLS: usize = 60;
 /// Time of a question that the run itself asks, ms.
-const QUESTION_MS: u64 = 20_000;
+const QUESTION_MS: u32 = 20_000;
 
 /// Where a value is drawn: calls, rounds of loops, and the instruction.
 pub type Place = Vec<u32>;

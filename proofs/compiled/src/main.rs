@@ -25,10 +25,10 @@ fn judge() -> Result<(), String> {
     let [file, export, seconds @ ..] = arguments.as_slice() else {
         return Err("usage: mufasa-compiled FILE.wasm EXPORT [SECONDS]".to_owned());
     };
-    let seconds: u64 =
+    let seconds: u32 =
         seconds.first().map_or(Ok(120), |text| text.parse()).map_err(|_| "seconds")?;
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
-    let found = prove(&Module::read(&bytes)?, export, seconds * 1000)?;
+    let found = prove(&Module::read(&bytes)?, export, seconds.saturating_mul(1000))?;
     match &found.verdict {
         Verdict::Proved => println!("proved"),
         Verdict::Refuted(place) => println!("refuted: {place}"),

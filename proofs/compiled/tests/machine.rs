@@ -2,7 +2,6 @@
 
 use mufasa_compiled::module::Module;
 use mufasa_compiled::prove::{END, Found, Verdict, prove};
-use mufasa_compiled::smt;
 
 /// The judgement on a body that may draw, assume and cover, with 64 bytes of memory in use.
 fn judge(body: &str) -> Found {
@@ -44,7 +43,7 @@ fn must(condition: &str) -> String {
 
 #[test]
 fn what_always_holds_is_proved_and_what_does_not_is_refuted() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -60,7 +59,7 @@ fn what_always_holds_is_proved_and_what_does_not_is_refuted() {
 
 #[test]
 fn a_number_below_a_limit_is_any_of_them() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -77,7 +76,7 @@ fn a_number_below_a_limit_is_any_of_them() {
 
 #[test]
 fn what_cannot_be_is_not_reached() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -94,7 +93,7 @@ fn what_cannot_be_is_not_reached() {
 
 #[test]
 fn branches_come_together_with_the_values_of_each() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -122,7 +121,7 @@ fn branches_come_together_with_the_values_of_each() {
 
 #[test]
 fn loops_end_where_they_do() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -145,7 +144,7 @@ fn loops_end_where_they_do() {
 /// So many rounds that the machine asks whether there is another one.
 #[test]
 fn a_long_loop_is_left_when_it_cannot_go_on() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -180,7 +179,7 @@ fn a_loop_without_end_is_no_proof() {
 
 #[test]
 fn memory_holds_what_was_stored_last() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -204,7 +203,7 @@ fn memory_holds_what_was_stored_last() {
 
 #[test]
 fn an_access_outside_of_memory_is_a_trap() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }

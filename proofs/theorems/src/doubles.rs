@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 pub use process::version;
 
 use crate::numbers::real::Real;
-use crate::numbers::real::program::{Operand, Operator, record};
+use crate::numbers::real::program::{Operand, Operator};
 use crate::prove::Verdict;
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
@@ -147,7 +147,7 @@ impl Range {
             lines.push(format!("(assert (fp.leq (number {least}) {name}))"));
             lines.push(format!("(assert (fp.leq {name} (number {most})))"));
         }
-        let program = record(self.formulas);
+        let program = Real::record(self.formulas);
         for step in &program.steps {
             let [a, b] = step.operands.each_ref().map(text);
             let result = match step.operator {

@@ -3,9 +3,10 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use mufasa_z3::{Answer, Effort, Solver, number};
+
 use crate::numbers::real::formula::{Formula, not};
 use crate::numbers::real::path;
-use crate::solver::{Answer, Effort, Solver};
 use crate::theorem::Theorem;
 
 /// For the claim on one path.
@@ -100,7 +101,11 @@ fn on_this_path(claim: &dyn Fn() -> Formula) -> Verdict {
     let assertion = path::with(|path| not(claim).text(path));
     match path::ask(&assertion, CLAIM) {
         Answer::Unsat => Verdict::Proved,
-        Answer::Sat(values) => Verdict::Refuted(values),
+        Answer::Sat(values) => {
+            let names = path::with(|path| path.names.clone());
+            let values = values.iter().map(|value| number(value));
+            Verdict::Refuted(names.into_iter().zip(values).collect())
+        }
         Answer::Unknown => Verdict::Unknown,
     }
 }

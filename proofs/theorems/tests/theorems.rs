@@ -3,13 +3,12 @@
 use std::collections::BTreeSet;
 
 use mufasa_theorems::prove::{Verdict, judge};
-use mufasa_theorems::solver;
 use mufasa_theorems::theorem;
 use mufasa_theorems::{doubles, gappa};
 
 #[test]
 fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }

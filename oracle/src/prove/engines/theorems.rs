@@ -4,7 +4,6 @@ use std::io;
 
 use indicatif::ProgressBar;
 use mufasa_theorems::prove::{self as solve, Judgement, Verdict as Found};
-use mufasa_theorems::solver;
 use mufasa_theorems::theorem::{self, Theorem};
 
 use super::side_by_side;
@@ -24,7 +23,7 @@ pub(super) fn claims() -> Vec<Line> {
 }
 
 pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         return Ok(claims);
     }
     let answers = side_by_side(&claims, |line| {
