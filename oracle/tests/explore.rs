@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use mufasa_exploration::bounds::Bounds;
-use mufasa_exploration::run::{self, Outcome};
+use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
 use mufasa_oracle::explore::findings;
 use mufasa_records::{self as json, Record};
@@ -17,7 +17,7 @@ fn kept(name: &str) -> String {
 }
 
 /// The world without an attacker, which is small, in the paper profile.
-fn honest() -> Vec<Outcome> {
+fn honest() -> Vec<WorldOutcome> {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
     vec![run::run(world, Profile::Paper, 0, |_| {}).unwrap()]
 }

@@ -11,7 +11,7 @@ use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_records::{self as json, Record};
 use mufasa_theorems::numbers::real::formula::Formula;
-use mufasa_theorems::prove::{Verdict, prove};
+use mufasa_theorems::prove::{Decision, prove};
 use mufasa_theorems::report::Reading as SymbolicReading;
 use mufasa_theorems::{stages as symbolic_schedule, theorem, witness};
 
@@ -128,7 +128,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
             Formula::from(failed.is_ok_and(|failed| format!("{failed:?}") == expected))
         });
         let proof = proof.expect("z3 answers");
-        assert_eq!(proof.verdict, Verdict::Proved, "{}", vector.id);
+        assert_eq!(proof.decision, Decision::Proved, "{}", vector.id);
         verdicts[usize::from(is_safe(&cycle))] += 1;
     }
     println!("{} unsafe, {} safe", verdicts[0], verdicts[1]);

@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{Verdict, prove};
+use mufasa_compiled::prove::{Trap, prove};
 
 /// The machine calls itself for blocks in blocks.
 const STACK_BYTES: usize = 1 << 30;
@@ -29,10 +29,10 @@ fn judge() -> Result<(), String> {
         seconds.first().map_or(Ok(120), |text| text.parse()).map_err(|_| "seconds")?;
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
     let found = prove(&Module::read(&bytes)?, export, seconds.saturating_mul(1000))?;
-    match &found.verdict {
-        Verdict::Proved => println!("proved"),
-        Verdict::Refuted(place) => println!("refuted: {place}"),
-        Verdict::Unknown(why) => println!("unknown: {why}"),
+    match &found.trap {
+        Trap::Never => println!("proved"),
+        Trap::At(place) => println!("refuted: {place}"),
+        Trap::Unknown(why) => println!("unknown: {why}"),
     }
     println!("reached: {:?}", found.reached);
     println!("{} instructions, {} terms, {} questions", found.steps, found.terms, found.questions);

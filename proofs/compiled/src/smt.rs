@@ -9,7 +9,7 @@ use crate::term::{Node, Op, Term, Terms};
 
 /// What z3 says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum Possible {
     /// Nothing makes it true.
     Never,
     /// These numbers of the variables do.
@@ -19,9 +19,9 @@ pub enum Answer {
 }
 
 /// Asks whether the truth value can be true, for at most `limit_ms`. Errors are those of running z3.
-pub fn ask(terms: &Terms, truth: Term, limit_ms: u32) -> io::Result<Answer> {
+pub fn ask(terms: &Terms, truth: Term, limit_ms: u32) -> io::Result<Possible> {
     if let Some(value) = terms.number(truth) {
-        return Ok(if value == 0 { Answer::Never } else { Answer::With(Vec::new()) });
+        return Ok(if value == 0 { Possible::Never } else { Possible::With(Vec::new()) });
     }
     let (script, variables) = script(terms, truth);
     let names: Vec<String> = variables.iter().map(|number| format!("v{number}")).collect();
@@ -31,11 +31,11 @@ pub fn ask(terms: &Terms, truth: Term, limit_ms: u32) -> io::Result<Answer> {
         return Err(error);
     }
     Ok(match answer {
-        mufasa_z3::Answer::Unsat => Answer::Never,
-        mufasa_z3::Answer::Unknown => Answer::Unknown,
+        mufasa_z3::Answer::Unsat => Possible::Never,
+        mufasa_z3::Answer::Unknown => Possible::Unknown,
         mufasa_z3::Answer::Sat(values) => {
             let values: io::Result<Vec<u64>> = values.iter().map(|line| value(line)).collect();
-            Answer::With(variables.into_iter().zip(values?).collect())
+            Possible::With(variables.into_iter().zip(values?).collect())
         }
     })
 }

@@ -1,7 +1,7 @@
 //! Small modules of which it is known what they do.
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{END, Found, Verdict, prove};
+use mufasa_compiled::prove::{END, Found, Trap, prove};
 
 /// The judgement on a body that may draw, assume and cover, with 64 bytes of memory in use.
 fn judge(body: &str) -> Found {
@@ -28,12 +28,12 @@ fn judge(body: &str) -> Found {
 
 fn assert_proved(body: &str) {
     let found = judge(body);
-    assert_eq!(found.verdict, Verdict::Proved, "{body}");
+    assert_eq!(found.trap, Trap::Never, "{body}");
     assert!(found.reached.contains(&END), "{body}");
 }
 
 fn assert_refuted(body: &str) {
-    assert!(matches!(judge(body).verdict, Verdict::Refuted(_)), "{body}");
+    assert!(matches!(judge(body).trap, Trap::At(_)), "{body}");
 }
 
 /// Traps unless the condition holds.
@@ -88,7 +88,7 @@ fn what_cannot_be_is_not_reached() {
         "(local.set $x (call $any)) (call $assume (i64.lt_u (local.get $x) (i64.const 9)))";
     assert_eq!(judge(&format!("{assumed} {small} {none}")).reached, [END, 7]);
     let nothing = judge("(call $assume (i32.const 0)) unreachable");
-    assert_eq!((nothing.verdict, nothing.reached), (Verdict::Proved, vec![]));
+    assert_eq!((nothing.trap, nothing.reached), (Trap::Never, vec![]));
 }
 
 #[test]

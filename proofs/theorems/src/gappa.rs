@@ -15,7 +15,7 @@ pub use bound::Bound;
 pub use process::version;
 
 use crate::numbers::real::Real;
-use crate::prove::Verdict;
+use crate::prove::Decision;
 use crate::stages::distances::{s_b, s_follow};
 use bound::Known;
 use script::Script;
@@ -83,12 +83,12 @@ fn a_b() -> Real {
 
 impl Bound {
     /// Proved, or not known: Gappa refutes nothing. The wrong bound must have no proof, or the
-    /// verdict is not known either. Errors are those of running Gappa.
-    pub fn judge(&self) -> io::Result<(Verdict, Duration)> {
+    /// decision is not known either. Errors are those of running Gappa.
+    pub fn judge(&self) -> io::Result<(Decision, Duration)> {
         let start = Instant::now();
         let is_proved = self.are_proved(self.limit)? && !self.are_proved(self.wrong)?;
-        let verdict = if is_proved { Verdict::Proved } else { Verdict::Unknown };
-        Ok((verdict, start.elapsed()))
+        let decision = if is_proved { Decision::Proved } else { Decision::Unknown };
+        Ok((decision, start.elapsed()))
     }
 
     /// The texts for Gappa that together claim this limit.
