@@ -14,11 +14,11 @@ use super::flight::{end_session, take, tidy};
 use super::moves::Move;
 use super::observer::{CavStep, Findings};
 use super::properties::{Property, Sight};
-use super::refine::Difference;
 use super::state::{Kind, Layout, Letter, Message, State};
 use super::station::{
     Order, StationEffect, StationLikeness, StationPart, StationStimulus, ToStation,
 };
+use mufasa_props::refine::Difference;
 
 /// The system of a world in a profile.
 #[derive(Debug)]

@@ -58,7 +58,7 @@ fn reference(book: &mut Book) {
         })
     });
     for (name, closed) in [("closed", true), ("open", false)] {
-        let note = "The trajectory follows the segment from the last cross_section to the first, which \
+        let note = "The trajectory follows the segment from the last cross section to the first, which \
                     only a closed route has.";
         let cycle = with(stage_ii(Profile::Paper), |cycle| {
             let corner = |x: f64, y: f64, d: f64| CrossSection {
