@@ -4,8 +4,9 @@ use mufasa_exploration::replay::{Episode, What};
 use mufasa_model::offloading::requester::Event;
 
 use mufasa_conform::vectors::book::{Input, Vector};
-use mufasa_conform::vectors::{flag, record};
+use mufasa_conform::vectors::flag;
 use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::record::offloading::Offloading;
 use mufasa_records::{Answer, Trace};
 
 /// The events of one CAV in a story.
@@ -30,7 +31,7 @@ pub fn of_trace(
         requirement,
         flag: flag::of_trace(trace),
         note: note.to_owned(),
-        input: Input::Record(record::of_trace(id, trace)?),
+        input: Input::Record(serde_json::to_string(&Offloading::whole(id, trace))?),
         expect: Answer::Offloading(OffloadingAnswer::run(id.to_owned(), trace)),
     })
 }
