@@ -7,7 +7,7 @@ use crate::random::Random;
 
 #[test]
 fn searches_find_what_a_look_at_every_cell_finds() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let mut found = 0;
     for _ in 0..3_000 {
         let most = [20, 150][random.below(2) as usize];
