@@ -11,10 +11,11 @@ use super::answer::{self, Said};
 use super::class::{Breach, Class, Kind, Scale};
 use super::damage::Damaged;
 use super::error::ConformError;
-use super::question::{Question, event_type};
+use super::question::Question;
 use super::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::record::offloading::event_type;
 use mufasa_records::{self as json, LineError, Trace, compose, names};
 
 /// Margin within which a disagreement counts as one at the threshold, m.

@@ -3,7 +3,8 @@
 //! A requirement is a line of `spec/` with a MUST in it. Its name is the file, the anchor of its
 //! heading and its place among the requirements under that heading, such as
 //! `spec/3-stages.md#distances.2`. The rules H-nn and the interpretations I-nn have names of their
-//! own. A test names them in its doc comment or in a comment beside it.
+//! own. A test names them in its doc comment or in a comment beside it; a vector names the one that it
+//! is of, and `conform/tests/vectors` holds model and implementation to every vector.
 //! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
 
 mod tree;
@@ -80,6 +81,22 @@ fn every_must_is_named_by_a_test() {
     for (path, text) in tree.ending(".rs").filter(|(path, _)| !path.ends_with("requirements.rs")) {
         if text.contains("#[test]") || text.contains("proptest!") {
             names_in(text).for_each(|name| named.entry(name).or_default().push(path));
+        }
+    }
+    for (path, text) in tree.ending(".jsonl").filter(|(path, _)| path.starts_with("vectors/")) {
+        for line in text.lines() {
+            let value = |key: &str| {
+                let (_, rest) = line.split_once(&format!("\"{key}\": \""))?;
+                rest.split('"').next()
+            };
+            // The flag of a vector that depends on an interpretation ends in the interpretation.
+            let flag = value("flag").and_then(|flag| flag.strip_prefix("interpretation "));
+            for name in [value("requirement"), flag].into_iter().flatten() {
+                let files = named.get(name);
+                if known.contains(name) && !files.is_some_and(|files| files.contains(&path)) {
+                    named.entry(name.to_owned()).or_default().push(path);
+                }
+            }
         }
     }
     let mut open = Vec::new();

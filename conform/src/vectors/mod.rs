@@ -6,7 +6,6 @@ pub mod book;
 pub mod edge;
 pub mod expected;
 pub mod flag;
-pub mod record;
 pub mod story;
 
 mod findings;
