@@ -12,6 +12,8 @@ use std::fmt::Write as _;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Report;
 
+pub use canvas::escape;
+
 use canvas::Canvas;
 use frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
 use legend::LEGEND_HEIGHT;
@@ -74,7 +76,7 @@ pub fn picture(scene: &Scene<'_>) -> String {
 
 fn document(frame: &Frame, title: &str, body: Canvas) -> String {
     let height = TITLE_HEIGHT + frame.height + LEGEND_HEIGHT;
-    let title = canvas::escape(title);
+    let title = escape(title);
     let (width, map_height) = (PAGE_WIDTH - 2.0 * MARGIN, frame.height);
     let mut out = String::new();
     let _ = write!(
