@@ -44,7 +44,7 @@ stroke-opacity:.75;paint-order:stroke}\
 .scale{fill:none;stroke:#1d2733;stroke-width:2}.arrow{fill:#1d2733}";
 
 /// A cycle that failed, with the words of its picture.
-pub struct Scene<'a> {
+pub struct Content<'a> {
     /// First line: drive, time, configuration, profile.
     pub title: String,
     /// Second line: stage, rule and the numbers compared.
@@ -57,8 +57,8 @@ pub struct Scene<'a> {
 
 /// The picture of a cycle as an SVG document: route, objects, trajectory, and the witness in a
 /// strong colour. Values that are not finite are left out.
-pub fn picture(scene: &Scene<'_>) -> String {
-    let Scene { cycle, report, .. } = scene;
+pub fn picture(content: &Content<'_>) -> String {
+    let Content { cycle, report, .. } = content;
     let (musts, wishes) = seen(cycle, report);
     let frame = Frame::new(cycle, &musts, &wishes);
     let mut map = Canvas::default();
@@ -69,9 +69,9 @@ pub fn picture(scene: &Scene<'_>) -> String {
     map.close();
     let size = [PAGE_WIDTH - 2.0 * MARGIN, frame.height];
     map.rect([MARGIN, TITLE_HEIGHT], size, "frame");
-    legend::title(&mut map, &scene.title, &scene.subtitle);
+    legend::title(&mut map, &content.title, &content.subtitle);
     legend::draw(&mut map, &frame, &drawn);
-    document(&frame, &scene.title, map)
+    document(&frame, &content.title, map)
 }
 
 fn document(frame: &Frame, title: &str, body: Canvas) -> String {
