@@ -187,7 +187,7 @@ mod tests {
     use mufasa_drives::check::judge::judge;
 
     fn demo() -> Drive {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../oracle/data/demo");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../drives/data/demo");
         let files = ["urban.xml", "urban.solution.xml"].map(|name| folder.join(name));
         let mut drives = mufasa_drives::read(&files, &Options::default());
         drives.remove(0).expect("the drive of the demo")

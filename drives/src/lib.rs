@@ -17,3 +17,9 @@ pub use drive::{Drive, DriveCycle, PreviousTracks};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};
 pub use readers::read;
+
+/// The drive of the demo, a `CommonRoad` scenario and its solution: names of the files and their text.
+pub const DEMO: [(&str, &str); 2] = [
+    ("urban.xml", include_str!("../data/demo/urban.xml")),
+    ("urban.solution.xml", include_str!("../data/demo/urban.solution.xml")),
+];

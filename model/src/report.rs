@@ -1,18 +1,9 @@
 //! What a cycle reports: verdict, outcome of every stage, witness
 //! (`spec/3-stages.md#schedule`, `spec/5-interfaces.md#cycle`).
 
-use crate::numbers::real::Real;
+pub use crate::numbers::reading::Reading;
 
-/// Which of the three models decides (`spec/4-arithmetic.md#strict-and-lax`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Reading {
-    /// The model itself: every comparison as written.
-    Exact,
-    /// Every margin towards rejection; what an implementation must accept.
-    Strict,
-    /// Every margin towards acceptance; information only.
-    Lax,
-}
+use crate::numbers::real::Real;
 
 /// The five stages in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -175,6 +166,17 @@ impl Witness {
             cell: None,
             compared: [left.to_f64(), right.to_f64()],
         }
+    }
+
+    /// The witness of a rule, unless a comparison of the two numbers passes it.
+    pub fn unless(passes: bool, rule: Rule, left: &Real, right: &Real) -> Option<Self> {
+        (!passes).then(|| Self::new(rule, left, right))
+    }
+
+    /// The same at a trajectory point.
+    #[must_use]
+    pub fn at_point(self, point: usize) -> Self {
+        Self { point: Some(point), ..self }
     }
 }
 

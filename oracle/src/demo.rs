@@ -11,18 +11,12 @@ use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::Hold;
 use mufasa_drives::check::table;
 use mufasa_drives::check::{self, Findings, complain, counted, pictures, report, words};
-use mufasa_drives::{self as drive, Attack, Drive, Injection, Options};
+use mufasa_drives::{self as drive, Attack, DEMO, Drive, Injection, Options};
 use mufasa_records::files;
 use mufasa_records::names;
 
 /// Where the demo puts its files unless it is told otherwise.
 pub const FOLDER: &str = "mufasa-demo";
-
-/// The drive: a scenario and its solution, with the names of their files.
-const FILES: [(&str, &str); 2] = [
-    ("urban.xml", include_str!("../data/demo/urban.xml")),
-    ("urban.solution.xml", include_str!("../data/demo/urban.solution.xml")),
-];
 
 /// Start of the attacks, s since the first cycle.
 const ATTACKED_FROM_S: f64 = 2.0;
@@ -97,8 +91,8 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
 fn prepare(folder: &Path) -> Result<[Drive; 2], String> {
     let cannot = |file: &Path, error| format!("{}: cannot be written: {error}", file.display());
     files::prepare(folder).map_err(|error| cannot(folder, error))?;
-    let paths = FILES.map(|(name, _)| folder.join(name));
-    for (path, (_, text)) in paths.iter().zip(FILES) {
+    let paths = DEMO.map(|(name, _)| folder.join(name));
+    for (path, (_, text)) in paths.iter().zip(DEMO) {
         files::write(path, text).map_err(|error| cannot(path, error))?;
     }
     let read = |profile| {
@@ -220,7 +214,7 @@ impl Demo<'_> {
         for picture in &findings.pictures {
             writeln!(out, "picture: {}", picture.display())?;
         }
-        let [scenario, solution] = FILES.map(|(name, _)| name);
+        let [scenario, solution] = DEMO.map(|(name, _)| name);
         writeln!(
             out,
             "more: mufasa check {folder}/{scenario} {folder}/{solution} --inject false-velocities@2..\n\n\

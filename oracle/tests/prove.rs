@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use mufasa_mutants::Engine;
 use mufasa_oracle::prove::{document, sources, tables};
 use mufasa_theorems::{gappa, theorem};
 
@@ -103,4 +104,15 @@ fn the_readme_has_a_row_for_every_claim() {
 #[test]
 fn a_name_of_nothing_is_bad_input() {
     assert_eq!(prove(&["no such name"], None, &folder("prove-none")).status.code(), Some(2));
+}
+
+#[test]
+fn every_mutant_refutes_claims_that_there_are() {
+    let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
+    for mutant in mufasa_mutants::all().expect("the list is read") {
+        let named = mutant.refutes.iter().filter(|(engine, _)| **engine != Engine::Gains);
+        for claim in named.flat_map(|(_, claims)| claims) {
+            assert!(claims.iter().any(|line| line.id == *claim), "{}: {claim}", mutant.change);
+        }
+    }
 }

@@ -1,5 +1,5 @@
 //! The laws run over complete finite domains of natively compiled code, which proves them of these
-//! domains. `laws.toml` beside `src` says what each claims, and names a mutation that it refuses.
+//! domains. `laws.toml` beside `src` says what each claims.
 
 pub mod requester;
 pub mod schedule;

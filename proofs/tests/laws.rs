@@ -1,8 +1,6 @@
-//! The laws over complete finite domains; and `proofs/laws.toml`, the laws and the sources say the
-//! same. `LAW=name cargo test -p mufasa-proofs --test laws` asks one law.
+//! The laws over complete finite domains; and `proofs/laws.toml` and the sources list the same. `LAW=name cargo test -p mufasa-proofs --test laws` asks one law.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use mufasa_proofs::exhaust::{TOPICS, Topic};
 use toml::{Table, Value};
@@ -29,17 +27,13 @@ fn every_law_holds_of_its_complete_domain() {
 }
 
 #[test]
-fn every_law_has_a_statement_and_a_mutation_that_fits() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("proofs/ is in the project");
-    let read = |file: &str| std::fs::read_to_string(root.join(file)).expect("a file");
-    let table: Table = read("proofs/laws.toml").parse().expect("TOML");
+fn every_law_has_a_statement() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/laws.toml");
+    let table: Table = std::fs::read_to_string(file).expect("a file").parse().expect("TOML");
     let mut listed = Vec::new();
     for law in table["law"].as_array().expect("a list") {
         let text = |key: &str| law.get(key).and_then(Value::as_str).expect("text").to_owned();
-        assert!(!text("statement").is_empty() && !text("change").is_empty());
-        let found = read(&text("file")).matches(&text("from")).count();
-        assert_eq!(found, 1, "{}: {} has changed", text("id"), text("file"));
-        assert_ne!(text("from"), text("to"));
+        assert!(!text("statement").is_empty());
         listed.push(text("id"));
     }
     let ids = |topic: &Topic| -> Vec<String> {

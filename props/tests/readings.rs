@@ -4,7 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::Reading;
 use mufasa_model::stages::check;
-use mufasa_model::stages::readings::readings;
+use mufasa_model::stages::readings;
 use mufasa_props::conformance::Answer;
 use mufasa_props::differential::{hold, near_threshold};
 use mufasa_props::strategy::whole;

@@ -2,7 +2,7 @@
 
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{InvalidInput, Outcome, Report, Witness};
-use mufasa_model::stages::readings::readings;
+use mufasa_model::stages::readings;
 use schemars::JsonSchema;
 use serde::Serialize;
 

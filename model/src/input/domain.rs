@@ -2,6 +2,7 @@
 //! (`spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`).
 
 use std::collections::HashSet;
+use std::fmt::Debug;
 use std::ops::RangeInclusive;
 
 use crate::input::cycle::{
@@ -76,6 +77,19 @@ pub fn first_problem(cycle: &Cycle) -> Option<Problem> {
     local().err().map(Problem::Local).or_else(|| remote().err().map(Problem::Remote))
 }
 
+/// The numbers of a record.
+trait Number: Copy + PartialOrd + Debug {
+    const NAME: &str;
+}
+
+impl Number for f64 {
+    const NAME: &str = "a number";
+}
+
+impl Number for i64 {
+    const NAME: &str = "an integer";
+}
+
 /// Where a value stands: dotted path and innermost index.
 #[derive(Clone, Copy)]
 struct At<'a> {
@@ -94,31 +108,19 @@ impl At<'_> {
         InvalidInput { field, index: self.index, message }
     }
 
-    fn number(
+    fn number<N: Number>(
         self,
         name: &str,
-        value: f64,
-        domain: &RangeInclusive<f64>,
+        value: N,
+        domain: &RangeInclusive<N>,
     ) -> Result<(), InvalidInput> {
         // NaN is in no range.
         if domain.contains(&value) {
             return Ok(());
         }
         let (least, most) = (domain.start(), domain.end());
-        Err(self.problem(name, format!("{value:?} is not a number from {least:?} to {most:?}")))
-    }
-
-    fn integer(
-        self,
-        name: &str,
-        value: i64,
-        domain: &RangeInclusive<i64>,
-    ) -> Result<(), InvalidInput> {
-        if domain.contains(&value) {
-            return Ok(());
-        }
-        let (least, most) = (domain.start(), domain.end());
-        Err(self.problem(name, format!("{value} is not an integer from {least} to {most}")))
+        let message = format!("{value:?} is not {} from {least:?} to {most:?}", N::NAME);
+        Err(self.problem(name, message))
     }
 
     fn position(self, x: f64, y: f64) -> Result<(), InvalidInput> {
@@ -158,31 +160,17 @@ impl At<'_> {
     }
 }
 
-fn check_parameters(parameters: &Parameters) -> Result<(), InvalidInput> {
-    let p = at("parameters", None);
-    let length = 1e-3..=1e3;
-    let acceleration = 0.1..=100.0;
-    let time = 0.0..=60.0;
-    let speed = f64::from_bits(1)..=1000.0;
-    let nanoseconds = 0..=60_000_000_000;
-    p.number("theta_tr", parameters.theta_tr, &length)?;
-    p.number("theta_map", parameters.theta_map, &length)?;
-    p.number("theta_obj", parameters.theta_obj, &length)?;
-    p.number("a_b", parameters.a_b, &acceleration)?;
-    p.number("safety_time", parameters.safety_time, &time)?;
-    p.integer("max_age_ns", parameters.max_age_ns, &nanoseconds)?;
-    p.integer("n", parameters.n, &(1..=64))?;
-    p.number("theta_track_max", parameters.theta_track_max, &length)?;
-    p.integer("miss_budget", parameters.miss_budget, &(0..=64))?;
-    p.number("tau", parameters.tau, &time)?;
-    p.number("a_max", parameters.a_max, &acceleration)?;
-    p.number("start_tolerance", parameters.start_tolerance, &length)?;
-    p.number("v_max", parameters.v_max, &speed)?;
-    p.integer("step_max_ns", parameters.step_max_ns, &nanoseconds)?;
-    p.number("theta_velocity", parameters.theta_velocity, &speed)?;
-    p.integer("work_limit", parameters.work_limit, &(0..=i64::MAX))?;
-    p.number("delta", parameters.delta, &(1e-8..=1e-2))
+macro_rules! parameters_in_domain {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        fn check_parameters(parameters: &Parameters) -> Result<(), InvalidInput> {
+            let p = at("parameters", None);
+            $(p.number(stringify!($name), parameters.$name, &($domain))?;)*
+            Ok(())
+        }
+    };
 }
+
+crate::parameters!(parameters_in_domain);
 
 fn check_ego(ego: &Ego) -> Result<(), InvalidInput> {
     let e = at("ego", None);
@@ -230,8 +218,8 @@ fn check_grid(grid: Option<&Grid>, now: i64) -> Result<(), InvalidInput> {
     g.position(grid.x, grid.y)?;
     g.direction(grid.cos, grid.sin)?;
     g.number("resolution", grid.resolution, &RESOLUTION)?;
-    g.integer("width", grid.width, &CELLS_A_SIDE)?;
-    g.integer("height", grid.height, &CELLS_A_SIDE)?;
+    g.number("width", grid.width, &CELLS_A_SIDE)?;
+    g.number("height", grid.height, &CELLS_A_SIDE)?;
     let cells = grid.width * grid.height;
     if cells > CELLS {
         return Err(g.problem("height", format!("{cells} cells, where {CELLS} are allowed")));

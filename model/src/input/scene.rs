@@ -1,9 +1,13 @@
 //! A valid cycle in exact numbers, and the reading in which it is decided.
 
-use crate::input::cycle::{Cycle, Profile, Route, TrackList};
+use crate::input::cycle::{self, Cycle, TrackList};
+use crate::input::parameters::Parameters;
+use crate::input::profile::Profile;
+use crate::numbers::cells::{self, Cell, Cells};
+use crate::numbers::reading::{Comparisons, Reading};
 use crate::numbers::real::Real;
+use crate::numbers::rectangle::Rectangle;
 use crate::numbers::vector::{Frame, Vector};
-use crate::report::Reading;
 use crate::services::configuration::Configuration;
 
 /// Everything that the stages look at. Lists that are missing or not current are `None`, except
@@ -14,10 +18,8 @@ pub struct Scene {
     pub profile: Profile,
     /// Configuration in force.
     pub configuration: Configuration,
-    /// Which of the three models decides.
-    pub reading: Reading,
-    /// Margin: +delta in the strict, -delta in the lax, 0 in the exact reading.
-    pub m: Real,
+    /// How numbers compare in the reading that decides.
+    pub reads: Comparisons,
     /// Exact parameters.
     pub parameters: Thresholds,
     /// Time of the decision, ns.
@@ -35,35 +37,46 @@ pub struct Scene {
     /// The current leading vehicle: gap in m, v_lead in m/s.
     pub lead: Option<Lead>,
     /// The route.
-    pub route: Corridor,
+    pub route: Route,
     /// The current grid map.
     pub grid: Option<Grid>,
     /// H-09: the last list that stage i passed in a safe cycle, not older than 60 s.
     pub previous_tracks: Option<Tracks>,
 }
 
-/// The parameters as exact numbers, under the names of `spec/3-stages.md`.
-#[derive(Debug)]
-#[expect(missing_docs, reason = "documented at `parameters::Parameters`")]
-pub struct Thresholds {
-    pub theta_tr: Real,
-    pub theta_map: Real,
-    pub theta_obj: Real,
-    pub a_b: Real,
-    pub safety_time: Real,
-    pub n: i64,
-    pub theta_track_max: Real,
-    pub miss_budget: i64,
-    pub tau: Real,
-    pub a_max: Real,
-    pub start_tolerance: Real,
-    pub v_max: Real,
-    pub max_age_ns: i64,
-    pub step_max_ns: i64,
-    pub theta_velocity: Real,
-    pub work_limit: i64,
-    pub delta: Real,
+macro_rules! exact_parameters {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        /// The parameters as exact numbers.
+        #[derive(Debug)]
+        pub struct Thresholds {
+            $($(#[$doc])* pub $name: exact!($number),)*
+        }
+
+        impl Thresholds {
+            fn new(parameters: &Parameters) -> Self {
+                Self { $($name: exact!($number, parameters.$name),)* }
+            }
+        }
+    };
 }
+
+/// The exact type of a parameter, and its value in it.
+macro_rules! exact {
+    (f64) => {
+        Real
+    };
+    (i64) => {
+        i64
+    };
+    (f64, $value:expr) => {
+        Real::from_double($value)
+    };
+    (i64, $value:expr) => {
+        $value
+    };
+}
+
+crate::parameters!(exact_parameters);
 
 /// The CAV.
 #[derive(Debug)]
@@ -131,7 +144,7 @@ pub struct Lead {
 
 /// A route in exact numbers.
 #[derive(Debug)]
-pub struct Corridor {
+pub struct Route {
     /// Reference points with left and right boundary points.
     pub cross_sections: Vec<[Vector; 3]>,
     /// The last cross section is followed by the first.
@@ -154,30 +167,48 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The cell is inside the array and occupied.
-    pub fn is_occupied(&self, column: i64, row: i64) -> bool {
-        self.bit(&self.occupied, column, row)
+    /// The cell is one of the array.
+    pub fn holds(&self, (column, row): Cell) -> bool {
+        (0..self.width).contains(&column) && (0..self.height).contains(&row)
     }
 
-    /// The cell is inside the array, unknown, and not occupied.
-    pub fn is_unknown(&self, column: i64, row: i64) -> bool {
-        let unknown = self.unknown.as_ref().is_some_and(|bitmap| self.bit(bitmap, column, row));
-        unknown && !self.is_occupied(column, row)
+    /// The cell is one of the array and occupied.
+    pub fn is_occupied(&self, cell: Cell) -> bool {
+        self.bit(&self.occupied, cell)
     }
 
-    fn bit(&self, bitmap: &[u8], column: i64, row: i64) -> bool {
-        if !(0..self.width).contains(&column) || !(0..self.height).contains(&row) {
-            return false;
-        }
+    /// The cell is one of the array, unknown, and not occupied.
+    pub fn is_unknown(&self, cell: Cell) -> bool {
+        let unknown = self.unknown.as_ref().is_some_and(|bitmap| self.bit(bitmap, cell));
+        unknown && !self.is_occupied(cell)
+    }
+
+    /// The cells of the array that are among these, by row and column.
+    pub fn cells(&self, [columns, rows]: Cells) -> impl Iterator<Item = Cell> {
+        cells::by_row([
+            (*columns.start()).max(0)..=(*columns.end()).min(self.width - 1),
+            (*rows.start()).max(0)..=(*rows.end()).min(self.height - 1),
+        ])
+    }
+
+    fn bit(&self, bitmap: &[u8], cell: Cell) -> bool {
+        let (column, row) = cell;
         let bit = row * self.width + column;
-        usize::try_from(bit / 8).is_ok_and(|byte| bitmap[byte] >> (bit % 8) & 1 == 1)
+        self.holds(cell)
+            && usize::try_from(bit / 8).is_ok_and(|byte| bitmap[byte] >> (bit % 8) & 1 == 1)
+    }
+}
+
+impl Object {
+    /// The rectangle of the object.
+    pub fn rectangle(&self) -> Rectangle {
+        Rectangle::new(self.frame.clone(), &self.length, &self.width)
     }
 }
 
 impl Scene {
     /// Takes the numbers of a valid cycle (`input::first_problem` found none) as exact.
     pub fn new(cycle: &Cycle, reading: Reading) -> Self {
-        let delta = Real::from_double(cycle.parameters.delta);
         let is_current = |stamp_ns: i64| {
             let age = i128::from(cycle.now_ns) - i128::from(stamp_ns);
             (0..=i128::from(cycle.parameters.max_age_ns)).contains(&age)
@@ -186,13 +217,8 @@ impl Scene {
         Self {
             profile: cycle.profile,
             configuration: cycle.configuration,
-            reading,
-            m: match reading {
-                Reading::Exact => Real::zero(),
-                Reading::Strict => delta,
-                Reading::Lax => -delta,
-            },
-            parameters: thresholds(cycle),
+            reads: Comparisons::new(reading, Real::from_double(cycle.parameters.delta)),
+            parameters: Thresholds::new(&cycle.parameters),
             now_ns: cycle.now_ns,
             ego: ego(cycle),
             trajectory: trajectory.map(|list| list.points.iter().map(point).collect()),
@@ -200,7 +226,7 @@ impl Scene {
             tracks_current: cycle.tracks.as_ref().is_some_and(|list| is_current(list.stamp_ns)),
             detections: cycle.detections.as_ref().filter(|list| is_current(list.stamp_ns)).map(
                 |list| {
-                    let object = |d: &crate::input::cycle::Detection| {
+                    let object = |d: &cycle::Detection| {
                         object([d.x, d.y], [d.cos, d.sin], [d.length, d.width])
                     };
                     list.items.iter().map(object).collect()
@@ -210,7 +236,7 @@ impl Scene {
                 gap: Real::from_double(lead.gap),
                 speed: Real::from_double(lead.speed),
             }),
-            route: corridor(&cycle.route),
+            route: route(&cycle.route),
             grid: cycle.grid.as_ref().filter(|grid| is_current(grid.stamp_ns)).map(grid),
             previous_tracks: (cycle.previous_tracks.as_ref())
                 .filter(|list| !is_stale(cycle.now_ns, list.stamp_ns))
@@ -223,29 +249,6 @@ impl Scene {
 /// (`spec/4-arithmetic.md#domain`).
 fn is_stale(now_ns: i64, stamp_ns: i64) -> bool {
     i128::from(now_ns) - i128::from(stamp_ns) > 60_000_000_000
-}
-
-fn thresholds(cycle: &Cycle) -> Thresholds {
-    let parameters = &cycle.parameters;
-    Thresholds {
-        theta_tr: Real::from_double(parameters.theta_tr),
-        theta_map: Real::from_double(parameters.theta_map),
-        theta_obj: Real::from_double(parameters.theta_obj),
-        a_b: Real::from_double(parameters.a_b),
-        safety_time: Real::from_double(parameters.safety_time),
-        n: parameters.n,
-        theta_track_max: Real::from_double(parameters.theta_track_max),
-        miss_budget: parameters.miss_budget,
-        work_limit: parameters.work_limit,
-        tau: Real::from_double(parameters.tau),
-        a_max: Real::from_double(parameters.a_max),
-        start_tolerance: Real::from_double(parameters.start_tolerance),
-        v_max: Real::from_double(parameters.v_max),
-        max_age_ns: parameters.max_age_ns,
-        step_max_ns: parameters.step_max_ns,
-        theta_velocity: Real::from_double(parameters.theta_velocity),
-        delta: Real::from_double(parameters.delta),
-    }
 }
 
 fn ego(cycle: &Cycle) -> Ego {
@@ -262,7 +265,7 @@ fn frame([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> Frame {
     Frame { origin: Vector::from_doubles(x, y), direction: Vector::from_doubles(cos, sin) }
 }
 
-fn point(point: &crate::input::cycle::TrajectoryPoint) -> Point {
+fn point(point: &cycle::TrajectoryPoint) -> Point {
     Point { t_ns: point.t_ns, pose: frame([point.x, point.y], [point.cos, point.sin]) }
 }
 
@@ -275,7 +278,7 @@ fn object(centre: [f64; 2], direction: [f64; 2], [length, width]: [f64; 2]) -> O
 }
 
 fn tracks(list: &TrackList) -> Tracks {
-    let track = |t: &crate::input::cycle::Track| Track {
+    let track = |t: &cycle::Track| Track {
         id: t.id,
         object: object([t.x, t.y], [t.cos, t.sin], [t.length, t.width]),
         velocity: Vector::from_doubles(t.vx, t.vy),
@@ -283,17 +286,17 @@ fn tracks(list: &TrackList) -> Tracks {
     Tracks { stamp_ns: list.stamp_ns, items: list.items.iter().map(track).collect() }
 }
 
-fn corridor(route: &Route) -> Corridor {
-    let cross_section = |s: &crate::input::cycle::CrossSection| {
+fn route(route: &cycle::Route) -> Route {
+    let cross_section = |s: &cycle::CrossSection| {
         [[s.x, s.y], s.left, s.right].map(|[x, y]| Vector::from_doubles(x, y))
     };
-    Corridor {
+    Route {
         cross_sections: route.cross_sections.iter().map(cross_section).collect(),
         closed: route.closed,
     }
 }
 
-fn grid(grid: &crate::input::cycle::Grid) -> Grid {
+fn grid(grid: &cycle::Grid) -> Grid {
     Grid {
         frame: frame([grid.x, grid.y], [grid.cos, grid.sin]),
         resolution: Real::from_double(grid.resolution),

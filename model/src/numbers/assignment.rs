@@ -1,12 +1,56 @@
-//! The assignment of least cost, with the witnesses that show that it is one
-//! (`spec/4-arithmetic.md#the-model-is-exact`).
+//! The assignment of least cost: what it is, and the search for it, with the witnesses that show that
+//! it found it (`spec/4-arithmetic.md#the-model-is-exact`).
 
 use std::ops::{Add, Sub};
 
+use crate::numbers::reading::Comparisons;
 use crate::numbers::real::Real;
 
 /// Costs of pairing row i with column j; `None` forbids the pair.
 pub type Costs = Vec<Vec<Option<Real>>>;
+
+/// The least cost of a one-to-one assignment of `pairs` rows to columns: the minimum over all of them,
+/// `None` without any. This is the definition; `least_cost` and `costs_less` search.
+pub fn minimum_over_assignments(costs: &[Vec<Option<Real>>], pairs: usize) -> Option<Real> {
+    fn least(rows: &[Vec<Option<Real>>], free: &[usize], pairs: usize) -> Option<Real> {
+        if pairs == 0 {
+            return Some(Real::zero());
+        }
+        let (row, rows) = rows.split_first()?;
+        let paired = free.iter().filter_map(|&column| {
+            let free: Vec<usize> = free.iter().copied().filter(|&other| other != column).collect();
+            Some(row[column].as_ref()? + least(rows, &free, pairs - 1)?)
+        });
+        paired.chain(least(rows, free, pairs)).min()
+    }
+    let columns: Vec<usize> = (0..costs.first().map_or(0, Vec::len)).collect();
+    least(costs, &columns, pairs)
+}
+
+/// Steps that an assignment of so many rows to so many columns takes: min^2 max.
+pub fn work(rows: usize, columns: usize) -> i128 {
+    let (least, most) = (rows.min(columns) as i128, rows.max(columns) as i128);
+    least * least * most
+}
+
+/// Whether the mean cost of the cheapest assignment of `pairs` pairs, at least one, is less than
+/// `theta`, in a reading. `cost` of the answer is the mean. `Err` is the largest number of pairs, when
+/// there are fewer.
+pub fn mean_less(
+    reads: &Comparisons,
+    costs: &Costs,
+    pairs: usize,
+    theta: &Real,
+) -> Result<Comparison, usize> {
+    let k = count(pairs);
+    let Comparison { less, cost } = costs_less(costs, pairs, &(&k * reads.lowered(theta)))?;
+    Ok(Comparison { less, cost: cost / k })
+}
+
+/// A number of things.
+pub fn count(things: usize) -> Real {
+    Real::from_integer(i128::try_from(things).unwrap_or(i128::MAX))
+}
 
 /// A one-to-one assignment of a given number of pairs and a proof that no other is cheaper.
 #[derive(Debug)]
@@ -43,8 +87,7 @@ impl Dual {
         });
         let rents = self.alpha.iter().chain(&self.beta);
         let solves = allowed && rents.clone().all(|rent| *rent >= zero);
-        let count = i128::try_from(pairs).unwrap_or(i128::MAX);
-        solves.then(|| Real::from_integer(count) * &self.lambda - rents.cloned().sum::<Real>())
+        solves.then(|| count(pairs) * &self.lambda - rents.cloned().sum::<Real>())
     }
 }
 
@@ -53,16 +96,11 @@ impl Dual {
 /// potentials whose bound is not less. Both are looked for in doubles; only when these do not
 /// settle it, because least cost and bound are closer than doubles are, in exact numbers. `Err` is
 /// the largest number of pairs, when there are fewer.
-pub fn costs_less(
-    costs: &Costs,
-    columns: usize,
-    pairs: usize,
-    bound: &Real,
-) -> Result<Comparison, usize> {
+pub fn costs_less(costs: &Costs, pairs: usize, bound: &Real) -> Result<Comparison, usize> {
     let doubles: Vec<Vec<Option<f64>>> = (costs.iter())
         .map(|row| row.iter().map(|cost| cost.as_ref().map(Real::near)).collect())
         .collect();
-    let found = Search::shortest_paths(&doubles, columns, pairs)?;
+    let found = Search::shortest_paths(&doubles, pairs)?;
     let cost = found.cost_in(costs);
     if cost < *bound {
         return Ok(Comparison { less: true, cost });
@@ -70,7 +108,7 @@ pub fn costs_less(
     if found.dual(costs).lower_bound(costs, pairs).is_some_and(|least| least >= *bound) {
         return Ok(Comparison { less: false, cost });
     }
-    let cost = least_cost(costs, columns, pairs)?.cost;
+    let cost = least_cost(costs, pairs)?.cost;
     Ok(Comparison { less: cost < *bound, cost })
 }
 
@@ -88,8 +126,8 @@ pub struct Comparison {
 ///
 /// # Panics
 /// If the potentials do not prove that the assignment is the cheapest.
-pub fn least_cost(costs: &Costs, columns: usize, pairs: usize) -> Result<Assignment, usize> {
-    let search = Search::shortest_paths(costs, columns, pairs)?;
+pub fn least_cost(costs: &Costs, pairs: usize) -> Result<Assignment, usize> {
+    let search = Search::shortest_paths(costs, pairs)?;
     let (cost, dual) = (search.cost_in(costs), search.dual(costs));
     let proves = dual.lower_bound(costs, pairs).is_some_and(|bound| bound >= cost);
     assert!(proves, "the potentials prove the assignment optimal");
@@ -142,11 +180,8 @@ struct Tree<N> {
 }
 
 impl<'a, N: Number> Search<'a, N> {
-    fn shortest_paths(
-        costs: &'a [Vec<Option<N>>],
-        columns: usize,
-        pairs: usize,
-    ) -> Result<Self, usize> {
+    fn shortest_paths(costs: &'a [Vec<Option<N>>], pairs: usize) -> Result<Self, usize> {
+        let columns = costs.first().map_or(0, Vec::len);
         let mut search = Self {
             costs,
             u: vec![N::zero(); costs.len()],
@@ -275,37 +310,8 @@ fn nearest<N: Number>(tree: &Tree<N>) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Costs, costs_less, least_cost};
+    use super::{Costs, costs_less, least_cost, minimum_over_assignments};
     use crate::numbers::real::Real;
-
-    /// A minimum over assignments, written as a minimum over assignments.
-    fn by_enumeration(
-        costs: &Costs,
-        row: usize,
-        used: &mut Vec<bool>,
-        pairs: usize,
-    ) -> Option<Real> {
-        if pairs == 0 {
-            return Some(Real::zero());
-        }
-        if row == costs.len() {
-            return None;
-        }
-        let mut best = by_enumeration(costs, row + 1, used, pairs);
-        for column in 0..used.len() {
-            let Some(cost) = costs[row][column].as_ref().filter(|_| !used[column]) else {
-                continue;
-            };
-            used[column] = true;
-            let rest = by_enumeration(costs, row + 1, used, pairs - 1);
-            used[column] = false;
-            if let Some(rest) = rest {
-                let total = cost + rest;
-                best = Some(best.map_or(total.clone(), |best| best.min(total)));
-            }
-        }
-        best
-    }
 
     #[test]
     fn least_cost_is_the_minimum_over_all_assignments() {
@@ -330,15 +336,14 @@ mod tests {
                 })
                 .collect();
             for pairs in 0..=rows.min(columns) {
-                let expected = by_enumeration(&costs, 0, &mut vec![false; columns], pairs);
-                match (least_cost(&costs, columns, pairs), expected) {
+                let expected = minimum_over_assignments(&costs, pairs);
+                match (least_cost(&costs, pairs), expected) {
                     (Ok(found), Some(expected)) => {
                         assert_eq!(found.cost, expected);
                         // On the least cost, where doubles cannot tell, and beside it.
                         let tiny = Real::from_double(1e-30);
-                        let less = |bound: Real| {
-                            costs_less(&costs, columns, pairs, &bound).expect("feasible").less
-                        };
+                        let less =
+                            |bound: Real| costs_less(&costs, pairs, &bound).expect("feasible").less;
                         assert!(!less(expected.clone()) && !less(&expected - &tiny));
                         assert!(less(&expected + &tiny) && less(expected + Real::from_integer(1)));
                         feasible += 1;

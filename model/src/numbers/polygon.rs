@@ -1,11 +1,23 @@
 //! Triangles and small squares, exactly: whether a union of triangles contains a square, or meets
 //! it (`spec/4-arithmetic.md#strict-and-lax`).
 
+use crate::numbers::reading::{Comparisons, Reading};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 
 /// A closed triangle, possibly degenerate.
 pub type Triangle = [Vector; 3];
+
+/// The point lies in the union of the triangles; strictly, all of the square of half side delta
+/// around it does; laxly, some point of that square.
+pub fn is_in_union(reads: &Comparisons, triangles: &[Triangle], point: &Vector) -> bool {
+    let square = || square(point, &reads.delta);
+    match reads.reading {
+        Reading::Exact => triangles.iter().any(|triangle| contains_point(triangle, point)),
+        Reading::Strict => union_contains(triangles, &square()),
+        Reading::Lax => union_meets(triangles, &square()),
+    }
+}
 
 /// The axis-parallel closed square around a point, counterclockwise.
 pub fn square(centre: &Vector, half_side: &Real) -> [Vector; 4] {

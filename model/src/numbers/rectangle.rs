@@ -1,5 +1,6 @@
 //! Closed rectangles (`spec/3-stages.md#low-level-collision-check-llcc`).
 
+use crate::numbers::reading::Comparisons;
 use crate::numbers::real::Real;
 use crate::numbers::vector::{Frame, Vector};
 
@@ -16,6 +17,12 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// The rectangle of this length and width, m.
+    pub fn new(frame: Frame, length: &Real, width: &Real) -> Self {
+        let two = Real::from_integer(2);
+        Self { frame, half_length: length / &two, half_width: width / &two }
+    }
+
     fn is_empty(&self) -> bool {
         self.half_length < Real::zero() || self.half_width < Real::zero()
     }
@@ -25,6 +32,17 @@ impl Rectangle {
         let corner = |a: &Real, b: &Real| self.frame.point(a, b);
         [corner(l, w), corner(&-l, w), corner(&-l, &-w), corner(l, &-w)]
     }
+}
+
+/// The rectangles share a point, or nearly so: half length and half width of the first are raised by
+/// the margin.
+pub fn may_share_a_point(reads: &Comparisons, a: &Rectangle, b: &Rectangle) -> bool {
+    let raised = Rectangle {
+        frame: a.frame.clone(),
+        half_length: reads.raised(&a.half_length),
+        half_width: reads.raised(&a.half_width),
+    };
+    share_a_point(&raised, b)
 }
 
 /// The rectangles share a point: no axis parallel to a side of one of them separates their

@@ -39,6 +39,11 @@ impl Vector {
         self.squared().sqrt()
     }
 
+    /// Euclidean distance of two points.
+    pub fn distance(&self, other: &Self) -> Real {
+        (self - other).length()
+    }
+
     /// `factor` times the vector.
     #[must_use]
     pub fn scaled(&self, factor: &Real) -> Self {

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::offloading::requester::Group;
+use crate::services::configuration::Group;
 
 /// Default lease, ns. `spec/2-offloading.md`.
 pub const DEFAULT_LEASE_NS: i64 = 1_000_000_000;

@@ -2,7 +2,7 @@
 //!
 //! Times are ns on the CAV's clock; differences are exact, hence 128 bits.
 
-use crate::offloading::requester::Parameters;
+use crate::offloading::requester::parameters::Parameters;
 
 /// l = arrival time - generation time, ns. `spec/2-offloading.md#quality-of-service`.
 pub fn latency_ns(arrival_ns: i64, generated_ns: i64) -> i128 {

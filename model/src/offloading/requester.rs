@@ -4,14 +4,17 @@
 
 mod inspect;
 mod messages;
+pub(crate) mod parameters;
 mod state;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use messages::{Action, Event, EventKind, Group, GroupState, Groups, Parameters};
+pub use crate::services::configuration::{Group, Groups};
+pub use messages::{Action, Event, EventKind, GroupState};
+pub use parameters::Parameters;
 pub use state::Session;
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::offloading::quality_of_service;
 use crate::services::configuration::{Configuration, Source};
 use state::{Count, Use};

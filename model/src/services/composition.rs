@@ -5,8 +5,20 @@
 
 use std::collections::BTreeSet;
 
-use crate::services::orchestrator::Task;
-use crate::services::service::{CAV, ServiceSet};
+use crate::services::service::{CAV, Service, ServiceSet};
+
+/// What to compose.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Task {
+    /// The available services.
+    pub services: Vec<Service>,
+    /// Id of the service that everything else is there for.
+    pub goal: String,
+    /// Lists of ids; the members of a composition that one list names run on one station.
+    pub same_station: Vec<Vec<String>>,
+    /// Ids; members of a composition named here run on station 0.
+    pub local_only: Vec<String>,
+}
 
 /// A chosen provider of one requirement of one consumer.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

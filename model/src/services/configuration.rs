@@ -1,6 +1,58 @@
 //! Which groups of services run where (`spec/1-services.md#configuration`, paper Table I).
 
-use crate::offloading::requester::{Group, Groups};
+/// Services that move together. `spec/1-services.md#configuration`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Group {
+    /// Multi-object tracking.
+    Mot,
+    /// Environment model and trajectory planning.
+    Plan,
+}
+
+impl Group {
+    /// Both groups in the order in which they are handled.
+    pub const ALL: [Self; 2] = [Self::Mot, Self::Plan];
+}
+
+/// A set of groups.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Groups {
+    /// Whether MOT is in the set.
+    pub mot: bool,
+    /// Whether PLAN is in the set.
+    pub plan: bool,
+}
+
+impl Groups {
+    /// No group.
+    pub const NONE: Self = Self { mot: false, plan: false };
+    /// Both groups.
+    pub const ALL: Self = Self { mot: true, plan: true };
+
+    /// Whether the group is in the set.
+    pub fn contains(self, group: Group) -> bool {
+        match group {
+            Group::Mot => self.mot,
+            Group::Plan => self.plan,
+        }
+    }
+
+    /// Adds the group.
+    pub fn insert(&mut self, group: Group) {
+        match group {
+            Group::Mot => self.mot = true,
+            Group::Plan => self.plan = true,
+        }
+    }
+}
+
+impl FromIterator<Group> for Groups {
+    fn from_iter<I: IntoIterator<Item = Group>>(groups: I) -> Self {
+        let mut set = Self::NONE;
+        groups.into_iter().for_each(|group| set.insert(group));
+        set
+    }
+}
 
 /// The four configurations of a CAV.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

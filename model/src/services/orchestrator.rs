@@ -8,6 +8,8 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
+pub use crate::services::composition::Task;
+
 use crate::services::composition::{
     Composition, Link, is_acyclic, keeps_local_only, keeps_same_station,
 };
@@ -15,19 +17,6 @@ use crate::services::service::{Service, ServiceError, ServiceSet};
 
 /// More closed choices than this are an error.
 pub const MAX_CLOSED_CHOICES: usize = 10_000;
-
-/// What to compose.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Task {
-    /// The available services.
-    pub services: Vec<Service>,
-    /// Id of the service that everything else is there for.
-    pub goal: String,
-    /// Lists of ids; the members of a composition that one list names run on one station.
-    pub same_station: Vec<Vec<String>>,
-    /// Ids; members of a composition named here run on station 0.
-    pub local_only: Vec<String>,
-}
 
 /// Every composition, sorted by members, then links; `none` says why there is none.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

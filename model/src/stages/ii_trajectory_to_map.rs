@@ -1,135 +1,52 @@
-//! Stage ii: trajectory to map (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07).
+//! Stage ii: paper Sec. IV-C, "Trajectory to Map Validation"
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12).
 
-use crate::hardened::trajectory_rules::{end_failure, start_failure, step_failure};
-use crate::input::cycle::Profile;
-use crate::input::scene::{Corridor, Point, Scene};
-use crate::numbers::polygon::{Triangle, contains_point, square, union_contains, union_meets};
-use crate::numbers::real::Real;
+use crate::hardened::{h07_start, h11_steps, h12_progress};
+use crate::input::profile::Profile;
+use crate::input::scene::{Point, Route, Scene};
+use crate::numbers::polygon::{Triangle, is_in_union};
+use crate::numbers::polyline::{Beside, Segment, beside};
 use crate::numbers::vector::Vector;
-use crate::report::{Reading, Rule, Witness};
+use crate::report::{Rule, Witness};
 
-/// Compares the whole trajectory with the route; `None` passes.
-pub fn map_validation(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let corridor = corridor(&scene.route);
-    let places: Vec<Place> = trajectory.iter().map(|point| Place::of(scene, point)).collect();
-    let inside = |place: &Place| is_inside(scene, &corridor, place.position);
-    let at = |rule: Rule, failure: &dyn Fn(&Place) -> Option<(Real, Real)>| {
-        places.iter().enumerate().find_map(|(i, place)| {
-            failure(place).map(|(left, right)| Witness {
-                point: Some(i),
-                segment: Some(place.nearest),
-                ..Witness::new(rule, &left, &right)
-            })
-        })
-    };
+/// Compares the whole trajectory with the route; `None` passes. A point farther than theta_map from
+/// the reference path must be inside the path boundaries.
+pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let (path, corridor) = (reference_path(&scene.route), corridor(&scene.route));
     let theta_map = &scene.parameters.theta_map;
-    let too_far = at(Rule::ThetaMap, &|place| {
-        let fails = place.distance > theta_map - &scene.m && !inside(place);
-        fails.then(|| (place.distance.clone(), theta_map.clone()))
+    let position = |i: usize| &trajectory[i].pose.origin;
+    let places: Vec<Beside> = (0..trajectory.len()).map(|i| beside(position(i), &path)).collect();
+    let is_inside = |i: usize| is_in_union(&scene.reads, &corridor, position(i));
+    let failure = places.iter().enumerate().find_map(|(i, place)| {
+        let passes = scene.reads.at_most(&place.distance, theta_map) || is_inside(i);
+        let witness = Witness::unless(passes, Rule::ThetaMap, &place.distance, theta_map)?;
+        Some(Witness { segment: Some(place.nearest), ..witness.at_point(i) })
     });
-    if scene.profile == Profile::Paper || too_far.is_some() {
-        return too_far;
+    match scene.profile {
+        Profile::Paper => failure,
+        Profile::Hardened => failure
+            .or_else(|| h07_start::failure(scene, trajectory, &path, &places, is_inside))
+            .or_else(|| h11_steps::step_failure(scene, trajectory))
+            .or_else(|| h12_progress::progress_failure(scene, trajectory)),
     }
-    start_failure(scene, trajectory)
-        .or_else(|| {
-            at(Rule::Corridor, &|place| {
-                (!inside(place)).then(|| (place.distance.clone(), Real::zero()))
-            })
-        })
-        .or_else(|| at(Rule::Direction, &|place| place.heading_failure(scene)))
-        .or_else(|| step_failure(scene, trajectory))
-        .or_else(|| end_failure(scene, trajectory))
 }
 
-/// A segment of the reference polyline; a closed route has one from its last to its first cross section.
-fn segments(route: &Corridor) -> Vec<[&[Vector; 3]; 2]> {
-    let cross_sections = &route.cross_sections;
-    let mut segments: Vec<_> = cross_sections.windows(2).map(|pair| [&pair[0], &pair[1]]).collect();
-    if route.closed {
-        segments.push([&cross_sections[cross_sections.len() - 1], &cross_sections[0]]);
-    }
-    segments
+/// Consecutive cross sections; in a closed route the last is followed by the first.
+fn pairs(route: &Route) -> Vec<[&[Vector; 3]; 2]> {
+    let all = &route.cross_sections;
+    let closing = route.closed.then(|| [&all[all.len() - 1], &all[0]]);
+    all.windows(2).map(|pair| [&pair[0], &pair[1]]).chain(closing).collect()
+}
+
+/// The polyline of the reference points.
+fn reference_path(route: &Route) -> Vec<Segment> {
+    pairs(route).into_iter().map(|[[a, ..], [b, ..]]| [a.clone(), b.clone()]).collect()
 }
 
 /// The union of (left_i, right_i, right_i+1) and (left_i, right_i+1, left_i+1).
-fn corridor(route: &Corridor) -> Vec<Triangle> {
-    let quads = segments(route).into_iter();
-    quads
-        .flat_map(|[[_, left, right], [_, next_left, next_right]]| {
-            [
-                [left.clone(), right.clone(), next_right.clone()],
-                [left.clone(), next_right.clone(), next_left.clone()],
-            ]
-        })
-        .collect()
-}
-
-/// Where a trajectory point lies on the route.
-struct Place<'a> {
-    position: &'a Vector,
-    /// Distance to the reference path.
-    distance: Real,
-    /// The first segment at that distance.
-    nearest: usize,
-    /// heading . segment for every segment that H-07 asks.
-    along: Vec<Real>,
-}
-
-/// In the corridor; strictly or laxly in those readings.
-fn is_inside(scene: &Scene, corridor: &[Triangle], position: &Vector) -> bool {
-    let square = || square(position, &scene.parameters.delta);
-    match scene.reading {
-        Reading::Exact => corridor.iter().any(|triangle| contains_point(triangle, position)),
-        Reading::Strict => union_contains(corridor, &square()),
-        Reading::Lax => union_meets(corridor, &square()),
-    }
-}
-
-impl<'a> Place<'a> {
-    fn of(scene: &Scene, point: &'a Point) -> Self {
-        let position = &point.pose.origin;
-        let segments: Vec<_> = segments(&scene.route)
-            .into_iter()
-            .map(|[a, b]| (distance_to_segment(position, &a[0], &b[0]), &b[0] - &a[0]))
-            .collect();
-        let distances = segments.iter().map(|(distance, _)| distance).enumerate();
-        let (nearest, distance) = distances
-            .min_by(|(_, a), (_, b)| a.cmp(b))
-            .map(|(nearest, distance)| (nearest, distance.clone()))
-            .expect("a route has at least two stations");
-        let reach = match scene.reading {
-            Reading::Exact => distance.clone(),
-            Reading::Strict | Reading::Lax => &distance + &scene.parameters.delta,
-        };
-        // A closing segment of length 0 has no direction and is not asked.
-        let along = (segments.iter())
-            .filter(|(distance, segment)| *distance <= reach && segment.squared() > Real::zero())
-            .map(|(_, segment)| point.pose.direction.dot(segment))
-            .collect();
-        Self { position, distance, nearest, along }
-    }
-
-    /// H-07: heading . segment >= 0 for at least one nearest segment.
-    fn heading_failure(&self, scene: &Scene) -> Option<(Real, Real)> {
-        let forward = |along: &Real| *along >= scene.m;
-        let passes = match scene.reading {
-            Reading::Exact | Reading::Lax => self.along.iter().any(forward),
-            Reading::Strict => self.along.iter().all(forward),
-        };
-        (!passes).then(|| (self.along[0].clone(), Real::zero()))
-    }
-}
-
-/// Distance of a point to the closed segment from a to b.
-fn distance_to_segment(point: &Vector, a: &Vector, b: &Vector) -> Real {
-    let (segment, offset) = (b - a, point - a);
-    let along = segment.dot(&offset);
-    let squared = segment.squared();
-    if along <= Real::zero() {
-        offset.length()
-    } else if along >= squared {
-        (point - b).length()
-    } else {
-        (segment.cross(&offset).square() / squared).sqrt()
-    }
+fn corridor(route: &Route) -> Vec<Triangle> {
+    let triangles = |[[_, left, right], [_, next_left, next_right]]: [&[Vector; 3]; 2]| {
+        [[left, right, next_right], [left, next_right, next_left]].map(|t| t.map(Vector::clone))
+    };
+    pairs(route).into_iter().flat_map(triangles).collect()
 }

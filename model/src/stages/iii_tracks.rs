@@ -1,53 +1,44 @@
-//! Stage iii: trajectory with tracks (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-09).
+//! Stage iii: paper Sec. IV-D, "Trajectory Validation with Tracks", Eq. (3)
+//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-09).
 
-use crate::input::cycle::Profile;
+use crate::hardened::h09_velocity;
+use crate::input::profile::Profile;
 use crate::input::scene::{Object, Point, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
-use crate::services::configuration::Configuration;
-use crate::stages::distances::{points_examined, s_cav};
-use crate::stages::i_track_validation::is_held;
-use crate::stages::llcc::llcc;
+use crate::stages::distances::s_cav;
+use crate::stages::horizon::points_examined;
+use crate::stages::llcc::first_collision;
 
-/// Compares the trajectory with the predicted tracks; `None` passes. `list_was_checked`: stage i
-/// ran on this list in this cycle.
-pub fn tracks(
+/// Compares the trajectory within s_CAV with the predicted tracks; `None` passes. `list_was_checked`:
+/// stage i ran on this list in this cycle.
+pub fn trajectory_with_tracks(
     scene: &Scene,
     trajectory: &[Point],
     tracks: &Tracks,
     list_was_checked: bool,
 ) -> Option<Witness> {
-    let s = s_cav(&scene.parameters.safety_time, &scene.ego.v_now);
-    let points = points_examined(scene, trajectory, &s);
-    let first = |rule: Rule, object: &dyn Fn(&Point, &Track) -> Option<Object>| {
-        points.iter().enumerate().find_map(|(i, point)| {
-            tracks.items.iter().find_map(|track| {
-                let collision = llcc(scene, point, &object(point, track)?)?;
-                Some(Witness {
-                    point: Some(i),
-                    track: Some(track.id),
-                    ..Witness::new(rule, &collision.distance, &collision.limit)
-                })
-            })
-        })
+    let s_cav = s_cav(&scene.parameters.safety_time, &scene.ego.v_now);
+    let points = points_examined(scene, trajectory, &s_cav);
+    let predicted = |point: &Point, track: &Track| {
+        let t_ns = i128::from(point.t_ns) - i128::from(tracks.stamp_ns);
+        predicted(track, &Real::seconds(t_ns))
     };
-    let stands_too = |track: &Track| {
-        scene.profile == Profile::Hardened
-            && scene.configuration == Configuration::AllRemote
-            && !(list_was_checked && is_held(scene, tracks, track.id))
-    };
-    first(Rule::Collision, &|point, track| Some(predicted(track, tracks.stamp_ns, point.t_ns)))
-        .or_else(|| {
-            first(Rule::CollisionStanding, &|_, track| {
-                stands_too(track).then(|| track.object.clone())
-            })
-        })
+    let hit = first_collision(scene, &points, &tracks.items, predicted);
+    let failure = hit.map(|(i, j, collision)| Witness {
+        track: Some(tracks.items[j].id),
+        ..Witness::new(Rule::Collision, &collision.distance, &collision.limit).at_point(i)
+    });
+    match scene.profile {
+        Profile::Paper => failure,
+        Profile::Hardened => failure
+            .or_else(|| h09_velocity::collision_standing(scene, &points, tracks, list_was_checked)),
+    }
 }
 
-/// The track moved by v (t_point - stamp), of either sign, with unchanged direction.
-fn predicted(track: &Track, stamp_ns: i64, t_ns: i64) -> Object {
-    let dt = Real::seconds(i128::from(t_ns) - i128::from(stamp_ns));
+/// The CV model: the track moved by v t, of either sign, with unchanged direction.
+fn predicted(track: &Track, t: &Real) -> Object {
     let mut object = track.object.clone();
-    object.frame.origin = &object.frame.origin + &track.velocity.scaled(&dt);
+    object.frame.origin = &object.frame.origin + &track.velocity.scaled(t);
     object
 }

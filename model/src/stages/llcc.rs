@@ -1,9 +1,11 @@
-//! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
+//! The low-level collision check: paper Sec. IV-D, its two steps
+//! (`spec/3-stages.md#low-level-collision-check-llcc`, H-03).
 
-use crate::input::cycle::Profile;
+use crate::hardened::h03_circumradii;
+use crate::input::profile::Profile;
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::{Rectangle, share_a_point};
+use crate::numbers::rectangle::{Rectangle, may_share_a_point};
 use crate::numbers::vector::Frame;
 
 /// A collision: the distance of the centres and the limit that made the object examined, m.
@@ -15,54 +17,40 @@ pub struct Collision {
     pub limit: Real,
 }
 
+/// LLCC of the CAV at a trajectory point with an object: an object whose centre is closer than
+/// theta_obj is examined; it is a collision when the rectangles share a point.
+pub fn llcc(scene: &Scene, point: &Point, object: &Object) -> Option<Collision> {
+    let centre = centre(scene, point);
+    let distance = object.frame.origin.distance(&centre.origin);
+    let theta_obj = &scene.parameters.theta_obj;
+    let (examined, limit) = match scene.profile {
+        Profile::Paper => (scene.reads.may_be_less(&distance, theta_obj), theta_obj.clone()),
+        Profile::Hardened => h03_circumradii::is_examined(scene, &distance, object),
+    };
+    let cav = || Rectangle::new(centre, &scene.ego.length, &scene.ego.width);
+    let collides = examined && may_share_a_point(&scene.reads, &cav(), &object.rectangle());
+    collides.then_some(Collision { distance, limit })
+}
+
+/// The first collision in the order of the points, then of the list: the index of the point, that of
+/// the item, and the collision with the object that the item is when the CAV is at the point.
+pub fn first_collision<T>(
+    scene: &Scene,
+    points: &[Point],
+    items: &[T],
+    object: impl Fn(&Point, &T) -> Object,
+) -> Option<(usize, usize, Collision)> {
+    points.iter().enumerate().find_map(|(i, point)| {
+        items.iter().enumerate().find_map(|(j, item)| {
+            llcc(scene, point, &object(point, item)).map(|collision| (i, j, collision))
+        })
+    })
+}
+
 /// The centre of the CAV's rectangle at a trajectory point: the pose shifted forward.
 pub fn centre(scene: &Scene, point: &Point) -> Frame {
     Frame {
         origin: point.pose.point(&scene.ego.center_offset, &Real::zero()),
         direction: point.pose.direction.clone(),
-    }
-}
-
-/// LLCC of the CAV at a trajectory point with an object. An object is examined when its centre is
-/// closer than theta_obj; hardened (H-03): or not farther than the circumradii together. An
-/// examined object is a collision when the rectangles share a point.
-pub fn llcc(scene: &Scene, point: &Point, object: &Object) -> Option<Collision> {
-    let centre = centre(scene, point);
-    let theta_obj = &scene.parameters.theta_obj;
-    let distance = (&object.frame.origin - &centre.origin).length();
-    let (examined, limit) = match scene.profile {
-        Profile::Paper => (distance < theta_obj + &scene.m, theta_obj.clone()),
-        Profile::Hardened => {
-            let reach = circumradius(&scene.ego.length, &scene.ego.width)
-                + circumradius(&object.length, &object.width);
-            let limit = theta_obj.max(&reach).clone();
-            (distance <= &limit + &scene.m, limit)
-        }
-    };
-    let collides = examined && share_a_point(&footprint(scene, centre), &rectangle(object));
-    collides.then_some(Collision { distance, limit })
-}
-
-/// H-03: half the diagonal times (1 + 1e-6), because directions need not be exactly of length 1, m.
-pub fn circumradius(length: &Real, width: &Real) -> Real {
-    let diagonal = (length.square() + width.square()).sqrt();
-    diagonal / Real::from_integer(2) * (Real::from_integer(1) + Real::from_double(1e-6))
-}
-
-fn footprint(scene: &Scene, centre: Frame) -> Rectangle {
-    let two = Real::from_integer(2);
-    Rectangle {
-        frame: centre,
-        half_length: &scene.ego.length / &two + &scene.m,
-        half_width: &scene.ego.width / &two + &scene.m,
-    }
-}
-
-fn rectangle(object: &Object) -> Rectangle {
-    let two = Real::from_integer(2);
-    Rectangle {
-        frame: object.frame.clone(),
-        half_length: &object.length / &two,
-        half_width: &object.width / &two,
     }
 }

@@ -1,26 +1,32 @@
-//! Which stages run, in which order, and what the cycle reports (`spec/3-stages.md#schedule`).
+//! Which stages run, in which order, and what the cycle reports: paper Sec. IV-A, Fig. 3
+//! (`spec/3-stages.md#schedule`, H-02, H-04, H-05, H-10).
 
 pub mod distances;
+pub mod horizon;
 pub mod i_track_validation;
 pub mod ii_trajectory_to_map;
 pub mod iii_tracks;
 pub mod iv_detections;
 pub mod llcc;
-pub mod readings;
 pub mod v_grid_map;
 
-use crate::input::cycle::{Cycle, Profile};
+use crate::hardened::h02_h05_h10_schedule::{
+    has_stage_v_in_plan_remote, no_obstacle_check, stage_iii_replaces_others,
+};
+use crate::hardened::h04_gap::failure_without_stage_iv;
+use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
+use crate::input::profile::Profile;
 use crate::input::scene::Scene;
 use crate::report::{
     FailedStage, Input, InvalidInput, Outcome, Reading, Reason, Report, Stage, Witness,
 };
 use crate::services::configuration::Configuration;
 use crate::stages::i_track_validation::track_validation;
-use crate::stages::ii_trajectory_to_map::map_validation;
-use crate::stages::iii_tracks::tracks;
-use crate::stages::iv_detections::{detections, gap_failure};
-use crate::stages::v_grid_map::grid;
+use crate::stages::ii_trajectory_to_map::trajectory_to_map;
+use crate::stages::iii_tracks::trajectory_with_tracks;
+use crate::stages::iv_detections::trajectory_with_detections;
+use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// How a configuration applies a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,14 +39,11 @@ pub enum Scheduled {
     Never,
 }
 
-/// The table of `spec/3-stages.md#schedule`; hardened with H-05 and H-10.
+/// The table of `spec/3-stages.md#schedule`.
 pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
-    let in_plan_remote_v = match profile {
-        Profile::Paper => Never,
-        Profile::Hardened => Conditional,
-    };
+    let in_plan_remote_v = if has_stage_v_in_plan_remote(profile) { Conditional } else { Never };
     let [mot_remote, all_remote, plan_remote] = match stage {
         Stage::I => [Always, Always, Never],
         Stage::Ii => [Always, Always, Always],
@@ -65,9 +68,30 @@ pub fn check(cycle: &Cycle, reading: Reading) -> Result<Report, InvalidInput> {
     }
 }
 
+/// The reports of the strict, the exact and the lax reading. Every margin moves towards rejection in
+/// the one and towards acceptance in the other, so what strict accepts exact accepts, and what exact
+/// accepts lax accepts, with the same outcome of every stage: a reading is computed only where the one
+/// before rejects (`props/tests/readings.rs` compares). `Err` is invalid local input.
+pub fn readings(cycle: &Cycle) -> Result<[Report; 3], InvalidInput> {
+    let strict = check(cycle, Reading::Strict)?;
+    let next = |before: &Report, reading| match before.failed_stage {
+        None => Ok(before.clone()),
+        Some(_) => check(cycle, reading),
+    };
+    let exact = next(&strict, Reading::Exact)?;
+    let lax = next(&exact, Reading::Lax)?;
+    Ok([strict, exact, lax])
+}
+
 /// Decides a valid cycle in exact numbers.
 pub fn decide(scene: &Scene) -> Report {
-    Run::new(scene).finish()
+    let mut run = Run { scene, ran: Vec::new(), failed: None };
+    let stages = Stage::ALL.map(|stage| run.outcome(stage));
+    let failed_stage = match run.failed {
+        Some(stage) => Some(FailedStage::Stage(stage)),
+        None => no_obstacle_check(scene, &run.ran).then_some(FailedStage::NoObstacleCheck),
+    };
+    Report { failed_stage, stages, input: None }
 }
 
 fn invalid_remote_data(cycle: &Cycle, problem: InvalidInput) -> Report {
@@ -89,20 +113,7 @@ struct Run<'a> {
     failed: Option<Stage>,
 }
 
-impl<'a> Run<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        Self { scene, ran: Vec::new(), failed: None }
-    }
-
-    fn finish(mut self) -> Report {
-        let stages = Stage::ALL.map(|stage| self.outcome(stage));
-        let failed_stage = match self.failed {
-            Some(stage) => Some(FailedStage::Stage(stage)),
-            None => self.no_obstacle_check().then_some(FailedStage::NoObstacleCheck),
-        };
-        Report { failed_stage, stages, input: None }
-    }
-
+impl Run<'_> {
     fn outcome(&mut self, stage: Stage) -> Outcome {
         let scheduled = scheduled(self.scene.profile, self.scene.configuration, stage);
         if scheduled == Scheduled::Never {
@@ -122,7 +133,7 @@ impl<'a> Run<'a> {
                 failure.map_or(Outcome::Passed, Outcome::Failed)
             }
         };
-        let outcome = match (outcome, self.gap_failure_without_stage_iv(stage)) {
+        let outcome = match (outcome, failure_without_stage_iv(self.scene, stage)) {
             (Outcome::Skipped(_), Some(witness)) => Outcome::Failed(witness),
             (outcome, _) => outcome,
         };
@@ -136,12 +147,9 @@ impl<'a> Run<'a> {
         self.ran.contains(&stage)
     }
 
-    /// A stage that makes this conditional one unnecessary ran; H-10: in the hardened `AllRemote`
-    /// stage iii makes none unnecessary.
+    /// A stage that makes this conditional one unnecessary ran.
     fn other_stage_ran(&self, stage: Stage) -> bool {
-        let iii_counts = self.scene.profile == Profile::Paper
-            || self.scene.configuration != Configuration::AllRemote;
-        let iii_ran = iii_counts && self.has_run(Stage::Iii);
+        let iii_ran = self.has_run(Stage::Iii) && stage_iii_replaces_others(self.scene);
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
             Stage::Iv => iii_ran,
@@ -179,39 +187,18 @@ impl<'a> Run<'a> {
     fn run(&self, stage: Stage) -> Option<Witness> {
         let scene = self.scene;
         let trajectory = scene.trajectory.as_deref();
+        let (tracks, detections) = (scene.tracks.as_ref(), scene.detections.as_deref());
         match stage {
-            Stage::I => {
-                track_validation(scene, scene.tracks.as_ref()?, scene.detections.as_deref()?)
-            }
-            Stage::Ii => map_validation(scene, trajectory?),
+            Stage::I => track_validation(scene, tracks?, detections?),
+            Stage::Ii => trajectory_to_map(scene, trajectory?),
             Stage::Iii => {
-                tracks(scene, trajectory?, scene.tracks.as_ref()?, self.has_run(Stage::I))
+                trajectory_with_tracks(scene, trajectory?, tracks?, self.has_run(Stage::I))
             }
-            Stage::Iv => detections(scene, trajectory?, scene.detections.as_deref()?),
-            Stage::V => grid(scene, trajectory?, scene.grid.as_ref()?, self.has_run(Stage::Iv)),
+            Stage::Iv => trajectory_with_detections(scene, trajectory?, detections?),
+            Stage::V => {
+                let grid = scene.grid.as_ref()?;
+                trajectory_with_grid_map(scene, trajectory?, grid, self.has_run(Stage::Iv))
+            }
         }
-    }
-
-    /// H-04: at the place of stage iv the gap is compared with s_follow although the stage did not
-    /// run, when a trajectory and a lead are current.
-    fn gap_failure_without_stage_iv(&self, stage: Stage) -> Option<Witness> {
-        let applies = self.scene.profile == Profile::Hardened
-            && stage == Stage::Iv
-            && self.scene.trajectory.is_some();
-        applies.then(|| gap_failure(self.scene)).flatten()
-    }
-
-    /// H-05: a current trajectory that no stage compared with obstacles. H-02: in `AllRemote` a
-    /// stage iii on a list that stage i did not check does not count.
-    fn no_obstacle_check(&self) -> bool {
-        let iii_counts =
-            self.scene.configuration != Configuration::AllRemote || self.has_run(Stage::I);
-        let checked = (iii_counts && self.has_run(Stage::Iii))
-            || self.has_run(Stage::Iv)
-            || self.has_run(Stage::V);
-        self.scene.profile == Profile::Hardened
-            && self.scene.configuration != Configuration::Local
-            && self.scene.trajectory.is_some()
-            && !checked
     }
 }

@@ -44,6 +44,7 @@ fn a_service_set_does_not_hold_two_services_with_the_same_id() {
 }
 
 /// `spec/1-services.md` (terms): a station is an integer id >= 0.
+/// I-01
 #[test]
 fn a_station_is_not_negative() {
     assert_eq!(

@@ -1,10 +1,11 @@
 //! `spec/3-stages.md#distances`
 
+use mufasa_model::hardened::h04_horizon::s_stop;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::report::Stage;
 use mufasa_model::services::configuration::Configuration::PlanRemote;
-use mufasa_model::stages::distances::{s_b, s_cav, s_follow, s_stop, s_valid};
+use mufasa_model::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
 use crate::base::*;
 

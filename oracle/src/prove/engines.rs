@@ -13,6 +13,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::ProgressBar;
+use mufasa_mutants::Engine;
 
 use super::Settings;
 use super::line::Line;
@@ -59,14 +60,20 @@ impl Source {
 
     /// Its claims, of which nothing was asked yet. Errors are those of reading the lists of them.
     pub fn claims(self) -> io::Result<Vec<Line>> {
-        match self {
-            Self::Theorems => Ok(theorems::claims()),
-            Self::Gappa => Ok(gappa::claims()),
-            Self::Doubles => Ok(doubles::claims()),
-            Self::Exploration => Ok(exploration::claims()),
-            Self::Laws => laws::claims(),
-            Self::Harnesses => harnesses::claims(),
+        let (engine, mut lines) = match self {
+            Self::Theorems => (Engine::Z3, theorems::claims()),
+            Self::Gappa => (Engine::Gappa, gappa::claims()),
+            Self::Doubles => (Engine::Bitwuzla, doubles::claims()),
+            Self::Exploration => (Engine::Exploration, exploration::claims()),
+            Self::Laws => (Engine::Laws, laws::claims()?),
+            Self::Harnesses => (Engine::Harnesses, harnesses::claims()?),
+        };
+        let mutants = mufasa_mutants::all().map_err(io::Error::other)?;
+        for line in &mut lines {
+            let changes = mufasa_mutants::changes(&mutants, engine, &line.id);
+            line.mutants = changes.into_iter().map(ToString::to_string).collect();
         }
+        Ok(lines)
     }
 
     /// The claims that are wanted, judged. Errors are those of talking to the engines.
@@ -91,15 +98,6 @@ impl Source {
         };
         bar.finish_and_clear();
         lines
-    }
-}
-
-/// A change of a source in words of the table.
-fn change_of(file: &str, from: &str, to: &str) -> String {
-    let flat = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match flat(to).as_str() {
-        "" => format!("`{}` is left out ({file})", flat(from)),
-        to => format!("`{}` becomes `{to}` ({file})", flat(from)),
     }
 }
 

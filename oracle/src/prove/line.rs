@@ -99,7 +99,7 @@ pub struct Line {
     /// The statement near it that was refuted, of theorems.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refuted_variant: Option<String>,
-    /// The changes of the source that make it fail; `scripts/prove-mutants` applies them.
+    /// The changes of the source that make it fail; `scripts/mutants` applies them.
     pub mutants: Vec<String>,
 }
 

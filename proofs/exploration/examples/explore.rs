@@ -1,5 +1,5 @@
 //! Explores the small worlds named on the command line, or all, without the second engine, and
-//! says which properties fail: `profile world property moves`. `proofs/mutants/run` reads it.
+//! says which properties fail: `profile world property moves`. `scripts/mutants` reads it.
 
 use std::process::ExitCode;
 

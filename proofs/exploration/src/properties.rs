@@ -159,35 +159,6 @@ impl Law {
         }
     }
 
-    /// The mutants of `proofs/mutants` that have to break it, as each patch says.
-    pub fn mutants(self) -> &'static [&'static str] {
-        match self {
-            Self::OneSource => &["no-activation"],
-            Self::NoRemoteResultBeforeHoldUntil => {
-                &["fallback-of-mot-only", "hold-one-tick-short", "no-hold"]
-            }
-            Self::AskedOnceAllowed => &["hold-one-tick-long"],
-            Self::EnvAndTplTogether => &["tpl-moves-with-mot"],
-            Self::OffloadingReachedAgain => {
-                &["always-the-smallest-station", "never-silent", "requests-never-overdue"]
-            }
-            Self::LeftSessionWithinLease => &["lease-one-tick-long"],
-            Self::LeftSessionEnds => &["no-lease"],
-            Self::NoStopBeforeSafeCycle => &["stop-at-confirmation", "stop-without-a-result"],
-            Self::EndedSessionChangesNothing => &[
-                "any-session-confirms",
-                "any-session-delivers",
-                "numbers-repeat",
-                "numbers-start-anew",
-                "older-requests-replace",
-                "release-of-the-wrong-session",
-            ],
-            Self::NoMoreThanCapacity => &["full-confirms", "one-more-than-capacity"],
-            Self::OthersKeepTheirSessions => &["numbers-across-requesters", "release-ends-all"],
-            Self::PartsValid => &["withdrawal-keeps-the-session"],
-        }
-    }
-
     /// The heading of its requirement.
     pub fn requirement(self) -> &'static str {
         match self {

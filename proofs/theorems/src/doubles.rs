@@ -14,7 +14,6 @@ use crate::numbers::real::Real;
 use crate::numbers::real::program::{Operand, Operator, record};
 use crate::prove::Verdict;
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
-use crate::theorem::Mutant;
 
 /// A claim about results in doubles.
 #[derive(Debug)]
@@ -25,8 +24,6 @@ pub struct Range {
     pub statement: &'static str,
     /// A statement near it that is false, which must be refuted.
     pub wrong: Wrong,
-    /// A change of the source that must make the claim fail.
-    pub mutant: Mutant,
     /// The numbers that the claims name `$0`, `$1`, ...
     formulas: fn() -> Vec<Real>,
     /// In SMT-LIB; `(good x)` says that x is finite and at least 0.
@@ -52,8 +49,6 @@ const INPUTS: [(&str, &str, &str); 4] = [
     ("safety_time", "0.0", "60.0"),
 ];
 
-const DISTANCE: &str = "model/src/stages/distances.rs";
-
 /// All claims.
 pub const RANGES: [Range; 4] = [
     Range {
@@ -62,11 +57,6 @@ pub const RANGES: [Range; 4] = [
         formulas: || vec![s_b(&v_now(), &a_b())],
         claim: "(and (good $0) (fp.leq $0 (number 112500.0)))",
         wrong: Wrong { statement: "0 < s_b", claim: "(fp.lt (number 0.0) $0)" },
-        mutant: Mutant {
-            file: DISTANCE,
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(2) - a_b)",
-        },
     },
     Range {
         id: "s_follow_in_doubles_is_finite_and_not_negative",
@@ -74,11 +64,6 @@ pub const RANGES: [Range; 4] = [
         formulas: || vec![follow()],
         claim: "(good $0)",
         wrong: Wrong { statement: "greater than 0", claim: "(fp.lt (number 0.0) $0)" },
-        mutant: Mutant {
-            file: DISTANCE,
-            from: "+ s_cav(safety_time, v_now)",
-            to: "- s_cav(safety_time, v_now)",
-        },
     },
     Range {
         id: "s_follow_in_doubles_is_never_below_s_cav",
@@ -86,7 +71,6 @@ pub const RANGES: [Range; 4] = [
         formulas: || vec![s_cav(&safety_time(), &v_now()), follow()],
         claim: "(fp.leq $0 $1)",
         wrong: Wrong { statement: "s_CAV < s_follow", claim: "(fp.lt $0 $1)" },
-        mutant: Mutant { file: DISTANCE, from: ".max(Real::zero()) + s_cav", to: "+ s_cav" },
     },
     Range {
         id: "s_valid_in_doubles_is_s_follow_or_s_b",
@@ -100,11 +84,6 @@ pub const RANGES: [Range; 4] = [
         wrong: Wrong {
             statement: "without a leading vehicle at least s_valid behind one (F-05)",
             claim: "(fp.leq $0 $1)",
-        },
-        mutant: Mutant {
-            file: DISTANCE,
-            from: "None => s_b(v_now, a_b),",
-            to: "None => Real::zero() - s_b(v_now, a_b),",
         },
     },
 ];

@@ -15,7 +15,6 @@ pub use process::version;
 use crate::numbers::real::Real;
 use crate::prove::Verdict;
 use crate::stages::distances::{s_b, s_follow};
-use crate::theorem::Mutant;
 use script::Script;
 
 /// A bound on a rounding error.
@@ -27,8 +26,6 @@ pub struct Bound {
     pub statement: &'static str,
     /// Of which numbers.
     pub domain: &'static str,
-    /// A change of the source that must leave it without a proof.
-    pub mutant: Mutant,
     /// Of `formula`, over the ranges of its inputs.
     formula: fn() -> Real,
     inputs: &'static [Input],
@@ -65,11 +62,6 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_b_in_doubles_relative",
         statement: "abs(s_b in doubles - s_b) <= 2^-52 (1 + 2^-54) s_b",
         domain: "v from 1e-100 to 150 m/s, a_b from 0.1 to 100 m/s^2",
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / Real::from_integer(3) / a_b",
-        },
         formula: || s_b(&v(), &a_b()),
         inputs: &[("v", "1e-100", "150"), ("a_b", "0.1", "100")],
         relative: true,
@@ -83,11 +75,6 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_b_in_doubles_absolute",
         statement: "abs(s_b in doubles - s_b) <= 4.6e-13 m",
         domain: "v to 70 m/s, a_b from 1 to 12 m/s^2",
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(1) * a_b)",
-        },
         formula: || s_b(&v(), &a_b()),
         inputs: &[("v", "0", "70"), ("a_b", "1", "12")],
         relative: false,
@@ -101,11 +88,6 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_follow_in_doubles_absolute",
         statement: "abs(s_follow in doubles - s_follow) <= 1.5e-12 m",
         domain: "speeds to 70 m/s, a_b from 1 to 12 m/s^2, safety_time to 2 s",
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "safety_time * v_now",
-            to: "safety_time * v_now * v_now",
-        },
         formula: || s_follow(&v_now(), &v_lead(), &a_b(), &Real::named("safety_time")),
         inputs: &[("v_now", "0", "70"), ("safety_time", "0", "2")],
         relative: false,

@@ -15,7 +15,7 @@ pub mod solver;
 pub mod theorem;
 pub mod witness;
 
-pub use mufasa_model::services;
+pub use mufasa_model::{parameters, services};
 
 #[path = "../../../model/src/hardened/mod.rs"]
 pub mod hardened;

@@ -108,7 +108,7 @@ fn tests_are_told_from_what_is_shipped() {
     assert_eq!(modules, ["more"]);
     let shipped = shipped();
     let has = |name: &str| shipped.iter().any(|(file, _)| file == name);
-    assert!(has("lib.rs") && has("schedule.rs") && has("requester/steps.rs"));
+    assert!(has("lib.rs") && has("stages/mod.rs") && has("offloading/requester/steps.rs"));
     assert!(!shipped.iter().any(|(file, text)| file.contains("tests") || text.contains("#[test]")));
 }
 

@@ -1,7 +1,8 @@
 //! What the requester remembers, for those who compare or explore it; nothing here decides.
 
+use super::Requester;
 use super::state::{Session, Use};
-use super::{Group, Groups, Requester};
+use crate::services::configuration::{Group, Groups};
 
 impl Requester {
     /// The running session of a remote group. `spec/2-offloading.md#quality-of-service`.

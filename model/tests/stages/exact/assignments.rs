@@ -45,7 +45,7 @@ fn exactly(costs: &[Vec<f64>]) -> Costs {
 
 fn less(costs: &Costs, pairs: usize, bound: f64) -> bool {
     let bound = Real::from_double(bound);
-    costs_less(costs, costs[0].len(), pairs, &bound).expect("nothing is forbidden").less
+    costs_less(costs, pairs, &bound).expect("nothing is forbidden").less
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn all_assignments_up_to_7_by_7_have_the_least_cost_of_the_model() {
             let exact = exactly(&costs);
             assert!(!less(&exact, pairs, least) && !less(&exact, pairs, least - TINY));
             assert!(less(&exact, pairs, least + TINY), "{costs:?}");
-            let found = least_cost(&exact, columns, pairs).expect("nothing is forbidden");
+            let found = least_cost(&exact, pairs).expect("nothing is forbidden");
             assert!(found.cost == Real::from_double(least), "{costs:?}");
         }
     }
@@ -96,9 +96,8 @@ fn fewer_pairs_some_of_them_forbidden_are_decided_as_by_trying_all() {
         let table: Costs = costs.iter().map(|row| row.iter().map(exact).collect()).collect();
         let columns = costs[0].len();
         for pairs in 1..=costs.len().min(columns) {
-            let less = |bound: f64| {
-                costs_less(&table, columns, pairs, &Real::from_double(bound)).map(|it| it.less)
-            };
+            let less =
+                |bound: f64| costs_less(&table, pairs, &Real::from_double(bound)).map(|it| it.less);
             if let Some(least) = cheapest_of(&costs, pairs, 0) {
                 assert_eq!(
                     [least - TINY, least, least + TINY].map(less),
@@ -126,9 +125,8 @@ fn a_bound_that_is_the_least_sum_of_roots_is_not_undercut() {
         let (least, pairs) = (least(&costs, &Real::zero()), rows.min(columns));
         let costs: Costs =
             costs.into_iter().map(|row| row.into_iter().map(Some).collect()).collect();
-        let less = |bound: &Real| {
-            costs_less(&costs, columns, pairs, bound).expect("nothing is forbidden").less
-        };
+        let less =
+            |bound: &Real| costs_less(&costs, pairs, bound).expect("nothing is forbidden").less;
         let tiny = Real::from_double(2f64.powi(-200));
         assert!(!less(&least) && !less(&(&least - &tiny)) && less(&(&least + &tiny)));
     }

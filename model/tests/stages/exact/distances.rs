@@ -6,7 +6,7 @@ use mufasa_model::numbers::real::Real;
 use mufasa_model::numbers::vector::{Frame, Vector};
 use mufasa_model::report::Stage;
 use mufasa_model::services::configuration::Configuration::{MotRemote, PlanRemote};
-use mufasa_model::stages::distances::arc_lengths;
+use mufasa_model::stages::horizon::arc_lengths;
 
 use super::Draw;
 use crate::base::{NOW, at_time, base, lead, passes};

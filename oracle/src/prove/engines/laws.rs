@@ -23,8 +23,6 @@ struct List {
 struct Law {
     id: String,
     statement: String,
-    change: String,
-    file: String,
 }
 
 pub(super) fn claims() -> io::Result<Vec<Line>> {
@@ -34,8 +32,7 @@ pub(super) fn claims() -> io::Result<Vec<Line>> {
         let domain = topic.map_or("", |topic| topic.domain);
         let id = format!("law::{}", law.id);
         let parts = [id.as_str(), &law.statement, domain];
-        let mutant = format!("{} ({})", law.change, law.file);
-        Line { mutants: vec![mutant], ..Line::new(parts, Answer::not_run(ENGINE, "")) }
+        Line::new(parts, Answer::not_run(ENGINE, ""))
     };
     Ok(list.law.into_iter().map(claim).collect())
 }

@@ -7,7 +7,7 @@ use mufasa_theorems::prove::{self as solve, Judgement, Verdict as Found};
 use mufasa_theorems::solver;
 use mufasa_theorems::theorem::{self, Theorem};
 
-use super::{change_of, side_by_side};
+use super::side_by_side;
 use crate::prove::line::{Answer, Line, Verdict};
 
 const ENGINE: &str = "z3";
@@ -15,10 +15,8 @@ const ENGINE: &str = "z3";
 pub(super) fn claims() -> Vec<Line> {
     let claim = |theorem: &Theorem| {
         let parts = [theorem.id, theorem.statement, theorem.domain];
-        let mutant = &theorem.mutant;
         Line {
             refuted_variant: Some(theorem.wrong.statement.to_owned()),
-            mutants: vec![change_of(mutant.file, mutant.from, mutant.to)],
             ..Line::new(parts, Answer::not_run(ENGINE, "no z3 4.8 or newer"))
         }
     };

@@ -3,7 +3,7 @@
 use crate::numbers::assignment::{Costs, costs_less};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, less};
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -17,11 +17,6 @@ pub const THEOREMS: &[Theorem] = &[
             statement: "at least (k - 1/2) theta_tr from every detection",
             claim: || ghost_is_caught(|k| Real::from_integer(k) - Real::ratio(1, 2)),
         },
-        mutant: Mutant {
-            file: "model/src/numbers/assignment.rs",
-            from: "    if cost < *bound {\n        return Ok(Comparison { less: true, cost });",
-            to: "    if cost <= *bound {\n        return Ok(Comparison { less: true, cost });",
-        },
     },
     Theorem {
         id: "a_ghost_nearer_than_k_theta_can_hide_in_the_mean",
@@ -30,11 +25,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "k = 1, 2, 3; the ghost's distances to other detections at least its own",
         claim: || ghost_hides(1),
         wrong: Wrong { statement: "nearer than (k + 1) theta_tr", claim: || ghost_hides(2) },
-        mutant: Mutant {
-            file: "model/src/numbers/assignment.rs",
-            from: "return Ok(Comparison { less: true, cost });",
-            to: "return Ok(Comparison { less: false, cost });",
-        },
     },
     Theorem {
         id: "a_ghost_that_no_detection_is_near_has_no_assignment",
@@ -44,11 +34,6 @@ pub const THEOREMS: &[Theorem] = &[
                  distances",
         claim: || no_assignment(true),
         wrong: Wrong { statement: "also when it has one", claim: || no_assignment(false) },
-        mutant: Mutant {
-            file: "model/src/numbers/assignment.rs",
-            from: "if search.augment() { Ok(()) } else { Err(found) }",
-            to: "if search.augment() || found > 0 { Ok(()) } else { Err(found) }",
-        },
     },
 ];
 
@@ -96,7 +81,7 @@ fn ghost_is_caught(factor: fn(i128) -> Real) -> Formula {
         Some(distance)
     });
     let bound = Real::from_integer(number(k)) * &theta_tr;
-    Formula::from(costs_less(&costs, columns, k, &bound).is_ok_and(|answer| !answer.less))
+    Formula::from(costs_less(&costs, k, &bound).is_ok_and(|answer| !answer.less))
 }
 
 fn ghost_hides(beyond: i128) -> Formula {
@@ -115,7 +100,7 @@ fn ghost_hides(beyond: i128) -> Formula {
         Some(other)
     });
     let bound = Real::from_integer(number(k)) * &theta_tr;
-    Formula::from(costs_less(&costs, k, k, &bound).is_ok_and(|answer| answer.less))
+    Formula::from(costs_less(&costs, k, &bound).is_ok_and(|answer| answer.less))
 }
 
 fn no_assignment(alone: bool) -> Formula {
@@ -124,5 +109,5 @@ fn no_assignment(alone: bool) -> Formula {
         let near = if row == 0 { !alone } else { coin() };
         near.then(|| distance(&format!("c {row} {column}")))
     });
-    Formula::from(costs_less(&costs, columns, k, &theta_tr()).is_err())
+    Formula::from(costs_less(&costs, k, &theta_tr()).is_err())
 }

@@ -1,16 +1,17 @@
 //! Which objects the low-level collision check examines (H-03, F-03).
 
+use crate::hardened::h03_circumradii::circumradius;
 use crate::input::cycle::Profile;
 use crate::input::scene::Object;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, forget_of_what_roots_are, given, less};
 use crate::numbers::vector::{Frame, Vector};
 use crate::services::configuration::Configuration;
-use crate::stages::llcc::{circumradius, llcc};
+use crate::stages::llcc::llcc;
 use crate::theorem::base::{self, any_cav, home};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -34,11 +35,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&offset.length(), &(diagonal / Real::from_integer(2)))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/llcc.rs",
-            from: "(Real::from_integer(1) + Real::from_double(1e-6))",
-            to: "(Real::from_integer(1) - Real::from_double(1e-6))",
-        },
     },
     Theorem {
         id: "the_hardened_LLCC_finds_every_object_that_shares_a_point",
@@ -50,11 +46,6 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "F-03: the paper's LLCC with theta_obj = 5 m finds it, too (a 12 m lorry along x)",
             claim: paper_finds_a_lorry,
-        },
-        mutant: Mutant {
-            file: "model/src/stages/llcc.rs",
-            from: "+ circumradius(&object.length, &object.width)",
-            to: "- circumradius(&object.length, &object.width)",
         },
     },
 ];

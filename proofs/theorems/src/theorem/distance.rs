@@ -3,7 +3,7 @@
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, iff, implies, less, not};
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all speeds >= 0, a_b > 0, safety_time >= 0";
 
@@ -15,11 +15,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: DOMAIN,
         claim: || s_b_grows(&Real::zero()),
         wrong: Wrong { statement: "s_b(v) + 1 <= s_b(w)", claim: || s_b_grows(&Real::ratio(1, 1)) },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(-2) * a_b)",
-        },
     },
     Theorem {
         id: "s_follow_grows_with_v_now",
@@ -36,11 +31,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&s_follow(&w, &u, &a_b, &time), &s_follow(&v, &u, &a_b, &time))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "+ s_cav(safety_time, v_now)",
-            to: "- s_cav(safety_time, v_now)",
-        },
     },
     Theorem {
         id: "s_follow_falls_with_v_lead",
@@ -56,11 +46,6 @@ pub const THEOREMS: &[Theorem] = &[
                 let Speeds { v, w, u, a_b, time } = Speeds::new();
                 less(&s_follow(&u, &w, &a_b, &time), &s_follow(&u, &v, &a_b, &time))
             },
-        },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "(s_b(v_now, a_b) - s_b(v_lead, a_b))",
-            to: "(s_b(v_now, a_b) + s_b(v_lead, a_b))",
         },
     },
     Theorem {
@@ -81,11 +66,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&s_valid(&v, None, &a_b, &time), &s_valid(&v, Some(&u), &a_b, &time))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "None => s_b(v_now, a_b),",
-            to: "None => Real::zero() - s_b(v_now, a_b),",
-        },
     },
     Theorem {
         id: "s_follow_is_never_below_s_cav",
@@ -102,11 +82,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&s_b(&v, &a_b), &s_follow(&v, &u, &a_b, &time))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: ".max(Real::zero()) + s_cav",
-            to: " + s_cav",
-        },
     },
     Theorem {
         id: "s_cav_is_below_s_b_exactly_above_the_speed_of_F-04",
@@ -114,11 +89,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: DOMAIN,
         claim: || f_04(2),
         wrong: Wrong { statement: "exactly when v_now > a_b safety_time", claim: || f_04(1) },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(3) * a_b)",
-        },
     },
     Theorem {
         id: "a_leading_vehicle_shortens_the_horizon_exactly_as_F-05_says",
@@ -144,11 +114,6 @@ pub const THEOREMS: &[Theorem] = &[
                 iff(&shorter, &less(&s_cav(&time, &v), &s_b(&u, &a_b)))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: ".max(Real::zero()) + s_cav",
-            to: ".max(Real::from_integer(1)) + s_cav",
-        },
     },
     Theorem {
         id: "s_follow_is_the_RSS_distance_for_equal_braking",
@@ -168,11 +133,6 @@ pub const THEOREMS: &[Theorem] = &[
                 equal(&s_follow(&v, &u, &a_b, &time), &rss(&v, &u, &time, &a_b, &a_b))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "safety_time * v_now",
-            to: "safety_time * v_now / Real::from_integer(2)",
-        },
     },
     Theorem {
         id: "s_follow_is_below_the_RSS_distance_for_unequal_braking",
@@ -181,11 +141,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "these numbers",
         claim: || unequal_braking(45, 36),
         wrong: Wrong { statement: "s_follow = 45 m", claim: || unequal_braking(45, 45) },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "safety_time * v_now",
-            to: "safety_time * v_now * v_now",
-        },
     },
 ];
 

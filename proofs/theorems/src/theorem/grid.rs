@@ -1,14 +1,15 @@
 //! Stage v: disks, cells, and what the two ways to compare them can miss (H-06, F-08).
 
+use crate::numbers::cells::distance_to_cell;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{
     Formula, at_most, equal, forget_of_what_roots_are, given, less,
 };
 use crate::numbers::vector::Vector;
-use crate::stages::v_grid_map::{disk_offset, disk_radius, distance_to_cell};
+use crate::stages::v_grid_map::{disk_offset, disk_radius};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -21,11 +22,6 @@ pub const THEOREMS: &[Theorem] = &[
             statement: "in disk i of 0.99 r",
             claim: || part_is_covered(&Real::ratio(99, 100)),
         },
-        mutant: Mutant {
-            file: "model/src/stages/v_grid_map.rs",
-            from: "((length / n).square() + width.square()).sqrt()",
-            to: "width",
-        },
     },
     Theorem {
         id: "the_parts_of_the_disks_are_the_whole_footprint",
@@ -34,11 +30,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "every real n > 0 and i, all L > 0; with it the disks cover the footprint for every n",
         claim: || parts_join(0),
         wrong: Wrong { statement: "the part of disk 1 begins at -L/2", claim: || parts_join(1) },
-        mutant: Mutant {
-            file: "model/src/stages/v_grid_map.rs",
-            from: "/ (&two * n) - length / two",
-            to: "/ (&two * n) - length / n",
-        },
     },
     Theorem {
         id: "a_disk_that_reaches_into_a_cell_is_near_it",
@@ -65,11 +56,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&(&corner - &centre).length(), &r)
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/v_grid_map.rs",
-            from: "(cell + Real::from_integer(1)) * resolution",
-            to: "(cell + Real::from_double(0.5)) * resolution",
-        },
     },
     Theorem {
         id: "a_point_of_a_cell_is_near_its_centre",
@@ -89,11 +75,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&offset.length(), &(&cell.resolution * Real::ratio(707, 1000)))
             },
         },
-        mutant: Mutant {
-            file: "model/src/numbers/vector.rs",
-            from: "self.squared().sqrt()",
-            to: "self.squared()",
-        },
     },
     Theorem {
         id: "dilation_between_cell_centres_misses_less_than_sqrt_2_cells",
@@ -102,11 +83,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "all cells and resolutions > 0, r >= 0",
         claim: missed_by_less_than_two_half_diagonals,
         wrong: Wrong { statement: "1.4 cell widths or more", claim: missed_by_less_than_1_4 },
-        mutant: Mutant {
-            file: "model/src/numbers/vector.rs",
-            from: "Vector { x: &self.x - &other.x, y: &self.y - &other.y }",
-            to: "Vector { x: &self.x + &other.x, y: &self.y + &other.y }",
-        },
     },
     Theorem {
         id: "dilation_between_cell_centres_misses_up_to_sqrt_2_cells",
@@ -116,11 +92,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "all resolutions > 0, 0 < d < resolution",
         claim: || missed_by(3),
         wrong: Wrong { statement: "deeper than sqrt(2) widths - d", claim: || missed_by(1) },
-        mutant: Mutant {
-            file: "model/src/numbers/vector.rs",
-            from: "self.x.square() + self.y.square()",
-            to: "self.x.square() + self.y.square() * Real::from_integer(9)",
-        },
     },
 ];
 

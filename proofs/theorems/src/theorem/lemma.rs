@@ -5,7 +5,7 @@ use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, implies};
 use crate::numbers::vector::Vector;
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -24,11 +24,6 @@ pub const THEOREMS: &[Theorem] = &[
                 implies(at_most(&x.square(), &y.square()), at_most(&x, &y))
             },
         },
-        mutant: Mutant {
-            file: "proofs/theorems/src/numbers/real/mod.rs",
-            from: "        self * self\n",
-            to: "        -(self * self)\n",
-        },
     },
     Theorem {
         id: "Cauchy_and_Schwarz",
@@ -45,11 +40,6 @@ pub const THEOREMS: &[Theorem] = &[
                 let product = p.squared() * q.squared() - Real::from_integer(1);
                 at_most(&p.dot(&q).square(), &product)
             },
-        },
-        mutant: Mutant {
-            file: "model/src/numbers/vector.rs",
-            from: "&self.x * &other.x + &self.y * &other.y",
-            to: "&self.x * &other.x + &self.x * &other.y",
         },
     },
     Theorem {
@@ -70,11 +60,6 @@ pub const THEOREMS: &[Theorem] = &[
                 let [p, q] = ["p", "q"].map(vector);
                 at_most(&(&p + &q).length(), &p.length())
             },
-        },
-        mutant: Mutant {
-            file: "model/src/numbers/vector.rs",
-            from: "self.x.square() + self.y.square()",
-            to: "self.x.square() - self.y.square()",
         },
     },
 ];

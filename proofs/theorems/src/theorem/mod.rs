@@ -1,5 +1,5 @@
-//! The theorems: statement, claim, a wrong variant that must be refuted, and a mutant of the
-//! source under which the theorem must fail.
+//! The theorems: statement, claim, and a wrong variant that must be refuted. `proofs/mutants.toml` has
+//! changes of the source under which each must fail.
 
 pub mod assignment;
 pub mod base;
@@ -27,29 +27,16 @@ pub struct Theorem {
     pub claim: fn() -> Formula,
     /// A statement near it that is false, which must be refuted: the claim is not one of nothing.
     pub wrong: Wrong,
-    /// A change of the source that must make the claim fail.
-    pub mutant: Mutant,
 }
 
 /// A false variant of a theorem, under its assumptions or nearly so. Under exactly its assumptions
-/// stands the mutant.
+/// stand the mutants.
 #[derive(Debug)]
 pub struct Wrong {
     /// What it says.
     pub statement: &'static str,
     /// Its claim.
     pub claim: fn() -> Formula,
-}
-
-/// One replacement in one file.
-#[derive(Debug)]
-pub struct Mutant {
-    /// The file, from the root of the project.
-    pub file: &'static str,
-    /// Text that occurs in it once.
-    pub from: &'static str,
-    /// What takes its place.
-    pub to: &'static str,
 }
 
 /// All theorems, in the order of `spec/`.

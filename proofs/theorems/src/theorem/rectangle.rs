@@ -6,7 +6,7 @@ use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, less, same};
 use crate::numbers::rectangle::{Rectangle, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -29,11 +29,6 @@ pub const THEOREMS: &[Theorem] = &[
                 Formula::from(share_a_point(&a, &b) == share_a_point(&a, &moved))
             },
         },
-        mutant: Mutant {
-            file: "model/src/numbers/rectangle.rs",
-            from: "[direction, &direction.left()].into_iter()",
-            to: "[direction, &Vector::from_doubles(0.0, 1.0)].into_iter()",
-        },
     },
     Theorem {
         id: "the_test_of_two_rectangles_is_symmetric",
@@ -55,11 +50,6 @@ pub const THEOREMS: &[Theorem] = &[
                 Formula::from(share_a_point(&a, &b) == exchanged)
             },
         },
-        mutant: Mutant {
-            file: "model/src/numbers/rectangle.rs",
-            from: "[&a.frame.direction, &b.frame.direction]",
-            to: "[&a.frame.direction]",
-        },
     },
     Theorem {
         id: "two_rectangles_that_share_a_point_are_found",
@@ -69,11 +59,6 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "a point of both rectangles, one enlarged by 1 %, makes the test say so",
             claim: || shared_point_is_found(&Real::ratio(101, 100)),
-        },
-        mutant: Mutant {
-            file: "model/src/numbers/rectangle.rs",
-            from: "a.0 <= b.1 && b.0 <= a.1",
-            to: "a.0 <= b.1 && b.0 < a.1",
         },
     },
 ];

@@ -4,7 +4,7 @@
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{at_most, given, less, round_every_result};
 use crate::stages::distances::{s_b, s_follow};
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all speeds >= 0, a_b > 0, safety_time >= 0; operations as in model/src/stages/distances.rs, \
                       every monotone rounding that keeps 0 and does not turn 2 a_b into it";
@@ -26,11 +26,6 @@ pub const THEOREMS: &[Theorem] = &[
                 less(&s_b(&v, &a_b), &s_b(&w, &a_b))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(-2) * a_b)",
-        },
     },
     Theorem {
         id: "rounded_s_follow_grows_with_v_now",
@@ -47,11 +42,6 @@ pub const THEOREMS: &[Theorem] = &[
                 less(&s_follow(&v, &u, &a_b, &time), &s_follow(&w, &u, &a_b, &time))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "+ s_cav(safety_time, v_now)",
-            to: "- s_cav(safety_time, v_now)",
-        },
     },
     Theorem {
         id: "rounded_s_follow_falls_with_v_lead",
@@ -67,11 +57,6 @@ pub const THEOREMS: &[Theorem] = &[
                 let Speeds { v, w, u, a_b, time } = Speeds::new(false);
                 at_most(&s_follow(&u, &v, &a_b, &time), &s_follow(&u, &w, &a_b, &time))
             },
-        },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "(s_b(v_now, a_b) - s_b(v_lead, a_b))",
-            to: "(s_b(v_now, a_b) + s_b(v_lead, a_b))",
         },
     },
 ];

@@ -2,14 +2,16 @@
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
 //! theorems make an induction over cycles is written in `findings/F-04.md`.
 
+use crate::hardened::h04_horizon::{s_stop, s_stop_along, ways};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::services::configuration::Configuration;
-use crate::stages::distances::{points_examined, s_b, s_stop, scene_s_stop, ways};
+use crate::stages::distances::s_b;
+use crate::stages::horizon::points_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Mutant, Theorem, Wrong};
+use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all e, speeds, tau, a_max >= 0, a_b > 0; standing objects; the CAV is e along the \
                       trajectory, which it follows";
@@ -32,11 +34,6 @@ pub const THEOREMS: &[Theorem] = &[
                 at_most(&(&e + braking), &s_stop(&e, &v, &tau, &a_max, &a_b))
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "+ s_b(&(v_now + a_max * tau), a_b)",
-            to: "",
-        },
     },
     Theorem {
         id: "until_the_next_cycle_the_stop_invariant_is_kept",
@@ -57,11 +54,6 @@ pub const THEOREMS: &[Theorem] = &[
                 kept(&vehicle, &t, &a)
             },
         },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v_now * tau + a_max",
-            to: "a_max",
-        },
     },
     Theorem {
         id: "braking_keeps_the_stop_invariant",
@@ -69,11 +61,6 @@ pub const THEOREMS: &[Theorem] = &[
         domain: DOMAIN,
         claim: || braking(&Real::from_integer(1)),
         wrong: Wrong { statement: "braking at half of a_b", claim: || braking(&Real::ratio(1, 2)) },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "v.square() / (Real::from_integer(2) * a_b)",
-            to: "v.square() / (Real::from_integer(3) * a_b)",
-        },
     },
     Theorem {
         id: "the_places_examined_reach_s_stop",
@@ -85,11 +72,6 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "also along a local trajectory",
             claim: || reach(Configuration::MotRemote),
-        },
-        mutant: Mutant {
-            file: "model/src/stages/distances.rs",
-            from: "let count = within(ways(trajectory), &s.max(&s_stop).clone()) + 1;",
-            to: "let count = within(ways(trajectory), &s.max(&s_stop).clone());",
         },
     },
 ];
@@ -155,7 +137,7 @@ fn reach(configuration: Configuration) -> Formula {
         point.pose.origin = vector(name);
         point
     });
-    let (arcs, s_stop) = (ways(&trajectory), scene_s_stop(&scene, &trajectory));
+    let (arcs, s_stop) = (ways(&trajectory), s_stop_along(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
     let examined = points_examined(&scene, &trajectory, &s);

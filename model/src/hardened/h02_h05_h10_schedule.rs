@@ -1,0 +1,30 @@
+//! H-02, H-05, H-10: no trajectory passes without a comparison with obstacles, and none is called off
+//! by a list of tracks that the remote side made.
+
+use crate::input::profile::Profile;
+use crate::input::scene::Scene;
+use crate::report::Stage;
+use crate::services::configuration::Configuration;
+
+/// H-05: stage v is conditional in `PlanRemote`, too.
+pub fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
+    profile == Profile::Hardened
+}
+
+/// H-10: in `AllRemote` a stage iii that ran makes no other stage unnecessary.
+pub fn stage_iii_replaces_others(scene: &Scene) -> bool {
+    scene.profile == Profile::Paper || scene.configuration != Configuration::AllRemote
+}
+
+/// H-05: a current trajectory that no stage compared with obstacles. H-02: in `AllRemote` a stage iii
+/// on a list that stage i did not check does not count.
+pub fn no_obstacle_check(scene: &Scene, ran: &[Stage]) -> bool {
+    let iii_counts = scene.configuration != Configuration::AllRemote || ran.contains(&Stage::I);
+    let checked = (iii_counts && ran.contains(&Stage::Iii))
+        || ran.contains(&Stage::Iv)
+        || ran.contains(&Stage::V);
+    scene.profile == Profile::Hardened
+        && scene.configuration != Configuration::Local
+        && scene.trajectory.is_some()
+        && !checked
+}

@@ -1,0 +1,74 @@
+//! H-07: the trajectory starts now and here, stays in the corridor and heads along the route.
+
+use crate::input::scene::{Point, Scene};
+use crate::numbers::polyline::{Beside, Segment};
+use crate::numbers::real::Real;
+use crate::report::{Rule, Witness};
+
+/// The trajectory does not start now and here, leaves the corridor, or heads against the route.
+/// `places` of its points beside the reference path; `is_inside` the corridor, by index.
+pub fn failure(
+    scene: &Scene,
+    trajectory: &[Point],
+    path: &[Segment],
+    places: &[Beside],
+    is_inside: impl Fn(usize) -> bool,
+) -> Option<Witness> {
+    start_failure(scene, trajectory)
+        .or_else(|| corridor_failure(places, is_inside))
+        .or_else(|| direction_failure(scene, trajectory, path, places))
+}
+
+/// Every point is inside the corridor, however near the reference path.
+fn corridor_failure(places: &[Beside], is_inside: impl Fn(usize) -> bool) -> Option<Witness> {
+    let i = (0..places.len()).find(|&i| !is_inside(i))?;
+    let witness = Witness::new(Rule::Corridor, &places[i].distance, &Real::zero());
+    Some(Witness { segment: Some(places[i].nearest), ..witness.at_point(i) })
+}
+
+/// Every point heads along the route.
+fn direction_failure(
+    scene: &Scene,
+    trajectory: &[Point],
+    path: &[Segment],
+    places: &[Beside],
+) -> Option<Witness> {
+    trajectory.iter().zip(places).enumerate().find_map(|(i, (point, place))| {
+        let witness = heading_failure(scene, point, path, place)?.at_point(i);
+        Some(Witness { segment: Some(place.nearest), ..witness })
+    })
+}
+
+/// heading . segment >= 0 for at least one nearest segment of the reference path.
+fn heading_failure(
+    scene: &Scene,
+    point: &Point,
+    path: &[Segment],
+    place: &Beside,
+) -> Option<Witness> {
+    let (zero, reach) = (Real::zero(), scene.reads.nearly(&place.distance));
+    // A closing segment of length 0 has no direction and is not asked.
+    let along: Vec<Real> = (path.iter().zip(&place.distances))
+        .map(|([a, b], distance)| (b - a, distance))
+        .filter(|(segment, distance)| **distance <= reach && segment.squared() > zero)
+        .map(|(segment, _)| point.pose.direction.dot(&segment))
+        .collect();
+    let passes = scene.reads.some(&along, |along| scene.reads.at_least(along, &zero));
+    Witness::unless(passes, Rule::Direction, &along[0], &zero)
+}
+
+/// The trajectory starts now and here.
+fn start_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let start = &trajectory[0];
+    let age_ns = i128::from(scene.now_ns) - i128::from(start.t_ns);
+    let max_age = i128::from(scene.parameters.max_age_ns);
+    if age_ns.abs() > max_age {
+        let (age, limit) = (Real::seconds(age_ns.abs()), Real::seconds(max_age));
+        return Some(Witness::new(Rule::StartTime, &age, &limit).at_point(0));
+    }
+    let driven = &scene.ego.v_now * Real::seconds(age_ns.max(0));
+    let limit = &scene.parameters.start_tolerance + driven;
+    let distance = start.pose.origin.distance(&scene.ego.position);
+    let passes = scene.reads.at_most(&distance, &limit);
+    Witness::unless(passes, Rule::StartPosition, &distance, &limit).map(|w| w.at_point(0))
+}

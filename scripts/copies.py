@@ -1,0 +1,80 @@
+"""A copy of the sources to which the mutants of `proofs/mutants.toml` are applied; for scripts/mutants and
+scripts/gains."""
+
+import contextlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).resolve()
+IGNORED = shutil.ignore_patterns("target", ".git", "__pycache__")
+
+
+def mutants():
+    return tomllib.loads((ROOT / "proofs/mutants.toml").read_text())["mutant"]
+
+
+class Copy:
+    """The sources in a folder of their own, built below target/mutants."""
+
+    def __init__(self, folder):
+        self.path = pathlib.Path(folder) / "mufasa"
+        # Every file is new, or a build would take what an earlier run has left for the same.
+        shutil.copytree(ROOT, self.path, ignore=IGNORED, copy_function=shutil.copyfile)
+        command = ["cargo", "build", "-q", "--locked", "-p", "mufasa-mutants", "--bin", "mutants"]
+        self.check(command, cwd=ROOT)
+        self.applier = TARGET / "debug/mutants"
+
+    @contextlib.contextmanager
+    def changed(self, mutant):
+        """Applies a mutant, and takes it back."""
+        self.check([self.applier, self.path, mutant["change"]])
+        try:
+            yield
+        finally:
+            for file in self.path.rglob("*.rs"):
+                original = ROOT / file.relative_to(self.path)
+                if file.read_bytes() != original.read_bytes():
+                    shutil.copyfile(original, file)
+
+    def run(self, command, family, **environment):
+        """Runs a command in the copy; families of engines that build alike share a target folder."""
+        settings = dict(os.environ, RUSTFLAGS="-A warnings", RUST_BACKTRACE="0",
+                        CARGO_TARGET_DIR=str(TARGET / "mutants" / family), **environment)
+        return subprocess.run(command, cwd=self.path, env=settings, text=True, capture_output=True)
+
+    def check(self, command, **where):
+        done = subprocess.run(command, text=True, capture_output=True, **where)
+        if done.returncode:
+            sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
+
+    def build_once(self):
+        """The program that runs one call of a workload, built in the copy."""
+        command = ["cargo", "build", "--release", "--locked", "-q", "-p", "mufasa-benches", "--bin", "once"]
+        done = self.run(command, "gains")
+        if done.returncode:
+            sys.exit(done.stderr)
+        once = self.path.parent / "once"
+        shutil.copy(TARGET / "mutants/gains/release/once", once)
+        return once
+
+
+@contextlib.contextmanager
+def copy():
+    with tempfile.TemporaryDirectory() as folder:
+        yield Copy(folder)
+
+
+def instructions(once, call, workload, out="/dev/null"):
+    """Instructions of one call, which do not depend on the load of the machine."""
+    task, *variant = call.split()
+    command = ["valgrind", "--tool=callgrind", "--toggle-collect=*once::measured*",
+               f"--callgrind-out-file={out}", once, task, str(workload), *variant]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stderr
+    return int(re.search(r"Collected : (\d+)", text)[1])
