@@ -2,7 +2,7 @@
 //! of ratios comes from the program `race`, which interleaves.
 
 use criterion::{BenchmarkId, Criterion};
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;

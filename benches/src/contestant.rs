@@ -7,13 +7,13 @@ use mufasa::input::cycle::Cycle;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{Outcome, Report, Stage};
-use mufasa::stages::{Valid, check, check_indexed};
+use mufasa::stages::{ValidCycle, check, check_indexed};
 
 /// A cycle with its scratch memory and the index of its route.
 pub struct Contestant<'a> {
     cycle: &'a Cycle<'a>,
     index: Option<&'a RouteIndex<'a>>,
-    valid: Valid<'a, 'a>,
+    valid: ValidCycle<'a, 'a>,
     rows: Vec<Row>,
     columns: Vec<Column>,
 }
@@ -38,7 +38,7 @@ impl<'a> Contestant<'a> {
         let (mut rows, mut columns) =
             (vec![Row::default(); rows], vec![Column::default(); columns]);
         let scratch = Scratch::new(&mut rows, &mut columns);
-        let valid = Valid::new(cycle, index, &scratch);
+        let valid = ValidCycle::new(cycle, index, &scratch);
         let valid = valid.expect("the workloads are valid input");
         Self { cycle, index, valid, rows, columns }
     }
@@ -60,7 +60,7 @@ impl<'a> Contestant<'a> {
     /// Whether the input is valid.
     pub fn validate(&mut self) -> bool {
         let scratch = Scratch::new(&mut self.rows, &mut self.columns);
-        Valid::new(black_box(self.cycle), self.index, &scratch).is_ok()
+        ValidCycle::new(black_box(self.cycle), self.index, &scratch).is_ok()
     }
 
     /// One stage, the input having been checked before; whether it passes.

@@ -17,7 +17,7 @@ pub struct Entry<'a> {
 }
 
 /// The medians of one contestant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Time {
     /// As in `Entry`.
     pub task: String,

@@ -1,7 +1,7 @@
 //! A race between programs that answer differently is worth nothing: implementation and peers
 //! come to the same verdict on every variant of the workloads.
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;

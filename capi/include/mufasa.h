@@ -359,24 +359,41 @@ typedef uint32_t MufasaEventType;
 // A requester in the memory of the caller; what is in it is nobody's business.
 typedef struct MufasaRequester MufasaRequester;
 
-// Parameters of the stages; names and domains as in spec/.
+// Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaParameters {
+  // Stage i: the mean distance of the assigned pairs has to be below this, m.
   double theta_tr;
+  // Stage ii: farthest a point outside the corridor may be from the reference path, m.
   double theta_map;
+  // Stages iii and iv: objects nearer than this are examined, m.
   double theta_obj;
+  // Braking deceleration, m/s^2.
   double a_b;
+  // Time of the safety distance required by law, s.
   double safety_time;
+  // Oldest age at which data count as current, ns.
   int64_t max_age_ns;
+  // Stage v: disks that cover the footprint.
   int64_t n;
+  // H-01: every assigned pair has to be closer than this, m.
   double theta_track_max;
+  // H-01: gated tracks that may stay without a detection.
   int64_t miss_budget;
+  // H-04: time before the CAV brakes, s.
   double tau;
+  // H-04, H-12: greatest acceleration of the CAV, m/s^2.
   double a_max;
+  // H-07, H-12: how far off the CAV a trajectory may start, m.
   double start_tolerance;
+  // H-11: greatest speed of a trajectory, m/s.
   double v_max;
+  // H-11: longest time between two trajectory points, ns.
   int64_t step_max_ns;
+  // H-09: greatest error of the velocity of a track, m/s.
   double theta_velocity;
+  // Stage i fails rather than begin an assignment of more work than this.
   int64_t work_limit;
+  // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
   double delta;
 } MufasaParameters;
 
@@ -591,13 +608,17 @@ typedef struct MufasaReport {
   struct MufasaInvalidInput input;
 } MufasaReport;
 
-// Times of a requester in ns, each at least 0.
+// Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaRequesterParameters {
+  // How long offloading is barred after a safety issue, ns.
   int64_t t_wait_ns;
+  // How long a request waits for its confirmation, ns.
   int64_t request_timeout_ns;
+  // Largest latency that is no violation, ns.
   int64_t l_max_ns;
+  // Largest inter-arrival time that is no violation, ns.
   int64_t dt_max_ns;
-  // Not 0: a violation of quality of service starts a hold, too.
+  // Whether a violation of quality of service starts a hold, too (I-09).
   uint32_t qos_hold;
 } MufasaRequesterParameters;
 

@@ -8,8 +8,9 @@ use mufasa::report::{InvalidInput, Report};
 use mufasa::stages;
 
 use crate::convert::{self, Counts};
-use crate::cycle::{MufasaCycle, MufasaParameters};
+use crate::cycle::MufasaCycle;
 use crate::memory::{Arena, put, required};
+use crate::parameters::MufasaParameters;
 use crate::report::{self, MufasaReport};
 use crate::status::MufasaStatus;
 
@@ -21,7 +22,7 @@ const _: () = assert!(Counts::MAX.bytes() <= MUFASA_SCRATCH_BYTES_MAX);
 /// The defaults of spec/3-stages.md.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_parameters_default() -> MufasaParameters {
-    convert::parameters_of(&Parameters::default())
+    Parameters::default().into()
 }
 
 /// Bytes of scratch memory that `mufasa_check` needs for this cycle, at any alignment;

@@ -4,16 +4,16 @@
 //! check to refuse it, whatever its length is, and scratch memory stays bounded.
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
-    TrackList, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
-use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
     MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid,
-    MufasaParameters, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
+    MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
 };
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
@@ -126,7 +126,7 @@ pub(crate) unsafe fn cycle<'a>(
     let lead = unsafe { optional(raw.lead) }?;
     Ok(Cycle {
         profile: profile(raw.profile)?,
-        parameters: parameters(&raw.parameters),
+        parameters: raw.parameters.into(),
         now_ns: raw.now_ns,
         configuration: configuration(raw.configuration)?,
         ego: ego(&raw.ego),
@@ -204,60 +204,6 @@ pub(crate) const fn configuration_number(configuration: Configuration) -> Mufasa
         Configuration::AllRemote => MufasaConfiguration::AllRemote,
         Configuration::PlanRemote => MufasaConfiguration::PlanRemote,
     }
-}
-
-/// Takes parameters apart and puts them together as the other type; a name that one of them lacks
-/// does not compile.
-macro_rules! same_parameters {
-    ($from:ident, $to:ident, $value:expr) => {{
-        let $from {
-            theta_tr,
-            theta_map,
-            theta_obj,
-            a_b,
-            safety_time,
-            max_age_ns,
-            n,
-            theta_track_max,
-            miss_budget,
-            tau,
-            a_max,
-            start_tolerance,
-            v_max,
-            step_max_ns,
-            theta_velocity,
-            work_limit,
-            delta,
-        } = $value;
-        $to {
-            theta_tr,
-            theta_map,
-            theta_obj,
-            a_b,
-            safety_time,
-            max_age_ns,
-            n,
-            theta_track_max,
-            miss_budget,
-            tau,
-            a_max,
-            start_tolerance,
-            v_max,
-            step_max_ns,
-            theta_velocity,
-            work_limit,
-            delta,
-        }
-    }};
-}
-
-fn parameters(raw: &MufasaParameters) -> Parameters {
-    same_parameters!(MufasaParameters, Parameters, *raw)
-}
-
-/// The parameters of C.
-pub(crate) fn parameters_of(parameters: &Parameters) -> MufasaParameters {
-    same_parameters!(Parameters, MufasaParameters, *parameters)
 }
 
 fn ego(raw: &MufasaEgo) -> Ego {

@@ -1,6 +1,8 @@
 //! The record of one cycle as C gives it (`spec/5-interfaces.md#cycle`): positions in m, speeds in
 //! m/s, times in ns, directions as cos and sin. Values outside their domain are found by the check.
 
+use crate::parameters::MufasaParameters;
+
 /// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,30 +25,6 @@ pub enum MufasaConfiguration {
     AllRemote = 3,
     /// PLAN.
     PlanRemote = 4,
-}
-
-/// Parameters of the stages; names and domains as in spec/.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names are those of spec/3-stages.md")]
-pub struct MufasaParameters {
-    pub theta_tr: f64,
-    pub theta_map: f64,
-    pub theta_obj: f64,
-    pub a_b: f64,
-    pub safety_time: f64,
-    pub max_age_ns: i64,
-    pub n: i64,
-    pub theta_track_max: f64,
-    pub miss_budget: i64,
-    pub tau: f64,
-    pub a_max: f64,
-    pub start_tolerance: f64,
-    pub v_max: f64,
-    pub step_max_ns: i64,
-    pub theta_velocity: f64,
-    pub work_limit: i64,
-    pub delta: f64,
 }
 
 /// Pose, speed and size of the CAV.

@@ -21,6 +21,7 @@
 pub mod check;
 pub mod cycle;
 pub mod event;
+pub mod parameters;
 pub mod report;
 pub mod requester;
 pub mod status;

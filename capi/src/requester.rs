@@ -12,20 +12,8 @@ use crate::convert;
 use crate::cycle::MufasaConfiguration;
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent};
 use crate::memory::{put, required};
+use crate::parameters::MufasaRequesterParameters;
 use crate::status::MufasaStatus;
-
-/// Times of a requester in ns, each at least 0.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/2-offloading.md")]
-pub struct MufasaRequesterParameters {
-    pub t_wait_ns: i64,
-    pub request_timeout_ns: i64,
-    pub l_max_ns: i64,
-    pub dt_max_ns: i64,
-    /// Not 0: a violation of quality of service starts a hold, too.
-    pub qos_hold: u32,
-}
 
 /// The state of a group.
 #[repr(u32)]
@@ -88,10 +76,7 @@ const _: () = assert!(size_of::<MufasaRequester>().is_multiple_of(align_of::<Sta
 /// The defaults of spec/2-offloading.md.
 #[unsafe(no_mangle)]
 pub extern "C" fn mufasa_requester_parameters_default() -> MufasaRequesterParameters {
-    let Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold } =
-        Parameters::default();
-    let qos_hold = u32::from(qos_hold);
-    MufasaRequesterParameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold }
+    Parameters::default().into()
 }
 
 /// Bytes of memory for a requester that knows this many stations. A place of the table is taken
@@ -224,14 +209,7 @@ unsafe fn init(
 ) -> Result<*mut MufasaRequester, MufasaStatus> {
     let profile = convert::profile(profile)?;
     // SAFETY: the caller's duty.
-    let raw = unsafe { required(parameters) }?;
-    let parameters = Parameters {
-        t_wait_ns: raw.t_wait_ns,
-        request_timeout_ns: raw.request_timeout_ns,
-        l_max_ns: raw.l_max_ns,
-        dt_max_ns: raw.dt_max_ns,
-        qos_hold: raw.qos_hold != 0,
-    };
+    let parameters = Parameters::from(*unsafe { required(parameters) }?);
     if memory.is_null() {
         return Err(MufasaStatus::NullPointer);
     }

@@ -3,6 +3,42 @@
 use std::fs;
 use std::path::Path;
 
+/// The source of the structs of `src/parameters.rs`: cbindgen expands no macro.
+macro_rules! source {
+    ($struct:literal, $($(#[$doc:meta])* $name:ident: $kind:ident;)*) => {
+        concat!(
+            "/// Parameters; names, defaults and domains as in spec/.\n",
+            "#[repr(C)]\npub struct ", $struct, " {\n",
+            $($("#[", stringify!($doc), "]\n",)* "pub ", stringify!($name), ": ", c_type!($kind), ",\n",)*
+            "}\n"
+        )
+    };
+}
+
+macro_rules! c_type {
+    (bool) => {
+        "u32"
+    };
+    ($kind:ident) => {
+        stringify!($kind)
+    };
+}
+
+macro_rules! parameters {
+    ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal in $domain:expr;)*) => {
+        source!("MufasaParameters", $($(#[$doc])* $name: $kind;)*)
+    };
+}
+
+macro_rules! requester_parameters {
+    ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
+        source!("MufasaRequesterParameters", $($(#[$doc])* $name: $kind;)*)
+    };
+}
+
+const PARAMETERS: [&str; 2] =
+    [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
+
 #[test]
 fn the_header_is_the_one_of_the_sources() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -11,8 +47,14 @@ fn the_header_is_the_one_of_the_sources() {
     for source in ["status", "cycle", "report", "check", "event", "requester"] {
         builder = builder.with_src(here.join("src").join(source).with_extension("rs"));
     }
+    let structs = Path::new(env!("CARGO_TARGET_TMPDIR")).join("parameters.rs");
+    fs::write(&structs, PARAMETERS.concat()).expect("the folder for tests can be written");
     let mut text = Vec::new();
-    builder.generate().expect("sources that cbindgen understands").write(&mut text);
+    builder
+        .with_src(structs)
+        .generate()
+        .expect("sources that cbindgen understands")
+        .write(&mut text);
     let text = String::from_utf8(text).expect("UTF-8");
     let path = here.join("include/mufasa.h");
     if std::env::var_os("UPDATE_HEADER").is_some() {

@@ -163,6 +163,7 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
         bounds: arguments.bounds,
         world: arguments.world,
         threads: arguments.threads.unwrap_or(all),
+        into: arguments.into,
         folder: arguments.out,
     };
     let end = match &arguments.serve {

@@ -24,9 +24,15 @@ use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 
 use self::report::Report;
+use crate::document;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_records::names;
+
+/// Name of the tables in a document.
+pub fn table_name(bounds: Bounds) -> String {
+    format!("mufasa explore --bounds {}", bounds.name())
+}
 
 /// What is explored.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,6 +45,8 @@ pub struct Settings {
     pub world: Option<String>,
     /// Threads of the second engine; 0: it is not asked.
     pub threads: usize,
+    /// A document whose tables of these bounds are replaced.
+    pub into: Option<PathBuf>,
     /// Folder for vectors and charts of what was found.
     pub folder: PathBuf,
 }
@@ -107,6 +115,12 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         out.flush()?;
     }
     end = end.max(say_written(write(&settings.folder, &reports), out, err)?);
+    if let Some(path) = &settings.into {
+        let tables: String = reports.iter().map(Report::markdown).collect();
+        let written = document::write(path, &table_name(settings.bounds), &tables);
+        let written = written.map(|()| vec![path.clone()]).map_err(|error| (path.clone(), error));
+        end = end.max(say_written(written, out, err)?);
+    }
     Ok(end)
 }
 
@@ -188,7 +202,7 @@ fn explore(
     world: &'static World,
     profile: Profile,
     threads: usize,
-) -> Result<Outcome, Box<mufasa_exploration::refine::Difference>> {
+) -> Result<Outcome, Box<mufasa_props::refine::Difference>> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
         bar.set_style(style);

@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod compose;
 pub mod demo;
+pub mod document;
 pub mod explore;
 pub mod parameters_file;
 pub mod prove;

@@ -1,7 +1,6 @@
 //! What is proved, by which engine, of which inputs: all engines that are here are run, the others
 //! are listed as not run.
 
-pub mod document;
 pub mod engines;
 pub mod line;
 pub mod sources;
@@ -12,10 +11,14 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::document;
 use engines::Source;
 use line::{Line, Verdict};
 use mufasa_drives::check::complain;
 use mufasa_records::files;
+
+/// Name of the table in a document.
+pub const TABLE_NAME: &str = "mufasa prove";
 
 /// What is run and where the answers go.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,7 +80,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
     write!(out, "{table}")?;
     if let Some(path) = &settings.into
-        && let Err(error) = document::write(path, &tables::markdown(&lines))
+        && let Err(error) = document::write(path, TABLE_NAME, &tables::markdown(&lines))
     {
         complain(err, &format!("{}: cannot be written: {error}", path.display()));
         end = End::BadInput;

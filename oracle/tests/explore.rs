@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::properties::Law;
 use mufasa_exploration::run::{self, Outcome};
 use mufasa_model::input::cycle::Profile;
-use mufasa_oracle::explore::findings;
+use mufasa_oracle::document;
+use mufasa_oracle::explore::report::Report;
+use mufasa_oracle::explore::{self, findings};
 use mufasa_records::{self as json, Record};
 use serde_json::Value;
 
@@ -35,6 +38,33 @@ fn the_kept_vectors_and_chart_of_f_12_are_what_is_found() {
         "mufasa explore --out writes it"
     );
     assert_eq!(story.chart(), kept("explored-F-12.svg"), "mufasa explore --out writes it");
+}
+
+/// The page has a row for every world and property in both profiles; that of the smallest world is
+/// what is explored today.
+#[test]
+fn the_tables_of_the_page_are_those_of_a_run() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/exploration.md");
+    let tables = document::read(&page, &explore::table_name(Bounds::Small)).unwrap();
+    let rows = |text: &str, name: &str| -> Vec<String> {
+        let start = format!("| {name} | ");
+        text.lines().filter(|line| line.starts_with(&start)).map(str::to_owned).collect()
+    };
+    let worlds = Bounds::Small.worlds().iter().map(|world| world.name.to_owned());
+    let laws = Law::ALL.iter().map(|law| law.name().replace('_', " "));
+    for name in worlds.chain(laws) {
+        assert_eq!(
+            rows(&tables, &name).len(),
+            2,
+            "{name}: mufasa explore --into docs/exploration.md"
+        );
+    }
+    let today = Report::new(Profile::Paper, Bounds::Small, &honest()).markdown();
+    // Up to the depth; what follows depends on the machine.
+    let sizes = |text: &str| -> Vec<String> {
+        rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()
+    };
+    assert_eq!(sizes(&tables), sizes(&today));
 }
 
 /// H-08 and F-12: after the same events the local services stand still in the paper profile and
@@ -75,7 +105,7 @@ impl Drop for Folder {
     }
 }
 
-fn explore(folder: &Folder, arguments: &[&str]) -> Output {
+fn run_explore(folder: &Folder, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_mufasa"))
         .arg("explore")
         .args(arguments)
@@ -88,7 +118,7 @@ fn explore(folder: &Folder, arguments: &[&str]) -> Output {
 #[test]
 fn the_program_shows_verdicts_and_writes_what_it_found() {
     let folder = Folder::new("honest");
-    let output = explore(&folder, &["--world", "honest", "--threads", "1"]);
+    let output = run_explore(&folder, &["--world", "honest", "--threads", "1"]);
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{text}");
     assert!(text.contains("fails after 4 moves (F-12)"), "{text}");
@@ -108,7 +138,7 @@ fn the_program_shows_verdicts_and_writes_what_it_found() {
 fn nothing_is_found_in_the_hardened_profile() {
     let folder = Folder::new("hardened");
     let arguments = ["--profile", "hardened", "--world", "honest", "--threads", "0"];
-    let output = explore(&folder, &arguments);
+    let output = run_explore(&folder, &arguments);
     assert_eq!(output.status.code(), Some(0));
     assert!(!String::from_utf8(output.stdout).unwrap().contains("fails"));
     let files = fs::read_dir(&folder.0).unwrap().map(|file| file.unwrap().file_name());
@@ -134,7 +164,7 @@ fn bad_arguments_are_refused() {
         &["--threads", "-1"],
         &["--world", "honest", "--serve", "no address"],
     ] {
-        let output = explore(&folder, arguments);
+        let output = run_explore(&folder, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(!output.stderr.is_empty(), "{arguments:?}");
     }

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use mufasa_mutants::Engine;
-use mufasa_oracle::prove::{document, sources, tables};
+use mufasa_oracle::document;
+use mufasa_oracle::prove::{TABLE_NAME, sources, tables};
 use mufasa_theorems::{gappa, theorem};
 
 fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
@@ -86,15 +87,15 @@ fn the_hash_of_the_sources_is_that_of_the_script() {
 }
 
 #[test]
-fn the_readme_has_a_row_for_every_claim() {
+fn the_document_has_a_row_for_every_claim() {
     let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
-    let table = document::read(&root().join("README.md")).expect("the table");
+    let table = document::read(&root().join("docs/proofs.md"), TABLE_NAME).expect("the table");
     let expected = tables::markdown(&claims);
     assert_eq!(tables::claims(&expected).len(), claims.len());
     assert_eq!(
         tables::claims(&table),
         tables::claims(&expected),
-        "the table is old: cargo run -- prove --into README.md"
+        "the table is old: cargo run -- prove --into docs/proofs.md"
     );
     for line in &claims {
         assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);

@@ -4,9 +4,10 @@
 //! Domain: speeds 0 to 150 m/s in steps of 2.5, gaps at and around `s_CAV` and `s_follow`.
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, DetectionList, Ego, Lead, Profile, Route, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, DetectionList, Ego, Lead, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{Outcome, Report};
 use mufasa::services::configuration::Configuration;

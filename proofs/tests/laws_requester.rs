@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupState, Groups, Requester, StationRecord,
 };

@@ -1,7 +1,8 @@
 //! A wrong report refutes each law of the schedule: none holds of nothing. That they hold is shown by
 //! `tests/laws.rs`.
 
-use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile;
 use mufasa::report::{FailedStage, Outcome, Reason, Report, Stage};
 use mufasa::services::configuration::Configuration;
 use mufasa_proofs::exhaust::schedule::{every_cycle, report};

@@ -4,4 +4,5 @@
 pub mod bridge;
 pub mod conformance;
 pub mod differential;
+pub mod refine;
 pub mod strategy;

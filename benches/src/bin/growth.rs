@@ -4,7 +4,8 @@
 
 use std::error::Error;
 
-use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;

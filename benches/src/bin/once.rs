@@ -6,7 +6,7 @@
 use std::error::Error;
 use std::hint::black_box;
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;

@@ -1,11 +1,13 @@
 //! `race [--json FILE] [--quick]`: checks that implementation and peers come to the same verdicts,
-//! then times them in one process and prints the table of ratios as Markdown.
+//! then times them in one process and prints the tables of ratios as Markdown. `race --from FILE`
+//! prints those of an earlier run.
 
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
@@ -13,7 +15,7 @@ use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer::{self, corridor::Trees};
 use mufasa_benches::race::{Entry, Rounds, race};
 use mufasa_benches::table::{
-    Cache, OURS, Results, STAGES, TEAMS, Team, UNSEEN, hardened, json, markdown,
+    Cache, OURS, Results, STAGES, TEAMS, Team, UNSEEN, hardened, markdown,
 };
 use mufasa_benches::workload::recipe::Size;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
@@ -25,6 +27,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--json" => json_file = Some(arguments.next().ok_or("--json needs a file")?),
+            "--from" => {
+                let file = arguments.next().ok_or("--from needs a file")?;
+                let results: Vec<Results> = serde_json::from_str(&std::fs::read_to_string(file)?)?;
+                print!("{}", markdown(&results));
+                return Ok(());
+            }
             "--quick" => rounds = Rounds { warm: 5, cold: 3 },
             other => return Err(format!("unknown argument {other}").into()),
         }
@@ -37,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     print!("{}", markdown(&results));
     if let Some(file) = json_file {
-        std::fs::write(file, json(&results))?;
+        std::fs::write(file, serde_json::to_string_pretty(&results)? + "\n")?;
     }
     Ok(())
 }

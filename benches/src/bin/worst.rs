@@ -6,10 +6,11 @@
 use std::time::SystemTime;
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;

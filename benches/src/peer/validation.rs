@@ -94,7 +94,8 @@ fn direction(cos: f64, sin: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use mufasa::input::cycle::{Profile, TrackList};
+    use mufasa::input::cycle::TrackList;
+    use mufasa::input::profile::Profile;
     use mufasa::services::configuration::Configuration;
 
     use super::plain_loop;

@@ -5,10 +5,11 @@ mod geometry;
 pub mod recipe;
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 

@@ -55,8 +55,8 @@ pub fn with_implementation<T>(
 ) -> Result<T, String> {
     let mut table = [implementation::StationRecord::FREE; 1];
     let profile = match profile {
-        Profile::Paper => mufasa::input::cycle::Profile::Paper,
-        Profile::Hardened => mufasa::input::cycle::Profile::Hardened,
+        Profile::Paper => mufasa::input::profile::Profile::Paper,
+        Profile::Hardened => mufasa::input::profile::Profile::Hardened,
     };
     let parameters = bridge::parameters_to_impl(parameters);
     let requester = implementation::Requester::new(profile, parameters, &mut table);

@@ -4,16 +4,8 @@
 //! `stages::check` says what is wrong with them.
 
 use crate::input::parameters::Parameters;
+use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
-
-/// The published method, or the published method with the rules H-nn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Profile {
-    /// The published method, read as the interpretations I-nn say.
-    Paper,
-    /// The published method and H-01 to H-12.
-    Hardened,
-}
 
 /// One cycle. Positions in m, speeds in m/s, times in ns, directions as (cos, sin).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,24 +3,19 @@
 
 mod lists;
 mod own;
+mod place;
+pub(crate) mod route;
 mod screen;
 
-use core::cmp::Ordering;
-
 use crate::input::cycle::{
-    Cycle, Detection, DetectionList, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
+    Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, TrajectoryPoint,
 };
-use crate::input::domain::screen::Screen;
-use crate::input::route_index::RouteIndex;
-use crate::numbers::exact::{Product, compare};
-use crate::numbers::plane::same_point;
+use crate::input::domain::lists::{Seen, detections_are_fine, points_are_fine, tracks_are_fine};
+use crate::input::domain::own::{check_ego, check_parameters};
+use crate::input::domain::place::{ANY, Check, POSITION, Place, SIZE, SPEED, VELOCITY};
+use crate::input::domain::route::check_route;
 use crate::report::{InvalidInput, Problem};
-use crate::services::configuration::Configuration;
-
-use self::lists::{
-    Seen, cross_sections_are_fine, detections_are_fine, points_are_fine, tracks_are_fine,
-};
-use self::own::{check_ego, check_parameters};
+use crate::services::configuration::Group;
 
 /// Whose data are invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,13 +34,11 @@ pub(crate) struct Usable {
 }
 
 /// Checks everything in the order of `spec/3-stages.md#invalid-input`; the first local problem
-/// goes before the first remote one. A route that is indexed has been checked before.
-pub(crate) fn validate(cycle: &Cycle<'_>, index: Option<&RouteIndex<'_>>) -> Result<Usable, Fault> {
-    let remote_tracks =
-        matches!(cycle.configuration, Configuration::MotRemote | Configuration::AllRemote);
-    let remote_trajectory =
-        matches!(cycle.configuration, Configuration::AllRemote | Configuration::PlanRemote);
-    let previous_tracks = local(cycle, remote_tracks, index.is_some()).map_err(Fault::Local)?;
+/// goes before the first remote one. `route_is_valid`: the route has been checked before.
+pub(crate) fn validate(cycle: &Cycle<'_>, route_is_valid: bool) -> Result<Usable, Fault> {
+    let [remote_tracks, remote_trajectory] =
+        Group::ALL.map(|group| cycle.configuration.is_remote(group));
+    let previous_tracks = local(cycle, remote_tracks, route_is_valid).map_err(Fault::Local)?;
     let mut trajectory = true;
     if !remote_trajectory {
         trajectory = check_trajectory(cycle, false).map_err(Fault::Local)?;
@@ -58,22 +51,6 @@ pub(crate) fn validate(cycle: &Cycle<'_>, index: Option<&RouteIndex<'_>>) -> Res
     }
     Ok(Usable { trajectory, previous_tracks })
 }
-
-/// `later - earlier` in ns; saturates only far beyond every limit that it is compared with.
-pub(crate) fn elapsed_ns(earlier_ns: i64, later_ns: i64) -> i64 {
-    later_ns.saturating_sub(earlier_ns)
-}
-
-type Check = Result<(), InvalidInput>;
-
-/// 60 s, beyond which a stamp is out of the domain.
-const HORIZON_NS: i64 = 60_000_000_000;
-
-const POSITION: [f64; 2] = [-16_777_216.0, 16_777_216.0];
-const SPEED: [f64; 2] = [0.0, 150.0];
-const VELOCITY: [f64; 2] = [-150.0, 150.0];
-const SIZE: [f64; 2] = [0.01, 100.0];
-const ANY: [f64; 2] = [f64::MIN, f64::MAX];
 
 /// All local input but the trajectory; whether `previous_tracks` can be used.
 fn local(
@@ -106,48 +83,23 @@ fn local(
 fn check_lead(lead: &Lead, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("lead.stamp_ns", lead.stamp_ns, now_ns, false)?;
-    at.number("lead.gap", lead.gap, [0.0, 1e6])?;
-    at.number("lead.speed", lead.speed, SPEED)
-}
-
-/// The rules for a route.
-pub(crate) fn check_route(route: &Route<'_>) -> Check {
-    Place { index: None }.size("route.stations", route.cross_sections.len(), [2, 8192])?;
-    if cross_sections_are_fine(route.cross_sections) {
-        return Ok(());
-    }
-    let mut before: Option<[f64; 2]> = None;
-    for (index, cross_section) in route.cross_sections.iter().enumerate() {
-        let at = Place { index: Some(index) };
-        at.number("route.stations.x", cross_section.x, POSITION)?;
-        at.number("route.stations.y", cross_section.y, POSITION)?;
-        for value in cross_section.left {
-            at.number("route.stations.left", value, POSITION)?;
-        }
-        for value in cross_section.right {
-            at.number("route.stations.right", value, POSITION)?;
-        }
-        if before.is_some_and(|before| same_point(before, [cross_section.x, cross_section.y])) {
-            return at.problem("route.stations.x", Problem::EqualPoints);
-        }
-        before = Some([cross_section.x, cross_section.y]);
-    }
-    Ok(())
+    at.f64("lead.gap", lead.gap, [0.0, 1e6])?;
+    at.f64("lead.speed", lead.speed, SPEED)
 }
 
 fn check_grid(grid: &Grid<'_>, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("grid.stamp_ns", grid.stamp_ns, now_ns, false)?;
-    at.number("grid.x", grid.x, POSITION)?;
-    at.number("grid.y", grid.y, POSITION)?;
-    at.number("grid.cos", grid.cos, ANY)?;
-    at.number("grid.sin", grid.sin, ANY)?;
+    at.f64("grid.x", grid.x, POSITION)?;
+    at.f64("grid.y", grid.y, POSITION)?;
+    at.f64("grid.cos", grid.cos, ANY)?;
+    at.f64("grid.sin", grid.sin, ANY)?;
     at.direction("grid.cos", grid.cos, grid.sin)?;
-    at.number("grid.resolution", grid.resolution, [0.01, 10.0])?;
-    at.integer("grid.width", grid.width, [1, 1 << 15])?;
-    at.integer("grid.height", grid.height, [1, 1 << 15])?;
+    at.f64("grid.resolution", grid.resolution, [0.01, 10.0])?;
+    at.i64("grid.width", grid.width, [1, 1 << 15])?;
+    at.i64("grid.height", grid.height, [1, 1 << 15])?;
     let cells = grid.width.saturating_mul(grid.height);
-    at.integer("grid.height", cells, [1, 1 << 24])?;
+    at.i64("grid.height", cells, [1, 1 << 24])?;
     let bytes = usize::try_from(cells.saturating_add(7) >> 3).ok();
     if Some(grid.occupied.len()) != bytes {
         return at.problem("grid.occupied", Problem::BitmapLength);
@@ -168,13 +120,13 @@ fn check_detections(list: &DetectionList<'_>, now_ns: i64) -> Check {
     for (index, item) in list.items.iter().enumerate() {
         let &Detection { x, y, cos, sin, length, width } = item;
         let at = Place { index: Some(index) };
-        at.number("detections.items.x", x, POSITION)?;
-        at.number("detections.items.y", y, POSITION)?;
-        at.number("detections.items.cos", cos, ANY)?;
-        at.number("detections.items.sin", sin, ANY)?;
+        at.f64("detections.items.x", x, POSITION)?;
+        at.f64("detections.items.y", y, POSITION)?;
+        at.f64("detections.items.cos", cos, ANY)?;
+        at.f64("detections.items.sin", sin, ANY)?;
         at.direction("detections.items.cos", cos, sin)?;
-        at.number("detections.items.length", length, SIZE)?;
-        at.number("detections.items.width", width, SIZE)?;
+        at.f64("detections.items.length", length, SIZE)?;
+        at.f64("detections.items.width", width, SIZE)?;
     }
     Ok(())
 }
@@ -248,15 +200,15 @@ fn check_tracks(
 }
 
 fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
-    at.number(fields.x, track.x, POSITION)?;
-    at.number(fields.y, track.y, POSITION)?;
-    at.number(fields.cos, track.cos, ANY)?;
-    at.number(fields.sin, track.sin, ANY)?;
+    at.f64(fields.x, track.x, POSITION)?;
+    at.f64(fields.y, track.y, POSITION)?;
+    at.f64(fields.cos, track.cos, ANY)?;
+    at.f64(fields.sin, track.sin, ANY)?;
     at.direction(fields.cos, track.cos, track.sin)?;
-    at.number(fields.vx, track.vx, VELOCITY)?;
-    at.number(fields.vy, track.vy, VELOCITY)?;
-    at.number(fields.length, track.length, SIZE)?;
-    at.number(fields.width, track.width, SIZE)
+    at.f64(fields.vx, track.vx, VELOCITY)?;
+    at.f64(fields.vy, track.vy, VELOCITY)?;
+    at.f64(fields.length, track.length, SIZE)?;
+    at.f64(fields.width, track.width, SIZE)
 }
 
 /// Whether the stamp is not more than 60 s before now, or there is no trajectory. The points of a
@@ -274,10 +226,10 @@ fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInpu
         let &TrajectoryPoint { t_ns, x, y, cos, sin } = point;
         let at = Place { index: Some(index) };
         at.stamp("trajectory.points.t_ns", t_ns, cycle.now_ns, usable)?;
-        at.number("trajectory.points.x", x, POSITION)?;
-        at.number("trajectory.points.y", y, POSITION)?;
-        at.number("trajectory.points.cos", cos, ANY)?;
-        at.number("trajectory.points.sin", sin, ANY)?;
+        at.f64("trajectory.points.x", x, POSITION)?;
+        at.f64("trajectory.points.y", y, POSITION)?;
+        at.f64("trajectory.points.cos", cos, ANY)?;
+        at.f64("trajectory.points.sin", sin, ANY)?;
         at.direction("trajectory.points.cos", cos, sin)?;
         if before.is_some_and(|before| before >= t_ns) {
             at.problem("trajectory.points.t_ns", Problem::TimeNotIncreasing)?;
@@ -285,78 +237,4 @@ fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInpu
         before = Some(t_ns);
     }
     Ok(usable)
-}
-
-/// Where in a list a value stands.
-#[derive(Clone, Copy)]
-struct Place {
-    index: Option<usize>,
-}
-
-impl Place {
-    fn problem(self, field: &'static str, problem: Problem) -> Check {
-        Err(InvalidInput { field, index: self.index, problem })
-    }
-
-    /// NaN is not finite; every other value is compared with both ends of its domain.
-    fn number(self, field: &'static str, value: f64, [least, most]: [f64; 2]) -> Check {
-        if !value.is_finite() {
-            return self.problem(field, Problem::NotFinite);
-        }
-        if least <= value && value <= most {
-            return Ok(());
-        }
-        self.problem(field, Problem::OutOfDomain)
-    }
-
-    fn integer(self, field: &'static str, value: i64, [least, most]: [i64; 2]) -> Check {
-        if least <= value && value <= most {
-            return Ok(());
-        }
-        self.problem(field, Problem::OutOfDomain)
-    }
-
-    fn size(self, field: &'static str, items: usize, [least, most]: [usize; 2]) -> Check {
-        if items < least {
-            return self.problem(field, Problem::TooFew);
-        }
-        if items > most {
-            return self.problem(field, Problem::TooMany);
-        }
-        Ok(())
-    }
-
-    /// Whether the time is not older than 60 s; older remote times and later ones are refused.
-    fn stamp(
-        self,
-        field: &'static str,
-        stamp_ns: i64,
-        now_ns: i64,
-        remote: bool,
-    ) -> Result<bool, InvalidInput> {
-        let age_ns = elapsed_ns(stamp_ns, now_ns);
-        if age_ns < -HORIZON_NS || (remote && age_ns > HORIZON_NS) {
-            self.problem(field, Problem::TimeOutOfRange)?;
-        }
-        Ok(age_ns <= HORIZON_NS)
-    }
-
-    /// The norm check is exact: abs(cos^2 + sin^2 - 1) <= 1e-6 in real numbers.
-    fn direction(self, field: &'static str, cos: f64, sin: f64) -> Check {
-        let mut screen = Screen::default();
-        screen.direction([cos, sin]);
-        if screen.passes() {
-            return Ok(());
-        }
-        let near = |value: f64| (-2.0..=2.0).contains(&value);
-        let square = [Product([cos, 0.0], [cos, 0.0]), Product([sin, 0.0], [sin, 0.0])];
-        let one = Product([1.0, 0.0], [1.0, 0.0]);
-        let most = [one, Product([1e-6, 0.0], [1.0, 0.0])];
-        let least = [one, Product([-1e-6, 0.0], [1.0, 0.0])];
-        let within = near(cos)
-            && near(sin)
-            && compare(&square, &most) != Ordering::Greater
-            && compare(&square, &least) != Ordering::Less;
-        if within { Ok(()) } else { self.problem(field, Problem::NotADirection) }
-    }
 }

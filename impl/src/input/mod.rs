@@ -2,6 +2,7 @@
 
 pub mod cycle;
 pub mod parameters;
+pub mod profile;
 pub mod route_index;
 pub mod scratch;
 

@@ -2,7 +2,7 @@
 //! (`spec/3-stages.md#stage-ii-trajectory-to-map`). No verdict depends on it, only time.
 
 use crate::input::cycle::{CrossSection, Route};
-use crate::input::domain::check_route;
+use crate::input::domain::route::check_route;
 use crate::report::{InvalidInput, Problem};
 
 /// Cross sections, or blocks, that are under one box.

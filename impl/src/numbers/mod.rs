@@ -5,3 +5,4 @@ pub(crate) mod plane;
 pub(crate) mod range;
 pub(crate) mod rectangle;
 pub(crate) mod rounding;
+pub(crate) mod time;

@@ -17,15 +17,6 @@ pub(crate) struct Rectangle {
     pub(crate) width: f64,
 }
 
-impl Rectangle {
-    /// H-03: half the diagonal times (1 + 1e-6), m.
-    pub(crate) fn circumradius(&self) -> Real {
-        let (length, width) = (Real::new(self.length), Real::new(self.width));
-        let diagonal = (length.squared() + width.squared()).sqrt();
-        diagonal * Real::new(0.5) * (Real::ONE + Real::new(1e-6))
-    }
-}
-
 /// Whether the two rectangles may share a point: unless the extents along a side of one of them
 /// certainly leave a gap (separating axes of two convex sets whose sides are orthogonal).
 pub(crate) fn possibly_touch(a: &Rectangle, b: &Rectangle) -> bool {

@@ -11,6 +11,7 @@
 
 mod event;
 mod inspect;
+pub(crate) mod parameters;
 mod per_group;
 mod restore;
 mod slot;
@@ -22,69 +23,17 @@ mod tests;
 
 pub use self::event::{Action, Actions, Event, EventKind};
 pub use self::inspect::{Running, Suspended};
+pub use self::parameters::Parameters;
 pub use self::restore::{GroupRecord, Parts};
 pub use self::slot::GroupState;
 pub use self::stations::StationRecord;
 pub use crate::services::configuration::{Group, Groups, Source};
 
-use self::event::Outbox;
 use self::per_group::PerGroup;
 use self::slot::Slot;
 use self::stations::Stations;
-use self::steps::Farewell;
-use crate::input::cycle::Profile;
-use crate::offloading::quality_of_service::Limits;
+use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
-
-/// The times of a requester, in ns, each from 0 to 2^63 - 1. Source:
-/// `spec/2-offloading.md`, `spec/4-arithmetic.md#domain`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Parameters {
-    /// How long offloading is barred after a safety issue.
-    pub t_wait_ns: i64,
-    /// How long a request waits for its confirmation.
-    pub request_timeout_ns: i64,
-    /// Largest latency that is no violation.
-    pub l_max_ns: i64,
-    /// Largest inter-arrival time that is no violation.
-    pub dt_max_ns: i64,
-    /// Whether a violation of quality of service starts a hold too (I-09).
-    pub qos_hold: bool,
-}
-
-impl Default for Parameters {
-    fn default() -> Self {
-        Self {
-            t_wait_ns: 10_000_000_000,
-            request_timeout_ns: 500_000_000,
-            l_max_ns: 50_000_000,
-            dt_max_ns: 100_000_000,
-            qos_hold: false,
-        }
-    }
-}
-
-impl Parameters {
-    const fn limits(&self) -> Limits {
-        Limits { l_max_ns: self.l_max_ns, dt_max_ns: self.dt_max_ns }
-    }
-
-    /// The first time below 0, in the order of the fields.
-    const fn problem(&self) -> Option<RequesterError> {
-        let field = if self.t_wait_ns < 0 {
-            "t_wait_ns"
-        } else if self.request_timeout_ns < 0 {
-            "request_timeout_ns"
-        } else if self.l_max_ns < 0 {
-            "l_max_ns"
-        } else if self.dt_max_ns < 0 {
-            "dt_max_ns"
-        } else {
-            return None;
-        };
-        Some(RequesterError::NegativeParameter { field })
-    }
-}
 
 /// Why a requester could not be made, or an event not be taken; then nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -153,8 +102,8 @@ impl<'a> Requester<'a> {
         parameters: Parameters,
         table: &'a mut [StationRecord],
     ) -> Result<Self, RequesterError> {
-        if let Some(problem) = parameters.problem() {
-            return Err(problem);
+        if let Some(field) = parameters.negative() {
+            return Err(RequesterError::NegativeParameter { field });
         }
         Ok(Self {
             profile,
@@ -166,41 +115,6 @@ impl<'a> Requester<'a> {
             dropped: PerGroup::new(0, 0),
             stations: Stations::new(table),
         })
-    }
-
-    /// Takes one event and says what has to be done about it, in this order.
-    ///
-    /// Errors: a station below 1; an offer that the table has no place for. Then nothing has
-    /// changed. Source: `spec/2-offloading.md`.
-    pub fn step(&mut self, event: &Event) -> Result<Actions, RequesterError> {
-        if let Some(station) = event.kind.station().filter(|&station| station < 1) {
-            return Err(RequesterError::Station { station });
-        }
-        let mut out = Outbox::default();
-        let now_ns = event.t_ns;
-        match event.kind {
-            EventKind::Offer { station, groups } => {
-                self.offer(station, groups, Farewell::Release, &mut out)?;
-            }
-            EventKind::Withdraw { station } => {
-                self.offer(station, Groups::NONE, Farewell::Release, &mut out)?;
-            }
-            EventKind::Lost { station } => {
-                self.offer(station, Groups::NONE, Farewell::Silent, &mut out)?;
-            }
-            EventKind::Area { groups } => self.set_area(groups, &mut out),
-            EventKind::Tick => self.tick(now_ns, &mut out),
-            EventKind::Confirm { station, group, session } => {
-                self.confirm(now_ns, station, group, session, &mut out);
-            }
-            EventKind::Reject { station, group, session } => self.reject(station, group, session),
-            EventKind::Data { station, group, session, generated_ns } => {
-                self.data(now_ns, (station, group, session), generated_ns, &mut out);
-            }
-            EventKind::Verdict { safe: true, groups } => self.safe(groups, &mut out),
-            EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
-        }
-        Ok(out.into_actions())
     }
 
     /// The state of a group.
@@ -264,7 +178,7 @@ impl<'a> Requester<'a> {
                         && self.stations.find(station).is_some_and(offered_and_asked)
                 })
         };
-        self.parameters.problem().is_none()
+        self.parameters.negative().is_none()
             && self.sessions >= 0
             && self.stations.is_valid(self.sessions)
             && Group::ALL.into_iter().all(group_is_valid)

@@ -2,12 +2,14 @@
 
 pub(crate) mod sweep;
 
-use crate::input::cycle::{Cycle, Ego, Profile, TrajectoryPoint};
-use crate::input::domain::elapsed_ns;
+use crate::hardened::h03_circumradii::examined_up_to;
+use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::input::profile::Profile;
 use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
-use crate::stages::llcc::sweep::{Moving, Sweep};
+use crate::numbers::time::{elapsed_ns, seconds};
+use crate::stages::llcc::sweep::{MovingRectangle, Sweep};
 
 /// A collision: the point, the object, both as indices, and the distance of the centres with the
 /// limit below which (H-03: up to which) the object is examined.
@@ -19,14 +21,14 @@ pub(crate) struct Collision {
 }
 
 /// The CAV at the points that are examined, with the time from which objects are moved on.
-pub(crate) struct Course<'c, 'a> {
+pub(crate) struct CavMotion<'c, 'a> {
     cycle: &'c Cycle<'a>,
     points: &'c [TrajectoryPoint],
     stamp_ns: i64,
     sweep: Sweep,
 }
 
-impl<'c, 'a> Course<'c, 'a> {
+impl<'c, 'a> CavMotion<'c, 'a> {
     pub(crate) fn new(cycle: &'c Cycle<'a>, points: &'c [TrajectoryPoint], stamp_ns: i64) -> Self {
         let time = |point: Option<&TrajectoryPoint>| {
             point.map_or(0.0, |point| seconds(elapsed_ns(stamp_ns, point.t_ns)))
@@ -37,9 +39,9 @@ impl<'c, 'a> Course<'c, 'a> {
 
     /// The first collision in the order of points, then objects. Object after object, looking
     /// only at the points before that of the first collision so far.
-    pub(crate) fn first(
+    pub(crate) fn first_collision(
         &self,
-        objects: impl Iterator<Item = Moving>,
+        objects: impl Iterator<Item = MovingRectangle>,
         counts: impl Fn(usize) -> bool,
     ) -> Option<Collision> {
         let mut points = self.points;
@@ -61,10 +63,10 @@ impl<'c, 'a> Course<'c, 'a> {
     }
 
     /// Whether the check may find a collision at a point.
-    fn collision(&self, at: &TrajectoryPoint, object: &Moving) -> Option<[f64; 2]> {
+    fn collision(&self, at: &TrajectoryPoint, object: &MovingRectangle) -> Option<[f64; 2]> {
         let ego = &self.cycle.ego;
         let dt_ns = elapsed_ns(self.stamp_ns, at.t_ns);
-        let cav = Moving::footprint(ego, at);
+        let cav = MovingRectangle::footprint(ego, at);
         let theta_obj = self.cycle.parameters.theta_obj;
         let published = self.cycle.profile == Profile::Paper;
         if cav.certainly_apart(object, seconds(dt_ns))
@@ -78,7 +80,7 @@ impl<'c, 'a> Course<'c, 'a> {
         let (limit, examined) = match self.cycle.profile {
             Profile::Paper => (theta_obj, apart.possibly_below(theta_obj)),
             Profile::Hardened => {
-                let limit = theta_obj.max(cav.circumradius() + object.circumradius());
+                let limit = examined_up_to(theta_obj, &cav, &object);
                 (limit, apart.possibly_at_most(limit))
             }
         };
@@ -95,14 +97,9 @@ fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Rectangle {
 }
 
 /// The rectangle of an object after `dt` seconds with unchanged velocity and direction.
-fn moved(object: &Moving, dt: Real) -> Rectangle {
+fn moved(object: &MovingRectangle, dt: Real) -> Rectangle {
     let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
     let [length, width] = object.size;
     let centre = vector(object.centre) + vector(object.velocity).times(dt);
     Rectangle { centre, direction: vector(object.direction), length, width }
-}
-
-/// A time in s, with two roundings; times are below 2^38 ns.
-fn seconds(time_ns: i64) -> f64 {
-    Real::integer(time_ns).value() * 1e-9
 }

@@ -1,30 +1,36 @@
 //! Which stages run, in which order, and what the cycle reports (`spec/3-stages.md#schedule`).
 
 pub(crate) mod distances;
-pub(crate) mod examined;
+pub(crate) mod horizon;
 pub(crate) mod i_track_validation;
 pub(crate) mod ii_trajectory_to_map;
 mod iii_tracks;
 mod iv_detections;
 pub(crate) mod llcc;
-mod v_grid_map;
+pub(crate) mod v_grid_map;
 
-use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList, Trajectory};
-use crate::input::domain::{Fault, Usable, elapsed_ns, validate};
+use crate::hardened::h02_h05_h10_schedule::{
+    ObstacleChecks, grid_map_in_plan_remote, iii_replaces_others, no_obstacle_check,
+};
+use crate::hardened::h04_horizon::compares_gap_alone;
+use crate::hardened::h09_velocity::previous_in_use;
+use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
+use crate::input::domain::{Fault, Usable, validate};
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
+use crate::numbers::time::elapsed_ns;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
 use crate::services::configuration::Configuration;
-use crate::stages::i_track_validation::{previous_in_use, track_validation};
-use crate::stages::ii_trajectory_to_map::map_validation;
-use crate::stages::iii_tracks::tracks;
-use crate::stages::iv_detections::{detections, gap};
-use crate::stages::v_grid_map::grid;
+use crate::stages::i_track_validation::track_validation;
+use crate::stages::ii_trajectory_to_map::trajectory_to_map;
+use crate::stages::iii_tracks::trajectory_with_tracks;
+use crate::stages::iv_detections::{gap_failure, trajectory_with_detections};
+use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
 /// make the cycle unsafe (`spec/3-stages.md#invalid-input`).
 ///
-/// Work, for T tracks, D detections, P points, S stations, n disks and G cells of the grid. Usually
+/// Work, for T tracks, D detections, P points, S cross sections, n disks and G cells of the grid. Usually
 /// each stage is linear in its lists. At most:
 ///
 /// * input: T + D + P + S, and T^2/2 comparisons of ids that do not increase and share their low
@@ -42,9 +48,9 @@ use crate::stages::v_grid_map::grid;
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells.
 ///
 /// Only stage i has a limit. The default of `work_limit`, 10^10, is above the most work there is,
-/// 1024^2 * 2112 = 2.2e9 steps: no verdict of the paper depends on it, and whoever has to be in
-/// time has to choose a smaller one (`docs/speed.md` has the time for a work). The other stages do
-/// what the sizes say: whoever has to be in time gives short lists, few disks and no tiny cells.
+/// 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it. To bound the run
+/// time, choose a smaller one (`docs/speed.md` has the time for a work) and limit lists, disks and
+/// cells: the other stages do what the sizes say.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     decide(cycle, None, scratch)
 }
@@ -64,32 +70,37 @@ fn decide<'a>(
     index: Option<&RouteIndex<'a>>,
     scratch: &mut Scratch<'_>,
 ) -> Result<Report, InvalidInput> {
-    match validate(cycle, index) {
+    match validate(cycle, index.is_some()) {
         Err(Fault::Local(problem)) => Err(problem),
         Err(Fault::Remote(problem)) => {
-            let stages = Stage::ALL.map(|stage| match duty(cycle, stage) {
-                Duty::Never => Outcome::NotScheduled,
-                Duty::Always | Duty::Conditional => Outcome::Skipped(Reason::AfterFailure),
+            let stages = Stage::ALL.map(|stage| match scheduled(cycle, stage) {
+                Scheduled::Never => Outcome::NotScheduled,
+                Scheduled::Always | Scheduled::Conditional => {
+                    Outcome::Skipped(Reason::AfterFailure)
+                }
             });
             Ok(Report { failed_stage: Some(FailedStage::Input), stages, input: Some(problem) })
         }
         Ok(usable) => {
             scratch.fits(cycle)?;
-            Ok(run(cycle, usable, index, scratch))
+            Ok(run(&ValidCycle::of(cycle, usable, index), scratch))
         }
     }
 }
 
 /// A cycle whose input is valid, for running one stage alone: to test it, or to time it.
 #[derive(Debug)]
-pub struct Valid<'c, 'a> {
+pub struct ValidCycle<'c, 'a> {
     cycle: &'c Cycle<'a>,
     current: Current<'c, 'a>,
     previous: Option<&'c TrackList<'a>>,
     index: Option<&'c RouteIndex<'a>>,
 }
 
-impl<'c, 'a> Valid<'c, 'a> {
+/// Why a stage fails, if it does; or the first input that it lacks.
+type Found = Result<Option<Witness>, Input>;
+
+impl<'c, 'a> ValidCycle<'c, 'a> {
     /// Checks all input, local and remote, and the size of the scratch. `index`: as for
     /// `check_indexed`.
     ///
@@ -100,69 +111,90 @@ impl<'c, 'a> Valid<'c, 'a> {
         scratch: &Scratch<'_>,
     ) -> Result<Self, InvalidInput> {
         let index = index.filter(|index| index.is_of(&cycle.route));
-        let usable = validate(cycle, index)
+        let usable = validate(cycle, index.is_some())
             .map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
         scratch.fits(cycle)?;
+        Ok(Self::of(cycle, usable, index))
+    }
+
+    fn of(cycle: &'c Cycle<'a>, usable: Usable, index: Option<&'c RouteIndex<'a>>) -> Self {
         let received = cycle.tracks.as_ref();
         let previous =
             received.and_then(|list| previous_in_use(cycle, list, usable.previous_tracks));
-        Ok(Self { cycle, current: Current::new(cycle, usable), previous, index })
+        Self { cycle, current: Current::new(cycle, usable), previous, index }
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
-    /// an input of it is not current. Stage iv includes the gap, stage v takes stage iv as run.
+    /// an input of it is not current. Stages iii and v take stages i and iv as run. Source:
+    /// `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
-        let Self { cycle, ref current, previous, index } = *self;
         let found = match stage {
-            Stage::I => cycle.tracks.as_ref().ok_or(Input::Tracks).and_then(|tracks| {
-                let detections = current.detections.ok_or(Input::Detections)?;
-                Ok(track_validation(cycle, tracks, detections, previous, scratch))
-            }),
-            Stage::Ii => current.trajectory().map(|path| map_validation(cycle, path, index)),
-            Stage::Iii => current.trajectory().and_then(|path| {
-                Ok(tracks(cycle, path, current.tracks.ok_or(Input::Tracks)?, previous))
-            }),
-            Stage::Iv => current.trajectory().and_then(|path| {
-                let list = current.detections.ok_or(Input::Detections)?;
-                let too_close = current.lead.and_then(|lead| gap(cycle, lead));
-                Ok(too_close.or_else(|| detections(cycle, path, list, current.lead)))
-            }),
-            Stage::V => current
-                .trajectory()
-                .and_then(|path| Ok(grid(cycle, path, current.grid.ok_or(Input::Grid)?, true))),
+            Stage::I => self.i(scratch),
+            Stage::Ii => self.ii(),
+            Stage::Iii => self.iii(true),
+            Stage::Iv => self.iv(),
+            Stage::V => self.v(true),
         };
-        match found {
-            Ok(None) => Outcome::Passed,
-            Ok(Some(witness)) => Outcome::Failed(witness),
-            Err(missing) => Outcome::NotApplicable(missing),
-        }
+        found.map_or_else(Outcome::NotApplicable, outcome)
     }
+
+    /// Tracks go to stage i whatever their age.
+    fn i(&self, scratch: &mut Scratch<'_>) -> Found {
+        let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
+        let detections = self.current.detections.ok_or(Input::Detections)?;
+        Ok(track_validation(self.cycle, tracks, detections, self.previous, scratch))
+    }
+
+    fn ii(&self) -> Found {
+        Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.index))
+    }
+
+    fn iii(&self, ran_i: bool) -> Found {
+        let trajectory = self.current.trajectory()?;
+        let tracks = self.current.tracks.ok_or(Input::Tracks)?;
+        let held = self.previous.filter(|_| ran_i);
+        Ok(trajectory_with_tracks(self.cycle, trajectory, tracks, held))
+    }
+
+    fn iv(&self) -> Found {
+        let trajectory = self.current.trajectory()?;
+        let detections = self.current.detections.ok_or(Input::Detections)?;
+        Ok(trajectory_with_detections(self.cycle, trajectory, detections, self.current.lead))
+    }
+
+    fn v(&self, ran_iv: bool) -> Found {
+        let trajectory = self.current.trajectory()?;
+        let grid = self.current.grid.ok_or(Input::Grid)?;
+        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, ran_iv))
+    }
+}
+
+fn outcome(found: Option<Witness>) -> Outcome {
+    found.map_or(Outcome::Passed, Outcome::Failed)
 }
 
 /// How a stage stands in the table of `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Duty {
+enum Scheduled {
     Always,
     Conditional,
     Never,
 }
 
-/// The table; H-05 makes stage v conditional in `PlanRemote`.
-fn duty(cycle: &Cycle<'_>, stage: Stage) -> Duty {
+/// The table.
+fn scheduled(cycle: &Cycle<'_>, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    use Scheduled::{Always, Conditional, Never};
     match (stage, cycle.configuration) {
-        (_, Local) | (Stage::I, PlanRemote) | (Stage::Iii, MotRemote) => Duty::Never,
+        (Stage::V, PlanRemote) if grid_map_in_plan_remote(cycle) => Conditional,
+        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
         (Stage::I, MotRemote | AllRemote)
         | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
         | (Stage::Iii, PlanRemote)
-        | (Stage::V, MotRemote) => Duty::Always,
+        | (Stage::V, MotRemote) => Always,
         (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
-            Duty::Conditional
+            Conditional
         }
-        (Stage::V, PlanRemote) => match cycle.profile {
-            Profile::Paper => Duty::Never,
-            Profile::Hardened => Duty::Conditional,
-        },
     }
 }
 
@@ -198,32 +230,28 @@ impl<'c, 'a> Current<'c, 'a> {
 }
 
 /// What is known of the cycle so far.
-struct Progress {
+struct Progress<'c, 'a> {
+    cycle: &'c Cycle<'a>,
     failed: Option<FailedStage>,
     stages: [Outcome; 5],
 }
 
-impl Progress {
-    /// Settles one stage. `blocked`: another stage made a conditional one unnecessary; `missing`:
-    /// the first input that it lacks; `run` gives the witness of a failure. Whether it ran.
-    fn settle(
-        &mut self,
-        (stage, duty): (Stage, Duty),
-        blocked: bool,
-        missing: Option<Input>,
-        run: impl FnOnce() -> Option<Witness>,
-    ) -> bool {
-        let skipped = match (duty, missing) {
-            (Duty::Never, _) => Some(Outcome::NotScheduled),
-            _ if self.failed.is_some() => Some(Outcome::Skipped(Reason::AfterFailure)),
-            (Duty::Conditional, _) if blocked => Some(Outcome::Skipped(Reason::OtherStageRan)),
-            (Duty::Conditional, Some(input)) => Some(Outcome::Skipped(Reason::NoCurrent(input))),
-            (Duty::Always, Some(input)) => Some(Outcome::NotApplicable(input)),
-            (Duty::Always | Duty::Conditional, None) => None,
+impl Progress<'_, '_> {
+    /// Settles one stage. `replaced`: another stage made a conditional one unnecessary; `find`:
+    /// what the stage finds, if it runs. Whether it ran.
+    fn settle(&mut self, stage: Stage, replaced: bool, find: impl FnOnce() -> Found) -> bool {
+        let scheduled = scheduled(self.cycle, stage);
+        let outcome = match scheduled {
+            Scheduled::Never => Outcome::NotScheduled,
+            _ if self.failed.is_some() => Outcome::Skipped(Reason::AfterFailure),
+            Scheduled::Conditional if replaced => Outcome::Skipped(Reason::OtherStageRan),
+            Scheduled::Conditional => {
+                find().map_or_else(|input| Outcome::Skipped(Reason::NoCurrent(input)), outcome)
+            }
+            Scheduled::Always => find().map_or_else(Outcome::NotApplicable, outcome),
         };
-        let outcome = skipped.unwrap_or_else(|| run().map_or(Outcome::Passed, Outcome::Failed));
         self.report(stage, outcome);
-        skipped.is_none()
+        matches!(outcome, Outcome::Passed | Outcome::Failed(_))
     }
 
     fn report(&mut self, stage: Stage, outcome: Outcome) {
@@ -237,87 +265,28 @@ impl Progress {
 }
 
 /// Runs the stages on valid input.
-fn run<'a>(
-    cycle: &Cycle<'a>,
-    usable: Usable,
-    index: Option<&RouteIndex<'a>>,
-    scratch: &mut Scratch<'_>,
-) -> Report {
-    let hardened = cycle.profile == Profile::Hardened;
-    let all_remote = cycle.configuration == Configuration::AllRemote;
-    let current = Current::new(cycle, usable);
-    let scheduled = |stage| (stage, duty(cycle, stage));
-    let mut progress = Progress { failed: None, stages: [Outcome::NotScheduled; 5] };
+fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
+    let ValidCycle { cycle, ref current, .. } = *valid;
+    let mut progress = Progress { cycle, failed: None, stages: [Outcome::NotScheduled; 5] };
+    let ran_i = progress.settle(Stage::I, false, || valid.i(scratch));
+    progress.settle(Stage::Ii, false, || valid.ii());
+    let ran_iii = progress.settle(Stage::Iii, false, || valid.iii(ran_i));
 
-    let received = cycle.tracks.as_ref().zip(current.detections);
-    let previous =
-        cycle.tracks.as_ref().and_then(|list| previous_in_use(cycle, list, usable.previous_tracks));
-    let missing = lacks(&[
-        (Input::Tracks, cycle.tracks.is_some()),
-        (Input::Detections, current.detections.is_some()),
-    ]);
-    let ran_i = progress.settle(scheduled(Stage::I), false, missing, || {
-        let (tracks, detections) = received?;
-        track_validation(cycle, tracks, detections, previous, scratch)
-    });
-
-    let with_trajectory = (Input::Trajectory, current.trajectory.is_some());
-    progress.settle(scheduled(Stage::Ii), false, lacks(&[with_trajectory]), || {
-        map_validation(cycle, current.trajectory?, index)
-    });
-
-    let missing = lacks(&[with_trajectory, (Input::Tracks, current.tracks.is_some())]);
-    let ran_iii = progress.settle(scheduled(Stage::Iii), false, missing, || {
-        tracks(cycle, current.trajectory?, current.tracks?, previous.filter(|_| ran_i))
-    });
-
-    // H-10: in AllRemote what stage iii did keeps neither iv nor v from running.
-    let iii_counts = ran_iii && !(hardened && all_remote);
-    let missing = lacks(&[with_trajectory, (Input::Detections, current.detections.is_some())]);
-    let ran_iv = stage_iv(cycle, &current, &mut progress, iii_counts, missing);
-
-    let missing = lacks(&[with_trajectory, (Input::Grid, current.grid.is_some())]);
-    let ran_v = progress.settle(scheduled(Stage::V), iii_counts || ran_iv, missing, || {
-        grid(cycle, current.trajectory?, current.grid?, ran_iv)
-    });
-
-    // H-02: tracks that stage i could not check are no obstacle check.
-    let checked_iii = ran_iii && (!all_remote || current.detections.is_some());
-    let checked = checked_iii || ran_iv || ran_v;
-    let local = cycle.configuration == Configuration::Local;
-    if hardened && !local && progress.failed.is_none() && with_trajectory.1 && !checked {
-        progress.failed = Some(FailedStage::NoObstacleCheck);
-    }
-    Report { failed_stage: progress.failed, stages: progress.stages, input: None }
-}
-
-/// Stage iv, and H-04: the gap is compared at its place even when it does not run. Whether it ran.
-fn stage_iv(
-    cycle: &Cycle<'_>,
-    current: &Current<'_, '_>,
-    progress: &mut Progress,
-    blocked: bool,
-    missing: Option<Input>,
-) -> bool {
-    let scheduled = (Stage::Iv, duty(cycle, Stage::Iv));
-    let too_close = || current.lead.and_then(|lead| gap(cycle, lead));
-    let ran = progress.settle(scheduled, blocked, missing, || {
-        too_close()
-            .or_else(|| detections(cycle, current.trajectory?, current.detections?, current.lead))
-    });
-    let compared = cycle.profile == Profile::Hardened
-        && scheduled.1 != Duty::Never
-        && progress.failed.is_none()
-        && current.trajectory.is_some();
-    if compared && !ran {
-        if let Some(witness) = too_close() {
+    let replaced = ran_iii && iii_replaces_others(cycle);
+    let ran_iv = progress.settle(Stage::Iv, replaced, || valid.iv());
+    let alone = compares_gap_alone(cycle, current.trajectory.is_some());
+    if alone && !ran_iv && progress.failed.is_none() {
+        if let Some(witness) = gap_failure(cycle, current.lead) {
             progress.report(Stage::Iv, Outcome::Failed(witness));
         }
     }
-    ran
-}
+    let ran_v = progress.settle(Stage::V, replaced || ran_iv, || valid.v(ran_iv));
 
-/// The first of the inputs that is not there.
-fn lacks(inputs: &[(Input, bool)]) -> Option<Input> {
-    inputs.iter().find(|(_, present)| !present).map(|&(input, _)| input)
+    let checks = ObstacleChecks {
+        trajectory: current.trajectory.is_some(),
+        detections: current.detections.is_some(),
+        ran: [ran_iii, ran_iv, ran_v],
+    };
+    let failed_stage = progress.failed.or_else(|| no_obstacle_check(cycle, checks));
+    Report { failed_stage, stages: progress.stages, input: None }
 }

@@ -1,7 +1,8 @@
 //! Invalid input is refused in the order of `spec/3-stages.md#invalid-input`.
 
 use crate::scene::{NOW_NS, scene, track};
-use mufasa::input::cycle::{Cycle, Profile::Hardened};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile::Hardened;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Problem, Reason};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};

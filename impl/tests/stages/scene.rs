@@ -1,10 +1,11 @@
 //! A cycle in which everything is in order, and how to check it.
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Profile, Route, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration;

@@ -2,7 +2,7 @@
 
 use crate::scene::{NOW_NS, Scene, detection, scene, track};
 use mufasa::input::cycle::Lead;
-use mufasa::input::cycle::Profile::{Hardened, Paper};
+use mufasa::input::profile::Profile::{Hardened, Paper};
 use mufasa::report::{FailedStage, Input, Outcome, Reason, Rule, Stage};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 

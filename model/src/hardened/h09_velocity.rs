@@ -37,10 +37,9 @@ pub fn collision_standing(
         previous.as_ref().is_some_and(|(list, _)| list.items.iter().any(|track| track.id == id))
     };
     let standing: Vec<_> = tracks.items.iter().filter(|track| !is_held(track.id)).collect();
-    let (i, j, collision) =
-        first_collision(scene, points, &standing, |_, track| track.object.clone())?;
-    let witness = Witness::new(Rule::CollisionStanding, &collision.distance, &collision.limit);
-    Some(Witness { track: Some(standing[j].id), ..witness.at_point(i) })
+    let rule = Rule::CollisionStanding;
+    first_collision(scene, rule, points, &standing, |_, track| track.object.clone())
+        .map(|(j, witness)| Witness { track: Some(standing[j].id), ..witness })
 }
 
 /// The previous list and the time from its stamp to that of the received one, when that is usable.

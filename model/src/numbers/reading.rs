@@ -116,7 +116,7 @@ impl Comparisons {
         distance: impl Fn(&T) -> Real,
         r: &Real,
         judge: impl Fn(&[&T]) -> Option<W>,
-        too_many: impl FnOnce() -> W,
+        too_many: impl FnOnce(&Real) -> W,
     ) -> Option<W> {
         let is_lax = self.reading == Reading::Lax;
         let beyond: Vec<Real> = items.iter().map(|item| distance(item) - r).collect();
@@ -124,7 +124,7 @@ impl Comparisons {
             |i: &usize| self.reading != Reading::Exact && beyond[*i].abs() <= self.delta;
         let edge: Vec<usize> = (0..items.len()).filter(on_the_edge).collect();
         if edge.len() > MOST_ON_THE_EDGE {
-            return (!is_lax).then(too_many);
+            return (!is_lax).then(|| too_many(&self.delta));
         }
         let mut failures = (0..1usize << edge.len()).map(|choice| {
             let is_within = |i: &usize| match edge.iter().position(|e| e == i) {

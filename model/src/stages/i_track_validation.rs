@@ -1,5 +1,9 @@
 //! Stage i: paper Sec. IV-B, "Track Validation", Eq. (2)
-//! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
+//! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09):
+//!
+//! 1/k (c_1 + ... + c_k) < theta_tr
+//!
+//! where the c_i are the costs of the best match of tracks with detections.
 
 use crate::hardened::{h01_matched_pairs, h09_velocity};
 use crate::input::profile::Profile;
@@ -8,18 +12,17 @@ use crate::numbers::assignment::{Costs, mean_less, work};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 
-/// Compares the received tracks within the field of view with the detections; `None` passes. The
-/// field of view reaches from the CAV, at p, to the farthest detection.
+/// Compares the received tracks in the field of view with the detections; `None` passes. The field of
+/// view reaches from the CAV, at p, to the farthest detection.
 pub fn track_validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -> Option<Witness> {
-    let (p, delta) = (&scene.ego.position, &scene.reads.delta);
-    let distances = detections.iter().map(|detection| detection.frame.origin.distance(p));
-    let r = distances.max().unwrap_or_else(Real::zero);
+    let p = &scene.ego.position;
+    let r = detections.iter().map(|d| d.frame.origin.distance(p)).max().unwrap_or_else(Real::zero);
     let failure = scene.reads.judge_within(
         &tracks.items,
         |track| track.object.frame.origin.distance(p),
         &r,
         |gated| average_cost_failure(scene, gated, detections),
-        || Witness::new(Rule::MeanCost, delta, delta),
+        |delta| Witness::new(Rule::MeanCost, delta, delta),
     );
     match scene.profile {
         Profile::Paper => failure,
@@ -27,12 +30,12 @@ pub fn track_validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -
     }
 }
 
-/// (c_1 + ... + c_k) / k < theta_tr, where the c_i are the costs of the cheapest assignment of
-/// k = min(gated tracks, detections) pairs and the cost of a pair is its distance.
+/// 1/k (c_1 + ... + c_k) < theta_tr: the c_i are the costs in the cheapest assignment of
+/// k = min(gated tracks, detections) pairs, a cost being the distance from track to detection.
 fn average_cost_failure(scene: &Scene, gated: &[&Track], detections: &[Object]) -> Option<Witness> {
-    let cost = |t: &Track, d: &Object| t.object.frame.origin.distance(&d.frame.origin);
+    let c = |t: &Track, d: &Object| t.object.frame.origin.distance(&d.frame.origin);
     let costs: Costs =
-        gated.iter().map(|t| detections.iter().map(|d| Some(cost(t, d))).collect()).collect();
+        gated.iter().map(|t| detections.iter().map(|d| Some(c(t, d))).collect()).collect();
     let (costs, k, columns) = match scene.profile {
         Profile::Paper => (costs, gated.len().min(detections.len()), detections.len()),
         Profile::Hardened => h01_matched_pairs::to_assign(scene, costs, detections.len()),
@@ -49,7 +52,7 @@ fn average_cost_failure(scene: &Scene, gated: &[&Track], detections: &[Object]) 
     })
 }
 
-/// A late answer is no answer: an implementation may fail the stage instead of so much work.
+/// A late answer is no answer: an implementation fails the stage instead of so much work.
 fn over_work_limit(scene: &Scene, work: i128) -> Option<Witness> {
     let limit = i128::from(scene.parameters.work_limit);
     let [steps, most] = [work, limit].map(Real::from_integer);

@@ -1,5 +1,7 @@
 //! Stage ii: paper Sec. IV-C, "Trajectory to Map Validation"
-//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12).
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12):
+//!
+//! distance to the reference path <= theta_map, or inside the path boundaries
 
 use crate::hardened::{h07_start, h11_steps, h12_progress};
 use crate::input::profile::Profile;
@@ -9,8 +11,7 @@ use crate::numbers::polyline::{Beside, Segment, beside};
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// Compares the whole trajectory with the route; `None` passes. A point farther than theta_map from
-/// the reference path must be inside the path boundaries.
+/// Compares the points of the whole trajectory with the route; `None` passes.
 pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let (path, corridor) = (reference_path(&scene.route), corridor(&scene.route));
     let theta_map = &scene.parameters.theta_map;

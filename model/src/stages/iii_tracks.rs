@@ -1,5 +1,7 @@
 //! Stage iii: paper Sec. IV-D, "Trajectory Validation with Tracks", Eq. (3)
-//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-09).
+//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-09):
+//!
+//! no collision with a predicted track within s_CAV = v_now safety_time
 
 use crate::hardened::h09_velocity;
 use crate::input::profile::Profile;
@@ -24,11 +26,8 @@ pub fn trajectory_with_tracks(
         let t_ns = i128::from(point.t_ns) - i128::from(tracks.stamp_ns);
         predicted(track, &Real::seconds(t_ns))
     };
-    let hit = first_collision(scene, &points, &tracks.items, predicted);
-    let failure = hit.map(|(i, j, collision)| Witness {
-        track: Some(tracks.items[j].id),
-        ..Witness::new(Rule::Collision, &collision.distance, &collision.limit).at_point(i)
-    });
+    let failure = first_collision(scene, Rule::Collision, &points, &tracks.items, predicted)
+        .map(|(j, witness)| Witness { track: Some(tracks.items[j].id), ..witness });
     match scene.profile {
         Profile::Paper => failure,
         Profile::Hardened => failure

@@ -1,5 +1,7 @@
 //! Stage iv: paper Sec. IV-E, "Trajectory Validation with Detections", Eq. (4) to (6)
-//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`).
+//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`):
+//!
+//! gap > s_follow, and no collision with a detection within s_valid
 
 use crate::input::scene::{Object, Point, Scene};
 use crate::report::{Rule, Witness};
@@ -19,10 +21,8 @@ pub fn trajectory_with_detections(
         let v_lead = scene.lead.as_ref().map(|lead| &lead.speed);
         let s_valid = s_valid(&scene.ego.v_now, v_lead, &p.a_b, &p.safety_time);
         let points = points_examined(scene, trajectory, &s_valid);
-        let (i, j, collision) =
-            first_collision(scene, &points, detections, |_, detection| detection.clone())?;
-        let witness = Witness::new(Rule::Collision, &collision.distance, &collision.limit);
-        Some(Witness { detection: Some(j), ..witness.at_point(i) })
+        first_collision(scene, Rule::Collision, &points, detections, |_, d| d.clone())
+            .map(|(j, witness)| Witness { detection: Some(j), ..witness })
     })
 }
 

@@ -7,6 +7,7 @@ use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, may_share_a_point};
 use crate::numbers::vector::Frame;
+use crate::report::{Rule, Witness};
 
 /// A collision: the distance of the centres and the limit that made the object examined, m.
 #[derive(Debug)]
@@ -32,17 +33,19 @@ pub fn llcc(scene: &Scene, point: &Point, object: &Object) -> Option<Collision> 
     collides.then_some(Collision { distance, limit })
 }
 
-/// The first collision in the order of the points, then of the list: the index of the point, that of
-/// the item, and the collision with the object that the item is when the CAV is at the point.
+/// The first collision in the order of the points, then of the list: the index of the item, and the
+/// witness at the point. `object`: what the item is when the CAV is at the point.
 pub fn first_collision<T>(
     scene: &Scene,
+    rule: Rule,
     points: &[Point],
     items: &[T],
     object: impl Fn(&Point, &T) -> Object,
-) -> Option<(usize, usize, Collision)> {
+) -> Option<(usize, Witness)> {
     points.iter().enumerate().find_map(|(i, point)| {
         items.iter().enumerate().find_map(|(j, item)| {
-            llcc(scene, point, &object(point, item)).map(|collision| (i, j, collision))
+            let Collision { distance, limit } = llcc(scene, point, &object(point, item))?;
+            Some((j, Witness::new(rule, &distance, &limit).at_point(i)))
         })
     })
 }

@@ -1,5 +1,8 @@
 //! Stage v: paper Sec. IV-F, "Trajectory Validation with a Grid Map", within Eq. (4)
-//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-06).
+//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-06):
+//!
+//! the footprint is covered by disks of one radius r; the grid is dilated by r; no disk centre at a
+//! trajectory point within s_b lies in a marked cell
 
 use crate::hardened::h06_closed_cells;
 use crate::input::profile::Profile;
@@ -12,8 +15,7 @@ use crate::stages::distances::s_b;
 use crate::stages::horizon::points_examined;
 use crate::stages::llcc::centre;
 
-/// Checks the centres of the disks that cover the footprint, at the trajectory points within s_b, in
-/// the grid dilated by their radius; `None` passes. `stage_iv_ran`: in this cycle (H-06).
+/// Checks the trajectory in the dilated grid; `None` passes. `stage_iv_ran`: in this cycle (H-06).
 pub fn trajectory_with_grid_map(
     scene: &Scene,
     trajectory: &[Point],
@@ -36,25 +38,22 @@ pub fn trajectory_with_grid_map(
     };
     match scene.profile {
         Profile::Paper => first(Rule::Occupied, &|centre| {
-            mark_at(&scene.reads, centre, &grid.resolution, |cell| dilated(scene, grid, &r, cell))
+            mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
         Profile::Hardened => (h06_closed_cells::rules(stage_iv_ran).into_iter())
             .find_map(|(rule, reaches)| first(rule, &|centre| reaches(scene, grid, centre, &r))),
     }
 }
 
-/// The grid dilated by r marks the cells of the array whose centre is at distance <= r from the centre
-/// of some occupied cell: the first such, by row and column. Cells not around the centre are farther.
-fn dilated(scene: &Scene, grid: &Grid, r: &Real, cell: Cell) -> Option<Hit> {
-    let centre = |cell: Cell| cells::centre(cell, &grid.resolution);
-    let near = || around(&centre(cell), &scene.reads.raised(r), &grid.resolution);
-    let mut occupied =
-        grid.holds(cell).then(|| grid.cells(near()))?.filter(|c| grid.is_occupied(*c));
-    occupied.find_map(|occupied| {
-        let distance = centre(cell).distance(&centre(occupied));
-        let marks = scene.reads.may_be_at_most(&distance, r);
-        marks.then_some(Hit { cell: Some(occupied), distance })
-    })
+/// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.
+pub fn disk_offset(i: &Real, n: &Real, length: &Real) -> Real {
+    let two = Real::from_integer(2);
+    (&two * i + Real::from_integer(1)) * length / (&two * n) - length / two
+}
+
+/// r = sqrt((L/n)^2 + W^2) / 2, m.
+pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
+    ((length / n).square() + width.square()).sqrt() / Real::from_integer(2)
 }
 
 /// The centres of the n disks on the long axis of the CAV's rectangle, in the frame of the grid.
@@ -68,13 +67,18 @@ fn disk_centres(scene: &Scene, grid: &Grid, point: &Point) -> Vec<Vector> {
     (0..scene.parameters.n).map(disk).collect()
 }
 
-/// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.
-pub fn disk_offset(i: &Real, n: &Real, length: &Real) -> Real {
-    let two = Real::from_integer(2);
-    (&two * i + Real::from_integer(1)) * length / (&two * n) - length / two
-}
-
-/// r = sqrt((L/n)^2 + W^2) / 2, m.
-pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
-    ((length / n).square() + width.square()).sqrt() / Real::from_integer(2)
+/// The grid dilated by r marks the cells of the array whose centre is at distance <= r from the centre
+/// of some occupied cell: what marks this cell is the first such, by row and column.
+fn mark(scene: &Scene, grid: &Grid, r: &Real, cell: Cell) -> Option<Hit> {
+    if !grid.holds(cell) {
+        return None;
+    }
+    let centre = |cell: Cell| cells::centre(cell, &grid.resolution);
+    // No cell that is not around the centre is so near.
+    let near = around(&centre(cell), &scene.reads.raised(r), &grid.resolution);
+    grid.cells(near).filter(|other| grid.is_occupied(*other)).find_map(|occupied| {
+        let distance = centre(cell).distance(&centre(occupied));
+        let marks = scene.reads.may_be_at_most(&distance, r);
+        marks.then_some(Hit { cell: Some(occupied), distance })
+    })
 }

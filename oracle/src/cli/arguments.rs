@@ -201,6 +201,9 @@ pub(super) struct ExploreArguments {
     /// Threads of the second engine, stateright; 0 leaves it out. By default all.
     #[arg(long, value_name = "N")]
     pub(super) threads: Option<usize>,
+    /// Put the tables into a document, between the lines that mark their place.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
+    pub(super) into: Option<PathBuf>,
     /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails.
     #[arg(long, value_name = "DIR", default_value = "exploration")]
     pub(super) out: PathBuf,

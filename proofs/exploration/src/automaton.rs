@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 
 use super::fit::fit;
-use super::refine::Difference;
+use mufasa_props::refine::Difference;
 
 /// Something that reacts.
 pub trait Part: Clone {

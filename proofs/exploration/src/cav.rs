@@ -20,7 +20,7 @@ use mufasa_model::services::configuration::{Offloadable, Source};
 use super::automaton::Part;
 use super::bounds::{STATIONS, Ticks, World};
 use super::fit::fit;
-use super::refine::{Difference, Pair};
+use mufasa_props::refine::{Difference, Pair};
 
 /// A requester of a world at a time.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 //! (`spec/2-offloading.md#properties-of-the-whole-protocol`).
 //!
 //! * `bounds`: every bound with its reason.
-//! * `refine`: the model's and the implementation's requester, step by step.
+//! * `mufasa_props::refine`: the model's and the implementation's requester, step by step.
 //! * `automaton`, `cav`, `station`: the real parts as finite automata, and why that loses nothing.
 //! * `state`, `moves`, `system`: the whole system.
 //! * `properties`, `observer`: what has to hold, judged from outside.
@@ -19,7 +19,6 @@ pub mod lasso;
 pub mod moves;
 pub mod observer;
 pub mod properties;
-pub mod refine;
 pub mod replay;
 pub mod run;
 pub mod runs;

@@ -13,10 +13,10 @@ use super::automaton::Part;
 use super::cav::{CavPart, Named};
 use super::fit::fit;
 use super::moves::Move;
-use super::refine::{Difference, Pair};
 use super::state::{Kind, Letter, Message, State};
 use super::station::StationPart;
 use super::system::System;
+use mufasa_props::refine::{Difference, Pair};
 
 /// A number that no request ever has, for forged messages.
 const NEVER_ASKED: i64 = 0;

@@ -10,11 +10,11 @@ use super::bounds::World;
 use super::lasso::{self, Lasso};
 use super::moves::Move;
 use super::properties::{Law, Sight};
-use super::refine::Difference;
 use super::runs::{self, Manner};
 use super::search::{self, Explored, Progress};
 use super::second::{self, Confirmation};
 use super::system::System;
+use mufasa_props::refine::Difference;
 
 /// What the exploration of a world in a profile found.
 #[derive(Debug)]

@@ -11,7 +11,7 @@ use mufasa_model::offloading::requester::Group;
 use super::automaton::Part;
 use super::bounds::{REQUESTERS, World};
 use super::fit::fit;
-use super::refine::Difference;
+use mufasa_props::refine::Difference;
 
 /// A provider of a world at a time.
 #[derive(Clone, Debug)]

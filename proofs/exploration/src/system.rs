@@ -13,11 +13,11 @@ use super::fit::fit;
 use super::moves::Move;
 use super::observer::{CavStep, Findings};
 use super::properties::{Law, Sight};
-use super::refine::Difference;
 use super::state::{Kind, Layout, Letter, Message, State};
 use super::station::{
     Order, StationEffect, StationLikeness, StationPart, StationStimulus, ToStation,
 };
+use mufasa_props::refine::Difference;
 
 /// The system of a world in a profile.
 #[derive(Debug)]

@@ -8,12 +8,12 @@ use mufasa_exploration::automaton::{Automaton, Part};
 use mufasa_exploration::bounds::{Bounds, World};
 use mufasa_exploration::cav::{CavPart, Named, Stimulus};
 use mufasa_exploration::moves::Move;
-use mufasa_exploration::refine::Pair;
 use mufasa_exploration::replay::Replay;
 use mufasa_exploration::station::StationPart;
 use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventKind};
+use mufasa_props::refine::Pair;
 
 const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
 /// As far from 0 as a clock may be, and still far from where times saturate.

@@ -2,11 +2,11 @@
 //! limits of 64 bits; any parameters; four stations. Model and implementation take every step
 //! alike (`Pair::step`), and an observer judges what they do.
 
-use mufasa_exploration::refine::Pair;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters,
 };
+use mufasa_props::refine::Pair;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 

@@ -3,7 +3,7 @@
 
 use std::vec::Vec;
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Source,
     StationRecord, Suspended,

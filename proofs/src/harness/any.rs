@@ -3,7 +3,7 @@
 
 #[cfg(not(kani))]
 use crate::kani;
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::services::configuration::{Configuration, Group, Groups};
 
 #[cfg(not(kani))]

@@ -1,7 +1,8 @@
 //! The assignment of stage i (`spec/3-stages.md#stage-i-track-validation`) against all there are.
 
-use mufasa::input::cycle::{Cycle, Detection, DetectionList, Profile, Route, Track, TrackList};
+use mufasa::input::cycle::{Cycle, Detection, DetectionList, Route, Track, TrackList};
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::Outcome;
 use mufasa::services::configuration::Configuration;

@@ -2,10 +2,9 @@
 //! always refused and names `s_follow`, and the trajectory points that stage iv examines show
 //! `s_valid`.
 
-use mufasa::input::cycle::{
-    Cycle, DetectionList, Lead, Profile, Route, Trajectory, TrajectoryPoint,
-};
+use mufasa::input::cycle::{Cycle, DetectionList, Lead, Route, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Scratch};
 use mufasa::report::{Outcome, Report, Witness};
 use mufasa::services::configuration::Configuration;

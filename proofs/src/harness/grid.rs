@@ -1,8 +1,9 @@
 //! Grid cells and their borders in stage v (`spec/3-stages.md#stage-v-trajectory-with-grid-map`)
 //! against integers.
 
-use mufasa::input::cycle::{Cycle, Ego, Grid, Profile, Route, Trajectory, TrajectoryPoint};
+use mufasa::input::cycle::{Cycle, Ego, Grid, Route, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{Outcome, Report, Rule};
 use mufasa::services::configuration::Configuration;

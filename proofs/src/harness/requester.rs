@@ -1,7 +1,7 @@
 //! The requester (`spec/2-offloading.md`) by induction: from every valid state every event keeps
 //! all laws and leads to a valid state, so they hold after any number of events.
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester,
     RequesterError, Running, StationRecord, Suspended,

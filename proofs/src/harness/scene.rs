@@ -2,10 +2,11 @@
 //! CAV that creeps along it, an object beside it or on its way.
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
-    TrackList, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::services::configuration::Configuration;
 
 /// How an input is: what a stage sees of it.

@@ -6,7 +6,7 @@ use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, Input, InvalidInput, Outcome, Problem, Report, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::{Valid, check, check_indexed};
+use mufasa::stages::{ValidCycle, check, check_indexed};
 
 use super::any::{index, profile};
 use super::bounds::{DETECTIONS, DISKS, TRACKS};
@@ -148,7 +148,7 @@ pub fn verify_stage_alone_says_the_same() {
     let (mut rows, mut columns) = ([Row::default(); TRACKS], [Column::default(); COLUMNS]);
     let mut scratch = Scratch::new(&mut rows, &mut columns);
     let answer = check(&cycle, &mut scratch);
-    let Ok(valid) = Valid::new(&cycle, None, &scratch) else {
+    let Ok(valid) = ValidCycle::new(&cycle, None, &scratch) else {
         assert!(answer.is_err() || is_refused(&answer));
         kani::cover!(is_refused(&answer), "invalid remote data");
         return;

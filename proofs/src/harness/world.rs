@@ -1,10 +1,11 @@
 //! A cycle of arbitrary numbers, of small sizes.
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
-    TrackList, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::report::Input;
 use mufasa::services::configuration::Configuration;
 

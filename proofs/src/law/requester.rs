@@ -1,6 +1,6 @@
 //! Laws of the requester (`spec/2-offloading.md`).
 
-use mufasa::input::cycle::Profile;
+use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Parameters, Requester, Source,
 };

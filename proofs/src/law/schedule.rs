@@ -1,6 +1,7 @@
 //! Laws of a cycle's report (`spec/3-stages.md#schedule`).
 
-use mufasa::input::cycle::{Cycle, Profile};
+use mufasa::input::cycle::Cycle;
+use mufasa::input::profile::Profile;
 use mufasa::report::{FailedStage, Outcome, Report, Stage};
 use mufasa::services::configuration::Configuration;
 

@@ -11,7 +11,7 @@ use mufasa_model::services::configuration::Configuration;
 /// The lists of a cycle in the implementation's types; `borrow` makes the cycle of them.
 #[derive(Clone, Debug)]
 pub struct Owned {
-    profile: twin::Profile,
+    profile: mufasa::input::profile::Profile,
     parameters: mufasa::input::parameters::Parameters,
     now_ns: i64,
     configuration: mufasa::services::configuration::Configuration,
@@ -90,53 +90,24 @@ impl Owned {
     }
 }
 
-/// The parameters of the stages in the implementation's type.
-pub fn cycle_parameters(parameters: &Parameters) -> mufasa::input::parameters::Parameters {
-    let Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    } = *parameters;
-    mufasa::input::parameters::Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    }
+macro_rules! same_names {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        /// The parameters of the stages in the implementation's type, as that lists them; a name
+        /// that only one of the two has does not compile.
+        pub fn cycle_parameters(parameters: &Parameters) -> mufasa::input::parameters::Parameters {
+            let Parameters { $($name),* } = *parameters;
+            mufasa::input::parameters::Parameters { $($name),* }
+        }
+    };
 }
 
+mufasa::parameters!(same_names);
+
 /// The profile in the implementation's type.
-pub fn profile_to_impl(profile: Profile) -> twin::Profile {
+pub fn profile_to_impl(profile: Profile) -> mufasa::input::profile::Profile {
     match profile {
-        Profile::Paper => twin::Profile::Paper,
-        Profile::Hardened => twin::Profile::Hardened,
+        Profile::Paper => mufasa::input::profile::Profile::Paper,
+        Profile::Hardened => mufasa::input::profile::Profile::Hardened,
     }
 }
 

@@ -6,11 +6,18 @@ use mufasa_model::offloading::requester::{
 };
 use mufasa_model::services::configuration::{Configuration, Source};
 
-/// The times of a requester in the implementation's type.
-pub fn parameters_to_impl(parameters: &Parameters) -> twin::Parameters {
-    let Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold } = *parameters;
-    twin::Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, qos_hold }
+macro_rules! same_names {
+    ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
+        /// The parameters of a requester in the implementation's type, as that lists them; a name
+        /// that only one of the two has does not compile.
+        pub fn parameters_to_impl(parameters: &Parameters) -> twin::Parameters {
+            let Parameters { $($name),* } = *parameters;
+            twin::Parameters { $($name),* }
+        }
+    };
 }
+
+mufasa::requester_parameters!(same_names);
 
 /// A group in the implementation's type.
 pub fn group_to_impl(group: Group) -> twin::Group {

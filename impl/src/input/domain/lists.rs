@@ -1,9 +1,10 @@
 //! Whole lists at a first look, and ids that may have been there before.
 
-use super::{HORIZON_NS, POSITION, SIZE, VELOCITY, elapsed_ns};
 use crate::input::cycle::{CrossSection, Detection, Track, Trajectory, TrajectoryPoint};
+use crate::input::domain::place::{HORIZON_NS, POSITION, SIZE, VELOCITY};
 use crate::input::domain::screen::Screen;
 use crate::numbers::plane::same_point;
+use crate::numbers::time::elapsed_ns;
 
 /// Whether all cross sections are clearly valid; here and below the checks of single values decide, and
 /// say what is wrong, when it is not so.

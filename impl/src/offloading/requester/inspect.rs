@@ -4,7 +4,7 @@ use super::per_group::PerGroup;
 use super::slot::Slot;
 use super::stations::Stations;
 use super::{Group, Groups, Parameters, Requester, StationRecord};
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 
 /// A running session. Source: `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -86,7 +86,7 @@ impl<'a> Requester<'a> {
 
 #[cfg(test)]
 mod tests {
-    use crate::input::cycle::Profile;
+    use crate::input::profile::Profile;
     use crate::offloading::requester::{
         Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
     };

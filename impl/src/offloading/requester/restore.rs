@@ -8,7 +8,7 @@ use super::inspect::{Running, Suspended};
 use super::per_group::PerGroup;
 use super::slot::Slot;
 use super::{Group, Groups, Parameters, StationRecord};
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::offloading::quality_of_service::Arrivals;
 
 /// All that a requester remembers of one group.
@@ -130,7 +130,7 @@ const fn record(slot: &Slot) -> GroupRecord {
 
 #[cfg(test)]
 mod tests {
-    use crate::input::cycle::Profile;
+    use crate::input::profile::Profile;
     use crate::offloading::requester::{
         Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
         Suspended,

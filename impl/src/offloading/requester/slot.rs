@@ -1,6 +1,6 @@
 //! The state of one group (`spec/2-offloading.md#requester`).
 
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
 use crate::offloading::quality_of_service::Arrivals;
 use crate::services::configuration::Source;
 

@@ -1,6 +1,6 @@
 //! What each event does (`spec/2-offloading.md`).
 
-use super::event::{Action, Outbox};
+use super::event::{Action, Actions, Event, EventKind, Outbox};
 use super::slot::Slot;
 use super::{Requester, RequesterError};
 use crate::offloading::quality_of_service::{Arrivals, Element};
@@ -14,6 +14,41 @@ pub(super) enum Farewell {
 }
 
 impl Requester<'_> {
+    /// Takes one event and says what has to be done about it, in this order.
+    ///
+    /// Errors: a station below 1; an offer that the table has no place for. Then nothing has
+    /// changed. Source: `spec/2-offloading.md`.
+    pub fn step(&mut self, event: &Event) -> Result<Actions, RequesterError> {
+        if let Some(station) = event.kind.station().filter(|&station| station < 1) {
+            return Err(RequesterError::Station { station });
+        }
+        let mut out = Outbox::default();
+        let now_ns = event.t_ns;
+        match event.kind {
+            EventKind::Offer { station, groups } => {
+                self.offer(station, groups, Farewell::Release, &mut out)?;
+            }
+            EventKind::Withdraw { station } => {
+                self.offer(station, Groups::NONE, Farewell::Release, &mut out)?;
+            }
+            EventKind::Lost { station } => {
+                self.offer(station, Groups::NONE, Farewell::Silent, &mut out)?;
+            }
+            EventKind::Area { groups } => self.set_area(groups, &mut out),
+            EventKind::Tick => self.tick(now_ns, &mut out),
+            EventKind::Confirm { station, group, session } => {
+                self.confirm(now_ns, station, group, session, &mut out);
+            }
+            EventKind::Reject { station, group, session } => self.reject(station, group, session),
+            EventKind::Data { station, group, session, generated_ns } => {
+                self.data(now_ns, (station, group, session), generated_ns, &mut out);
+            }
+            EventKind::Verdict { safe: true, groups } => self.safe(groups, &mut out),
+            EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
+        }
+        Ok(out.into_actions())
+    }
+
     /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.
     pub(super) fn offer(
         &mut self,

@@ -1,115 +1,104 @@
-//! One test for each sentence of `spec/2-offloading.md` that a requester alone can keep or break.
-
-mod fallback;
-mod properties;
-mod protocol;
-mod quality;
+//! What the implementation alone can do wrong: refusals of what the model has no type for. What
+//! `spec/2-offloading.md` says is tested with the model's requester beside it, in
+//! `props/tests/offloading`.
 
 use super::{
     Action, Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
 };
-use crate::input::cycle::Profile;
+use crate::input::profile::Profile;
+use crate::services::configuration::Configuration;
 
 type TestResult = Result<(), RequesterError>;
 
 const MOT: Group = Group::Mot;
 const PLAN: Group = Group::Plan;
-const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
-const FREE: [StationRecord; 4] = [StationRecord::FREE; 4];
-const TICK: EventKind = EventKind::Tick;
-const UNSAFE: EventKind = EventKind::Verdict { safe: false, groups: Groups::ALL };
-const SAFE: EventKind = EventKind::Verdict { safe: true, groups: Groups::ALL };
 
-/// Small times, each of its own size.
-const TIMES: Parameters = Parameters {
-    t_wait_ns: 1000,
-    request_timeout_ns: 50,
-    l_max_ns: 20,
-    dt_max_ns: 100,
-    qos_hold: false,
-};
-
-/// Takes one event and compares the actions.
-#[track_caller]
-fn act(
-    requester: &mut Requester<'_>,
-    t_ns: i64,
-    kind: EventKind,
-    expected: &[Action],
-) -> TestResult {
-    let actions = requester.step(&Event { t_ns, kind })?;
-    assert_eq!(actions.as_slice(), expected, "{kind:?} at {t_ns}");
-    assert!(requester.is_valid(), "after {kind:?} at {t_ns}: {requester:?}");
-    Ok(())
-}
-
-/// MOT and PLAN run on station 1 since time 0, in the sessions 1 and 2, and no local services
-/// compute. In the hardened profile one element of each, generated at -1, was used at 0.
-fn remote(
-    profile: Profile,
-    parameters: Parameters,
-    table: &mut [StationRecord],
-) -> Result<Requester<'_>, RequesterError> {
-    let mut requester = Requester::new(profile, parameters, table)?;
-    act(&mut requester, 0, offer(1, Groups::ALL), &[])?;
-    act(&mut requester, 0, TICK, &[request(1, MOT, 1), request(1, PLAN, 2)])?;
-    match profile {
-        Profile::Paper => {
-            act(&mut requester, 0, confirm(1, MOT, 1), &[Action::Deactivate(MOT)])?;
-            act(&mut requester, 0, confirm(1, PLAN, 2), &[Action::Deactivate(PLAN)])?;
-        }
-        Profile::Hardened => {
-            act(&mut requester, 0, confirm(1, MOT, 1), &[])?;
-            act(&mut requester, 0, confirm(1, PLAN, 2), &[])?;
-            act(&mut requester, 0, data(1, MOT, 1, -1), &[])?;
-            act(&mut requester, 0, data(1, PLAN, 2, -1), &[])?;
-            let stop = [Action::Deactivate(MOT), Action::Deactivate(PLAN)];
-            act(&mut requester, 0, SAFE, &stop)?;
-        }
+/// MOT and PLAN run on station 1 since time 0, in the sessions 1 and 2.
+fn remote(table: &mut [StationRecord]) -> Result<Requester<'_>, RequesterError> {
+    let mut requester = Requester::new(Profile::Paper, Parameters::default(), table)?;
+    let confirm = |group, session| EventKind::Confirm { station: 1, group, session };
+    for kind in [offer(1, Groups::ALL), EventKind::Tick, confirm(MOT, 1), confirm(PLAN, 2)] {
+        requester.step(&Event { t_ns: 0, kind })?;
     }
     Ok(requester)
-}
-
-fn only(group: Group) -> Groups {
-    Groups::from(group)
 }
 
 fn offer(station: i64, groups: Groups) -> EventKind {
     EventKind::Offer { station, groups }
 }
 
-fn withdraw(station: i64) -> EventKind {
-    EventKind::Withdraw { station }
+/// `spec/5-interfaces.md#offloading-trace`: stations of events are >= 1; anything else is an
+/// error and changes nothing.
+#[test]
+fn an_event_of_a_station_below_1_is_an_error_that_changes_nothing() -> TestResult {
+    let mut table = [StationRecord::FREE; 4];
+    let mut requester = remote(&mut table)?;
+    for station in [0, -1, i64::MIN] {
+        for kind in [
+            offer(station, Groups::ALL),
+            EventKind::Withdraw { station },
+            EventKind::Lost { station },
+            EventKind::Confirm { station, group: MOT, session: 1 },
+            EventKind::Reject { station, group: MOT, session: 1 },
+            EventKind::Data { station, group: MOT, session: 1, generated_ns: 0 },
+        ] {
+            let refused = requester.step(&Event { t_ns: 500, kind });
+            assert_eq!(refused, Err(RequesterError::Station { station }), "{kind:?}");
+        }
+    }
+    assert_eq!(requester.configuration(), Configuration::AllRemote);
+    assert_eq!(requester.dropped(MOT), 0);
+    Ok(())
 }
 
-fn lost(station: i64) -> EventKind {
-    EventKind::Lost { station }
+/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: an offer that the table has no place
+/// for is an error and changes nothing; other events go on.
+#[test]
+fn an_offer_beyond_the_table_is_an_error_that_changes_nothing() -> TestResult {
+    let mut table = [StationRecord::FREE; 1];
+    let mut requester = remote(&mut table)?;
+    let full = RequesterError::TableFull { station: 2, capacity: 1 };
+    let offered = requester.step(&Event { t_ns: 0, kind: offer(2, Groups::from(MOT)) });
+    assert_eq!(offered, Err(full));
+    for kind in [offer(2, Groups::NONE), EventKind::Withdraw { station: 2 }] {
+        assert!(requester.step(&Event { t_ns: 0, kind })?.is_empty());
+    }
+    assert_eq!(requester.configuration(), Configuration::AllRemote);
+    let lost = requester.step(&Event { t_ns: 0, kind: EventKind::Lost { station: 1 } })?;
+    assert_eq!(lost.as_slice(), [Action::Activate(MOT), Action::Activate(PLAN)]);
+    let offered = requester.step(&Event { t_ns: 0, kind: offer(2, Groups::from(MOT)) });
+    assert_eq!(offered, Err(full), "station 1 was asked, so it is not forgotten");
+    assert!(requester.step(&Event { t_ns: 1, kind: EventKind::Tick })?.is_empty());
+    Ok(())
 }
 
-fn area(groups: Groups) -> EventKind {
-    EventKind::Area { groups }
-}
-
-fn confirm(station: i64, group: Group, session: i64) -> EventKind {
-    EventKind::Confirm { station, group, session }
-}
-
-fn reject(station: i64, group: Group, session: i64) -> EventKind {
-    EventKind::Reject { station, group, session }
-}
-
-fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKind {
-    EventKind::Data { station, group, session, generated_ns }
-}
-
-fn safe(groups: Groups) -> EventKind {
-    EventKind::Verdict { safe: true, groups }
-}
-
-fn request(station: i64, group: Group, session: i64) -> Action {
-    Action::Request { station, group, session }
-}
-
-fn release(station: i64, group: Group, session: i64) -> Action {
-    Action::Release { station, group, session }
+/// `spec/2-offloading.md`, the defaults; `spec/4-arithmetic.md#domain`: 0 to 2^63 - 1.
+#[test]
+fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult {
+    let expected = Parameters {
+        t_wait_ns: 10_000_000_000,
+        request_timeout_ns: 500_000_000,
+        l_max_ns: 50_000_000,
+        dt_max_ns: 100_000_000,
+        qos_hold: false,
+    };
+    assert_eq!(Parameters::default(), expected);
+    let widest = Parameters {
+        t_wait_ns: i64::MAX,
+        request_timeout_ns: i64::MAX,
+        l_max_ns: i64::MAX,
+        dt_max_ns: 0,
+        qos_hold: true,
+    };
+    Requester::new(Profile::Paper, widest, &mut [])?;
+    for (field, parameters) in [
+        ("t_wait_ns", Parameters { t_wait_ns: -1, dt_max_ns: -1, ..expected }),
+        ("request_timeout_ns", Parameters { request_timeout_ns: i64::MIN, ..expected }),
+        ("l_max_ns", Parameters { l_max_ns: -1, ..expected }),
+        ("dt_max_ns", Parameters { dt_max_ns: -1, ..expected }),
+    ] {
+        let refused = Requester::new(Profile::Paper, parameters, &mut []).err();
+        assert_eq!(refused, Some(RequesterError::NegativeParameter { field }));
+    }
+    Ok(())
 }

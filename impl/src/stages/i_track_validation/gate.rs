@@ -50,7 +50,7 @@ pub(crate) fn apart_squared([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
 }
 
 /// Writes the indices of the gated tracks into the rows, and returns how many; exact.
-pub(crate) fn gate(
+pub(crate) fn gated_tracks(
     p: [f64; 2],
     tracks: &[Track],
     detections: &[Detection],

@@ -10,9 +10,9 @@ use crate::input::cycle::{Detection, Track};
 use crate::input::scratch::{Column, NONE, short};
 use crate::stages::i_track_validation::gate::{Gate, apart_squared};
 
-/// The rules that the pairs have to keep.
+/// What the pairs have to keep.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rules {
+pub(crate) struct PairLimits {
     /// Every pair has to be closer, m.
     pub(crate) limit: f64,
     /// The mean has to be below, m.
@@ -21,18 +21,18 @@ pub(crate) struct Rules {
     pub(crate) spare: usize,
 }
 
-/// Whether there certainly are pairs of all gated tracks but `spare` that keep the rules. `p`: the
+/// Whether there certainly are pairs of all gated tracks but `spare` that keep the limits. `p`: the
 /// CAV's position. Plain doubles: a distance, or the square of one, errs by less than 2^-50 of
 /// itself and 2^-400 m, a sum of at most 1024 by less than 2^-42 of itself more.
 pub(crate) fn certainly_pass(
     p: [f64; 2],
     tracks: &[Track],
     detections: &[Detection],
-    rules: Rules,
+    limits: PairLimits,
     columns: &mut [Column],
 ) -> bool {
     // Farther pairs would hardly keep the mean below the threshold.
-    let reach = (5.0 * rules.theta_tr).min(rules.limit * (1.0 - 1e-12));
+    let reach = (5.0 * limits.theta_tr).min(limits.limit * (1.0 - 1e-12));
     let mut squares = Squares::new(detections, reach, columns);
     let (mut gate, mut sum, mut gated, mut paired) = (Gate::new(p), 0.0, 0_usize, 0_usize);
     for (index, detection) in detections.iter().enumerate() {
@@ -51,13 +51,13 @@ pub(crate) fn certainly_pass(
         if let Some(squared) = squares.take(place) {
             sum += libm::sqrt(squared);
             paired = paired.saturating_add(1);
-        } else if gated.saturating_sub(paired) > rules.spare {
+        } else if gated.saturating_sub(paired) > limits.spare {
             return false;
         }
     }
-    let k = gated.saturating_sub(rules.spare);
+    let k = gated.saturating_sub(limits.spare);
     let k = u32::try_from(k).map_or(f64::INFINITY, f64::from);
-    k <= 0.0 || sum * (1.0 + 1e-12) + 1e-100 < k * rules.theta_tr
+    k <= 0.0 || sum * (1.0 + 1e-12) + 1e-100 < k * limits.theta_tr
 }
 
 /// Detections by the square that they are in.

@@ -9,7 +9,7 @@ use crate::numbers::plane::distance;
 use crate::numbers::rounding::Real;
 use crate::stages::i_track_validation::assignment::Costs;
 use crate::stages::i_track_validation::gate::apart_squared;
-use crate::stages::i_track_validation::spatial_hash::Cells;
+use crate::stages::i_track_validation::spatial_hash::ColumnsByCell;
 
 /// Which track and detection a row and a column of the assignment stand for. Columns beyond these
 /// are spare: any row may take one, at no cost.
@@ -20,7 +20,7 @@ pub(crate) struct Pairs<'a> {
     swapped: bool,
     /// Every pair has to be closer, m.
     limit: f64,
-    cells: Cells,
+    cells: ColumnsByCell,
 }
 
 /// A track and a detection.
@@ -35,7 +35,7 @@ impl<'a> Pairs<'a> {
         rows: &[Row],
         columns: &mut [Column],
     ) -> Self {
-        let cells = Cells::new(columns, |column| {
+        let cells = ColumnsByCell::new(columns, |column| {
             if swapped { track(tracks, rows, column) } else { detection(detections, column) }
         });
         Self { tracks, detections, swapped, limit, cells }

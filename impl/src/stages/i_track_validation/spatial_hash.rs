@@ -10,7 +10,7 @@ use crate::numbers::range::{EMPTY, extend, float};
 /// Lists of columns: list 0 is of those that have no place, which every row meets; the others are
 /// the cells, row by row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cells {
+pub(crate) struct ColumnsByCell {
     /// Where the first cell begins, m.
     corner: [f64; 2],
     /// Of a cell, m; above 0.
@@ -22,7 +22,7 @@ pub(crate) struct Cells {
 /// More than coordinates below 2^25 m lose in a few roundings, m.
 const MARGIN: f64 = 1e-6;
 
-impl Cells {
+impl ColumnsByCell {
     /// Lists the columns by their places, in at most as many cells as there are columns less one.
     pub(crate) fn new(columns: &mut [Column], place: impl Fn(usize) -> Option<[f64; 2]>) -> Self {
         let mut ranges = [EMPTY; 2];

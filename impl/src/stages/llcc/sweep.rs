@@ -14,7 +14,7 @@ const MARGIN: f64 = 1e-6;
 
 /// A rectangle that moves with constant velocity.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moving {
+pub(crate) struct MovingRectangle {
     /// Centre at the time 0, m.
     pub(crate) centre: [f64; 2],
     /// (cos, sin)
@@ -25,7 +25,7 @@ pub(crate) struct Moving {
     pub(crate) size: [f64; 2],
 }
 
-impl Moving {
+impl MovingRectangle {
     pub(crate) const fn track(track: &Track) -> Self {
         let &Track { x, y, cos, sin, vx, vy, length, width, .. } = track;
         Self { centre: [x, y], direction: [cos, sin], velocity: [vx, vy], size: [length, width] }
@@ -109,14 +109,14 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// `seconds`: the first and the last time.
     pub(crate) fn new(ego: &Ego, points: &[TrajectoryPoint], seconds: [f64; 2]) -> Self {
-        let place = |point: &TrajectoryPoint| Moving::footprint(ego, point).centre;
+        let place = |point: &TrajectoryPoint| MovingRectangle::footprint(ego, point).centre;
         let origin = points.first().map_or([0.0; 2], place);
         let [x, y] = minus(points.last().map_or(origin, place), origin);
         let length = libm::sqrt(x * x + y * y);
         let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
         let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
         for point in points {
-            let footprint = Moving::footprint(ego, point);
+            let footprint = MovingRectangle::footprint(ego, point);
             let place = split(along, minus(footprint.centre, origin));
             extend(&mut turned, place, footprint.extents(along));
             extend(&mut upright, footprint.centre, [footprint.reach(); 2]);
@@ -135,14 +135,14 @@ impl Sweep {
 
     /// Whether the object certainly touches the CAV at none of the points.
     #[inline]
-    pub(crate) fn misses(&self, object: &Moving) -> bool {
+    pub(crate) fn misses(&self, object: &MovingRectangle) -> bool {
         self.misses_upright(object) || self.misses_turned(object)
     }
 
     /// Most objects end here. Inlined, so that of each of them only what is asked for is read: half
     /// of the time of stages iii and iv.
     #[inline]
-    fn misses_upright(&self, object: &Moving) -> bool {
+    fn misses_upright(&self, object: &MovingRectangle) -> bool {
         let [middle, spread] = self.seconds;
         let [[cx, cy], [hx, hy]] = self.upright;
         let ([x, y], [vx, vy]) = (object.after(middle), object.velocity);
@@ -152,7 +152,7 @@ impl Sweep {
     }
 
     #[inline(never)]
-    fn misses_turned(&self, object: &Moving) -> bool {
+    fn misses_turned(&self, object: &MovingRectangle) -> bool {
         let [middle, spread] = self.seconds;
         let [a, b] = split(self.along, minus(object.after(middle), self.origin));
         let [va, vb] = split(self.along, object.velocity);

@@ -15,7 +15,7 @@ const MARGIN: f64 = 1e-3;
 
 /// The frame of the grid in cells, with the disks at a pose.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct CellFrame {
     origin: [f64; 2],
     /// (cos, sin) / (cos^2 + sin^2) / resolution.
     axis: [f64; 2],
@@ -25,7 +25,7 @@ pub(crate) struct Frame {
     reach: f64,
 }
 
-impl Frame {
+impl CellFrame {
     pub(crate) fn new(cycle: &Cycle<'_>, grid: &Grid<'_>) -> Self {
         let ego = &cycle.ego;
         let disks = f64::from(i32::try_from(cycle.parameters.n).unwrap_or(i32::MAX));
@@ -63,7 +63,7 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    pub(crate) fn new(frame: &Frame, points: &[TrajectoryPoint]) -> Self {
+    pub(crate) fn new(frame: &CellFrame, points: &[TrajectoryPoint]) -> Self {
         let origin = points.first().map_or([0.0; 2], |point| frame.centres(point)[0]);
         let [x, y] = points.last().map_or(origin, |point| frame.centres(point)[1]);
         let (dx, dy) = (x - origin[0], y - origin[1]);
@@ -129,7 +129,7 @@ impl Strip {
     /// A small `a` makes everything here large, and rounding with it: the least and the most dx, and
     /// the gradient times dy, are at most 2^34 / a in size up to the limits of the domain, so that a
     /// few roundings add up to less than 2^-15 / a. But the range from `least` to `most` is wider by
-    /// `MARGIN` at either end than what it has to contain (see `Frame::reach`), which is
+    /// `MARGIN` at either end than what it has to contain (see `CellFrame::reach`), which is
     /// `MARGIN` / a of dx, and more than that.
     fn new(a: f64, b: f64, least: f64, most: f64) -> Self {
         if a.abs() < 1e-6 {

@@ -1,7 +1,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::Cells;
+use super::ColumnsByCell;
 use crate::input::scratch::{Column, NONE};
 use crate::random::Random;
 
@@ -27,7 +27,7 @@ fn lists_come_by_distance() {
             places.fill(first);
         }
         let mut columns = vec![Column::default(); count + spare];
-        let cells = Cells::new(&mut columns, |index| places.get(index).copied());
+        let cells = ColumnsByCell::new(&mut columns, |index| places.get(index).copied());
         let (mut met, mut before) = (Vec::new(), 0.0);
         for (bound, lists) in cells.around(q) {
             for (list, index) in lists.flat_map(|list| {

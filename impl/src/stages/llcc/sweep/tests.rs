@@ -2,14 +2,14 @@
 
 use std::vec::Vec;
 
-use super::{Moving, Sweep};
+use super::{MovingRectangle, Sweep};
 use crate::input::cycle::{Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::random::Random;
 
-fn rectangle(moving: &Moving, t_ns: i64) -> Rectangle {
+fn rectangle(moving: &MovingRectangle, t_ns: i64) -> Rectangle {
     let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
     let moved = vector(moving.velocity).times(Real::seconds(t_ns));
     let [length, width] = moving.size;
@@ -28,8 +28,8 @@ fn direction(random: &mut Random) -> [f64; 2] {
     [cos * stretch, sin * stretch]
 }
 
-fn object(random: &mut Random, far: f64) -> Moving {
-    Moving {
+fn object(random: &mut Random, far: f64) -> MovingRectangle {
+    MovingRectangle {
         centre: [number(random, 12.0) + far, number(random, 12.0) - far],
         direction: direction(random),
         velocity: [number(random, 20.0), number(random, 20.0)],
@@ -67,7 +67,7 @@ fn what_is_certainly_apart_does_not_touch() {
         let misses = Sweep::new(&ego, &points, [0.0, 0.3]).misses(&object);
         missed += u32::from(misses);
         for point in &points {
-            let cav = Moving::footprint(&ego, point);
+            let cav = MovingRectangle::footprint(&ego, point);
             let exact = rectangle(&object, point.t_ns);
             let touches = possibly_touch(&rectangle(&cav, 0), &exact);
             let seconds = point.t_ns as f64 / 1e9;

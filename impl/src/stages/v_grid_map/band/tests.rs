@@ -2,9 +2,10 @@
 
 use std::vec::Vec;
 
-use super::{Band, Frame};
-use crate::input::cycle::{Cycle, Ego, Grid, Profile, Route, TrajectoryPoint};
+use super::{Band, CellFrame};
+use crate::input::cycle::{Cycle, Ego, Grid, Route, TrajectoryPoint};
 use crate::input::parameters::Parameters;
+use crate::input::profile::Profile;
 use crate::random::Random;
 use crate::services::configuration::Configuration;
 use crate::stages::v_grid_map::bitmap::Bitmap;
@@ -69,7 +70,7 @@ fn try_cell(
     grid: &Grid<'_>,
     points: &[TrajectoryPoint],
 ) -> (bool, bool) {
-    let band = Band::new(&Frame::new(cycle, grid), points);
+    let band = Band::new(&CellFrame::new(cycle, grid), points);
     let all: Vec<_> = points.iter().flat_map(|point| disks(cycle, grid, point)).collect();
     let [x, y] = all[random.below(all.len() as u64) as usize];
     let mut around = |at: f64, count: i64| {

@@ -374,7 +374,7 @@ fn offloading_is_reached_again_whatever_the_other_stations_do() {
             }
             for _ in 0..3 {
                 cav.at(now_ns, UNSAFE);
-                now_ns = cav.0.hold_until_ns().expect("a hold");
+                now_ns = cav.model().hold_until_ns().expect("a hold");
                 reach_offloading(&mut cav, stations, now_ns);
             }
         }
@@ -383,10 +383,11 @@ fn offloading_is_reached_again_whatever_the_other_stations_do() {
 
 /// At most three stations a group, each at most a timeout (15 ns) and a tick that waits.
 fn reach_offloading(cav: &mut Cav, stations: [Manner; 3], start_ns: i64) {
-    let is_remote = |cav: &Cav, group| matches!(cav.0.state(group), GroupState::Remote { .. });
+    let is_remote =
+        |cav: &Cav, group| matches!(cav.model().state(group), GroupState::Remote { .. });
     for now_ns in start_ns..start_ns + 3 * 17 {
         for group in Group::ALL {
-            if let GroupState::Remote { station, session } = cav.0.state(group) {
+            if let GroupState::Remote { station, session } = cav.model().state(group) {
                 assert_eq!(cav.at(now_ns, data(station, group, session, now_ns)), []);
             }
         }

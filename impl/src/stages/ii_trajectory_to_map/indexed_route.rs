@@ -1,5 +1,5 @@
-//! The route as geometry: reference path and corridor
-//! (`spec/3-stages.md#stage-ii-trajectory-to-map`).
+//! The route as geometry: reference path and corridor, with the index of the route when there is
+//! one (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
 use core::cmp::Ordering;
 
@@ -9,6 +9,7 @@ use crate::numbers::exact::{certain_orientation, orientation};
 use crate::numbers::plane::{same_point, segment_distance};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
+use crate::report::{Rule, Witness};
 
 /// A segment of the reference path.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +21,7 @@ pub(crate) struct Segment {
 
 /// A route, and its index when there is one.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way<'c, 'a> {
+pub(crate) struct IndexedRoute<'c, 'a> {
     route: &'c Route<'a>,
     index: Option<&'c RouteIndex<'a>>,
 }
@@ -28,7 +29,7 @@ pub(crate) struct Way<'c, 'a> {
 /// How far along the route a search goes for the place of the next trajectory point.
 const STEPS: usize = 64;
 
-impl<'c, 'a> Way<'c, 'a> {
+impl<'c, 'a> IndexedRoute<'c, 'a> {
     pub(crate) const fn new(route: &'c Route<'a>, index: Option<&'c RouteIndex<'a>>) -> Self {
         Self { route, index }
     }
@@ -99,6 +100,12 @@ impl<'c, 'a> Way<'c, 'a> {
             let at = if nearer { segment.index } else { at };
             (best.min(candidate), at)
         })
+    }
+
+    /// The witness that a place is too far from the reference path.
+    pub(crate) fn too_far(&self, q: [f64; 2], hint: usize, rule: Rule, limit: f64) -> Witness {
+        let (away, segment) = self.path_distance(q, hint);
+        Witness { segment: Some(segment), ..Witness::of(rule, [away.value(), limit]) }
     }
 
     /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.

@@ -45,8 +45,8 @@ fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used
             let mut cav = Cav::remote(profile, Groups::ALL);
             cav.at(1, EventKind::Verdict { safe: false, groups });
             assert_eq!(cav.states(), (Local, Local));
-            assert_eq!([Mot, Plan].map(|group| cav.0.source(group)), [Source::Local; 2]);
-            assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS));
+            assert_eq!([Mot, Plan].map(|group| cav.model().source(group)), [Source::Local; 2]);
+            assert_eq!(cav.model().hold_until_ns(), Some(1 + T_WAIT_NS));
         }
     }
 }
@@ -67,10 +67,10 @@ fn after_a_safety_issue_data_of_the_ended_sessions_are_dropped() {
 #[test]
 fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() {
     let mut cav = Cav::paper();
-    assert_eq!(cav.0.hold_until_ns(), None);
+    assert_eq!(cav.model().hold_until_ns(), None);
     for (t_ns, until_ns) in [(5, 5), (9, 9), (7, 9), (-20_000_000_000, 9), (10, 10)] {
         assert_eq!(cav.at(t_ns, UNSAFE), [], "also when every group is local already");
-        assert_eq!(cav.0.hold_until_ns(), Some(until_ns + T_WAIT_NS));
+        assert_eq!(cav.model().hold_until_ns(), Some(until_ns + T_WAIT_NS));
     }
 }
 
@@ -81,7 +81,7 @@ fn offloading_is_possible_again_at_hold_until_and_not_before() {
     cav.at(1, UNSAFE);
     cav.ignores(T_WAIT_NS, TICK);
     assert_eq!(cav.at(1 + T_WAIT_NS, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
-    assert_eq!(cav.0.hold_until_ns(), Some(1 + T_WAIT_NS), "the last value stays");
+    assert_eq!(cav.model().hold_until_ns(), Some(1 + T_WAIT_NS), "the last value stays");
 }
 
 /// `spec/2-offloading.md#fallback.4` (I-09): late data and silence, with and without the switch.
@@ -95,9 +95,9 @@ fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
             cav.at(0, TICK);
             cav.at(0, confirm(1, Mot, 1));
             cav.at(t_ns, kind);
-            assert_eq!(cav.0.state(Mot), Local);
+            assert_eq!(cav.model().state(Mot), Local);
             let until_ns = t_ns + T_WAIT_NS;
-            assert_eq!(cav.0.hold_until_ns(), qos_hold.then_some(until_ns));
+            assert_eq!(cav.model().hold_until_ns(), qos_hold.then_some(until_ns));
             assert_eq!(cav.at(until_ns - 1, TICK).is_empty(), qos_hold);
         }
     }
@@ -130,10 +130,10 @@ fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
     cav.at(100, UNSAFE);
     for t_ns in [100, 100, 50, -1, i64::MIN, 100, 99 + T_WAIT_NS] {
         assert_eq!(cav.at(t_ns, TICK), []);
-        assert_eq!(cav.0.hold_until_ns(), Some(100 + T_WAIT_NS));
+        assert_eq!(cav.model().hold_until_ns(), Some(100 + T_WAIT_NS));
     }
     cav.at(i64::MIN, UNSAFE);
-    assert_eq!(cav.0.hold_until_ns(), Some(100 + T_WAIT_NS));
+    assert_eq!(cav.model().hold_until_ns(), Some(100 + T_WAIT_NS));
 }
 
 /// `spec/2-offloading.md#fallback.5`
@@ -143,12 +143,12 @@ fn hold_until_saturates_at_the_limits_of_64_bits() {
     let mut cav = Cav::new(Profile::Paper, parameters);
     cav.at(0, offer(1, MOT));
     cav.at(1, UNSAFE);
-    assert_eq!(cav.0.hold_until_ns(), Some(i64::MAX));
+    assert_eq!(cav.model().hold_until_ns(), Some(i64::MAX));
     assert_eq!(cav.at(i64::MAX - 1, TICK), []);
     assert_eq!(cav.at(i64::MAX, TICK), [request(1, Mot, 1)]);
     let mut cav = Cav::new(Profile::Paper, parameters);
     cav.at(i64::MIN, UNSAFE);
-    assert_eq!(cav.0.hold_until_ns(), Some(-1));
+    assert_eq!(cav.model().hold_until_ns(), Some(-1));
 }
 
 /// `spec/2-offloading.md#fallback.6`
@@ -208,7 +208,7 @@ fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_
     cav.at(4, offer(1, MOT));
     cav.at(4, TICK);
     cav.at(4, confirm(1, Mot, 2));
-    assert_eq!(cav.0.state(Mot), on(1, 2));
+    assert_eq!(cav.model().state(Mot), on(1, 2));
     assert_eq!(cav.at(5, safe(MOT)), [], "the used result was of an earlier session");
     cav.at(6, data(1, Mot, 2, 6));
     assert_eq!(cav.at(6, safe(MOT)), [Deactivate(Mot)]);

@@ -18,9 +18,9 @@ fn a_confirmation_of_the_requested_session_from_its_station_before_its_deadline_
     {
         let mut cav = Cav::requested(profile, MOT);
         let requested = GroupState::Requested { station: 1, session: 1, deadline_ns: TIMEOUT_NS };
-        assert_eq!(cav.0.state(Mot), requested);
+        assert_eq!(cav.model().state(Mot), requested);
         assert_eq!(cav.at(TIMEOUT_NS - 1, confirm(1, Mot, 1)), actions);
-        assert_eq!(cav.0.state(Mot), on(1, 1));
+        assert_eq!(cav.model().state(Mot), on(1, 1));
     }
 }
 
@@ -40,10 +40,10 @@ fn a_confirmation_of_the_running_session_is_ignored() {
 fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and_nothing_else() {
     for profile in PROFILES {
         let answered = |mut cav: Cav, t_ns, station, group, session| {
-            let before = cav.0.clone();
+            let before = cav.model().clone();
             let released = [release(station, group, session)];
             assert_eq!(cav.at(t_ns, confirm(station, group, session)), released);
-            assert_eq!(cav.0, before);
+            assert_eq!(*cav.model(), before);
         };
         answered(Cav::requested(profile, Groups::ALL), TIMEOUT_NS, 1, Mot, 1);
         answered(Cav::requested(profile, Groups::ALL), 1, 1, Mot, 2);
@@ -61,8 +61,8 @@ fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_ca
     let mut cav = Cav::requested(Profile::Paper, MOT);
     cav.ignores(TIMEOUT_NS - 1, TICK);
     assert_eq!(cav.at(TIMEOUT_NS, TICK), [release(1, Mot, 1)]);
-    assert_eq!(cav.0.state(Mot), GroupState::Local);
-    assert_eq!(cav.0.hold_until_ns(), None);
+    assert_eq!(cav.model().state(Mot), GroupState::Local);
+    assert_eq!(cav.model().hold_until_ns(), None);
 }
 
 /// `spec/2-offloading.md#requester.5`
@@ -70,9 +70,9 @@ fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_ca
 fn a_rejection_of_the_requested_session_returns_it_at_once_without_a_release() {
     let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
     assert_eq!(cav.at(1, reject(1, Plan, 2)), []);
-    assert_eq!(cav.0.state(Plan), GroupState::Local);
+    assert_eq!(cav.model().state(Plan), GroupState::Local);
     assert_eq!(cav.at(TIMEOUT_NS + 1, reject(1, Mot, 1)), [], "the deadline does not matter");
-    assert_eq!(cav.0.state(Mot), GroupState::Local);
+    assert_eq!(cav.model().state(Mot), GroupState::Local);
     assert_eq!(cav.at(TIMEOUT_NS + 1, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
 }
 
@@ -96,7 +96,7 @@ fn deadlines_saturate_at_the_limits_of_64_bits() {
     cav.at(0, offer(1, MOT));
     cav.at(i64::MAX - 1, TICK);
     let saturated = GroupState::Requested { station: 1, session: 1, deadline_ns: i64::MAX };
-    assert_eq!(cav.0.state(Mot), saturated);
+    assert_eq!(cav.model().state(Mot), saturated);
     cav.ignores(i64::MAX - 1, TICK);
     cav.ignores(i64::MIN, TICK);
     assert_eq!(cav.at(i64::MAX, TICK), [release(1, Mot, 1)]);
@@ -117,11 +117,11 @@ fn a_message_of_an_ended_session_does_not_change_a_later_one() {
                 if running {
                     cav.at(later, confirm(1, Mot, 2));
                 }
-                let before = cav.0.clone();
+                let before = cav.model().clone();
                 assert_eq!(cav.at(later, confirm(1, Mot, 1)), [release(1, Mot, 1)]);
                 cav.ignores(later, reject(1, Mot, 1));
                 cav.at(later, crate::data(1, Mot, 1, later));
-                assert_eq!(cav.0, before);
+                assert_eq!(*cav.model(), before);
             }
         }
     }

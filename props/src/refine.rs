@@ -5,15 +5,18 @@
 
 use std::fmt;
 
+use crate::bridge;
 use mufasa::offloading::requester as twin;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, Groups, Parameters, Requester,
 };
-use mufasa_props::bridge;
 
 /// Places of the implementation's table: stations that may ever offer something.
-pub const PLACES: usize = 4;
+pub const PLACES: usize = 8;
+
+/// Stations whose offers are compared at every step, used or not: those of the explored worlds.
+const COMPARED: usize = 4;
 
 /// A requester twice, the model's and the implementation's.
 #[derive(Clone, Debug)]
@@ -123,7 +126,7 @@ impl Pair {
         same(event, "last session", &model.last_session(), &twin.sessions())?;
         let known = twin.stations().iter().filter_map(twin::StationRecord::station);
         let named = event.and_then(|event| station(&event.kind));
-        for station in (1..).take(PLACES).chain(known).chain(named) {
+        for station in (1..).take(COMPARED).chain(known).chain(named) {
             let record = twin.stations().iter().find(|it| it.station() == Some(station));
             let record = record.copied().unwrap_or_default();
             let offered = bridge::groups_to_impl(model.offered(station));

@@ -1,6 +1,6 @@
 //! Borders and shared edges of the corridor, and the reference path.
 
-use super::{Segment, Way};
+use super::{IndexedRoute, Segment};
 use crate::input::cycle::{CrossSection, Route};
 use crate::numbers::rounding::Real;
 
@@ -10,17 +10,19 @@ fn cross_section(x: f64, y: f64) -> CrossSection {
 
 fn in_corridor(route: &Route<'_>, q: [f64; 2]) -> bool {
     // Whatever the hint, the answer is the same.
-    let answers = [0, 1, 7].map(|mut hint| Way::new(route, None).in_corridor(q, &mut hint));
+    let answers =
+        [0, 1, 7].map(|mut hint| IndexedRoute::new(route, None).in_corridor(q, &mut hint));
     assert!(answers.iter().all(|&answer| answer == answers[0]));
     answers[0]
 }
 
 fn path_distance(route: &Route<'_>, q: [f64; 2], hint: usize) -> (Real, usize) {
-    Way::new(route, None).path_distance(q, hint)
+    IndexedRoute::new(route, None).path_distance(q, hint)
 }
 
 fn segments<'a>(route: &'a Route<'_>) -> impl Iterator<Item = Segment> + 'a {
-    (0..route.cross_sections.len()).filter_map(|index| Way::new(route, None).segment(index))
+    (0..route.cross_sections.len())
+        .filter_map(|index| IndexedRoute::new(route, None).segment(index))
 }
 
 #[test]

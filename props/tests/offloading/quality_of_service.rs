@@ -112,7 +112,7 @@ fn a_violation_returns_that_group_and_no_other_with_a_release_and_the_element_is
         let left = if activated { &LEFT[..] } else { &LEFT[..2] };
         assert_eq!(cav.at(1, data(1, Mot, 1, 2)), left);
         assert_eq!(cav.states(), (GroupState::Local, on(1, 2)));
-        assert_eq!(cav.0.hold_until_ns(), None);
+        assert_eq!(cav.model().hold_until_ns(), None);
         assert_eq!(cav.at(2, TICK), [request(1, Mot, 3)], "no hold");
     }
 }

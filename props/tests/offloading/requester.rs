@@ -43,8 +43,8 @@ fn a_group_in_use_that_the_new_offer_no_longer_contains_is_left_as_by_a_withdraw
     assert_eq!(cav.states(), (Local, on(1, 2)));
     let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
     assert_eq!(cav.at(1, offer(1, MOT)), [release(1, Plan, 2)]);
-    assert_eq!(cav.0.state(Plan), Local);
-    assert_eq!(cav.0.hold_until_ns(), None);
+    assert_eq!(cav.model().state(Plan), Local);
+    assert_eq!(cav.model().hold_until_ns(), None);
     let mut cav = Cav::remote(crate::Profile::Paper, Groups::ALL);
     cav.at(1, offer(2, Groups::NONE));
     assert_eq!(cav.states(), (on(1, 1), on(1, 2)), "another station's offer");
@@ -150,7 +150,7 @@ fn an_area_event_replaces_the_set_and_a_group_outside_returns_to_local_with_a_re
     assert_eq!(cav.at(2, area(PLAN)), [release(1, Mot, 1), Activate(Mot)]);
     assert_eq!(cav.at(3, area(MOT)), [release(1, Plan, 2)], "requested: nothing to activate");
     assert_eq!(cav.states(), (Local, Local));
-    assert_eq!(cav.0.hold_until_ns(), None, "without a hold");
+    assert_eq!(cav.model().hold_until_ns(), None, "without a hold");
     assert_eq!(cav.at(4, TICK), [request(1, Mot, 3)], "MOT is in the area again");
 }
 
@@ -175,14 +175,14 @@ fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_r
 #[test]
 fn all_other_data_are_dropped_and_counted() {
     let mut cav = Cav::remote(crate::Profile::Paper, MOT);
-    let before = cav.0.clone();
-    assert_eq!(cav.0.foreign_data(), 0);
+    let before = cav.model().clone();
+    assert_eq!(cav.model().foreign_data(), 0);
     cav.at(1, data(2, Mot, 1, 1));
     cav.at(1, data(1, Plan, 1, 1));
-    assert_eq!(cav.0.foreign_data(), 2);
-    assert_eq!(cav.0, before, "and change nothing else");
+    assert_eq!(cav.model().foreign_data(), 2);
+    assert_eq!(*cav.model(), before, "and change nothing else");
     cav.at(1, data(1, Mot, 1, 1));
-    assert_eq!(cav.0.foreign_data(), 2, "a used element is not counted");
+    assert_eq!(cav.model().foreign_data(), 2, "a used element is not counted");
 }
 
 /// `spec/2-offloading.md#requester.8`
@@ -194,7 +194,7 @@ fn a_withdrawal_removes_the_offer_and_returns_every_group_of_the_station_with_a_
     assert_eq!(cav.at(2, withdraw(1)), both);
     assert_eq!(cav.states(), (Local, Local));
     assert_eq!(cav.at(3, TICK), [], "no offer, no request");
-    assert_eq!(cav.0.hold_until_ns(), None);
+    assert_eq!(cav.model().hold_until_ns(), None);
     cav.at(4, offer(1, MOT));
     assert_eq!(cav.at(4, TICK), [request(1, Mot, 3)], "no hold");
 }
@@ -207,7 +207,7 @@ fn a_loss_does_the_same_without_a_release() {
     assert_eq!(cav.at(2, lost(1)), [Activate(Plan)]);
     assert_eq!(cav.states(), (Local, Local));
     assert_eq!(cav.at(3, TICK), []);
-    assert_eq!(cav.0.hold_until_ns(), None);
+    assert_eq!(cav.model().hold_until_ns(), None);
 }
 
 /// `spec/2-offloading.md#requester.8`

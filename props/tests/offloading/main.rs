@@ -1,4 +1,5 @@
-//! One test per requirement of `spec/2-offloading.md`, named after its sentence.
+//! One test per requirement of `spec/2-offloading.md`, named after its sentence, of the requesters of
+//! model and implementation together: after each step everything that either remembers is compared.
 
 mod deadlines;
 mod fallback;
@@ -13,6 +14,7 @@ use mufasa_model::offloading::requester::Group::{Mot, Plan};
 use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
 };
+use mufasa_props::refine::Pair;
 
 const MOT: Groups = Groups { mot: true, plan: false };
 const PLAN: Groups = Groups { mot: false, plan: true };
@@ -20,12 +22,12 @@ const TICK: EventKind = EventKind::Tick;
 const UNSAFE: EventKind = EventKind::Verdict { safe: false, groups: Groups::NONE };
 const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
 
-/// A requester that is checked after every step.
-struct Cav(Requester);
+/// Both requesters, checked after every step.
+struct Cav(Pair);
 
 impl Cav {
     fn new(profile: Profile, parameters: Parameters) -> Self {
-        Self(Requester::new(profile, parameters))
+        Self(Pair::new(profile, parameters).unwrap_or_else(|difference| panic!("{difference}")))
     }
 
     /// Paper profile, default parameters.
@@ -45,7 +47,7 @@ impl Cav {
     fn remote(profile: Profile, groups: Groups) -> Self {
         let mut cav = Self::requested(profile, groups);
         for group in Group::ALL {
-            if let GroupState::Requested { session, .. } = cav.0.state(group) {
+            if let GroupState::Requested { session, .. } = cav.model().state(group) {
                 cav.at(0, confirm(1, group, session));
             }
         }
@@ -53,20 +55,26 @@ impl Cav {
     }
 
     fn at(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
-        let actions = self.0.step(&Event { t_ns, kind });
+        let actions =
+            self.0.step(&Event { t_ns, kind }).unwrap_or_else(|difference| panic!("{difference}"));
         assert!(self.0.is_valid(), "after {kind:?} at {t_ns}: {:?}", self.0);
         actions
     }
 
     fn states(&self) -> (GroupState, GroupState) {
-        (self.0.state(Mot), self.0.state(Plan))
+        (self.model().state(Mot), self.model().state(Plan))
+    }
+
+    /// What both remember, in the model's words.
+    fn model(&self) -> &Requester {
+        self.0.model()
     }
 
     /// Asserts that the event does nothing and changes nothing.
     fn ignores(&mut self, t_ns: i64, kind: EventKind) {
-        let before = self.0.clone();
+        let before = self.model().clone();
         assert_eq!(self.at(t_ns, kind), []);
-        assert_eq!(self.0, before);
+        assert_eq!(*self.model(), before);
     }
 }
 

@@ -1,0 +1,120 @@
+//! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
+//! `spec/3-stages.md#hardened-profile`).
+
+use crate::input::cycle::{Cycle, Grid};
+use crate::numbers::range::{float, integer, larger, smaller};
+use crate::numbers::rounding::Real;
+use crate::report::{Rule, Witness};
+use crate::stages::horizon::PointsExamined;
+use crate::stages::v_grid_map::band::Band;
+use crate::stages::v_grid_map::bitmap::Bitmap;
+use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
+use crate::stages::v_grid_map::search::DiskSearch;
+
+/// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
+/// grid. `unknown_is_free`: stage iv ran in this cycle, so that the last two do not count.
+pub(crate) fn closed_cells(
+    cycle: &Cycle<'_>,
+    grid: &Grid<'_>,
+    examined: &PointsExamined<'_, '_>,
+    unknown_is_free: bool,
+) -> Option<Witness> {
+    let everywhere = |find: &dyn Fn(&DiskSearch<'_, '_>) -> Option<Witness>| {
+        let found = find(&DiskSearch::new(cycle, grid, examined.points));
+        let beyond =
+            || examined.first_beyond(|cycle, points| find(&DiskSearch::new(cycle, grid, points)));
+        found.or_else(beyond)
+    };
+    let touched = |rule, cells: &Bitmap<'_>| {
+        everywhere(&|search| search.cells(rule, cells, |grid, disk| grid.touched(disk, cells)))
+    };
+    let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
+    let found = touched(Rule::Occupied, &occupied);
+    if unknown_is_free {
+        return found;
+    }
+    let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
+    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
+    let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
+    let outside =
+        || everywhere(&|search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
+    found.or_else(unknown).or_else(outside)
+}
+
+impl GridGeometry {
+    /// The first cell of the bitmap whose closed square may be at distance <= r.
+    fn touched(&self, disk: &Disk, cells: &Bitmap<'_>) -> Option<Hit> {
+        let (first, last) = self.reach(disk.row, self.radius);
+        (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
+            if self.row_is_free(disk, k, cells) {
+                return None;
+            }
+            let (from, to) = self.reach_in_row(disk, k);
+            let mut next = cells.first_in_row(k, from, to);
+            while let Some(i) = next {
+                let hit = self.hit(disk, i, k);
+                if hit.is_some() {
+                    return hit;
+                }
+                next = cells.first_in_row(k, i.saturating_add(1), to);
+            }
+            None
+        })
+    }
+
+    /// Whether certainly no cell of the row that the disk may touch is set. Plain doubles, in cells;
+    /// 1e-3 is more than they err, also at the limits of the domain.
+    fn row_is_free(&self, disk: &Disk, k: i64, cells: &Bitmap<'_>) -> bool {
+        let scale = 1.0 / self.resolution.value();
+        let [x, y, r] = [disk.column, disk.row, self.radius].map(|it| it.value() * scale);
+        let (r, below) = (r + 1e-3, float(k) - y);
+        let gap = larger(larger(below, -1.0 - below), 0.0);
+        if gap > r {
+            return true;
+        }
+        let half = libm::sqrt(r * r - gap * gap) + 1e-3;
+        let (width, from, to) = (float(self.width), x - half - 1.0, x + half + 1.0);
+        if to < 0.0 || from > width {
+            return true;
+        }
+        cells.row_is_free(k, integer(larger(from - 0.5, 0.0)), integer(smaller(to + 0.5, width)))
+    }
+
+    /// Places outside the grid may be at distance <= r.
+    fn outside(&self, disk: &Disk) -> Option<Hit> {
+        let end = |count: i64| Real::integer(count) * self.resolution;
+        let columns = disk.column.min(end(self.width) - disk.column);
+        let rows = disk.row.min(end(self.height) - disk.row);
+        let within = columns.min(rows).max(Real::ZERO);
+        let reaches = within.possibly_at_most(self.radius);
+        reaches.then(|| Hit { cell: None, distance: within.value() })
+    }
+
+    /// The cell, if its closed square may be at distance <= r.
+    fn hit(&self, disk: &Disk, i: i64, k: i64) -> Option<Hit> {
+        let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
+        let touches = apart.possibly_at_most(self.radius_squared);
+        touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
+    }
+
+    /// The first and the last column that the disk may touch in row `k`.
+    fn reach_in_row(&self, disk: &Disk, k: i64) -> (i64, i64) {
+        let chord_squared = self.radius_squared - self.gap(disk.row, k).squared();
+        self.reach(disk.column, chord_squared.max(Real::ZERO).sqrt())
+    }
+
+    /// The first and the last column (or row) that may be as near; at most two too many on either
+    /// side.
+    fn reach(&self, centre: Real, distance: Real) -> (i64, i64) {
+        let first = floor((centre - distance).over(self.resolution));
+        let last = floor((centre + distance).over(self.resolution));
+        (first.saturating_sub(1), last.saturating_add(1))
+    }
+
+    /// How far the coordinate is from the closed interval of a column (or row), m.
+    fn gap(&self, centre: Real, index: i64) -> Real {
+        let from = Real::integer(index) * self.resolution;
+        let to = Real::integer(index.saturating_add(1)) * self.resolution;
+        (from - centre).max(centre - to).max(Real::ZERO)
+    }
+}

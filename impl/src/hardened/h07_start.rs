@@ -1,0 +1,83 @@
+//! Where and when a trajectory starts, and that it keeps to the corridor and its direction (H-07
+//! of `spec/3-stages.md#hardened-profile`).
+
+use crate::input::cycle::{Cycle, TrajectoryPoint};
+use crate::numbers::plane::{Vector, distance, segment_distance};
+use crate::numbers::rounding::Real;
+use crate::numbers::time::elapsed_ns;
+use crate::report::{Rule, Witness};
+use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+
+/// Time and place of the first point.
+pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let first = points.first()?;
+    let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
+    let max_age_ns = cycle.parameters.max_age_ns;
+    if age_ns > max_age_ns || age_ns < max_age_ns.saturating_neg() {
+        let compared =
+            [age_ns.saturating_abs(), max_age_ns].map(|time_ns| Real::seconds(time_ns).value());
+        return Some(Witness::of(Rule::StartTime, compared).at_point(0));
+    }
+    let moved = Real::new(cycle.ego.speed) * Real::seconds(age_ns.max(0));
+    let limit = Real::new(cycle.parameters.start_tolerance) + moved;
+    let off = distance([cycle.ego.x, cycle.ego.y], [first.x, first.y]);
+    let witness = Witness::of(Rule::StartPosition, [off.value(), limit.value()]).at_point(0);
+    (!off.certainly_at_most(limit)).then_some(witness)
+}
+
+/// A point outside the corridor.
+pub(crate) fn corridor_failure(
+    route: IndexedRoute<'_, '_>,
+    points: &[TrajectoryPoint],
+) -> Option<Witness> {
+    let mut hint = 0;
+    points.iter().enumerate().find_map(|(index, point)| {
+        let q = [point.x, point.y];
+        let inside = route.in_corridor(q, &mut hint);
+        (!inside).then(|| route.too_far(q, hint, Rule::Corridor, 0.0).at_point(index))
+    })
+}
+
+/// A point at which the heading is not certainly along every segment that may be nearest.
+pub(crate) fn direction_failure(
+    route: IndexedRoute<'_, '_>,
+    points: &[TrajectoryPoint],
+) -> Option<Witness> {
+    let mut hint = 0;
+    if let Some(first) = points.first() {
+        // Segments beside a point in the corridor are near it.
+        route.in_corridor([first.x, first.y], &mut hint);
+    }
+    points.iter().enumerate().find_map(|(index, point)| {
+        let q = [point.x, point.y];
+        hint = route.nearer(q, hint);
+        if certainly_along(route, point, hint) {
+            return None;
+        }
+        let heading = Vector::new(point.cos, point.sin);
+        let (least, nearest) = route.path_distance(q, hint);
+        hint = nearest;
+        route.segments(q, least.magnitude()).find_map(|segment| {
+            let away = segment_distance(q, segment.from, segment.to);
+            let along = heading.dot(Vector::between(segment.from, segment.to));
+            if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
+                return None;
+            }
+            let witness = Witness::of(Rule::Direction, [along.value(), 0.0]).at_point(index);
+            Some(Witness { segment: Some(segment.index), ..witness })
+        })
+    })
+}
+
+/// Whether the heading is certainly along every segment that is at most as far as the one of the
+/// hint, of which the nearest is one. A dot product errs by less than 2^-50 of the sum of its
+/// summands' sizes.
+fn certainly_along(route: IndexedRoute<'_, '_>, point: &TrajectoryPoint, hint: usize) -> bool {
+    let q = [point.x, point.y];
+    let reach = route.at_most(q, hint);
+    route.segments(q, reach).all(|segment| {
+        let ([ax, ay], [bx, by]) = (segment.from, segment.to);
+        let (x, y) = (point.cos * (bx - ax), point.sin * (by - ay));
+        x + y > (x.abs() + y.abs()) * 1e-15 + 1e-300
+    })
+}

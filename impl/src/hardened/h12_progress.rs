@@ -1,0 +1,134 @@
+//! How far a trajectory gets, and where it ends (H-12 of `spec/3-stages.md#hardened-profile`).
+
+use core::cmp::Ordering;
+
+use crate::hardened::h04_horizon::{exact_s_stop, plain_way, way};
+use crate::input::cycle::{Cycle, TrajectoryPoint};
+use crate::numbers::exact::{Product, compare};
+use crate::numbers::rounding::Real;
+use crate::numbers::time::{elapsed_ns, seconds};
+use crate::report::{Rule, Witness};
+use crate::stages::distances::s_b;
+use crate::stages::horizon::length;
+
+/// Way, arc length and end of the trajectory.
+pub(crate) fn progress_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let (first, last) = (points.first()?, points.last()?);
+    let end_ns = elapsed_ns(first.t_ns, last.t_ns);
+    let stopped = || stands_at(cycle, first, end_ns) || end_ns >= LONGEST_NS;
+    let end = exact_s_stop(cycle, points) - Real::new(cycle.ego.length);
+    if arcs_are_fine(cycle, first, points, end) && stopped() {
+        return None;
+    }
+    let bounds = Bounds::new(cycle, first);
+    let tolerance = Real::new(cycle.parameters.start_tolerance);
+    let too_short = sums(points, way).find_map(|(index, t_ns, way)| {
+        let least = bounds.braking(Real::seconds(t_ns)) - tolerance;
+        let least = if index.saturating_add(1) < points.len() { least } else { least.max(end) };
+        let witness = Witness::of(Rule::ArcTooShort, [way.value(), least.value()]);
+        (!least.certainly_at_most(way)).then(|| witness.at_point(index))
+    });
+    let too_long = || {
+        sums(points, length).find_map(|(index, t_ns, arc)| {
+            let most = bounds.accelerating(Real::seconds(t_ns)) + tolerance;
+            let witness = Witness::of(Rule::ArcTooLong, [arc.value(), most.value()]);
+            (!arc.certainly_at_most(most)).then(|| witness.at_point(index))
+        })
+    };
+    too_short.or_else(too_long).or_else(|| {
+        let needed = bounds.v_lo.over(Real::new(cycle.parameters.a_b)).min(Real::new(50.0));
+        let compared = [Real::seconds(end_ns).value(), needed.value()];
+        let index = points.len().saturating_sub(1);
+        (!stopped()).then(|| Witness::of(Rule::EndsTooSoon, compared).at_point(index))
+    })
+}
+
+/// 50 s: no trajectory has to be longer.
+const LONGEST_NS: i64 = 50_000_000_000;
+
+/// Whether every way and arc length keeps the bounds by more than plain doubles err: the bounds are
+/// below 2^21 m.
+fn arcs_are_fine(
+    cycle: &Cycle<'_>,
+    first: &TrajectoryPoint,
+    points: &[TrajectoryPoint],
+    end: Real,
+) -> bool {
+    let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
+    let (a_b, a_max) = (parameters.a_b, parameters.a_max);
+    let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
+    let (v_lo, v_hi) = ((v_now - a_max * d).max(0.0), v_now + a_b * d);
+    let tolerance = parameters.start_tolerance - 1e-6;
+    let (mut arc, mut driven, mut error, mut before) = (0.0, 0.0, 0.0, first);
+    let all = points.iter().all(|point| {
+        let (x, y) = (point.x - before.x, point.y - before.y);
+        arc += libm::sqrt(x * x + y * y);
+        driven += plain_way(before, point);
+        error += 1e-11 * (x.abs() + y.abs());
+        before = point;
+        let t = seconds(elapsed_ns(first.t_ns, point.t_ns));
+        let left = (v_lo - a_b * t).max(0.0);
+        let least = (v_lo * v_lo - left * left) / (2.0 * a_b);
+        let most = v_hi * t + 0.5 * a_max * t * t;
+        least - tolerance <= driven - error && arc + error <= most + tolerance
+    });
+    all && end.value() + 1e-6 <= driven - error
+}
+
+/// Index, time after the first point in ns, and sum over the steps, for every point.
+fn sums(
+    points: &[TrajectoryPoint],
+    of: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
+) -> impl Iterator<Item = (usize, i64, Real)> {
+    let first_ns = points.first().map_or(0, |first| first.t_ns);
+    let steps = points.iter().zip(points.iter().skip(1)).zip(1_usize..);
+    let later = steps.scan(Real::ZERO, move |sum, ((a, b), index)| {
+        *sum = *sum + of(a, b);
+        Some((index, elapsed_ns(first_ns, b.t_ns), *sum))
+    });
+    core::iter::once((0, 0, Real::ZERO)).chain(later)
+}
+
+/// How far the CAV gets at least and at most.
+struct Bounds {
+    v_lo: Real,
+    v_hi: Real,
+    a_b: Real,
+    a_max: Real,
+    stopping: Real,
+}
+
+impl Bounds {
+    fn new(cycle: &Cycle<'_>, first: &TrajectoryPoint) -> Self {
+        let parameters = &cycle.parameters;
+        let (a_b, a_max) = (Real::new(parameters.a_b), Real::new(parameters.a_max));
+        let d = Real::seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
+        let v_now = Real::new(cycle.ego.speed);
+        let v_lo = (v_now - a_max * d).max(Real::ZERO);
+        Self { v_lo, v_hi: v_now + a_b * d, a_b, a_max, stopping: s_b(parameters, v_lo) }
+    }
+
+    /// b(t): with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both branches of H-12 are
+    /// `s_b(v_lo)` - w^2 / (2 `a_b`).
+    fn braking(&self, t: Real) -> Real {
+        let left = (self.v_lo - self.a_b * t).max(Real::ZERO);
+        self.stopping - left.squared().over(self.a_b + self.a_b)
+    }
+
+    /// `v_hi` t + `a_max` t^2/2.
+    fn accelerating(&self, t: Real) -> Real {
+        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5)
+    }
+}
+
+/// Whether t >= `v_lo` / `a_b` at that time; exact, since no margin applies to times:
+/// `a_b` t + `a_max` d >= `v_now` in units of 1e-9 m/s. (When `v_lo` is 0, every t >= 0 is enough,
+/// and the inequality holds.)
+fn stands_at(cycle: &Cycle<'_>, first: &TrajectoryPoint, t_ns: i64) -> bool {
+    let parameters = &cycle.parameters;
+    let d_ns = elapsed_ns(first.t_ns, cycle.now_ns).saturating_abs();
+    let (t, d) = (Real::integer(t_ns).value(), Real::integer(d_ns).value());
+    let gained =
+        [Product([t, 0.0], [parameters.a_b, 0.0]), Product([d, 0.0], [parameters.a_max, 0.0])];
+    compare(&gained, &[Product([1e9, 0.0], [cycle.ego.speed, 0.0])]) != Ordering::Less
+}

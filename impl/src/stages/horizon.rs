@@ -1,0 +1,157 @@
+//! The points that stages iii, iv and v examine: those of the trajectory up to a horizon, and with
+//! H-04 the next one and places beyond the end (`spec/3-stages.md#distances`).
+
+use crate::hardened::h04_horizon::{PlacesBeyond, exact_s_stop, plain_s_stop, plain_way, way};
+use crate::input::cycle::{Cycle, Lead, TrajectoryPoint};
+use crate::input::profile::Profile;
+use crate::numbers::plane::distance;
+use crate::numbers::range::larger;
+use crate::numbers::rounding::Real;
+use crate::report::Witness;
+use crate::stages::distances::{Number, s_b, s_cav, s_follow};
+
+/// How far stages iii, iv and v look.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Horizon<'c> {
+    /// `s_CAV`
+    Cav,
+    /// `s_valid`, with the current leading vehicle.
+    Valid(Option<&'c Lead>),
+    /// `s_b(v_now)`
+    Braking,
+}
+
+impl Horizon<'_> {
+    /// The distance, m.
+    fn distance<N: Number>(self, cycle: &Cycle<'_>) -> N {
+        let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
+        match self {
+            Self::Cav => s_cav(parameters, v_now),
+            Self::Valid(Some(lead)) => s_follow(parameters, v_now, lead.speed),
+            Self::Valid(None) | Self::Braking => s_b(parameters, N::from_double(v_now)),
+        }
+    }
+
+    /// The distance; H-04: max(s, `s_stop`).
+    fn exactly(self, cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
+        let s = self.distance::<Real>(cycle);
+        match cycle.profile {
+            Profile::Paper => s,
+            Profile::Hardened => s.or_larger(exact_s_stop(cycle, points)),
+        }
+    }
+
+    /// Doubles on either side of it: of at most twenty roundings all but those of one difference
+    /// are of summands >= 0; its summands are `s_b(v_now)` and, unless 0 is larger, less.
+    fn plainly(self, cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> [f64; 2] {
+        let mut s = self.distance::<f64>(cycle);
+        if let (Profile::Hardened, Some(first)) = (cycle.profile, points.first()) {
+            s = larger(s, plain_s_stop(cycle, first));
+        }
+        let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
+        [s - error, s + error]
+    }
+}
+
+/// The points that a stage examines.
+pub(crate) struct PointsExamined<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    /// Points of the trajectory, from the first on.
+    pub(crate) points: &'a [TrajectoryPoint],
+    beyond: PlacesBeyond,
+}
+
+impl<'c, 'a> PointsExamined<'c, 'a> {
+    pub(crate) fn new(
+        cycle: &'c Cycle<'a>,
+        points: &'a [TrajectoryPoint],
+        horizon: Horizon<'_>,
+    ) -> Self {
+        let bounds = horizon.plainly(cycle, points);
+        let exactly = || horizon.exactly(cycle, points);
+        let within = match cycle.profile {
+            Profile::Paper => plainly_within(points, bounds, plain_length)
+                .unwrap_or_else(|| within(points, exactly(), length)),
+            Profile::Hardened => plainly_within(points, bounds, plain_way_and_size)
+                .unwrap_or_else(|| within(points, exactly(), way)),
+        };
+        let ends = cycle.profile == Profile::Hardened && within == points.len();
+        let beyond = if ends { PlacesBeyond::new(cycle, points) } else { PlacesBeyond::NONE };
+        let count = match cycle.profile {
+            Profile::Paper => within,
+            Profile::Hardened => within.saturating_add(1),
+        };
+        Self { cycle, points: points.get(..count).unwrap_or(points), beyond }
+    }
+
+    /// H-04: the first place beyond the end where `find` finds something.
+    pub(crate) fn first_beyond(
+        &self,
+        find: impl Fn(&Cycle<'a>, &[TrajectoryPoint]) -> Option<Witness>,
+    ) -> Option<Witness> {
+        self.beyond.first(self.cycle, self.points, find)
+    }
+}
+
+/// The length of a step, m.
+pub(crate) fn length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> Real {
+    distance([from.x, from.y], [to.x, to.y])
+}
+
+/// The same in plain doubles, and what its error is relative to.
+#[inline]
+fn plain_length(from: &TrajectoryPoint, to: &TrajectoryPoint) -> [f64; 2] {
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    [libm::sqrt(dx * dx + dy * dy); 2]
+}
+
+/// H-04: the way of a step in plain doubles, and what its error is relative to.
+#[inline]
+fn plain_way_and_size(from: &TrajectoryPoint, to: &TrajectoryPoint) -> [f64; 2] {
+    [plain_way(from, to), (to.x - from.x).abs() + (to.y - from.y).abs()]
+}
+
+/// How many points are within s. They form a prefix, since `step` is never below 0; the first
+/// point always counts.
+fn within(
+    points: &[TrajectoryPoint],
+    s: Real,
+    step: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
+) -> usize {
+    let mut arc = Real::ZERO;
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        arc = arc + step(a, b);
+        if !arc.possibly_at_most(s) {
+            break;
+        }
+        count = count.saturating_add(1);
+    }
+    count.min(points.len())
+}
+
+/// The same in plain doubles, unless they cannot tell. A step errs by less than 2^-50 of its size
+/// and 1e-150 m (squares may underflow), a sum of at most 1023 of them by less than 2^-40 of all
+/// sizes together.
+fn plainly_within(
+    points: &[TrajectoryPoint],
+    [least, most]: [f64; 2],
+    step: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> [f64; 2],
+) -> Option<usize> {
+    let (mut arc, mut sizes) = (0.0, 0.0);
+    let mut count = 1_usize;
+    for (a, b) in points.iter().zip(points.iter().skip(1)) {
+        let [length, size] = step(a, b);
+        arc += length;
+        sizes += size;
+        let error = sizes * 1e-12 + 1e-140;
+        if arc - error > most {
+            return Some(count);
+        }
+        if arc + error > least {
+            return None;
+        }
+        count = count.saturating_add(1);
+    }
+    Some(count.min(points.len()))
+}

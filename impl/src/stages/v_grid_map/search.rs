@@ -1,0 +1,80 @@
+//! Which disk of which trajectory point is the first to collide, with as many points as possible
+//! passed at once (`spec/3-stages.md#stage-v-trajectory-with-grid-map`).
+
+use crate::input::cycle::{Cycle, Grid, TrajectoryPoint};
+use crate::report::{Rule, Witness};
+use crate::stages::v_grid_map::band::{Band, CellFrame};
+use crate::stages::v_grid_map::bitmap::Bitmap;
+use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
+
+/// Points that are examined, on a grid.
+pub(crate) struct DiskSearch<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    grid: &'c Grid<'a>,
+    points: &'c [TrajectoryPoint],
+    frame: CellFrame,
+}
+
+impl<'c, 'a> DiskSearch<'c, 'a> {
+    pub(crate) fn new(
+        cycle: &'c Cycle<'a>,
+        grid: &'c Grid<'a>,
+        points: &'c [TrajectoryPoint],
+    ) -> Self {
+        Self { cycle, grid, points, frame: CellFrame::new(cycle, grid) }
+    }
+
+    /// The first disk that `hit` says collides with a cell of the bitmap.
+    pub(crate) fn cells(
+        &self,
+        rule: Rule,
+        cells: &Bitmap<'_>,
+        hit: impl Fn(&GridGeometry, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        self.first(rule, |band| band.is_free(cells), hit)
+    }
+
+    /// The first hit in the order of points, then disks. As many points as possible are passed at
+    /// once; `is_free`: no disk in the band can hit.
+    pub(crate) fn first(
+        &self,
+        rule: Rule,
+        is_free: impl Fn(&Band) -> bool,
+        hit: impl Fn(&GridGeometry, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        let (mut at, mut size) = (0_usize, self.points.len());
+        while at < self.points.len() {
+            let end = at.saturating_add(size).min(self.points.len());
+            let points = self.points.get(at..end)?;
+            if is_free(&Band::new(&self.frame, points)) {
+                at = end;
+                size = size.saturating_mul(2);
+            } else if let [point] = points {
+                let found = self.at_point(rule, at, point, &hit);
+                if found.is_some() {
+                    return found;
+                }
+                at = end;
+            } else {
+                size = points.len() >> 1;
+            }
+        }
+        None
+    }
+
+    /// The first disk that hits.
+    fn at_point(
+        &self,
+        rule: Rule,
+        index: usize,
+        point: &TrajectoryPoint,
+        hit: impl Fn(&GridGeometry, &Disk) -> Option<Hit>,
+    ) -> Option<Witness> {
+        let grid = GridGeometry::new(self.cycle, self.grid);
+        (0..self.cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
+            let Hit { cell, distance } = hit(&grid, &grid.disk(self.cycle, point, i))?;
+            let witness = Witness::of(rule, [distance, grid.radius.value()]).at_point(index);
+            Some(Witness { disk: Some(number), cell, ..witness })
+        })
+    }
+}
