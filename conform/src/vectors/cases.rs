@@ -17,6 +17,7 @@ use std::fmt::Display;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use mufasa_records::{self as json, Record};
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::value::{RawValue, to_raw_value};
 use serde_json::{Value, from_str};
@@ -113,7 +114,7 @@ struct Exact(f64);
 impl<'de> Deserialize<'de> for Exact {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let text = <&RawValue>::deserialize(from)?.get();
-        text.parse().map(Self).map_err(serde::de::Error::custom)
+        text.parse().map(Self).map_err(D::Error::custom)
     }
 }
 
@@ -200,7 +201,7 @@ impl Case {
 }
 
 fn expected(facts: Option<&Facts>, events: usize) -> Result<Expected, String> {
-    Expected::read(facts.ok_or("nothing is expected")?, events)
+    Expected::read(facts.filter(|it| !it.is_empty()).ok_or("nothing is expected")?, events)
 }
 
 fn text(error: impl Display) -> String {
@@ -267,7 +268,7 @@ fn put(text: &RawValue, path: &[&str], value: Raw) -> serde_json::Result<Raw> {
     let Some((first, rest)) = path.split_first() else { return Ok(value) };
     if let Ok(index) = first.parse::<usize>() {
         let mut items: Vec<Raw> = from_str(text.get())?;
-        let missing = || serde::de::Error::custom(format!("there is no index {index}"));
+        let missing = || serde_json::Error::custom(format!("there is no index {index}"));
         let item = items.get_mut(index).ok_or_else(missing)?;
         *item = put(item, rest, value)?;
         return to_raw_value(&items);
@@ -319,8 +320,8 @@ fn written_out(pointer: &str, value: Raw) -> serde_json::Result<Raw> {
         Ok(Shape::Bitmap { cells: [width, height], set }) => {
             let mut bitmap = vec![0_u8; (width * height).div_ceil(8)];
             for bit in set.iter().map(|[column, row]| row * width + column) {
-                let Some(byte) = bitmap.get_mut(bit / 8) else { continue };
-                *byte |= 1 << (bit % 8);
+                let beyond = || serde_json::Error::custom("a cell is beyond the bitmap");
+                *bitmap.get_mut(bit / 8).ok_or_else(beyond)? |= 1 << (bit % 8);
             }
             format!("\"{}\"", STANDARD.encode(bitmap))
         }

@@ -17,7 +17,6 @@ use std::path::Path;
 
 use book::{Book, Refused, Vector};
 
-
 /// What people of other languages read first.
 const README: &str = include_str!("readme.md");
 
