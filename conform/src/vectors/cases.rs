@@ -193,7 +193,7 @@ impl Case {
             Record::Cycle { cycle, .. } => book.cycle(topic, name, note, &cycle, expected),
             Record::Offloading { trace, .. } => book.trace(topic, name, note, &trace, expected),
             Record::Composition { task, .. } => {
-                book.composition(topic, name, note, &task, expected)
+                book.composition(topic, name, note, &task, expected);
             }
         }
         Ok(())

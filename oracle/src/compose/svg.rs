@@ -149,19 +149,13 @@ impl RenderBackend for Page {
     ) {
         let class = if dashed { "switch" } else { "link" };
         let end = if at_start { "start" } else { "end" };
-        let mut d = String::new();
-        for (index, (a, b)) in path.iter().enumerate() {
-            d += match index {
-                0 => "M",
-                1 => "",
-                _ => " S",
-            };
-            d += &format!(" {:.1} {:.1}", a.x, a.y);
-            d += if index == 0 { " C" } else { "" };
-            d += &format!(" {:.1} {:.1}", b.x, b.y);
-            self.reach(xy(*a));
-            self.reach(xy(*b));
-        }
+        // `M point C control control point S control point ...`
+        let step = |(index, (a, b)): (usize, &(Point, Point))| {
+            let [before, between] = [["M ", " C "], ["", " "], ["S ", " "]][index.min(2)];
+            format!("{before}{:.1} {:.1}{between}{:.1} {:.1}", a.x, a.y, b.x, b.y)
+        };
+        let d = path.iter().enumerate().map(step).collect::<Vec<_>>().join(" ");
+        path.iter().for_each(|(a, b)| [a, b].iter().for_each(|point| self.reach(xy(**point))));
         self.elements.push(format!(
             "<path class=\"{class}\" d=\"{d}\" marker-{end}=\"url(#to-{class})\"><title>{}</title></path>",
             escape(&about.unwrap_or_default())
