@@ -10,10 +10,11 @@ use serde_json::{Map, Value};
 use super::answer::{self, Said};
 use super::class::{Breach, Class, Kind, Scale};
 use super::error::ConformError;
-use super::question::{Damaged, Question, event_type};
+use super::question::{Damaged, Question};
 use super::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::record::offloading::event_type;
 use mufasa_records::{self as json, LineError, Trace, compose, names};
 
 /// Margin within which a disagreement counts as one at the threshold, m.

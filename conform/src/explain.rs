@@ -11,11 +11,12 @@ use serde_json::Value;
 use super::answer::{self, Said};
 use super::class::Breach;
 use super::examine::{Examined, Expected, index, is_within};
-use super::question::{Question, event_type};
+use super::question::Question;
 use super::subject::Broken;
 use mufasa_drives::check::words;
 use mufasa_records::answer::decimal;
 use mufasa_records::offloading_answer::OffloadingAnswer;
+use mufasa_records::record::offloading::event_type;
 use mufasa_records::{Trace, names};
 
 /// Margins that are tried, m: those of the domain of `delta`.

@@ -1,15 +1,11 @@
 //! What is asked: a record of one of the three kinds, and its line.
 
-use std::fmt::Write;
-
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::offloading::requester::{Event, EventKind, Group, Groups, Parameters};
 use mufasa_model::services::orchestrator::Task;
-use serde_json::json;
 
 use super::class::Kind;
 use super::damage::Damage;
-use mufasa_records::{self as records, Trace, cycle_to_line, names};
+use mufasa_records::{self as records, Trace, cycle_to_line, names, task_to_line, trace_to_line};
 
 /// So many places are tried for one where a damage makes a record unreadable.
 const TRIES: usize = 50;
@@ -125,112 +121,6 @@ impl Damaged {
         }
         text
     }
-}
-
-fn trace_to_line(id: &str, trace: &Trace) -> String {
-    let events: Vec<String> = trace.events.iter().map(event).collect();
-    format!(
-        "{{\"kind\": \"offloading\", \"id\": {}, \"profile\": \"{}\", \"parameters\": {{{}}}, \
-         \"events\": [{}]}}",
-        json!(id),
-        names::profile(trace.profile),
-        times(&trace.parameters),
-        events.join(", ")
-    )
-}
-
-/// The times that are not at their default.
-fn times(parameters: &Parameters) -> String {
-    let usual = Parameters::default();
-    let pairs = [
-        ("t_wait_ns", parameters.t_wait_ns, usual.t_wait_ns),
-        ("request_timeout_ns", parameters.request_timeout_ns, usual.request_timeout_ns),
-        ("l_max_ns", parameters.l_max_ns, usual.l_max_ns),
-        ("dt_max_ns", parameters.dt_max_ns, usual.dt_max_ns),
-    ];
-    let mut fields: Vec<String> = pairs
-        .into_iter()
-        .filter(|(_, value, usual)| value != usual)
-        .map(|(key, value, _)| format!("\"{key}\": {value}"))
-        .collect();
-    if parameters.qos_hold != usual.qos_hold {
-        fields.push(format!("\"qos_hold\": {}", parameters.qos_hold));
-    }
-    fields.join(", ")
-}
-
-fn event(event: &Event) -> String {
-    let mut text = format!("{{\"t_ns\": {}, \"type\": \"{}\"", event.t_ns, event_type(event));
-    let message = |station: i64, group: Group, session: i64| {
-        let group = names::group(group);
-        format!(", \"station\": {station}, \"group\": \"{group}\", \"session\": {session}")
-    };
-    let rest = match event.kind {
-        EventKind::Offer { station, groups } => {
-            format!(", \"station\": {station}, \"groups\": {}", list(groups))
-        }
-        EventKind::Withdraw { station } | EventKind::Lost { station } => {
-            format!(", \"station\": {station}")
-        }
-        EventKind::Area { groups } => format!(", \"groups\": {}", list(groups)),
-        EventKind::Tick => String::new(),
-        EventKind::Confirm { station, group, session }
-        | EventKind::Reject { station, group, session } => message(station, group, session),
-        EventKind::Data { station, group, session, generated_ns } => {
-            format!("{}, \"generated_ns\": {generated_ns}", message(station, group, session))
-        }
-        EventKind::Verdict { safe, groups } => {
-            format!(", \"verdict\": \"{}\", \"groups\": {}", names::verdict(safe), list(groups))
-        }
-    };
-    // Writing to a string cannot fail.
-    let _ = write!(text, "{rest}}}");
-    text
-}
-
-/// The type of an event in the records.
-pub fn event_type(event: &Event) -> &'static str {
-    match event.kind {
-        EventKind::Offer { .. } => "offer",
-        EventKind::Withdraw { .. } => "withdraw",
-        EventKind::Lost { .. } => "lost",
-        EventKind::Area { .. } => "area",
-        EventKind::Tick => "tick",
-        EventKind::Confirm { .. } => "confirm",
-        EventKind::Reject { .. } => "reject",
-        EventKind::Data { .. } => "data",
-        EventKind::Verdict { .. } => "verdict",
-    }
-}
-
-fn list(groups: Groups) -> String {
-    let named = Group::ALL.into_iter().filter(|group| groups.contains(*group));
-    json!(named.map(names::group).collect::<Vec<_>>()).to_string()
-}
-
-fn task_to_line(id: &str, task: &Task) -> String {
-    let services: Vec<String> = task
-        .services
-        .iter()
-        .map(|service| {
-            format!(
-                "{{\"id\": {}, \"requires\": {}, \"guarantees\": {}, \"station\": {}}}",
-                json!(service.id),
-                json!(service.requires),
-                json!(service.guarantees),
-                service.station
-            )
-        })
-        .collect();
-    format!(
-        "{{\"kind\": \"composition\", \"id\": {}, \"services\": [{}], \"goal\": {}, \
-         \"same_station\": {}, \"local_only\": {}}}",
-        json!(id),
-        services.join(", "),
-        json!(task.goal),
-        json!(task.same_station),
-        json!(task.local_only)
-    )
 }
 
 #[cfg(test)]

@@ -15,8 +15,8 @@ use mufasa_model::services::orchestrator::{Answer, NoComposition, Task};
 use mufasa_model::services::service::ServiceSet;
 
 use graph::Graph;
-use mufasa_records::composition_answer::{CompositionAnswer, rule};
-use mufasa_records::{self as json, LineError, Record};
+use mufasa_records::composition_answer::CompositionAnswer;
+use mufasa_records::{self as json, LineError, Record, names};
 
 /// Width of a table, characters.
 const TABLE_WIDTH: u16 = 110;
@@ -137,7 +137,7 @@ impl Composed {
             Some(NoComposition::Rule(broken)) => format!(
                 "no composition for {}: the rule {} stands in the way",
                 json::shown(&self.task.goal),
-                rule(*broken)
+                names::placement_rule(*broken)
             ),
         }
     }

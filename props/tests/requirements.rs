@@ -3,7 +3,8 @@
 //! A requirement is a line of `spec/` with a MUST in it. Its name is the file, the anchor of its
 //! heading and its place among the requirements under that heading, such as
 //! `spec/3-stages.md#distances.2`. The rules H-nn and the interpretations I-nn have names of their
-//! own. A test names them in its doc comment or in a comment beside it.
+//! own. A test names them in its doc comment or in a comment beside it; a vector names the one that it
+//! is of, and `conform/tests/vectors` holds model and implementation to every vector.
 //! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -82,6 +83,26 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
+/// Requirements of the published vectors, with their files.
+fn requirements_of_vectors() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for topic in fs::read_dir(root().join("vectors")).expect("vectors/ is there") {
+        let topic = topic.expect("a directory entry").path();
+        for file in fs::read_dir(&topic).into_iter().flatten() {
+            let file = file.expect("a directory entry").path();
+            let text = fs::read_to_string(&file).expect("vectors are readable");
+            let name = file.strip_prefix(root()).expect("below the root").display().to_string();
+            let mut names: BTreeSet<&str> = BTreeSet::new();
+            for line in text.lines() {
+                let requirement = line.split_once("\"requirement\": \"").map(|(_, rest)| rest);
+                names.extend(requirement.and_then(|rest| rest.split('"').next()));
+            }
+            found.extend(names.into_iter().map(|requirement| (requirement.into(), name.clone())));
+        }
+    }
+    found
+}
+
 /// Names in a text: `spec/<file>#<anchor>.<number>`, `H-<number>`, `I-<number>`.
 fn names_in(text: &str) -> impl Iterator<Item = String> {
     let rules = ["H-", "I-"].into_iter().flat_map(|kind| text.match_indices(kind));
@@ -117,6 +138,11 @@ fn every_must_is_named_by_a_test() {
         let path = file.strip_prefix(root()).expect("below the root").display().to_string();
         for name in names_in(&text) {
             named.entry(name).or_default().push(path.clone());
+        }
+    }
+    for (name, file) in requirements_of_vectors() {
+        if known.contains(name.as_str()) {
+            named.entry(name).or_default().push(file);
         }
     }
     let mut open = Vec::new();

@@ -1,16 +1,17 @@
 //! Answers as JSON (`spec/5-interfaces.md#cycle`).
 
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::report::{InvalidInput, Outcome, Report, Witness};
+use mufasa_model::report::{
+    FailedStage, Input, InvalidInput, Outcome, Reason, Report, Rule, Witness,
+};
 use mufasa_model::stages::readings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::composition_answer::CompositionAnswer;
 use crate::error::LineError;
-use crate::names;
 use crate::offloading_answer::OffloadingAnswer;
-use crate::schema::words;
+use crate::record::value::Word;
 
 /// The answer to one line.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,22 +33,18 @@ pub struct CycleAnswer {
     /// Id of the record.
     pub id: String,
     /// `safe` or `unsafe`, as the exact model decides.
-    #[schemars(with = "words::Verdict")]
-    pub verdict: &'static str,
+    pub verdict: Word<bool>,
     /// `None` when the cycle is safe.
-    #[schemars(with = "Option<words::FailedStage>")]
-    pub failed_stage: Option<&'static str>,
+    pub failed_stage: Option<Word<FailedStage>>,
     /// Where the problem is, when the failed stage is `input`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<InputProblem>,
     /// What became of every stage.
     pub stages: Stages,
     /// Verdict of the strict reading.
-    #[schemars(with = "words::Verdict")]
-    pub strict: &'static str,
+    pub strict: Word<bool>,
     /// Verdict of the lax reading.
-    #[schemars(with = "words::Verdict")]
-    pub lax: &'static str,
+    pub lax: Word<bool>,
 }
 
 /// A problem in remote data.
@@ -88,14 +85,12 @@ pub enum StageAnswer {
     /// Conditional, or stopped by an earlier failure.
     Skipped {
         /// Why.
-        #[schemars(with = "words::Reason")]
-        reason: &'static str,
+        reason: Word<Reason>,
     },
     /// Scheduled always, but an input is missing.
     NotApplicable {
         /// Key of that input in the record.
-        #[schemars(with = "words::Missing")]
-        missing: &'static str,
+        missing: Word<Input>,
     },
     /// Not part of this configuration.
     NotScheduled,
@@ -105,8 +100,7 @@ pub enum StageAnswer {
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize)]
 pub struct WitnessAnswer {
     /// The rule that was broken.
-    #[schemars(with = "words::Rule")]
-    pub rule: &'static str,
+    pub rule: Word<Rule>,
     /// Index of the trajectory point.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub point: Option<usize>,
@@ -135,13 +129,20 @@ pub struct ErrorAnswer {
     /// Id of the record, when it could be read.
     pub id: Option<String>,
     /// Always `error`.
-    #[schemars(with = "words::ErrorVerdict")]
-    pub verdict: &'static str,
+    pub verdict: ErrorVerdict,
     /// Always null.
     #[schemars(with = "()")]
     pub failed_stage: Option<&'static str>,
     /// What is wrong.
     pub error: ErrorProblem,
+}
+
+/// Verdict of a line that is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ErrorVerdict {
+    /// The only one.
+    Error,
 }
 
 /// What is wrong with a line.
@@ -170,7 +171,7 @@ impl CycleAnswer {
         Self {
             id,
             verdict: verdict(&exact),
-            failed_stage: exact.failed_stage.map(names::failed_stage),
+            failed_stage: exact.failed_stage.map(Word),
             input: exact
                 .input
                 .map(|problem| InputProblem { field: problem.field, index: problem.index }),
@@ -186,8 +187,8 @@ impl StageAnswer {
         match outcome {
             Outcome::Passed => Self::Passed,
             Outcome::Failed(witness) => Self::Failed { witness: WitnessAnswer::new(witness) },
-            Outcome::Skipped(reason) => Self::Skipped { reason: names::reason(*reason) },
-            Outcome::NotApplicable(input) => Self::NotApplicable { missing: names::input(*input) },
+            Outcome::Skipped(reason) => Self::Skipped { reason: Word(*reason) },
+            Outcome::NotApplicable(input) => Self::NotApplicable { missing: Word(*input) },
             Outcome::NotScheduled => Self::NotScheduled,
         }
     }
@@ -196,7 +197,7 @@ impl StageAnswer {
 impl WitnessAnswer {
     fn new(witness: &Witness) -> Self {
         Self {
-            rule: names::rule(witness.rule),
+            rule: Word(witness.rule),
             point: witness.point,
             track: witness.track,
             detection: witness.detection,
@@ -214,7 +215,7 @@ impl From<LineError> for ErrorAnswer {
         let LineError { line, id, field, index, .. } = error;
         Self {
             id,
-            verdict: "error",
+            verdict: ErrorVerdict::Error,
             failed_stage: None,
             error: ErrorProblem { field, index, message, line },
         }
@@ -226,6 +227,6 @@ pub fn decimal(value: f64) -> String {
     if value.is_nan() { String::from("nan") } else { value.to_string() }
 }
 
-fn verdict(report: &Report) -> &'static str {
-    names::verdict(report.failed_stage.is_none())
+fn verdict(report: &Report) -> Word<bool> {
+    Word(report.failed_stage.is_none())
 }

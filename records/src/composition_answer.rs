@@ -1,11 +1,13 @@
 //! The answer to a composition (`spec/5-interfaces.md#composition`).
 
+use mufasa_model::report::InvalidInput;
 use mufasa_model::services::composition::Composition;
-use mufasa_model::services::orchestrator::{Answer, NoComposition, Rule};
+use mufasa_model::services::orchestrator::{Answer, NoComposition, Rule, TaskError};
+use mufasa_model::services::service::{ServiceError, ServiceRule};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::schema::words;
+use crate::record::value::Word;
 
 /// Every composition, or why there is none.
 #[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
@@ -45,8 +47,7 @@ pub enum NoneEntry {
     /// A rule stands in the way.
     Rule {
         /// `same_station`, `local_only` or `acyclic`.
-        #[schemars(with = "words::PlacementRule")]
-        rule: &'static str,
+        rule: Word<Rule>,
     },
 }
 
@@ -61,12 +62,26 @@ impl CompositionAnswer {
     }
 }
 
-/// The name of a rule in answers.
-pub const fn rule(rule: Rule) -> &'static str {
+/// Where in the record a task breaks a rule. Of an interface listed twice the index is that of
+/// the service.
+pub fn problem(error: &TaskError) -> InvalidInput {
+    let (field, index) = match error {
+        TaskError::UnknownGoal(_) => ("goal", None),
+        TaskError::TooManyChoices => ("services", None),
+        TaskError::Services(ServiceError { index, rule, .. }) => (field(rule), *index),
+    };
+    InvalidInput { field: field.to_owned(), index, message: error.to_string() }
+}
+
+fn field(rule: &ServiceRule) -> &'static str {
     match rule {
-        Rule::SameStation => "same_station",
-        Rule::LocalOnly => "local_only",
-        Rule::Acyclic => "acyclic",
+        ServiceRule::EmptySet | ServiceRule::LocalServiceLeft | ServiceRule::LocalServiceCame => {
+            "services"
+        }
+        ServiceRule::IdTwice => "services.id",
+        ServiceRule::RequirementTwice(_) => "services.requires",
+        ServiceRule::GuaranteeTwice(_) => "services.guarantees",
+        ServiceRule::NegativeStation(_) => "services.station",
     }
 }
 
@@ -88,6 +103,6 @@ fn none(reason: NoComposition) -> NoneEntry {
         NoComposition::Requirement { requirement, service } => {
             NoneEntry::Requirement { requirement, service }
         }
-        NoComposition::Rule(broken) => NoneEntry::Rule { rule: rule(broken) },
+        NoComposition::Rule(broken) => NoneEntry::Rule { rule: Word(broken) },
     }
 }

@@ -28,10 +28,7 @@ impl LineError {
 
     /// Text that is no JSON; `line` is the number of its first line.
     pub fn syntax(line: usize, error: &serde_json::Error) -> Self {
-        let place = format!(" at line {} column {}", error.line(), error.column());
-        let text = error.to_string();
-        let what = text.strip_suffix(&place).unwrap_or(&text);
-        let message = format!("is not JSON: {what} at column {}", error.column());
+        let message = format!("is not JSON: {} at column {}", text(error), error.column());
         Self::whole(line + error.line().saturating_sub(1), message)
     }
 
@@ -48,3 +45,10 @@ impl fmt::Display for LineError {
 }
 
 impl std::error::Error for LineError {}
+
+/// What is wrong, without the place.
+pub fn text(error: &serde_json::Error) -> String {
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let text = error.to_string();
+    text.strip_suffix(&place).map_or(text.clone(), str::to_owned)
+}

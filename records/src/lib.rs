@@ -9,11 +9,9 @@ pub mod offloading_answer;
 pub mod schema;
 pub mod write;
 
-mod composition;
-mod cycle;
-mod offloading;
-mod parameters;
-mod walk;
+pub mod record;
+
+mod read;
 
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::InvalidInput;
@@ -23,14 +21,13 @@ use serde_json::value::RawValue;
 
 pub use answer::Answer;
 pub use error::LineError;
-pub use offloading::Trace;
-pub use walk::excerpt as shown;
-pub use write::cycle_to_line;
+pub use read::excerpt as shown;
+pub use record::offloading::Trace;
+pub use write::{cycle_to_line, task_to_line, trace_to_line};
 
 use answer::CycleAnswer;
 use composition_answer::CompositionAnswer;
 use offloading_answer::OffloadingAnswer;
-use walk::Value;
 
 /// A record of one of the kinds of `spec/5-interfaces.md`.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,13 +64,10 @@ pub fn parse(line: &[u8], number: usize) -> Result<Record, LineError> {
     if text.trim_ascii().is_empty() {
         return Err(LineError::whole(number, String::from("is blank, a record was expected")));
     }
-    let raw: &RawValue =
-        serde_json::from_str(text).map_err(|error| LineError::syntax(number, &error))?;
-    let record = Value::record(raw);
-    read(record).map_err(|problem| {
+    read::record(text).map_err(|problem| match serde_json::from_str::<&RawValue>(text) {
+        Err(error) => LineError::syntax(number, &error),
         // A record that breaks the schema is still answered by its name, if it has one.
-        let id = record.field("id").and_then(|id| id.string()).ok();
-        LineError::new(number, id, problem)
+        Ok(_) => LineError::new(number, read::id(text), problem),
     })
 }
 
@@ -98,8 +92,9 @@ pub fn decide(record: Record) -> Result<Answer, (String, InvalidInput)> {
 /// that is no service, too many choices.
 pub fn compose(task: &Task) -> Result<(ServiceSet, orchestrator::Answer), InvalidInput> {
     let services = ServiceSet::new(task.services.clone())
-        .map_err(|error| composition::problem(&TaskError::Services(error)))?;
-    let answer = orchestrator::compose(task).map_err(|error| composition::problem(&error))?;
+        .map_err(|error| composition_answer::problem(&TaskError::Services(error)))?;
+    let answer =
+        orchestrator::compose(task).map_err(|error| composition_answer::problem(&error))?;
     Ok((services, answer))
 }
 
@@ -135,34 +130,4 @@ pub fn cycles_from_lines(text: &str) -> Vec<Result<(String, Cycle), LineError>> 
             }
         })
         .collect()
-}
-
-/// The kinds of records.
-#[derive(Clone, Copy)]
-enum Kind {
-    Cycle,
-    Offloading,
-    Composition,
-}
-
-impl Kind {
-    const ALL: [Self; 3] = [Self::Cycle, Self::Offloading, Self::Composition];
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Cycle => "cycle",
-            Self::Offloading => "offloading",
-            Self::Composition => "composition",
-        }
-    }
-}
-
-fn read(record: Value<'_, '_>) -> Result<Record, InvalidInput> {
-    let kind = record.field("kind")?.choice(&Kind::ALL, Kind::name)?;
-    let id = record.field("id")?.string()?;
-    Ok(match kind {
-        Kind::Cycle => Record::Cycle { id, cycle: Box::new(cycle::cycle(record)?) },
-        Kind::Offloading => Record::Offloading { id, trace: offloading::trace(record)? },
-        Kind::Composition => Record::Composition { id, task: composition::composition(record)? },
-    })
 }

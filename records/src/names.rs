@@ -1,66 +1,119 @@
-//! The words that records and answers use (`spec/5-interfaces.md`, `spec/3-stages.md#schedule`).
+//! The words that records and answers use (`spec/5-interfaces.md`, `spec/3-stages.md#schedule`),
+//! each of them once.
 
-use mufasa_model::input::cycle::Profile;
-use mufasa_model::offloading::requester::Group;
+use mufasa_model::input::profile::Profile;
 use mufasa_model::report::{FailedStage, Input, Reason, Rule, Stage};
-use mufasa_model::services::configuration::Configuration;
+use mufasa_model::services::configuration::{Configuration, Group};
+use mufasa_model::services::orchestrator::Rule as PlacementRule;
 
-/// `paper` or `hardened`.
-pub const fn profile(profile: Profile) -> &'static str {
-    match profile {
+/// Values that records and answers call by words.
+pub trait Words: Copy + 'static {
+    /// Their name in the schema.
+    const NAME: &'static str;
+    /// What they are.
+    const DESCRIPTION: &'static str;
+    /// All of them.
+    const ALL: &'static [Self];
+
+    /// The word of this one.
+    fn word(self) -> &'static str;
+}
+
+/// The kinds of records.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// A cycle.
+    Cycle,
+    /// An offloading trace.
+    Offloading,
+    /// A composition.
+    Composition,
+}
+
+macro_rules! words {
+    ($(
+        #[doc = $description:literal]
+        $function:ident($type:ty as $name:literal) {
+            $($first:tt $(:: $rest:ident)? $(($($inner:tt)*))? => $word:literal,)*
+        }
+    )*) => {$(
+        #[doc = $description]
+        pub const fn $function(value: $type) -> &'static str {
+            match value {
+                $($first $(:: $rest)? $(($($inner)*))? => $word,)*
+            }
+        }
+
+        impl Words for $type {
+            const NAME: &'static str = $name;
+            const DESCRIPTION: &'static str = $description.trim_ascii();
+            const ALL: &'static [Self] = &[$($first $(:: $rest)? $(($($inner)*))?),*];
+
+            fn word(self) -> &'static str {
+                $function(self)
+            }
+        }
+    )*};
+}
+
+words! {
+    /// What a line asks.
+    kind(Kind as "Kind") {
+        Kind::Cycle => "cycle",
+        Kind::Offloading => "offloading",
+        Kind::Composition => "composition",
+    }
+
+    /// Which rules apply.
+    profile(Profile as "Profile") {
         Profile::Paper => "paper",
         Profile::Hardened => "hardened",
     }
-}
 
-/// `Local`, `MotRemote`, `AllRemote` or `PlanRemote`.
-pub const fn configuration(configuration: Configuration) -> &'static str {
-    match configuration {
+    /// Which groups are remote.
+    configuration(Configuration as "Configuration") {
         Configuration::Local => "Local",
         Configuration::MotRemote => "MotRemote",
         Configuration::AllRemote => "AllRemote",
         Configuration::PlanRemote => "PlanRemote",
     }
-}
 
-/// `safe` or `unsafe`.
-pub const fn verdict(safe: bool) -> &'static str {
-    if safe { "safe" } else { "unsafe" }
-}
+    /// Verdict of a cycle: safe where no stage failed.
+    verdict(bool as "Verdict") {
+        true => "safe",
+        false => "unsafe",
+    }
 
-/// `i` to `v`.
-pub const fn stage(stage: Stage) -> &'static str {
-    match stage {
+    /// One of the five stages.
+    stage(Stage as "Stage") {
         Stage::I => "i",
         Stage::Ii => "ii",
         Stage::Iii => "iii",
         Stage::Iv => "iv",
         Stage::V => "v",
     }
-}
 
-/// `input`, a stage, or `no_obstacle_check`.
-pub const fn failed_stage(failed: FailedStage) -> &'static str {
-    match failed {
+    /// What made a cycle unsafe: invalid remote data, a stage, or no check for obstacles (H-05).
+    failed_stage(FailedStage as "FailedStage") {
         FailedStage::Input => "input",
-        FailedStage::Stage(failed) => stage(failed),
+        FailedStage::Stage(Stage::I) => "i",
+        FailedStage::Stage(Stage::Ii) => "ii",
+        FailedStage::Stage(Stage::Iii) => "iii",
+        FailedStage::Stage(Stage::Iv) => "iv",
+        FailedStage::Stage(Stage::V) => "v",
         FailedStage::NoObstacleCheck => "no_obstacle_check",
     }
-}
 
-/// The key of an input in the record.
-pub const fn input(input: Input) -> &'static str {
-    match input {
+    /// The key of an input in the record.
+    input(Input as "Missing") {
         Input::Trajectory => "trajectory",
         Input::Tracks => "tracks",
         Input::Detections => "detections",
         Input::Grid => "grid",
     }
-}
 
-/// Why a stage was skipped.
-pub const fn reason(reason: Reason) -> &'static str {
-    match reason {
+    /// Why a stage did not run.
+    reason(Reason as "Reason") {
         Reason::AfterFailure => "after_failure",
         Reason::OtherStageRan => "other_stage_ran",
         Reason::NoCurrent(Input::Trajectory) => "no_current_trajectory",
@@ -68,11 +121,9 @@ pub const fn reason(reason: Reason) -> &'static str {
         Reason::NoCurrent(Input::Detections) => "no_current_detections",
         Reason::NoCurrent(Input::Grid) => "no_current_grid",
     }
-}
 
-/// The rule of a witness.
-pub const fn rule(rule: Rule) -> &'static str {
-    match rule {
+    /// The rule of a witness, in the order of spec/3-stages.md.
+    rule(Rule as "Rule") {
         Rule::MeanCost => "mean_cost",
         Rule::WorkLimit => "work_limit",
         Rule::NoAssignment => "no_assignment",
@@ -98,12 +149,17 @@ pub const fn rule(rule: Rule) -> &'static str {
         Rule::Unknown => "unknown",
         Rule::Outside => "outside",
     }
-}
 
-/// `mot` or `plan`.
-pub const fn group(group: Group) -> &'static str {
-    match group {
+    /// A group of services.
+    group(Group as "Group") {
         Group::Mot => "mot",
         Group::Plan => "plan",
+    }
+
+    /// The rule of a composition that cannot be kept.
+    placement_rule(PlacementRule as "PlacementRule") {
+        PlacementRule::SameStation => "same_station",
+        PlacementRule::LocalOnly => "local_only",
+        PlacementRule::Acyclic => "acyclic",
     }
 }

@@ -4,9 +4,8 @@ use mufasa_model::offloading::requester::{Action, Group, GroupState, Requester};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::names;
-use crate::offloading::Trace;
-use crate::schema::{self, words};
+use crate::record::offloading::Trace;
+use crate::record::value::Word;
 
 /// One state per event.
 #[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize)]
@@ -37,34 +36,39 @@ pub enum ActionAnswer {
     /// A message to a station.
     Send {
         /// `request` or `release`.
-        #[schemars(with = "words::Send")]
-        send: &'static str,
+        send: Send,
         /// To whom.
         station: i64,
         /// Of which group.
-        #[schemars(with = "schema::record::Group")]
-        group: &'static str,
+        group: Word<Group>,
         /// In which session.
         session: i64,
     },
     /// The local services of a group start.
     Activate {
         /// Which group.
-        #[schemars(with = "schema::record::Group")]
-        activate: &'static str,
+        activate: Word<Group>,
     },
     /// The local services of a group stop.
     Deactivate {
         /// Which group.
-        #[schemars(with = "schema::record::Group")]
-        deactivate: &'static str,
+        deactivate: Word<Group>,
     },
     /// An element is not used.
     Drop {
         /// Of which group.
-        #[schemars(with = "schema::record::Group")]
-        drop: &'static str,
+        drop: Word<Group>,
     },
+}
+
+/// A message to a station.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Send {
+    /// Run a group.
+    Request,
+    /// The session is over.
+    Release,
 }
 
 impl OffloadingAnswer {
@@ -76,15 +80,23 @@ impl OffloadingAnswer {
             .iter()
             .map(|event| {
                 let actions = requester.step(event);
-                StateAnswer {
-                    mot: state(requester.state(Group::Mot)),
-                    plan: state(requester.state(Group::Plan)),
-                    hold_until_ns: requester.hold_until_ns(),
-                    actions: actions.into_iter().map(ActionAnswer::new).collect(),
-                }
+                let groups = [Group::Mot, Group::Plan].map(|group| requester.state(group));
+                StateAnswer::new(groups, requester.hold_until_ns(), actions)
             })
             .collect();
         Self { id, states }
+    }
+}
+
+impl StateAnswer {
+    /// The state of MOT and of PLAN, the end of the hold, and the actions.
+    pub fn new(
+        [mot, plan]: [GroupState; 2],
+        hold_until_ns: Option<i64>,
+        actions: impl IntoIterator<Item = Action>,
+    ) -> Self {
+        let actions = actions.into_iter().map(ActionAnswer::new).collect();
+        Self { mot: state(mot), plan: state(plan), hold_until_ns, actions }
     }
 }
 
@@ -92,14 +104,14 @@ impl ActionAnswer {
     fn new(action: Action) -> Self {
         match action {
             Action::Request { station, group, session } => {
-                Self::Send { send: "request", station, group: names::group(group), session }
+                Self::Send { send: Send::Request, station, group: Word(group), session }
             }
             Action::Release { station, group, session } => {
-                Self::Send { send: "release", station, group: names::group(group), session }
+                Self::Send { send: Send::Release, station, group: Word(group), session }
             }
-            Action::Activate(group) => Self::Activate { activate: names::group(group) },
-            Action::Deactivate(group) => Self::Deactivate { deactivate: names::group(group) },
-            Action::Drop(group) => Self::Drop { drop: names::group(group) },
+            Action::Activate(group) => Self::Activate { activate: Word(group) },
+            Action::Deactivate(group) => Self::Deactivate { deactivate: Word(group) },
+            Action::Drop(group) => Self::Drop { drop: Word(group) },
         }
     }
 }

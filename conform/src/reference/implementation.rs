@@ -2,14 +2,14 @@
 //! vehicle would get (`mufasa oracle --implementation`).
 
 use mufasa::offloading::requester as twin;
-use mufasa_model::offloading::requester::{Action, EventKind, Group, GroupState};
+use mufasa_model::offloading::requester::{EventKind, Group};
 use mufasa_model::report::InvalidInput;
 use mufasa_props::bridge;
 use serde_json::Value;
 
 use mufasa_records::answer::{Answer, CycleAnswer};
-use mufasa_records::offloading_answer::{ActionAnswer, OffloadingAnswer, StateAnswer};
-use mufasa_records::{self as json, LineError, Record, Trace, names};
+use mufasa_records::offloading_answer::{OffloadingAnswer, StateAnswer};
+use mufasa_records::{self as json, LineError, Record, Trace};
 
 /// The answer to line number `number` (from 1), given without its newline, as JSON. Cycles have no
 /// `strict` and `lax`; the implementation checks compositions but finds none, so they get an error.
@@ -79,14 +79,10 @@ fn states(trace: &Trace) -> Result<Vec<StateAnswer>, String> {
     let step = |event| {
         let actions =
             requester.step(&bridge::event_to_impl(event)).map_err(|error| error.to_string())?;
-        let state =
-            |group| words(bridge::state_from_impl(requester.state(bridge::group_to_impl(group))));
-        Ok(StateAnswer {
-            mot: state(Group::Mot),
-            plan: state(Group::Plan),
-            hold_until_ns: requester.hold_until_ns(),
-            actions: actions.iter().copied().map(bridge::action_from_impl).map(action).collect(),
-        })
+        let groups = [Group::Mot, Group::Plan]
+            .map(|group| bridge::state_from_impl(requester.state(bridge::group_to_impl(group))));
+        let actions = actions.iter().copied().map(bridge::action_from_impl);
+        Ok(StateAnswer::new(groups, requester.hold_until_ns(), actions))
     };
     trace.events.iter().map(step).collect()
 }
@@ -94,28 +90,4 @@ fn states(trace: &Trace) -> Result<Vec<StateAnswer>, String> {
 /// Answers are plain data: they always become JSON.
 fn value(answer: &Answer) -> Value {
     serde_json::to_value(answer).unwrap_or_default()
-}
-
-fn words(state: GroupState) -> String {
-    match state {
-        GroupState::Local => String::from("local"),
-        GroupState::Requested { station, .. } => format!("requested:{station}"),
-        GroupState::Remote { station, .. } => format!("remote:{station}"),
-    }
-}
-
-fn action(action: Action) -> ActionAnswer {
-    let send = |send, station, group, session| ActionAnswer::Send {
-        send,
-        station,
-        group: names::group(group),
-        session,
-    };
-    match action {
-        Action::Request { station, group, session } => send("request", station, group, session),
-        Action::Release { station, group, session } => send("release", station, group, session),
-        Action::Activate(group) => ActionAnswer::Activate { activate: names::group(group) },
-        Action::Deactivate(group) => ActionAnswer::Deactivate { deactivate: names::group(group) },
-        Action::Drop(group) => ActionAnswer::Drop { drop: names::group(group) },
-    }
 }

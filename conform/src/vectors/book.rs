@@ -11,7 +11,9 @@ use serde_json::Value;
 
 use crate::vectors::expected::Expected;
 use crate::vectors::flag::{self, Flag};
-use crate::vectors::record;
+use mufasa_records::record::Recorded;
+use mufasa_records::record::composition::Composition;
+use mufasa_records::record::offloading::Offloading;
 use mufasa_records::{self as json, Answer, Trace, cycle_to_line};
 
 /// What is added to the note of a cycle that an implementation may answer either way.
@@ -173,7 +175,7 @@ impl Book {
     ) {
         let id = topic.id(name);
         let flag = topic.flag(flag::of_trace(trace));
-        match record::of_trace(&id, trace) {
+        match serde_json::to_string(&Offloading::whole(&id, trace)) {
             Ok(text) => {
                 self.add(topic, flag, (id, note.to_owned()), Input::Record(text), expected);
             }
@@ -192,7 +194,8 @@ impl Book {
     ) {
         let id = topic.id(name);
         let flag = topic.flag(flag::ALIKE);
-        match record::of_task(&id, task) {
+        let record = Composition { id: id.clone(), ..Recorded::of_model(task) };
+        match serde_json::to_string(&record) {
             Ok(text) => {
                 self.add(topic, flag, (id, note.to_owned()), Input::Record(text), expected);
             }

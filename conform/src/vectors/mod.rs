@@ -3,7 +3,6 @@
 
 pub mod book;
 pub mod flag;
-pub mod record;
 
 mod cases;
 mod expected;

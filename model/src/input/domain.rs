@@ -162,7 +162,8 @@ impl At<'_> {
 
 macro_rules! parameters_in_domain {
     ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
-        fn check_parameters(parameters: &Parameters) -> Result<(), InvalidInput> {
+        /// Every parameter is in its domain. `spec/4-arithmetic.md#domain`.
+        pub fn check_parameters(parameters: &Parameters) -> Result<(), InvalidInput> {
             let p = at("parameters", None);
             $(p.number(stringify!($name), parameters.$name, &($domain))?;)*
             Ok(())

@@ -1,10 +1,6 @@
 //! JSON Schemas of records, answers and vectors (`spec/5-interfaces.md#vectors`).
 //!
-//! Records have types of their own here, because their reader is written by hand; the tests read
-//! every record with both. Answers are described by the types that write them.
-
-pub mod record;
-pub mod words;
+//! Records are described by the types that read and write them, answers by those that write them.
 
 use schemars::generate::{Contract, SchemaSettings};
 use schemars::transform::{RecursiveTransform, Transform};
@@ -14,6 +10,9 @@ use serde_json::{Map, Value, json};
 use crate::answer::{CycleAnswer, ErrorAnswer};
 use crate::composition_answer::CompositionAnswer;
 use crate::offloading_answer::OffloadingAnswer;
+use crate::record::composition::Composition;
+use crate::record::cycle::Cycle;
+use crate::record::offloading::Offloading;
 
 /// The schema of a vector; its definitions are those of all kinds.
 pub const VECTOR: &str = "vector";
@@ -21,9 +20,9 @@ pub const VECTOR: &str = "vector";
 /// The schemas by the stem of their file's name.
 pub fn all() -> Vec<(&'static str, Value)> {
     vec![
-        ("cycle", of::<record::Cycle>(Contract::Deserialize)),
-        ("offloading", of::<record::Offloading>(Contract::Deserialize)),
-        ("composition", of::<record::Composition>(Contract::Deserialize)),
+        ("cycle", of::<Cycle>(Contract::Deserialize)),
+        ("offloading", of::<Offloading>(Contract::Deserialize)),
+        ("composition", of::<Composition>(Contract::Deserialize)),
         ("cycle-answer", of::<CycleAnswer>(Contract::Serialize)),
         ("offloading-answer", of::<OffloadingAnswer>(Contract::Serialize)),
         ("composition-answer", of::<CompositionAnswer>(Contract::Serialize)),
@@ -60,9 +59,9 @@ fn closed() -> impl Transform {
 
 fn vector() -> Value {
     let mut records = generator(Contract::Deserialize);
-    let cycle = records.subschema_for::<record::Cycle>();
-    let offloading = records.subschema_for::<record::Offloading>();
-    let composition = records.subschema_for::<record::Composition>();
+    let cycle = records.subschema_for::<Cycle>();
+    let offloading = records.subschema_for::<Offloading>();
+    let composition = records.subschema_for::<Composition>();
     let mut answers = generator(Contract::Serialize);
     let cycle_answer = answers.subschema_for::<CycleAnswer>();
     let offloading_answer = answers.subschema_for::<OffloadingAnswer>();

@@ -6,15 +6,13 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::Duration;
 
-use crate::numbers::real::path;
-
-/// What the solver says of an assertion on a path.
+/// What the solver says of assertions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// No values of the variables satisfy it.
+    /// No values of the variables satisfy them.
     Unsat,
-    /// These do, by name.
-    Sat(Vec<(String, f64)>),
+    /// These do, in the order in which they were asked for, as z3 writes them.
+    Sat(Vec<String>),
     /// It does not know.
     Unknown,
 }
@@ -22,7 +20,7 @@ pub enum Answer {
 /// How hard the solver tries before it says that it does not know.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// z3's own count of steps: the same on every machine, however busy.
+    /// z3's own count of steps: the same on every machine, however busy. 0: any number.
     pub steps: u32,
     /// For what is not counted, ms.
     pub limit_ms: u32,
@@ -88,10 +86,11 @@ impl Solver {
         Ok(Self { program: program.to_owned(), process, input, output, questions: 0, error: None })
     }
 
-    /// Whether the assertion can be satisfied on the path.
-    pub fn check(&mut self, path: &path::Path, assertion: &str, effort: Effort) -> Answer {
+    /// Whether the declarations and assertions of the script can be satisfied; if so, by what
+    /// values of these variables. Nothing is left of it afterwards.
+    pub fn check(&mut self, script: &str, variables: &[String], effort: Effort) -> Answer {
         self.questions += 1;
-        self.try_check(path, assertion, effort).unwrap_or_else(|error| {
+        self.try_check(script, variables, effort).unwrap_or_else(|error| {
             if error.kind() != ErrorKind::TimedOut {
                 self.error.get_or_insert(error);
             } else if let Err(error) = self.start_again() {
@@ -103,42 +102,30 @@ impl Solver {
 
     fn try_check(
         &mut self,
-        path: &path::Path,
-        assertion: &str,
+        script: &str,
+        variables: &[String],
         effort: Effort,
     ) -> io::Result<Answer> {
         let Effort { steps, limit_ms } = effort;
-        writeln!(
-            self.input,
-            "(reset)(set-option :rlimit {steps})(set-option :timeout {limit_ms})"
-        )?;
-        writeln!(self.input, "(set-option :pp.decimal true)(set-option :pp.decimal_precision 20)")?;
-        for name in &path.names {
-            writeln!(self.input, "(declare-const |{name}| Real)")?;
-        }
-        for line in &path.script {
-            writeln!(self.input, "(assert {line})")?;
-        }
-        writeln!(self.input, "(assert {assertion})(check-sat)")?;
+        let limits = format!("(set-option :rlimit {steps})(set-option :timeout {limit_ms})");
+        writeln!(self.input, "(reset){limits}\n{script}\n(check-sat)")?;
         self.input.flush()?;
         let limit = Duration::from_millis(2 * u64::from(limit_ms)) + GRACE;
         match self.line(limit)?.as_str() {
             "unsat" => Ok(Answer::Unsat),
-            "sat" => Ok(Answer::Sat(self.values(path)?)),
+            "sat" => Ok(Answer::Sat(self.values(variables)?)),
             "unknown" | "timeout" => Ok(Answer::Unknown),
             other => Err(io::Error::other(format!("z3 says: {other}"))),
         }
     }
 
-    fn values(&mut self, path: &path::Path) -> io::Result<Vec<(String, f64)>> {
-        let mut values = Vec::new();
-        for name in &path.names {
+    fn values(&mut self, variables: &[String]) -> io::Result<Vec<String>> {
+        let value = |name: &String| {
             writeln!(self.input, "(eval |{name}| :completion true)")?;
             self.input.flush()?;
-            let line = self.line(GRACE)?;
-            values.push((name.clone(), number(&line)));
-        }
-        Ok(values)
+            self.line(GRACE)
+        };
+        variables.iter().map(value).collect()
     }
 
     fn line(&mut self, limit: Duration) -> io::Result<String> {

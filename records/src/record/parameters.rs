@@ -1,0 +1,170 @@
+//! The parameters of records: defaults overridden by name (`spec/5-interfaces.md#cycle`).
+
+use mufasa_model::input::domain::check_parameters;
+use mufasa_model::input::parameters as stages;
+use mufasa_model::offloading::requester as protocol;
+use mufasa_model::report::InvalidInput;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::{Map, Value, json};
+
+use super::value::{Integer, Number};
+use super::{Recorded, from_object};
+use crate::read::typed;
+
+/// How a parameter of this type is written.
+macro_rules! written {
+    (f64) => {
+        Number
+    };
+    (i64) => {
+        Integer
+    };
+    (bool) => {
+        bool
+    };
+}
+
+/// Parameters of a record: those of a type of the model, and more that mean nothing here. Those at
+/// their default are left out when they are written, numbers that may have a fraction come first.
+macro_rules! overrides {
+    (
+        $(#[$meta:meta])*
+        $name:ident = $model:path {
+            $($(#[$doc:meta])* $field:ident: $type:ident,)*
+        } + { $($(#[$more_doc:meta])* $more:ident: $more_type:ident,)* }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Deserialize, JsonSchema)]
+        #[serde(remote = "Self", default, deny_unknown_fields, expecting = "an object")]
+        pub struct $name {
+            $($(#[$doc])* pub $field: written!($type),)*
+            $($(#[$more_doc])* pub $more: written!($more_type),)*
+            /// Whether defaults are written, too.
+            #[serde(skip)]
+            pub whole: bool,
+        }
+
+        from_object!($name);
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self::of_model(&<$model>::default())
+            }
+        }
+
+        impl Serialize for $name {
+            fn serialize<S: Serializer>(&self, json: S) -> Result<S::Ok, S::Error> {
+                let usual = Self::default();
+                let mut fields = vec![
+                    $((stringify!($field), json!(self.$field), json!(usual.$field)),)*
+                ];
+                fields.retain(|(_, value, usual)| self.whole || differ(value, usual));
+                fields.sort_by_key(|(_, value, _)| value.is_i64() || value.is_boolean());
+                json.collect_map(fields.into_iter().map(|(name, value, _)| (name, value)))
+            }
+        }
+
+        impl Recorded for $name {
+            type Model = $model;
+
+            fn into_model(self) -> $model {
+                $model { $($field: self.$field.into_model()),* }
+            }
+
+            fn of_model(model: &$model) -> Self {
+                let $model { $($field),* } = model;
+                Self {
+                    $($field: Recorded::of_model($field),)*
+                    $($more: Recorded::of_model(&protocol::Parameters::default().$more),)*
+                    whole: false,
+                }
+            }
+        }
+    };
+}
+
+/// Whether two values are written differently: 0.0 and -0.0 are equal and do differ.
+fn differ(value: &Value, usual: &Value) -> bool {
+    let [value, usual] = [value, usual].map(Value::to_string);
+    value != usual
+}
+
+macro_rules! stage_parameters {
+    ($($(#[$doc:meta])* $name:ident: $type:ident = $default:literal in $domain:expr;)*) => {
+        overrides! {
+            /// Overrides of single defaults; the times of the protocol mean nothing for a cycle.
+            StageParameters = stages::Parameters {
+                $($(#[$doc])* $name: $type,)*
+            } + {
+                /// Of the protocol.
+                t_wait_ns: i64,
+                /// Of the protocol.
+                request_timeout_ns: i64,
+                /// Of the protocol.
+                l_max_ns: i64,
+                /// Of the protocol.
+                dt_max_ns: i64,
+            }
+        }
+    };
+}
+
+mufasa_model::parameters!(stage_parameters);
+
+overrides! {
+    /// Overrides of single defaults; times in ns from 0 on.
+    ProtocolParameters = protocol::Parameters {
+        /// Waiting time after a safety issue.
+        t_wait_ns: i64,
+        /// Time in which a request is to be confirmed.
+        request_timeout_ns: i64,
+        /// Largest latency.
+        l_max_ns: i64,
+        /// Largest inter-arrival time.
+        dt_max_ns: i64,
+        /// Whether a violation of quality of service starts the waiting time too (I-09).
+        qos_hold: bool,
+    } + {}
+}
+
+impl StageParameters {
+    /// Whether the times of the protocol are in their domain.
+    pub fn check(&self) -> Result<(), InvalidInput> {
+        let &Self { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, .. } = self;
+        let usual = ProtocolParameters::default();
+        let times =
+            ProtocolParameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, ..usual };
+        times.check().map(|_| ())
+    }
+}
+
+impl ProtocolParameters {
+    /// The parameters if they are in their domain.
+    pub fn check(self) -> Result<protocol::Parameters, InvalidInput> {
+        let parameters = self.into_model();
+        match parameters.first_outside_domain() {
+            None => Ok(parameters),
+            Some(name) => {
+                let field = format!("parameters.{name}");
+                let message = format!("{field} must be from 0 to 2^63 - 1 ns");
+                Err(InvalidInput { field, index: None, message })
+            }
+        }
+    }
+}
+
+/// The parameters of the stages and of the protocol that an object overrides by name. Errors: an
+/// unknown name, a value of the wrong type or outside its domain.
+pub fn settings(
+    object: Map<String, Value>,
+) -> Result<(stages::Parameters, protocol::Parameters), InvalidInput> {
+    let names = json!(ProtocolParameters { whole: true, ..ProtocolParameters::default() });
+    let is_protocol = |(name, _): &(String, Value)| names.get(name).is_some();
+    let (protocol, stages): (Map<_, _>, Map<_, _>) = object.into_iter().partition(is_protocol);
+    let protocol: ProtocolParameters = typed(&Value::Object(protocol).to_string())?;
+    let stages: StageParameters = typed(&Value::Object(stages).to_string())?;
+    let (stages, protocol) = (stages.into_model(), protocol.check()?);
+    check_parameters(&stages)?;
+    Ok((stages, protocol))
+}
