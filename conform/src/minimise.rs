@@ -4,7 +4,7 @@ mod cycle;
 mod numbers;
 mod pair;
 
-use super::question::{Damaged, Question};
+use crate::cases::question::{Damaged, Question};
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::services::orchestrator::Task;
 use mufasa_records::Trace;
@@ -134,9 +134,9 @@ fn smaller_task(case: &mut Case<'_, Task>) {
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::class::Kind;
-    use super::super::generate::Generator;
     use super::*;
+    use crate::cases::generate::Generator;
+    use crate::judge::class::Kind;
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
         let generator = Generator { seed: 5, profile: Profile::Paper, kinds: vec![kind] };

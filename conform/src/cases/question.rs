@@ -3,8 +3,8 @@
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::orchestrator::Task;
 
-use super::class::Kind;
-use super::damage::Damage;
+use crate::cases::damage::Damage;
+use crate::judge::class::Kind;
 use mufasa_records::{self as records, Trace, cycle_to_line, names, task_to_line, trace_to_line};
 
 /// So many places are tried for one where a damage makes a record unreadable.
@@ -127,8 +127,8 @@ impl Damaged {
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::generate::Generator;
     use super::*;
+    use crate::cases::generate::Generator;
     use mufasa_records::{Record, parse};
 
     #[test]
