@@ -54,7 +54,7 @@ const ALWAYS_LOCAL: [Spoilt; 48] = [
     ("route.stations.right", Some(0), |c| c.route.cross_sections[0].right[0] = 1e9),
     ("route.stations", None, |c| c.route.cross_sections.truncate(1)),
     ("route.stations.x", Some(1), |c| {
-        c.route.cross_sections[1] = c.route.cross_sections[0].clone()
+        c.route.cross_sections[1] = c.route.cross_sections[0].clone();
     }),
     ("grid.x", None, |c| c.grid.iter_mut().for_each(|grid| grid.x = f64::NAN)),
     ("grid.cos", None, |c| c.grid.iter_mut().for_each(|grid| grid.cos = 0.0)),
