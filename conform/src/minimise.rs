@@ -6,8 +6,7 @@
 mod cycle;
 mod pair;
 
-use super::damage::Damaged;
-use super::question::Question;
+use super::question::{Damaged, Question};
 use serde_json::{Value, json};
 
 /// The smallest record found; `shows` says whether one still shows the class.

@@ -5,14 +5,14 @@ pub(crate) mod horizon;
 pub(crate) mod i_track_validation;
 pub(crate) mod ii_trajectory_to_map;
 mod iii_tracks;
-mod iv_detections;
+pub(crate) mod iv_detections;
 pub(crate) mod llcc;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::h02_h05_h10_schedule::{
-    ObstacleChecks, grid_map_in_plan_remote, iii_replaces_others, no_obstacle_check,
+    ObstacleChecks, has_stage_v_in_plan_remote, no_obstacle_check, stage_iii_replaces_others,
 };
-use crate::hardened::h04_horizon::compares_gap_alone;
+use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h09_velocity::previous_in_use;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable, validate};
@@ -24,7 +24,7 @@ use crate::services::configuration::Configuration;
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
-use crate::stages::iv_detections::{gap_failure, trajectory_with_detections};
+use crate::stages::iv_detections::trajectory_with_detections;
 use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
@@ -186,7 +186,7 @@ fn scheduled(cycle: &Cycle<'_>, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
     match (stage, cycle.configuration) {
-        (Stage::V, PlanRemote) if grid_map_in_plan_remote(cycle) => Conditional,
+        (Stage::V, PlanRemote) if has_stage_v_in_plan_remote(cycle) => Conditional,
         (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
         (Stage::I, MotRemote | AllRemote)
         | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
@@ -272,11 +272,11 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     progress.settle(Stage::Ii, false, || valid.ii());
     let ran_iii = progress.settle(Stage::Iii, false, || valid.iii(ran_i));
 
-    let replaced = ran_iii && iii_replaces_others(cycle);
+    let replaced = ran_iii && stage_iii_replaces_others(cycle);
     let ran_iv = progress.settle(Stage::Iv, replaced, || valid.iv());
-    let alone = compares_gap_alone(cycle, current.trajectory.is_some());
-    if alone && !ran_iv && progress.failed.is_none() {
-        if let Some(witness) = gap_failure(cycle, current.lead) {
+    if !ran_iv && progress.failed.is_none() {
+        let found = failure_without_stage_iv(cycle, current.trajectory, current.lead);
+        if let Some(witness) = found {
             progress.report(Stage::Iv, Outcome::Failed(witness));
         }
     }

@@ -6,7 +6,7 @@ use mufasa_model::input::cycle::{
     TrackList, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
-use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage, Witness};
+use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_model::stages::check;
 
@@ -125,14 +125,6 @@ pub fn passes(cycle: &Cycle, stage: Stage) -> bool {
     outcome(cycle, stage) == Outcome::Passed
 }
 
-/// The witness of a stage that failed.
-pub fn witness(cycle: &Cycle, stage: Stage) -> Witness {
-    match outcome(cycle, stage) {
-        Outcome::Failed(witness) => witness,
-        other => panic!("stage {stage:?} did not fail: {other:?}"),
-    }
-}
-
 /// The rule by which a stage failed, if it did.
 pub fn rule(cycle: &Cycle, stage: Stage) -> Option<Rule> {
     match outcome(cycle, stage) {
@@ -152,13 +144,4 @@ fn base_cycle_is_safe_everywhere() {
             );
         }
     }
-}
-
-/// The base cycle of both profiles, changed alike.
-pub fn hardened_and_paper(change: impl Fn(&mut Cycle)) -> [Cycle; 2] {
-    [Profile::Hardened, Profile::Paper].map(|profile| {
-        let mut cycle = base(profile, Configuration::PlanRemote);
-        change(&mut cycle);
-        cycle
-    })
 }
