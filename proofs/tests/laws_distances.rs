@@ -12,9 +12,9 @@ use mufasa::input::scratch::Scratch;
 use mufasa::report::{Outcome, Report};
 use mufasa::services::configuration::Configuration;
 use mufasa::stages::check;
-use mufasa_proofs::law::distance::{
-    a_faster_lead_is_never_worse, a_larger_gap_is_never_worse, failed_by_gap, next_below,
-    s_follow_never_below_s_cav,
+use mufasa_proofs::law::distances::{
+    a_larger_gap_is_never_worse, failed_by_gap, next_below, s_follow_falls_with_v_lead,
+    s_follow_is_never_below_s_cav,
 };
 
 const CROSS_SECTIONS: [CrossSection; 2] = [
@@ -80,12 +80,12 @@ fn s_follow_is_never_below_s_cav_and_moves_the_right_way() {
             for gap in gaps(v_now, v_lead) {
                 let cycle = cycle(v_now, v_lead, gap);
                 let report = report(&cycle);
-                assert!(s_follow_never_below_s_cav(&cycle, &report), "{cycle:#?} {report:#?}");
+                assert!(s_follow_is_never_below_s_cav(&cycle, &report), "{cycle:#?} {report:#?}");
                 if let Some((nearer, before)) = last {
                     assert!(nearer > gap || a_larger_gap_is_never_worse(&before, &report));
                 }
                 let faster = self::report(&self::cycle(v_now, (v_lead + 2.5).min(150.0), gap));
-                assert!(a_faster_lead_is_never_worse(&report, &faster), "{cycle:#?}");
+                assert!(s_follow_falls_with_v_lead(&report, &faster), "{cycle:#?}");
                 if failed_by_gap(&report) {
                     failed += 1;
                 } else {
@@ -103,12 +103,12 @@ fn s_follow_is_never_below_s_cav_and_moves_the_right_way() {
 fn every_law_is_refuted_by_a_wrong_report() {
     let near = cycle(10.0, 150.0, 17.9);
     let mut wrong = report(&near);
-    assert!(failed_by_gap(&wrong) && s_follow_never_below_s_cav(&near, &wrong));
+    assert!(failed_by_gap(&wrong) && s_follow_is_never_below_s_cav(&near, &wrong));
     // As if s_follow were s_b(v_now) - s_b(v_lead) + s_CAV without the max.
     wrong.stages[3] = Outcome::Passed;
-    assert!(!s_follow_never_below_s_cav(&near, &wrong));
+    assert!(!s_follow_is_never_below_s_cav(&near, &wrong));
     let passing = report(&cycle(10.0, 10.0, 50.0));
     let failing = report(&cycle(10.0, 10.0, 1.0));
     assert!(!a_larger_gap_is_never_worse(&passing, &failing));
-    assert!(!a_faster_lead_is_never_worse(&passing, &failing));
+    assert!(!s_follow_falls_with_v_lead(&passing, &failing));
 }

@@ -14,9 +14,9 @@ use super::any::within;
 use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
 #[cfg(not(kani))]
 use crate::kani;
-use crate::law::distance::{
-    a_faster_lead_is_never_worse, a_larger_gap_is_never_worse, next_below,
-    s_follow_never_below_s_cav,
+use crate::law::distances::{
+    a_larger_gap_is_never_worse, next_below, s_follow_falls_with_v_lead,
+    s_follow_is_never_below_s_cav,
 };
 
 /// `s_follow` is finite, not negative, at most what braking from `v_now` and `s_CAV` are together to
@@ -28,7 +28,7 @@ use crate::law::distance::{
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(37))]
 #[cfg_attr(kani, kani::solver(bitwuzla))]
-pub fn verify_s_follow_is_at_least_s_cav() {
+pub fn verify_s_follow_is_never_below_s_cav() {
     let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
     let s_follow = s_follow(parameters, v_now, v_lead);
     let s_cav = parameters.safety_time * v_now;
@@ -81,13 +81,13 @@ pub fn verify_gap_keeps_its_laws() {
         |gap: f64, speed: f64| behind(parameters, v_now, Lead { stamp_ns: NOW_NS, gap, speed });
     let cycle = with(gap, v_lead);
     let report = judged(&cycle);
-    assert!(s_follow_never_below_s_cav(&cycle, &report));
+    assert!(s_follow_is_never_below_s_cav(&cycle, &report));
     assert!(a_larger_gap_is_never_worse(&report, &judged(&with(larger, v_lead))));
     // The bound on the rounding error of s_b(v_lead) stays when max(.., 0) takes the 0, so that
     // right above s_CAV a slower lead may be accepted and a faster one not (found by this harness
     // at v_now = 0, gap = 1e-116 m); one more ulp and femtometre make up for it.
     let farther = gap * (1.0 + 1e-15) + 1e-15;
-    assert!(a_faster_lead_is_never_worse(&report, &judged(&with(farther, faster))));
+    assert!(s_follow_falls_with_v_lead(&report, &judged(&with(farther, faster))));
     kani::cover!(matches!(report.stages[3], Outcome::Failed(_)), "too near");
     kani::cover!(report.stages[3] == Outcome::Passed, "far enough");
 }
@@ -99,7 +99,7 @@ pub fn verify_gap_keeps_its_laws() {
 /// no lead or one 1000 km ahead, paper profile. Not covered: equality.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(37))]
-pub fn verify_s_valid_has_two_cases() {
+pub fn verify_s_valid_is_s_follow_or_s_b() {
     let (parameters, v_now, d) = (parameters(), speed(), within(10.0, 1e3));
     let v_lead: Option<f64> = super::any::option(speed);
     let s_b = |v: f64| v * v / (2.0 * parameters.a_b);

@@ -5,7 +5,7 @@ use mufasa::report::{Outcome, Report, Rule};
 
 /// A gap of at most `s_CAV` never passes: `s_follow` is never below `s_CAV`, whatever the lead's
 /// speed. Of cycles in which nothing before the gap fails and the gap is compared.
-pub fn s_follow_never_below_s_cav(cycle: &Cycle<'_>, report: &Report) -> bool {
+pub fn s_follow_is_never_below_s_cav(cycle: &Cycle<'_>, report: &Report) -> bool {
     let Some(lead) = cycle.lead else { return true };
     let s_cav = next_below(cycle.parameters.safety_time * cycle.ego.speed);
     lead.gap > s_cav || failed_by_gap(report)
@@ -19,7 +19,7 @@ pub fn a_larger_gap_is_never_worse(nearer: &Report, farther: &Report) -> bool {
 
 /// Behind a faster lead one may follow as near as behind a slower one, to within the bound on the
 /// rounding error; the two differ in nothing but the lead's speed, and in the gap by that bound.
-pub fn a_faster_lead_is_never_worse(slower: &Report, faster: &Report) -> bool {
+pub fn s_follow_falls_with_v_lead(slower: &Report, faster: &Report) -> bool {
     failed_by_gap(slower) || !failed_by_gap(faster)
 }
 
