@@ -83,7 +83,7 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Requirements of the published vectors, with their files.
+/// Requirements and interpretations of the published vectors, with their files.
 fn requirements_of_vectors() -> Vec<(String, String)> {
     let mut found = Vec::new();
     for topic in fs::read_dir(root().join("vectors")).expect("vectors/ is there") {
@@ -94,8 +94,10 @@ fn requirements_of_vectors() -> Vec<(String, String)> {
             let name = file.strip_prefix(root()).expect("below the root").display().to_string();
             let mut names: BTreeSet<&str> = BTreeSet::new();
             for line in text.lines() {
-                let requirement = line.split_once("\"requirement\": \"").map(|(_, rest)| rest);
-                names.extend(requirement.and_then(|rest| rest.split('"').next()));
+                for key in ["\"requirement\": \"", "\"flag\": \"interpretation "] {
+                    let named = line.split_once(key).map(|(_, rest)| rest);
+                    names.extend(named.and_then(|rest| rest.split('"').next()));
+                }
             }
             found.extend(names.into_iter().map(|requirement| (requirement.into(), name.clone())));
         }
