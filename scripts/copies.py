@@ -16,10 +16,6 @@ TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).resol
 IGNORED = shutil.ignore_patterns("target", ".git", "__pycache__")
 
 
-def mutants():
-    return tomllib.loads((ROOT / "proofs/mutants.toml").read_text())["mutant"]
-
-
 class Copy:
     """The sources in a folder of their own, built below target/mutants."""
 
@@ -29,7 +25,9 @@ class Copy:
         shutil.copytree(ROOT, self.path, ignore=IGNORED, copy_function=shutil.copyfile)
         command = ["cargo", "build", "-q", "--locked", "-p", "mufasa-mutants", "--bin", "mutants"]
         self.check(command, cwd=ROOT)
-        self.applier = TARGET / "debug/mutants"
+        self.applier = shutil.copy(TARGET / "debug/mutants", folder)
+        self.sources = {file: file.read_bytes() for file in self.path.rglob("*.rs")}
+        self.mutants = tomllib.loads((self.path / "proofs/mutants.toml").read_text())["mutant"]
 
     @contextlib.contextmanager
     def changed(self, mutant):
@@ -38,10 +36,9 @@ class Copy:
         try:
             yield
         finally:
-            for file in self.path.rglob("*.rs"):
-                original = ROOT / file.relative_to(self.path)
-                if file.read_bytes() != original.read_bytes():
-                    shutil.copyfile(original, file)
+            for file, content in self.sources.items():
+                if file.read_bytes() != content:
+                    file.write_bytes(content)
 
     def run(self, command, family, **environment):
         """Runs a command in the copy; families of engines that build alike share a target folder."""

@@ -356,7 +356,7 @@ typedef uint32_t MufasaEventType;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// A requester in the memory of the caller; what is in it is nobody's business.
+// A requester in the memory of the caller; its content may change from version to version.
 typedef struct MufasaRequester MufasaRequester;
 
 // Parameters; names, defaults and domains as in spec/.

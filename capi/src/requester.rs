@@ -59,7 +59,7 @@ pub struct MufasaRequesterState {
     pub hold_until_ns: i64,
 }
 
-/// A requester in the memory of the caller; what is in it is nobody's business.
+/// A requester in the memory of the caller; its content may change from version to version.
 pub struct MufasaRequester {
     suspended: Suspended,
     stations: usize,

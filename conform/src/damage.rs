@@ -3,12 +3,6 @@
 
 use std::ops::Range;
 
-use super::question::Question;
-use mufasa_records as json;
-
-/// So many places are tried for one where a damage makes a record unreadable.
-const TRIES: usize = 50;
-
 /// What is made wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Damage {
@@ -70,7 +64,7 @@ impl Damage {
     }
 
     /// The changes of a text that do this damage: what is replaced, and by what.
-    fn changes(self, text: &str) -> Vec<(Range<usize>, String)> {
+    pub fn changes(self, text: &str) -> Vec<(Range<usize>, String)> {
         let Parts { objects, members, values } = Parts::of(text);
         let is_integer = |value: &&Range<usize>| text[(*value).clone()].parse::<i64>().is_ok();
         let integers = || values.iter().filter(is_integer);
@@ -110,42 +104,6 @@ impl Damage {
                 integers().map(|it| (it.clone(), String::from("9223372036854775808"))).collect()
             }
         }
-    }
-}
-
-/// A record with a damage.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Damaged {
-    /// The record without it; not damaged itself.
-    pub record: Box<Question>,
-    /// What is wrong.
-    pub damage: Damage,
-    /// At which of the places where it could be, counted around.
-    pub at: usize,
-}
-
-impl Damaged {
-    /// A damage that makes the record unreadable, at this place or one behind it; where it does so
-    /// nowhere, as a word in a record without any, the line is cut.
-    pub fn new(record: Question, damage: Damage, at: usize) -> Self {
-        let mut damaged = Self { record: Box::new(record), damage, at };
-        for _ in 0..TRIES {
-            if json::parse(damaged.line("x").as_bytes(), 1).is_err() {
-                return damaged;
-            }
-            damaged.at = damaged.at.wrapping_add(1);
-        }
-        Self { damage: Damage::Cut, ..damaged }
-    }
-
-    /// The line.
-    pub fn line(&self, id: &str) -> String {
-        let mut text = self.record.line(id);
-        let changes = self.damage.changes(&text);
-        if let Some((place, by)) = changes.get(self.at % changes.len().max(1)) {
-            text.replace_range(place.clone(), by);
-        }
-        text
     }
 }
 
@@ -242,24 +200,7 @@ fn until(text: &[u8], at: usize, bytes: &[u8]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use mufasa_model::input::cycle::Profile;
-
-    use super::super::class::Kind;
-    use super::super::generate::Generator;
     use super::*;
-
-    #[test]
-    fn each_damage_makes_each_kind_of_record_unreadable() {
-        for kind in Kind::RECORDS {
-            let generator = Generator { seed: 1, profile: Profile::Hardened, kinds: vec![kind] };
-            for (at, damage) in Damage::ALL.into_iter().cycle().take(220).enumerate() {
-                let damaged = Damaged::new(generator.question(at as u64), damage, at * 7);
-                let line = damaged.line("c-1");
-                assert!(json::parse(line.as_bytes(), 1).is_err(), "{damage:?}: {line}");
-                assert_ne!(line, damaged.record.line("c-1"));
-            }
-        }
-    }
 
     #[test]
     fn the_place_that_is_wrong_is_the_one_that_is_changed() {

@@ -9,9 +9,8 @@ use serde_json::{Map, Value};
 
 use super::answer::{self, Said};
 use super::class::{Breach, Class, Kind, Scale};
-use super::damage::Damaged;
 use super::error::ConformError;
-use super::question::Question;
+use super::question::{Damaged, Question};
 use super::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::offloading_answer::OffloadingAnswer;

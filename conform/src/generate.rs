@@ -8,8 +8,8 @@ use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::class::Kind;
-use super::damage::{Damage, Damaged};
-use super::question::Question;
+use super::damage::Damage;
+use super::question::{Damaged, Question};
 use mufasa_records::Trace;
 
 /// Where the cases of a campaign come from.

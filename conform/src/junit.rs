@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::summary::{Found, Group, Summary};
+use super::summary::{CaseCount, Found, Summary};
 
 /// A test per class of disagreements, which failed, and per group of cases without any.
 pub fn xml(summary: &Summary) -> String {
-    let passed: Vec<&Group> =
+    let passed: Vec<&CaseCount> =
         summary.groups.iter().filter(|group| group.disagreements == 0).collect();
     let failures = summary.classes.len();
     let tests = passed.len() + failures;
@@ -18,7 +18,7 @@ pub fn xml(summary: &Summary) -> String {
          <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" \
          skipped=\"0\">"
     );
-    for Group { kind, profile, configuration, expected, cases, .. } in passed {
+    for CaseCount { kind, profile, configuration, expected, cases, .. } in passed {
         let parts = [kind.name(), profile, configuration, expected];
         let words: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
         let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));

@@ -7,7 +7,6 @@
 
 mod answer;
 mod class;
-mod course;
 mod damage;
 mod drives;
 mod error;
@@ -19,27 +18,26 @@ mod minimise;
 mod question;
 pub mod reference;
 mod report;
+mod runner;
+mod settings;
 mod shrink;
 mod source;
 mod subject;
 mod summary;
 pub mod vectors;
 
-use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
-use std::time::Duration;
-
-use mufasa_model::input::cycle::Profile;
 
 pub use class::{Breach, Class, Kind, Scale};
 pub use error::ConformError;
 pub use explain::{Numbers, Told};
+pub use settings::Settings;
 pub use source::CASES;
-pub use summary::{Campaign, Found, Group, Summary};
+pub use summary::{Campaign, CaseCount, Found, Summary};
 
-use course::Course;
 use report::Files;
+use runner::Runner;
 use source::Source;
 use subject::Subject;
 
@@ -49,31 +47,6 @@ const CONFORMS: u8 = 0;
 const DISAGREES: u8 = 1;
 /// Bad input, or nothing was compared.
 const BAD_INPUT: u8 = 2;
-
-/// What is to be done.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
-    /// The program under test and its arguments.
-    pub command: Vec<OsString>,
-    /// Profile of generated cases and of recorded drives.
-    pub profile: Profile,
-    /// Cases of all shards; by default 10,000, or all that the drives give.
-    pub cases: Option<u64>,
-    /// Seed of the cases.
-    pub seed: u64,
-    /// How long an answer may take.
-    pub time_limit: Duration,
-    /// Kinds of generated records.
-    pub kinds: Vec<Kind>,
-    /// Only the cases whose number leaves the first when divided by the second.
-    pub shard: Option<(u64, u64)>,
-    /// Files of drives that give the cases instead.
-    pub drives: Vec<PathBuf>,
-    /// Margin within which a disagreement is none, m.
-    pub tolerance: Option<f64>,
-    /// Where summary, JUnit and reproducers go.
-    pub out: PathBuf,
-}
 
 /// Runs a campaign or a shard of it: writes what is found to `out` as it is found, and the files
 /// at the end. Returns the exit code: 0 without a disagreement, 1 with one, 2 when some file could
@@ -87,9 +60,9 @@ pub fn run(
     // First, so that nothing of an earlier run is left when the program cannot be started.
     let files = Files::prepare(&settings.out, settings.shard)?;
     let subject = Subject::start(&settings.command, settings.time_limit)?;
-    let mut course = Course::new(settings, &source, subject);
-    course.run(out)?;
-    let summary = course.summary();
+    let mut runner = Runner::new(settings, &source, subject);
+    runner.run(out)?;
+    let summary = runner.summary();
     files.write(&summary)?;
     report::end(&summary, out)?;
     writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;

@@ -4,8 +4,7 @@ mod cycle;
 mod numbers;
 mod pair;
 
-use super::damage::Damaged;
-use super::question::Question;
+use super::question::{Damaged, Question};
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::services::orchestrator::Task;
 use mufasa_records::Trace;

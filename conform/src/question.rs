@@ -4,8 +4,11 @@ use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::orchestrator::Task;
 
 use super::class::Kind;
-use super::damage::Damaged;
-use mufasa_records::{Trace, cycle_to_line, names, task_to_line, trace_to_line};
+use super::damage::Damage;
+use mufasa_records::{self as records, Trace, cycle_to_line, names, task_to_line, trace_to_line};
+
+/// So many places are tried for one where a damage makes a record unreadable.
+const TRIES: usize = 50;
 
 /// The content of a record; the id is given when it is sent.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +87,42 @@ impl Question {
     }
 }
 
+/// A record with a damage.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Damaged {
+    /// The record without it; not damaged itself.
+    pub record: Box<Question>,
+    /// What is wrong.
+    pub damage: Damage,
+    /// At which of the places where it could be, counted around.
+    pub at: usize,
+}
+
+impl Damaged {
+    /// A damage that makes the record unreadable, at this place or one behind it; where it does so
+    /// nowhere, as a word in a record without any, the line is cut.
+    pub fn new(record: Question, damage: Damage, at: usize) -> Self {
+        let mut damaged = Self { record: Box::new(record), damage, at };
+        for _ in 0..TRIES {
+            if records::parse(damaged.line("x").as_bytes(), 1).is_err() {
+                return damaged;
+            }
+            damaged.at = damaged.at.wrapping_add(1);
+        }
+        Self { damage: Damage::Cut, ..damaged }
+    }
+
+    /// The line.
+    pub fn line(&self, id: &str) -> String {
+        let mut text = self.record.line(id);
+        let changes = self.damage.changes(&text);
+        if let Some((place, by)) = changes.get(self.at % changes.len().max(1)) {
+            text.replace_range(place.clone(), by);
+        }
+        text
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use mufasa_model::input::cycle::Profile;
@@ -112,5 +151,18 @@ mod tests {
             assert_eq!(read.line("x"), question.line("x"));
         }
         assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+    }
+
+    #[test]
+    fn each_damage_makes_each_kind_of_record_unreadable() {
+        for kind in Kind::RECORDS {
+            let generator = Generator { seed: 1, profile: Profile::Hardened, kinds: vec![kind] };
+            for (at, damage) in Damage::ALL.into_iter().cycle().take(220).enumerate() {
+                let damaged = Damaged::new(generator.question(at as u64), damage, at * 7);
+                let line = damaged.line("c-1");
+                assert!(parse(line.as_bytes(), 1).is_err(), "{damage:?}: {line}");
+                assert_ne!(line, damaged.record.line("c-1"));
+            }
+        }
     }
 }

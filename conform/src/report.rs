@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::class::Kind;
 use super::error::ConformError;
 use super::junit;
-use super::summary::{Campaign, Found, Group, Summary};
+use super::summary::{Campaign, CaseCount, Found, Summary};
 use mufasa_records::files;
 
 /// Longest record that is printed; the file has all.
@@ -78,7 +78,7 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// Cases by kind, profile and expected verdict, on one line each.
-fn coverage(groups: &[Group]) -> String {
+fn coverage(groups: &[CaseCount]) -> String {
     let mut text = String::new();
     for kind in Kind::ALL {
         let of_kind = groups.iter().filter(|group| group.kind == kind);

@@ -2,12 +2,12 @@
 
 use std::io::Write;
 
-use super::Settings;
 use super::class::Kind;
 use super::drives::Pool;
 use super::error::ConformError;
 use super::generate::Generator;
 use super::question::Question;
+use super::settings::Settings;
 use mufasa_drives::Options;
 use mufasa_drives::check::complain;
 

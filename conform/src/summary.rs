@@ -32,7 +32,7 @@ pub struct Summary {
     /// Kinds that were given up after too many restarts.
     pub given_up: Vec<Kind>,
     /// Cases by kind, profile, configuration and expected verdict.
-    pub groups: Vec<Group>,
+    pub groups: Vec<CaseCount>,
     /// Disagreements, by class.
     pub classes: Vec<Found>,
 }
@@ -64,7 +64,7 @@ pub struct Campaign {
 /// Cases that have something in common.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Group {
+pub struct CaseCount {
     /// Kind of the records.
     pub kind: Kind,
     /// Profile, or empty.
@@ -171,7 +171,7 @@ impl Summary {
         self.given_up.sort();
         self.given_up.dedup();
         for group in other.groups {
-            let same = |it: &&mut Group| {
+            let same = |it: &&mut CaseCount| {
                 (it.kind, &it.profile, &it.configuration, &it.expected)
                     == (group.kind, &group.profile, &group.configuration, &group.expected)
             };
@@ -183,7 +183,7 @@ impl Summary {
                 None => self.groups.push(group),
             }
         }
-        let key = |it: &Group| {
+        let key = |it: &CaseCount| {
             (it.kind, it.profile.clone(), it.configuration.clone(), it.expected.clone())
         };
         self.groups.sort_by_key(key);

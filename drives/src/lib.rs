@@ -4,13 +4,15 @@
 pub mod attacks;
 pub mod check;
 pub mod drive;
+mod geometry;
 pub mod options;
 pub mod pictures;
 pub mod readers;
-pub mod scene;
+mod recording;
 
-pub use attacks::error::{InjectError, ParseInjectionError};
-pub use attacks::{Attack, Injection, inject};
+pub use attacks::error::InjectError;
+pub use attacks::inject;
+pub use attacks::injection::{Attack, Injection, ParseInjectionError};
 pub use drive::{Drive, DriveCycle, PreviousTracks};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};

@@ -2,8 +2,8 @@
 
 mod common;
 
-use mufasa_drives::check::course::Checked;
-use mufasa_drives::check::fallback::{Course, Hold};
+use mufasa_drives::check::checked::Checked;
+use mufasa_drives::check::fallback::{Hold, RequesterRun};
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::{Findings, records, report};
 use mufasa_drives::{Drive, DriveCycle, PreviousTracks};
@@ -46,8 +46,8 @@ fn text(checked: &Checked) -> String {
     String::from_utf8(out).unwrap()
 }
 
-fn holds(course: &Course) -> Vec<(usize, Hold)> {
-    course.unsafe_cycles.iter().map(|cycle| (cycle.index, cycle.hold)).collect()
+fn holds(run: &RequesterRun) -> Vec<(usize, Hold)> {
+    run.unsafe_cycles.iter().map(|cycle| (cycle.index, cycle.hold)).collect()
 }
 
 #[test]
@@ -55,8 +55,8 @@ fn a_safe_drive_has_no_fallback_and_is_offloaded_throughout() {
     let drive = drive(20, |_| false);
     let checked = checked(&drive);
     assert_eq!(checked.disagreements(), 0);
-    for course in &checked.courses {
-        assert_eq!((course.fallbacks(), course.offloaded, course.late), (0, 20, 0));
+    for run in &checked.requesters {
+        assert_eq!((run.fallbacks(), run.offloaded, run.late), (0, 20, 0));
     }
     assert!(text(&checked).contains("20 cycles, AllRemote, hardened: 20 safe, 0 unsafe"));
 }
@@ -75,9 +75,9 @@ fn unsafe_cycles_in_the_wait_start_no_fallback_and_the_one_at_its_end_does() {
         (104, Hold::Running),
         (105, until(205)),
     ];
-    assert_eq!(holds(&checked.courses[0]), expected);
-    assert_eq!(checked.courses[0], checked.courses[1]);
-    assert_eq!(checked.courses[0].offloaded, 7);
+    assert_eq!(holds(&checked.requesters[0]), expected);
+    assert_eq!(checked.requesters[0], checked.requesters[1]);
+    assert_eq!(checked.requesters[0].offloaded, 7);
     assert_eq!(checked.disagreements(), 0);
     let text = text(&checked);
     assert!(text.contains("at 0.5 s: stage iii, point 3 meets track 7 (4.6 m < 5 m)"), "{text}");
@@ -95,12 +95,12 @@ fn late_data_end_offloading_without_a_wait() {
         cycle.trajectory.as_mut().unwrap().stamp_ns -= 60_000_000;
     }
     let checked = checked(&drive);
-    let course = &checked.courses[0];
-    assert_eq!(holds(course), [(8, Hold::Off)]);
-    assert_eq!((course.fallbacks(), course.offloaded), (0, 8));
+    let run = &checked.requesters[0];
+    assert_eq!(holds(run), [(8, Hold::Off)]);
+    assert_eq!((run.fallbacks(), run.offloaded), (0, 8));
     // Both groups in every cycle: they are asked for again at the next tick.
-    assert_eq!(course.late, 8);
-    assert_eq!(course, &checked.courses[1]);
+    assert_eq!(run.late, 8);
+    assert_eq!(run, &checked.requesters[1]);
     assert!(text(&checked).contains("data too late 8 times"));
 }
 
@@ -116,9 +116,9 @@ fn a_silence_between_cycles_ends_offloading_without_a_wait() {
         cycle.tracks.as_mut().unwrap().stamp_ns += 1;
     }
     let checked = checked(&drive);
-    let course = &checked.courses[0];
-    assert_eq!((course.silent, course.offloaded, course.late), (2, 5, 0));
-    assert_eq!(course, &checked.courses[1]);
+    let run = &checked.requesters[0];
+    assert_eq!((run.silent, run.offloaded, run.late), (2, 5, 0));
+    assert_eq!(run, &checked.requesters[1]);
     assert!(text(&checked).contains("silence longer than dt_max 2 times"));
 }
 

@@ -1,7 +1,7 @@
 //! Pictures of failing cycles: well-formed, with the witness marked, whatever the input.
 
 use mufasa_drives::check::words;
-use mufasa_drives::pictures::{Scene, picture};
+use mufasa_drives::pictures::{Content, picture};
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
     TrackList, Trajectory, TrajectoryPoint,
@@ -117,7 +117,7 @@ fn failed(stage: Stage, witness: Witness) -> Report {
 
 fn drawn(cycle: &Cycle, report: &Report) -> String {
     let subtitle = words::answer(&Ok(report.clone()));
-    picture(&Scene { title: "bend <1> & \"2\"".to_owned(), subtitle, cycle, report })
+    picture(&Content { title: "bend <1> & \"2\"".to_owned(), subtitle, cycle, report })
 }
 
 /// Reports of every kind of witness.

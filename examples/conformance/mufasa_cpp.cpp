@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr double kEps = 4e-9;  // m; above what rounding does, below the smallest delta (1e-8)
+constexpr double kEps = 4e-9;  // m; above what rounding did so far, below the smallest delta (1e-8)
 std::string bug;               // the bug that is switched on
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }

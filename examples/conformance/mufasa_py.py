@@ -19,7 +19,7 @@ from composition import answer_composition
 from offloading import answer_offloading
 from record import Broken, Invalid, check_input, choice, read_cycle
 
-EPS = 4e-9  # m; above what rounding does, below the smallest margin delta of the text (1e-8)
+EPS = 4e-9  # m; above what rounding did so far, below the smallest margin delta of the text (1e-8)
 BUGS = ("le-for-lt", "no-sqrt", "missing-skip", "wrong-horizon", "off-by-one-lane", "no-hold",
         "nan-accepted")
 BUG = None  # the bug that is switched on

@@ -2,25 +2,19 @@
 
 use std::vec::Vec;
 
-/// A linear congruential generator (Knuth's MMIX constants), high bits used.
-pub(crate) struct Random(pub(crate) u64);
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+pub(crate) struct Random(ChaCha8Rng);
 
 impl Random {
-    pub(crate) fn bits(&mut self) -> u64 {
-        let [high, low] = [self.step(), self.step()];
-        (high >> 32) << 32 | low >> 32
-    }
-
-    fn step(&mut self) -> u64 {
-        let Self(state) = self;
-        *state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        *state
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
     /// A number below `limit`.
     pub(crate) fn below(&mut self, limit: u64) -> u64 {
-        self.bits() % limit
+        self.0.random_range(0..limit)
     }
 
     /// A double of up to 2^24 in size: now and then tiny, subnormal, 0 or an integer.
@@ -31,7 +25,7 @@ impl Random {
             2 => return [0.0, -0.0, 5e-324, 1e-310][self.below(4) as usize],
             _ => 1023 + 24 - 1 - self.below(50),
         };
-        f64::from_bits(self.bits() & (1 << 63 | 0x000f_ffff_ffff_ffff) | exponent << 52)
+        f64::from_bits(self.0.random::<u64>() & (1 << 63 | 0x000f_ffff_ffff_ffff) | exponent << 52)
     }
 
     /// Some doubles, of which later ones may be equal or next to earlier ones.

@@ -1,7 +1,7 @@
 //! What a cycle reports: verdict, outcome of every stage, witness
 //! (`spec/3-stages.md#schedule`, `spec/5-interfaces.md#cycle`).
 
-/// The five stages in their order.
+/// The five stages in their order. Source: `spec/3-stages.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
     /// Track validation.
@@ -21,7 +21,7 @@ impl Stage {
     pub const ALL: [Self; 5] = [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V];
 }
 
-/// What made a cycle unsafe.
+/// What made a cycle unsafe. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FailedStage {
     /// Invalid remote data.
@@ -32,7 +32,7 @@ pub enum FailedStage {
     NoObstacleCheck,
 }
 
-/// A kind of input data that stages need.
+/// A kind of input data that stages need. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Input {
     /// `trajectory`
@@ -45,7 +45,8 @@ pub enum Input {
     Grid,
 }
 
-/// Why a conditional stage did not run; with several reasons the first in this order.
+/// Why a conditional stage did not run; with several reasons the first in this order. Source:
+/// `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Reason {
     /// An earlier stage failed.
@@ -56,7 +57,7 @@ pub enum Reason {
     NoCurrent(Input),
 }
 
-/// What became of a stage in this cycle.
+/// What became of a stage in this cycle. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// It ran and found nothing.
@@ -127,7 +128,7 @@ pub enum Rule {
 
 /// Why a stage failed: the rule, where, and the two numbers that were compared, as the nearest
 /// doubles. `track` is an id; `point`, `detection`, `segment` (of the reference path) and `disk`
-/// are list indices; `cell` is (column, row).
+/// are list indices; `cell` is (column, row). Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
     /// The rule that was broken.
@@ -170,7 +171,7 @@ impl Witness {
     }
 }
 
-/// What is wrong with a value.
+/// What is wrong with a value. Source: `spec/3-stages.md#invalid-input`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Problem {
     /// NaN or infinite where a number has to be given.
@@ -183,7 +184,7 @@ pub enum Problem {
     TimeOutOfRange,
     /// The id of an earlier track of the list.
     DuplicateId,
-    /// The same reference point as the station before.
+    /// The same reference point as the cross section before.
     EqualPoints,
     /// A time not later than that of the point before.
     TimeNotIncreasing,
@@ -198,7 +199,7 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// What is wrong and what would be right, in words.
+    /// What is wrong and what would be right, in words. Source: `spec/3-stages.md#invalid-input`.
     pub const fn message(self) -> &'static str {
         match self {
             Self::NotFinite => "not a finite number; give a finite one",
@@ -217,7 +218,7 @@ impl Problem {
 }
 
 /// A value that breaks the rules for input: the dotted path of the field without indices, the
-/// innermost list index, and what is wrong.
+/// innermost list index, and what is wrong. Source: `spec/3-stages.md#invalid-input`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InvalidInput {
     /// Dotted path, such as `tracks.items.vx`.
@@ -228,7 +229,7 @@ pub struct InvalidInput {
     pub problem: Problem,
 }
 
-/// The answer to one cycle.
+/// The answer to one cycle. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// `None`: the cycle is safe.

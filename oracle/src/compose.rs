@@ -4,7 +4,6 @@
 pub mod graph;
 
 mod dot;
-mod layout;
 mod svg;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;
 
-use mufasa_drives::check::course::Checked;
+use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::Hold;
 use mufasa_drives::check::table;
 use mufasa_drives::check::{self, Findings, complain, counted, pictures, report, words};
@@ -162,7 +162,7 @@ impl Demo<'_> {
     /// Draws the cycles that started a fallback.
     fn draw(&mut self, checked: &Checked) {
         let started = |index: usize| {
-            let cycles = &checked.courses[0].unsafe_cycles;
+            let cycles = &checked.requesters[0].unsafe_cycles;
             let starts = |hold| matches!(hold, Hold::Started { .. });
             cycles.iter().any(|cycle| cycle.index == index && starts(cycle.hold))
         };
@@ -183,7 +183,7 @@ impl Demo<'_> {
 
     /// What became of a case in a sentence; notes what is not as it should be.
     fn outcome(&mut self, case: &Case, checked: &Checked, profile: Profile) -> String {
-        let unsafe_cycles = &checked.courses[0].unsafe_cycles;
+        let unsafe_cycles = &checked.requesters[0].unsafe_cycles;
         let first = unsafe_cycles.first().map(|cycle| cycle.index);
         let early = first.is_some_and(|index| checked.seconds(index) < ATTACKED_FROM_S);
         if first.is_some() != case.is_to_be_found(profile) || early {
@@ -201,7 +201,7 @@ impl Demo<'_> {
                 "caught at {:.1} s by {}; {}, {} of {cycles} cycles unsafe",
                 checked.seconds(index),
                 words::answer(&checked.judged[index].model),
-                counted(checked.courses[0].fallbacks(), "fallback"),
+                counted(checked.requesters[0].fallbacks(), "fallback"),
                 unsafe_cycles.len()
             ),
         }

@@ -2,6 +2,7 @@
 //! found (`spec/2-offloading.md#properties-of-the-whole-protocol`).
 
 pub mod chart;
+pub mod evidence;
 pub mod findings;
 pub mod report;
 pub mod tables;
@@ -15,9 +16,9 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressStyle};
 use mufasa_exploration::bounds::{Bounds, World};
 use mufasa_exploration::moves::Move;
-use mufasa_exploration::properties::Law;
+use mufasa_exploration::properties::Property;
 use mufasa_exploration::replay;
-use mufasa_exploration::run::{self, Finding, Outcome};
+use mufasa_exploration::run::{self, PropertyOutcome, WorldOutcome};
 use mufasa_exploration::search::Progress;
 use mufasa_exploration::second;
 use mufasa_exploration::system::System;
@@ -202,7 +203,7 @@ fn explore(
     world: &'static World,
     profile: Profile,
     threads: usize,
-) -> Result<Outcome, Box<mufasa_props::refine::Difference>> {
+) -> Result<WorldOutcome, Box<mufasa_props::refine::Difference>> {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
         bar.set_style(style);
@@ -227,13 +228,13 @@ fn words(progress: Progress, start: Instant) -> String {
     let rate = done as f64 / seconds;
     format!(
         "{} states, {} to do, depth {depth}, {} moves, {rate:.0} states/s",
-        tables::grouped(tables::wide(states)),
-        tables::grouped(tables::wide(states - done)),
-        tables::grouped(transitions),
+        evidence::grouped(evidence::wide(states)),
+        evidence::grouped(evidence::wide(states - done)),
+        evidence::grouped(transitions),
     )
 }
 
-fn judge(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
+fn judge(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl Write) -> End {
     let mut end = End::default();
     for outcome in outcomes {
         let name = title(outcome.system.world(), profile);
@@ -241,10 +242,9 @@ fn judge(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
             complain(err, &format!("{name}: {difference}"));
             end = end.max(End::Disagree);
         }
-        let fails = outcome
-            .results
-            .iter()
-            .any(|finding| finding.counterexample.is_some() && finding.law.is_claimed(profile));
+        let fails = outcome.results.iter().any(|finding| {
+            finding.counterexample.is_some() && finding.property.is_claimed(profile)
+        });
         if fails {
             end = end.max(End::Fails);
         }
@@ -255,14 +255,14 @@ fn judge(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
 /// In what the second engine differs, if it was asked: where no safety property fails, in the
 /// number of states. It does not go on behind a state that breaks one, so where some fail it has
 /// to find at least one of them, and none else.
-fn engines_differ(profile: Profile, outcome: &Outcome) -> Option<String> {
+fn engines_differ(profile: Profile, outcome: &WorldOutcome) -> Option<String> {
     let (second, _) = outcome.second.as_ref()?;
-    let fails = |finding: &&Finding| {
-        let law = finding.law;
-        finding.counterexample.is_some() && law.is_safety() && law.is_claimed(profile)
+    let fails = |finding: &&PropertyOutcome| {
+        let property = finding.property;
+        finding.counterexample.is_some() && property.is_safety() && property.is_claimed(profile)
     };
-    let first: Vec<_> = outcome.results.iter().filter(fails).map(|it| it.law.name()).collect();
-    let none_else = second.broken.iter().all(|law| first.contains(law));
+    let first: Vec<_> = outcome.results.iter().filter(fails).map(|it| it.property.name()).collect();
+    let none_else = second.broken.iter().all(|property| first.contains(property));
     if !none_else || first.is_empty() != second.broken.is_empty() {
         return Some(format!("{first:?} fail, stateright says {:?}", second.broken));
     }
@@ -272,12 +272,12 @@ fn engines_differ(profile: Profile, outcome: &Outcome) -> Option<String> {
 }
 
 /// All worlds together have to show what the properties speak of: a property of nothing holds.
-fn look_for_unseen(profile: Profile, outcomes: &[Outcome], err: &mut impl Write) -> End {
+fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl Write) -> End {
     let mut end = End::default();
-    for law in Law::ALL {
-        for sight in tables::unseen(law, profile, outcomes) {
-            let (profile, law) = (names::profile(profile), law.name());
-            complain(err, &format!("{profile}: {law}: not seen: {}", sight.name()));
+    for property in Property::ALL {
+        for sight in evidence::unseen(property, profile, outcomes) {
+            let (profile, property) = (names::profile(profile), property.name());
+            complain(err, &format!("{profile}: {property}: not seen: {}", sight.name()));
             end = End::Fails;
         }
     }
@@ -286,8 +286,8 @@ fn look_for_unseen(profile: Profile, outcomes: &[Outcome], err: &mut impl Write)
 
 /// The chart of a trace, for the explorer page.
 fn draw(system: &System, trace: &[Move]) -> Option<String> {
-    let scenes = replay::replay(system, trace).ok()?;
-    Some(chart::draw(system, &title(system.world(), system.profile()), "", &scenes))
+    let episodes = replay::replay(system, trace).ok()?;
+    Some(chart::draw(system, &title(system.world(), system.profile()), "", &episodes))
 }
 
 /// Profile and world.

@@ -3,39 +3,23 @@
 
 pub mod engines;
 pub mod line;
+pub mod settings;
 pub mod sources;
 pub mod tables;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::document;
 use engines::Source;
-use line::{Line, Verdict};
+use line::{Line, Status};
 use mufasa_drives::check::complain;
 use mufasa_records::files;
+pub use settings::Settings;
 
 /// Name of the table in a document.
 pub const TABLE_NAME: &str = "mufasa prove";
-
-/// What is run and where the answers go.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Settings {
-    /// Only lines whose id or engine contains one of these; all without any.
-    pub names: Vec<String>,
-    /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
-    pub cbmc: PathBuf,
-    /// The checkout that these have to be about.
-    pub sources: PathBuf,
-    /// Where the lines are written as JSON Lines.
-    pub out: PathBuf,
-    /// Print the table as Markdown.
-    pub markdown: bool,
-    /// A document whose table is replaced.
-    pub into: Option<PathBuf>,
-}
 
 /// How it ended; the worst that applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,7 +58,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         complain(err, "nothing has such a name");
         return Ok(End::BadInput);
     }
-    if lines.iter().any(|line| matches!(line.answer.verdict, Verdict::Refuted | Verdict::Unknown)) {
+    if lines.iter().any(|line| matches!(line.answer.status, Status::Refuted | Status::Unknown)) {
         end = end.max(End::NotProved);
     }
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };

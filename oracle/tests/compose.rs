@@ -35,16 +35,16 @@ fn number(element: roxmltree::Node<'_, '_>, name: &str) -> f64 {
 /// Boxes (left, right, top, bottom) and labels of a picture, which must be well-formed XML.
 fn boxes(svg: &str) -> Vec<([f64; 4], String)> {
     let document = roxmltree::Document::parse(svg).expect("a picture is XML");
-    document
-        .descendants()
-        .filter(|node| node.has_tag_name("g"))
-        .map(|group| {
+    let groups = document.descendants().filter(|node| node.has_tag_name("g"));
+    groups
+        .filter_map(|group| {
             let find = |name: &str| group.children().find(|node| node.has_tag_name(name));
+            find("title")?;
             let rect = find("rect").expect("a box");
             let [x, y, width, height] =
                 ["x", "y", "width", "height"].map(|name| number(rect, name));
             let label = find("text").and_then(|text| text.text()).unwrap_or_default();
-            ([x, x + width, y, y + height], label.to_owned())
+            Some(([x, x + width, y, y + height], label.to_owned()))
         })
         .collect()
 }
@@ -205,24 +205,43 @@ fn no_arrow_of_a_picture_crosses_a_box() {
     assert_no_overlap(&svg);
     let boxes = boxes(&svg);
     let document = roxmltree::Document::parse(&svg).expect("XML");
-    let mut lanes = 0;
-    for path in document.descendants().filter(|node| node.attribute("class") == Some("switch")) {
-        // Where a path runs straight up it passes through a layer; the curves stay between layers.
-        let words: Vec<&str> = path.attribute("d").expect("a path").split(' ').collect();
-        for (i, _) in words.iter().enumerate().filter(|(_, word)| **word == "V") {
-            lanes += 1;
-            let [x, bottom, top] = [words[i - 2], words[i - 1], words[i + 1]]
-                .map(|word| word.parse::<f64>().expect("a number"));
-            assert!(top < bottom);
-            for ([left, right, box_top, box_bottom], name) in &boxes {
-                let beside = x < *left || *right < x;
-                let elsewhere = bottom < *box_top || *box_bottom < top;
-                assert!(beside || elsewhere, "{name} is crossed at {x}");
+    let arrows = document.descendants().filter(|node| {
+        node.attribute("class") == Some("switch")
+            && node.children().any(|child| child.has_tag_name("title"))
+    });
+    let mut curves = 0;
+    for arrow in arrows {
+        for [x, y] in curve(arrow.attribute("d").expect("a path")) {
+            for ([left, right, top, bottom], name) in &boxes {
+                let inside = *left < x && x < *right && *top < y && y < *bottom;
+                assert!(!inside, "{name} is crossed at {x}, {y}");
             }
         }
+        curves += 1;
     }
-    // Links over two, three and four layers: goal-b, goal-c, goal-d, first-d, second-d.
-    assert_eq!(lanes, 1 + 2 + 3 + 2 + 1);
+    assert_eq!(curves, long.graph().edges.len());
+}
+
+/// Points of a path `M point C control control point S control point ...`, 50 a curve.
+fn curve(path: &str) -> Vec<[f64; 2]> {
+    let numbers: Vec<f64> = path.split(' ').filter_map(|word| word.parse().ok()).collect();
+    let mut given = numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+    let mut next = || given.next();
+    let (mut from, mut leave) = (next().expect("a start"), next().expect("a control point"));
+    let mut points = Vec::new();
+    while let (Some(arrive), Some(to)) = (next(), next()) {
+        points.extend((1..50).map(|step| {
+            let t = f64::from(step) / 50.0;
+            let weights = [(1.0 - t).powi(3), 3.0 * t * (1.0 - t).powi(2), 3.0 * t * t * (1.0 - t)];
+            [0, 1].map(|axis| {
+                let ends = weights[0] * from[axis] + t.powi(3) * to[axis];
+                ends + weights[1] * leave[axis] + weights[2] * arrive[axis]
+            })
+        }));
+        leave = [2.0 * to[0] - arrive[0], 2.0 * to[1] - arrive[1]];
+        from = to;
+    }
+    points
 }
 
 /// Two compositions may need a service above and below another: the union has a cycle.
@@ -244,12 +263,14 @@ fn compositions_that_form_a_cycle_together_can_be_drawn() {
         graph.edges.iter().any(|edge| (id(edge.provider), id(edge.consumer)) == (from, to))
     };
     assert!(has("a", "b") && has("b", "a"));
-    // The link that goes down leaves and arrives at the side.
-    let down = "<title>a to b: v</title>";
+    // The head of an arrow is at the consumer, whichever of the two lies higher.
     let svg = both.svg();
-    let path = svg.lines().find(|line| line.contains(down)).expect("drawn");
-    assert_eq!(path.matches(" C ").count(), 1, "{path}");
-    assert_no_overlap(&both.svg());
+    for (link, end) in [("b to a: u", "start"), ("a to b: v", "end")] {
+        let title = format!("<title>{link}</title>");
+        let path = svg.lines().find(|line| line.contains(&title)).expect("drawn");
+        assert!(path.contains(&format!(" marker-{end}=")), "{path}");
+    }
+    assert_no_overlap(&svg);
 }
 
 #[test]
@@ -294,17 +315,23 @@ fn a_file_that_is_no_composition_is_an_error_with_its_line() {
     assert!(error.to_string().contains("brake"));
 }
 
-/// Every service in a layer of its own.
+/// Layers of services, each of which requires something of all in the next: 400 of one, and 40 of
+/// two, through which there are 2^40 ways.
 #[test]
-fn a_long_chain_can_be_drawn() {
-    let names: Vec<String> = (0..400).map(|i| format!("s{i}")).collect();
-    let interfaces: Vec<String> = (0..400).map(|i| format!("i{i}")).collect();
-    let requires: Vec<Vec<&str>> =
-        (0..400).map(|i| interfaces.get(i + 1).map(String::as_str).into_iter().collect()).collect();
-    let guarantees: Vec<[&str; 1]> = interfaces.iter().map(|name| [name.as_str()]).collect();
-    let services: Vec<(&str, &[&str], &[&str], i64)> =
-        (0..400).map(|i| (names[i].as_str(), &requires[i][..], &guarantees[i][..], 0)).collect();
-    let chain = composed("s0", &services);
-    assert_no_overlap(&chain.svg());
-    assert_eq!(chain.graph().edges.len(), 399);
+fn long_chains_can_be_drawn() {
+    for (layers, width) in [(400, 1), (40, 2)] {
+        let interfaces = |layer: usize| (0..width).map(move |at| format!("i{layer}-{at}"));
+        let ids: Vec<Vec<String>> = (0..=layers).map(|layer| interfaces(layer).collect()).collect();
+        let ids: Vec<Vec<&str>> =
+            ids.iter().map(|layer| layer.iter().map(String::as_str).collect()).collect();
+        let mut services: Vec<(&str, &[&str], &[&str], i64)> = vec![("goal", &ids[0], &[], 0)];
+        for layer in 0..layers {
+            let requires = if layer + 1 < layers { &ids[layer + 1][..] } else { &[] };
+            let provides = ids[layer].iter().map(std::slice::from_ref);
+            services.extend(provides.map(|id| (id[0], requires, id, 0)));
+        }
+        let chain = composed("goal", &services);
+        assert_no_overlap(&chain.svg());
+        assert_eq!(chain.graph().edges.len(), width + (layers - 1) * width * width);
+    }
 }

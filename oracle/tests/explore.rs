@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use mufasa_exploration::bounds::Bounds;
-use mufasa_exploration::properties::Law;
-use mufasa_exploration::run::{self, Outcome};
+use mufasa_exploration::properties::Property;
+use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
 use mufasa_oracle::document;
 use mufasa_oracle::explore::report::Report;
@@ -20,7 +20,7 @@ fn kept(name: &str) -> String {
 }
 
 /// The world without an attacker, which is small, in the paper profile.
-fn honest() -> Vec<Outcome> {
+fn honest() -> Vec<WorldOutcome> {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
     vec![run::run(world, Profile::Paper, 0, |_| {}).unwrap()]
 }
@@ -51,7 +51,7 @@ fn the_tables_of_the_page_are_those_of_a_run() {
         text.lines().filter(|line| line.starts_with(&start)).map(str::to_owned).collect()
     };
     let worlds = Bounds::Small.worlds().iter().map(|world| world.name.to_owned());
-    let laws = Law::ALL.iter().map(|law| law.name().replace('_', " "));
+    let laws = Property::ALL.iter().map(|law| law.name().replace('_', " "));
     for name in worlds.chain(laws) {
         assert_eq!(
             rows(&tables, &name).len(),

@@ -11,9 +11,9 @@ use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_records::{self as json, Record};
 use mufasa_theorems::numbers::real::formula::Formula;
-use mufasa_theorems::prove::{Verdict, prove};
+use mufasa_theorems::prove::{Decision, prove};
 use mufasa_theorems::report::Reading as SymbolicReading;
-use mufasa_theorems::{solver, stages as symbolic_schedule, theorem, witness};
+use mufasa_theorems::{stages as symbolic_schedule, theorem, witness};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -92,7 +92,7 @@ fn every_file_names_what_exists() {
 
 #[test]
 fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
@@ -109,7 +109,7 @@ fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
 /// The model's source decides with symbolic numbers as it does with exact ones.
 #[test]
 fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
@@ -128,7 +128,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
             Formula::from(failed.is_ok_and(|failed| format!("{failed:?}") == expected))
         });
         let proof = proof.expect("z3 answers");
-        assert_eq!(proof.verdict, Verdict::Proved, "{}", vector.id);
+        assert_eq!(proof.decision, Decision::Proved, "{}", vector.id);
         verdicts[usize::from(is_safe(&cycle))] += 1;
     }
     println!("{} unsafe, {} safe", verdicts[0], verdicts[1]);

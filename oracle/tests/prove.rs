@@ -39,7 +39,7 @@ fn without_solvers_nothing_is_proved() {
 /// A line of compiled code, as `scripts/prove-wasm` writes it.
 fn compiled(verdict: &str, sources: &str) -> String {
     format!(
-        "{{\"id\": \"qos::verify_latency_is_exact\", \"engine\": \"cbmc-wasm\", \"verdict\": \"{verdict}\", \"seconds\": 1.5, \
+        "{{\"id\": \"quality_of_service::verify_latency_is_exact\", \"engine\": \"cbmc-wasm\", \"verdict\": \"{verdict}\", \"seconds\": 1.5, \
          \"sources\": \"{sources}\"}}\n"
     )
 }

@@ -10,7 +10,7 @@ mod run;
 mod tape;
 mod values;
 
-pub use self::judge::{BUDGET, LEAST_HELD, Verdict, judge};
+pub use self::judge::{BUDGET, Evidence, LEAST_HELD, judge};
 pub use self::run::{Budget, Run, run};
 pub use self::values::{Arbitrary, any, below, near, near_integer};
 

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::panic::catch_unwind;
 
 use mufasa_proofs::harness::ALL;
-use mufasa_proofs::kani::{self, BUDGET, Budget, Verdict, judge, run};
+use mufasa_proofs::kani::{self, BUDGET, Budget, Evidence, judge, run};
 
 #[path = "support/expected.rs"]
 mod expected;
@@ -22,9 +22,9 @@ fn every_harness_holds_and_reaches_its_covers() {
         let covers: BTreeSet<&str> = expected.covers.iter().map(String::as_str).collect();
         let verdict = judge(*harness, &covers);
         let (kind, found) = match &verdict {
-            Verdict::Every(run) => ("every", run),
-            Verdict::Some(run) => ("some", run),
-            Verdict::Vacuous(_) | Verdict::Refuted(_) => panic!("{}: {verdict:?}", expected.id),
+            Evidence::Every(run) => ("every", run),
+            Evidence::Some(run) => ("some", run),
+            Evidence::Vacuous(_) | Evidence::Refuted(_) => panic!("{}: {verdict:?}", expected.id),
         };
         println!("{}: {kind}, {} of {} runs held", expected.id, found.held, found.tried);
         println!("    {:?}", found.covers);
@@ -86,16 +86,16 @@ mod engine {
     fn what_is_never_reached_shows_nothing() {
         let covers = |names: &[&'static str]| -> BTreeSet<&str> { names.iter().copied().collect() };
         let harness = || kani::cover(kani::any::<bool>() && kani::any(), "both");
-        assert!(matches!(judge(harness, &covers(&["both"])), Verdict::Every(_)));
-        assert!(matches!(judge(harness, &covers(&[])), Verdict::Vacuous(_)));
-        assert!(matches!(judge(harness, &covers(&["both", "other"])), Verdict::Vacuous(_)));
+        assert!(matches!(judge(harness, &covers(&["both"])), Evidence::Every(_)));
+        assert!(matches!(judge(harness, &covers(&[])), Evidence::Vacuous(_)));
+        assert!(matches!(judge(harness, &covers(&["both", "other"])), Evidence::Vacuous(_)));
         let never = || kani::cover(kani::below(2) > 1, "never");
-        assert!(matches!(judge(never, &covers(&["never"])), Verdict::Vacuous(_)));
+        assert!(matches!(judge(never, &covers(&["never"])), Evidence::Vacuous(_)));
         let rare = || kani::assume(kani::any::<f64>().to_bits() == 0x3ff8_1234_5678_9abc);
-        assert!(matches!(judge(rare, &covers(&[])), Verdict::Vacuous(_)));
+        assert!(matches!(judge(rare, &covers(&[])), Evidence::Vacuous(_)));
         let wrong = || assert!(kani::any::<u8>() != 7, "seven");
         let refuted = judge(wrong, &covers(&[]));
-        assert!(matches!(&refuted, Verdict::Refuted(why) if why.contains("seven")), "{refuted:?}");
+        assert!(matches!(&refuted, Evidence::Refuted(why) if why.contains("seven")), "{refuted:?}");
     }
 
     #[test]

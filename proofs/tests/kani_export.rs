@@ -71,10 +71,10 @@ fn each_thing_that_is_wrong_is_found() {
     assert_eq!(
         spoiled(|results| {
             let mut other = results[0].clone();
-            other["harness_id"] = json!("harness::qos::verify_another");
+            other["harness_id"] = json!("harness::quality_of_service::verify_another");
             results.push(other);
         }),
-        "qos::verify_another: not in expected.toml"
+        "quality_of_service::verify_another: not in expected.toml"
     );
     assert!(spoiled(|results| results[0]["status"] = json!("Failure")).contains("\"Failure\""));
     let timed_out = spoiled(|results| {

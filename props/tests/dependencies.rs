@@ -5,22 +5,11 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// Names under a table of a manifest, such as `dependencies`, and in its `[table.name]` form.
+/// Names under a table of a manifest, such as `dependencies`.
 fn names(manifest: &str, table: &str) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
-    let mut inside = false;
-    for line in manifest.lines().map(str::trim) {
-        if let Some(header) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-            inside = header == table;
-            if let Some(name) = header.strip_prefix(table).and_then(|rest| rest.strip_prefix('.')) {
-                names.insert(name.trim_matches('"').to_owned());
-            }
-        } else if inside && !line.is_empty() && !line.starts_with('#') {
-            let name = line.split(['=', '.', ' ']).next().unwrap_or("");
-            names.insert(name.to_owned());
-        }
-    }
-    names
+    let manifest: toml::Table = manifest.parse().expect("a manifest is TOML");
+    let table = manifest.get(table).and_then(|table| table.as_table());
+    table.into_iter().flat_map(toml::Table::keys).cloned().collect()
 }
 
 fn manifest(package: &str) -> String {

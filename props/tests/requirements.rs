@@ -7,47 +7,38 @@
 //! is of, and `conform/tests/vectors` holds model and implementation to every vector.
 //! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
 
+mod tree;
+
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
+
+use tree::{Tree, sections};
 
 /// Requirements without a test, each with the reason.
 const OPEN: &[(&str, &str)] = &[];
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
 /// Names and first words of all requirements, in the order of `spec/`.
-fn requirements() -> Vec<(String, String)> {
-    let mut files: Vec<_> = fs::read_dir(root().join("spec"))
-        .expect("spec/ is there")
-        .map(|entry| entry.expect("a directory entry").path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "md"))
-        .collect();
-    files.sort();
+fn requirements(tree: &Tree) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    for file in files {
-        let text = fs::read_to_string(&file).expect("spec files are readable");
-        let name = file.file_name().expect("a file").to_string_lossy().into_owned();
-        let (mut anchor, mut count) = (String::new(), 0);
-        for line in text.lines() {
-            if let Some(heading) = line.trim_start_matches('#').strip_prefix(' ')
-                && line.starts_with('#')
-            {
-                (anchor, count) = (slug(heading), 0);
-            }
-            if let Some(rule) = rule_of_row(line) {
-                found.push((rule.to_string(), line.chars().take(90).collect()));
-            }
-            if line.contains("MUST") {
-                count += 1;
-                let words = line.trim_start_matches(['*', ' ']).chars().take(90).collect();
-                found.push((format!("spec/{name}#{anchor}.{count}"), words));
+    for (file, text) in tree.ending(".md").filter(|(path, _)| is_normative(path)) {
+        for section in sections(text) {
+            let mut count = 0;
+            for line in section.lines {
+                let words = line.trim_start_matches(['*', ' ', '|']).chars().take(90).collect();
+                if let Some(rule) = rule_of_row(line) {
+                    found.push((rule.to_owned(), words));
+                } else if line.contains("MUST") {
+                    count += 1;
+                    found.push((format!("{file}#{}.{count}", section.anchor), words));
+                }
             }
         }
     }
     found
+}
+
+/// `spec/3-stages.md`, but not `spec/CHANGES.md`.
+fn is_normative(path: &str) -> bool {
+    path.strip_prefix("spec/").is_some_and(|name| name.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// `| H-04 | ...` is the row of a rule, `| I-02 | ...` of an interpretation.
@@ -59,50 +50,6 @@ fn rule_of_row(line: &str) -> Option<&str> {
 fn is_rule(name: &str) -> bool {
     let digits = name.strip_prefix("H-").or_else(|| name.strip_prefix("I-"));
     digits.is_some_and(|digits| digits.len() == 2 && digits.chars().all(|c| c.is_ascii_digit()))
-}
-
-/// The anchor of a heading as the usual Markdown viewers make it.
-fn slug(heading: &str) -> String {
-    let kept = heading.to_lowercase();
-    kept.chars()
-        .filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'))
-        .map(|c| if c == ' ' { '-' } else { c })
-        .collect()
-}
-
-/// Rust files of the workspace, without build products and without this one.
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).expect("folders are readable") {
-        let path = entry.expect("a directory entry").path();
-        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-        if path.is_dir() && name != "target" && !name.starts_with('.') {
-            sources(&path, found);
-        } else if path.extension().is_some_and(|it| it == "rs") && name != "requirements.rs" {
-            found.push(path);
-        }
-    }
-}
-
-/// Requirements and interpretations of the published vectors, with their files.
-fn requirements_of_vectors() -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    for topic in fs::read_dir(root().join("vectors")).expect("vectors/ is there") {
-        let topic = topic.expect("a directory entry").path();
-        for file in fs::read_dir(&topic).into_iter().flatten() {
-            let file = file.expect("a directory entry").path();
-            let text = fs::read_to_string(&file).expect("vectors are readable");
-            let name = file.strip_prefix(root()).expect("below the root").display().to_string();
-            let mut names: BTreeSet<&str> = BTreeSet::new();
-            for line in text.lines() {
-                for key in ["\"requirement\": \"", "\"flag\": \"interpretation "] {
-                    let named = line.split_once(key).map(|(_, rest)| rest);
-                    names.extend(named.and_then(|rest| rest.split('"').next()));
-                }
-            }
-            found.extend(names.into_iter().map(|requirement| (requirement.into(), name.clone())));
-        }
-    }
-    found
 }
 
 /// Names in a text: `spec/<file>#<anchor>.<number>`, `H-<number>`, `I-<number>`.
@@ -126,25 +73,30 @@ fn places_in(text: &str) -> impl Iterator<Item = String> {
 
 #[test]
 fn every_must_is_named_by_a_test() {
-    let requirements = requirements();
+    let tree = Tree::here();
+    let requirements = requirements(&tree);
     assert!(requirements.len() > 80, "spec/ has about a hundred lines with a MUST");
     let known: BTreeSet<&str> = requirements.iter().map(|(name, _)| name.as_str()).collect();
-    let mut files = Vec::new();
-    sources(&root(), &mut files);
-    let mut named: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for file in files {
-        let text = fs::read_to_string(&file).expect("sources are readable");
-        if !text.contains("#[test]") && !text.contains("proptest!") {
-            continue;
-        }
-        let path = file.strip_prefix(root()).expect("below the root").display().to_string();
-        for name in names_in(&text) {
-            named.entry(name).or_default().push(path.clone());
+    let mut named: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for (path, text) in tree.ending(".rs").filter(|(path, _)| !path.ends_with("requirements.rs")) {
+        if text.contains("#[test]") || text.contains("proptest!") {
+            names_in(text).for_each(|name| named.entry(name).or_default().push(path));
         }
     }
-    for (name, file) in requirements_of_vectors() {
-        if known.contains(name.as_str()) {
-            named.entry(name).or_default().push(file);
+    for (path, text) in tree.ending(".jsonl").filter(|(path, _)| path.starts_with("vectors/")) {
+        for line in text.lines() {
+            let value = |key: &str| {
+                let (_, rest) = line.split_once(&format!("\"{key}\": \""))?;
+                rest.split('"').next()
+            };
+            // The flag of a vector that depends on an interpretation ends in the interpretation.
+            let flag = value("flag").and_then(|flag| flag.strip_prefix("interpretation "));
+            for name in [value("requirement"), flag].into_iter().flatten() {
+                let files = named.get(name);
+                if known.contains(name) && !files.is_some_and(|files| files.contains(&path)) {
+                    named.entry(name.to_owned()).or_default().push(path);
+                }
+            }
         }
     }
     let mut open = Vec::new();
@@ -165,9 +117,7 @@ fn every_must_is_named_by_a_test() {
 }
 
 #[test]
-fn anchors_are_those_of_markdown() {
-    assert_eq!(slug("Low-level collision check (LLCC)"), "low-level-collision-check-llcc");
-    assert_eq!(slug("Stage v: trajectory with grid map"), "stage-v-trajectory-with-grid-map");
+fn a_name_ends_where_the_sentence_goes_on() {
     let names: Vec<_> =
         names_in("see spec/3-stages.md#distances.2, spec/3-stages.md#distances.").collect();
     assert_eq!(names, ["spec/3-stages.md#distances.2"]);

@@ -323,7 +323,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// `SplitMix64`.
+/// `SplitMix64`, as the recipe prescribes it: the workloads have to be the same numbers, bit for bit
+/// (`checksums.txt`), in any language.
 struct Random(u64);
 
 impl Random {

@@ -101,14 +101,14 @@ pub struct Topic {
 }
 
 impl Topic {
-    /// Vectors of `requirement` in the file `file`, such as `stages/schedule`.
-    pub const fn new(file: &'static str, requirement: &'static str) -> Self {
-        Self { file, requirement, interpretation: None }
-    }
-
-    /// The same for who reads the paper as `name` says.
-    pub const fn read_as(self, name: &'static str) -> Self {
-        Self { interpretation: Some(name), ..self }
+    /// Vectors of `requirement` in the file `file`, such as `stages/schedule`; `interpretation` if
+    /// they bind only who reads the paper so.
+    pub const fn new(
+        file: &'static str,
+        requirement: &'static str,
+        interpretation: Option<&'static str>,
+    ) -> Self {
+        Self { file, requirement, interpretation }
     }
 
     /// The id of a vector: the name of the file and a name of its own.
@@ -148,6 +148,20 @@ impl Book {
         let flag = topic.flag(flag::of_cycle(cycle));
         let input = Input::Record(cycle_to_line(&id, cycle));
         self.add(topic, flag, (id, note), input, expected);
+    }
+
+    /// A cycle in whose text something is replaced so that it is refused, whatever the profile.
+    pub fn broken(
+        &mut self,
+        topic: Topic,
+        (name, note): (&str, &str),
+        cycle: &Cycle,
+        [old, new]: [&str; 2],
+        expected: &Expected,
+    ) {
+        let id = topic.id(name);
+        let input = Input::Record(cycle_to_line(&id, cycle).replacen(old, new, 1));
+        self.add(topic, topic.flag(flag::ALIKE), (id, note.to_owned()), input, expected);
     }
 
     /// An offloading trace.
@@ -194,6 +208,11 @@ impl Book {
         let id = topic.id(name);
         let input = Input::Line(line.to_owned());
         self.add(topic, topic.flag(flag::ALIKE), (id, note.to_owned()), input, expected);
+    }
+
+    /// A place of the data that cannot be read.
+    pub fn refuse(&mut self, place: &str, problem: &impl fmt::Display) {
+        self.refused.push(Refused { id: place.to_owned(), problem: problem.to_string() });
     }
 
     /// The vectors of every file, or everything that is wrong with them.

@@ -1,5 +1,7 @@
 //! What the author of a vector expects from the text of `spec/`, before the model is asked.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value;
 
 /// An expectation about an answer. What is not said is not checked.
@@ -16,81 +18,90 @@ enum Fact {
     Length(String, usize),
 }
 
-/// A safe cycle.
-pub fn safe() -> Expected {
-    Expected::default().that("/verdict", "safe").that("/failed_stage", Value::Null)
-}
-
-/// A cycle that fails in this stage.
-pub fn fails(stage: &str) -> Expected {
-    Expected::default().that("/verdict", "unsafe").that("/failed_stage", stage)
-}
-
-/// A cycle that stage `stage` fails by this rule.
-pub fn fails_by(stage: &str, rule: &str) -> Expected {
-    fails(stage).that(&format!("/stages/{stage}/witness/rule"), rule)
-}
-
-/// A cycle with invalid remote data.
-pub fn invalid_remote(field: &str, index: Option<usize>) -> Expected {
-    fails("input").that("/input/field", field).that("/input/index", index)
-}
-
-/// A record that is refused.
-pub fn refused(field: &str, index: Option<usize>) -> Expected {
-    Expected::default()
-        .that("/verdict", "error")
-        .that("/failed_stage", Value::Null)
-        .that("/error/field", field)
-        .that("/error/index", index)
-}
-
-/// So many compositions, none or some of them.
-pub fn compositions(count: usize) -> Expected {
-    Expected { facts: vec![Fact::Length(String::from("/compositions"), count)] }
-}
-
-/// What the requester is and does after the last of `events` events. `actions` are words such as
-/// `release mot 1#2` (station 1, session 2), `activate plan`, `drop mot`.
-pub fn after(
-    events: usize,
-    [mot, plan]: [&str; 2],
-    hold: Option<i64>,
-    actions: &[&str],
-) -> Expected {
-    let last = format!("/states/{}", events.saturating_sub(1));
-    let actions: Vec<Value> = actions.iter().map(|words| action(words)).collect();
-    Expected::default()
-        .that(&format!("{last}/mot"), mot)
-        .that(&format!("{last}/plan"), plan)
-        .that(&format!("{last}/hold_until_ns"), hold)
-        .that(&format!("{last}/actions"), actions)
-}
-
 impl Expected {
-    /// The answer has this value at the pointer (RFC 6901); null stands for an absent one, too.
-    pub fn that(mut self, pointer: &str, value: impl Into<Value>) -> Self {
-        self.facts.push(Fact::Value(pointer.to_owned(), value.into()));
-        self
-    }
-
-    /// The witness of `stage` has this value.
-    pub fn witness(self, stage: &str, key: &str, value: impl Into<Value>) -> Self {
-        self.that(&format!("/stages/{stage}/witness/{key}"), value)
-    }
-
-    /// The outcomes of the five stages in letters: P passed, F failed, - not scheduled; skipped:
-    /// a after failure, o other stage ran, j t d g no current trajectory, tracks, detections, grid;
-    /// the same as capitals: not applicable because of it.
-    pub fn stages(mut self, letters: &str) -> Self {
-        for (stage, letter) in ["i", "ii", "iii", "iv", "v"].into_iter().zip(letters.chars()) {
-            let (outcome, key, why) = outcome(letter);
-            self = self.that(&format!("/stages/{stage}/outcome"), outcome);
-            if let Some(key) = key {
-                self = self.that(&format!("/stages/{stage}/{key}"), why);
+    /// Reads an expectation; a trace has `events` events. Its keys are
+    /// * `is`: `safe`, `fails STAGE RULE`, `invalid FIELD INDEX` (remote data), `refused FIELD
+    ///   INDEX`; rule, field and index may be missing;
+    /// * `stages`: the outcomes of the five stages in letters: P passed, F failed, - not scheduled;
+    ///   skipped: a after failure, o other stage ran, j t d g no current trajectory, tracks,
+    ///   detections, grid; the same as capitals: not applicable because of it;
+    /// * `last`: what the requester is and does after the last event: states of MOT and PLAN, hold,
+    ///   actions in words such as `release mot 1#2` (station 1, session 2) or `activate plan`;
+    /// * `compositions`: how many there are;
+    /// * a pointer (RFC 6901): the answer has this value there; null stands for an absent one, too.
+    pub fn read(facts: &BTreeMap<String, Value>, events: usize) -> Result<Self, String> {
+        let mut expected = Self::default();
+        for (key, value) in facts {
+            let words: Vec<&str> = value.as_str().unwrap_or_default().split(' ').collect();
+            match key.as_str() {
+                "is" => expected.verdict(&words)?,
+                "stages" => {
+                    let letters = words.concat();
+                    for (stage, letter) in
+                        ["i", "ii", "iii", "iv", "v"].into_iter().zip(letters.chars())
+                    {
+                        let (outcome, key, why) = outcome(letter);
+                        expected.that(&format!("/stages/{stage}/outcome"), outcome);
+                        if let Some(key) = key {
+                            expected.that(&format!("/stages/{stage}/{key}"), why);
+                        }
+                    }
+                }
+                "last" => {
+                    let last = format!("/states/{}", events.saturating_sub(1));
+                    for (index, key) in ["mot", "plan", "hold_until_ns"].into_iter().enumerate() {
+                        expected.that(&format!("{last}/{key}"), value[index].clone());
+                    }
+                    let actions = value[3].as_array().into_iter().flatten();
+                    let actions: Vec<Value> = actions.map(action).collect();
+                    expected.that(&format!("{last}/actions"), actions);
+                }
+                "compositions" => {
+                    let count = value.as_u64().and_then(|it| it.try_into().ok());
+                    let count = count.ok_or("compositions is a count")?;
+                    expected.facts.push(Fact::Length(String::from("/compositions"), count));
+                }
+                pointer if pointer.starts_with('/') => expected.that(pointer, value.clone()),
+                other => return Err(format!("{other} cannot be expected")),
             }
         }
-        self
+        Ok(expected)
+    }
+
+    fn verdict(&mut self, words: &[&str]) -> Result<(), String> {
+        let index = |word: Option<&&str>| word.and_then(|it| it.parse::<usize>().ok());
+        let field = words.get(1).copied().unwrap_or_default();
+        match words[0] {
+            "safe" => {
+                self.that("/verdict", "safe");
+                self.that("/failed_stage", Value::Null);
+            }
+            "fails" => {
+                self.that("/verdict", "unsafe");
+                self.that("/failed_stage", field);
+                if let Some(rule) = words.get(2) {
+                    self.that(&format!("/stages/{field}/witness/rule"), *rule);
+                }
+            }
+            "invalid" => {
+                self.that("/verdict", "unsafe");
+                self.that("/failed_stage", "input");
+                self.that("/input/field", field);
+                self.that("/input/index", index(words.get(2)));
+            }
+            "refused" => {
+                self.that("/verdict", "error");
+                self.that("/failed_stage", Value::Null);
+                self.that("/error/field", field);
+                self.that("/error/index", index(words.get(2)));
+            }
+            other => return Err(format!("no answer is {other}")),
+        }
+        Ok(())
+    }
+
+    fn that(&mut self, pointer: &str, value: impl Into<Value>) {
+        self.facts.push(Fact::Value(pointer.to_owned(), value.into()));
     }
 
     /// What of the expectation the answer breaks, in words.
@@ -138,8 +149,8 @@ fn outcome(letter: char) -> (&'static str, Option<&'static str>, &'static str) {
     (outcome, key, why)
 }
 
-fn action(words: &str) -> Value {
-    match *words.split(' ').collect::<Vec<_>>() {
+fn action(words: &Value) -> Value {
+    match *words.as_str().unwrap_or_default().split(' ').collect::<Vec<_>>() {
         [send, group, partner] => {
             let (station, session) = partner.split_once('#').unwrap_or((partner, ""));
             let number = |text: &str| text.parse::<i64>().ok();

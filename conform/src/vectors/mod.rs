@@ -1,21 +1,13 @@
 //! Vectors: lines with the answers that they must get, for other implementations
 //! (`spec/5-interfaces.md#vectors`).
 
-pub mod base;
 pub mod book;
-pub mod edge;
-pub mod expected;
 pub mod flag;
-pub mod story;
 
-mod findings;
-mod hardened;
-mod interpretations;
-mod lines;
-mod offloading;
+mod cases;
+mod expected;
+mod files;
 mod random;
-mod services;
-mod stages;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -24,8 +16,6 @@ use std::path::Path;
 
 use book::{Book, Refused, Vector};
 
-use mufasa_records::files;
-
 /// What people of other languages read first.
 const README: &str = include_str!("readme.md");
 
@@ -33,13 +23,7 @@ const README: &str = include_str!("readme.md");
 /// on which its author and the model differ is refused.
 pub fn all() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
     let mut book = Book::default();
-    services::add(&mut book);
-    offloading::add(&mut book);
-    stages::add(&mut book);
-    hardened::add(&mut book);
-    findings::add(&mut book);
-    interpretations::add(&mut book);
-    lines::add(&mut book);
+    cases::add(&mut book);
     random::add(&mut book);
     book.finish()
 }
@@ -71,7 +55,7 @@ pub fn write(folder: &Path, contents: &BTreeMap<String, String>) -> io::Result<(
         if let Some(parent) = file.parent() {
             std::fs::create_dir_all(parent)?;
         }
-        files::write(&file, content)?;
+        mufasa_records::files::write(&file, content)?;
     }
     Ok(())
 }

@@ -28,7 +28,7 @@ const CONFIGURATIONS: [(Configuration, &str, u64); 4] = [
 /// Adds them.
 pub fn add(book: &mut Book) {
     for (configuration, file, seed) in CONFIGURATIONS {
-        let topic = Topic::new(file, "spec/4-arithmetic.md#conformance-of-an-implementation");
+        let topic = Topic::new(file, "spec/4-arithmetic.md#conformance-of-an-implementation", None);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut count = 0;
         while count < CYCLES {

@@ -1,6 +1,8 @@
 //! Records, answers and random numbers for the tests.
 
 use mufasa_conform::reference as oracle;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use serde_json::Value;
 
 /// A cycle that is accepted in both profiles: one current detection far away.
@@ -51,28 +53,27 @@ pub fn with(text: &str, old: &str, new: &str) -> String {
     text.replace(old, new)
 }
 
-/// `SplitMix64`: seeded, the same everywhere.
-pub struct Random(pub u64);
+/// Seeded, the same everywhere.
+pub struct Random(ChaCha8Rng);
 
 impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
     /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.random()
     }
 
     /// A number below `end`.
     pub fn below(&mut self, end: usize) -> usize {
-        let end = u64::try_from(end).expect("usize has at most 64 bits");
-        usize::try_from(self.bits() % end).expect("smaller than a usize")
+        self.0.random_range(0..end)
     }
 
     /// A random byte.
     pub fn byte(&mut self) -> u8 {
-        self.bits().to_le_bytes()[0]
+        self.0.random()
     }
 
     /// One of the choices.

@@ -13,7 +13,7 @@ const SEED: u64 = 5;
 /// `spec/5-interfaces.md#cycle.2`
 #[test]
 fn each_of_100_000_damaged_lines_has_one_answer_in_order() {
-    let mut random = Random(SEED);
+    let mut random = Random::new(SEED);
     let lines: Vec<Vec<u8>> = (0..LINES).map(|number| line(&mut random, number)).collect();
     let mut output = Vec::new();
     oracle::run(lines.join(&b'\n').as_slice(), &mut output, oracle::by_model).unwrap();

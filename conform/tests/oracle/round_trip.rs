@@ -15,7 +15,7 @@ const SEED: u64 = 20_250_711;
 
 #[test]
 fn a_written_cycle_is_read_back_bit_for_bit() {
-    let mut random = Random(SEED);
+    let mut random = Random::new(SEED);
     for _ in 0..CYCLES {
         let (id, cycle) = (text(&mut random), cycle(&mut random));
         let line = cycle_to_line(&id, &cycle);

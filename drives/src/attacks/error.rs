@@ -1,49 +1,13 @@
-//! What can be wrong with an injection.
+//! Why an attack changes nothing.
 
 use std::fmt;
 use std::path::Path;
 
 use mufasa_model::services::configuration::Configuration;
 
-use crate::attacks::{Attack, Injection};
+use crate::attacks::injection::Injection;
 use crate::drive::Drive;
 use crate::readers::error::ReadError;
-
-/// Why a text is no injection.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ParseInjectionError {
-    /// The name is none of [`Attack::ALL`].
-    UnknownAttack(String),
-    /// The span is not of the form `FROM..TO`.
-    Form(String),
-    /// A bound is no time, 0 s or later.
-    Time(String),
-    /// The span does not begin before it ends.
-    EmptySpan {
-        /// Its begin, s.
-        from_s: f64,
-        /// Its end, s.
-        to_s: f64,
-    },
-}
-
-impl fmt::Display for ParseInjectionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnknownAttack(name) => {
-                let names = Attack::ALL.map(Attack::name).join(", ");
-                write!(f, "`{name}` is no attack; known are {names}")
-            }
-            Self::Form(span) => write!(f, "`{span}` is not of the form FROM..TO, in seconds"),
-            Self::Time(bound) => write!(f, "`{bound}` is no time in seconds"),
-            Self::EmptySpan { from_s, to_s } => {
-                write!(f, "the span {from_s}..{to_s} is empty: FROM must be less than TO")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ParseInjectionError {}
 
 /// Why an attack leaves a drive as it is.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 
 use mufasa_model::input::cycle::{Cycle, Ego, Track, TrajectoryPoint};
 
-use crate::scene::geometry::Rectangle;
-use crate::scene::geometry::{Point, Polyline, add, direction, distance, scale, sub};
-use crate::scene::lead::{Cav, lead};
-use crate::scene::object::Seen;
+use crate::geometry::Rectangle;
+use crate::geometry::{Point, Polyline, add, direction, distance, scale, sub};
+use crate::recording::lead::{Cav, lead};
+use crate::recording::object::Seen;
 
 /// Points of a trajectory, and the time between them, s and ns.
 const POINTS: u32 = 50;

@@ -16,7 +16,7 @@ const STATION: i64 = 1;
 
 /// What the requester did over a drive.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Course {
+pub struct RequesterRun {
     /// The unsafe cycles in order.
     pub unsafe_cycles: Vec<UnsafeCycle>,
     /// Elements that ended offloading by the quality of service: too old or too long after the
@@ -59,31 +59,31 @@ pub fn follow<'a>(
     side: &mut impl Side,
     cycles: impl IntoIterator<Item = &'a Cycle>,
     safe: &[bool],
-) -> Result<Course, String> {
-    let mut course = Course::default();
+) -> Result<RequesterRun, String> {
+    let mut run = RequesterRun::default();
     let mut offered = None;
     for (index, (cycle, safe)) in cycles.into_iter().zip(safe).enumerate() {
         let groups = remote_groups(cycle.configuration);
         if offered != Some(groups) {
             let offer = EventKind::Offer { station: STATION, groups };
-            course.step(side, index, cycle, offer)?;
+            run.step(side, index, cycle, offer)?;
             offered = Some(groups);
         }
         let remote = |side: &_| Group::ALL.map(|group| is_remote(side, group));
         let before = remote(side);
-        let ticked = course.step(side, index, cycle, EventKind::Tick)?;
+        let ticked = run.step(side, index, cycle, EventKind::Tick)?;
         let after = remote(side);
-        course.silent += before.iter().zip(after).filter(|(was, is)| **was && !is).count();
+        run.silent += before.iter().zip(after).filter(|(was, is)| **was && !is).count();
         for action in ticked {
             if let Action::Request { station, group, session } = action {
                 let confirm = EventKind::Confirm { station, group, session };
-                course.step(side, index, cycle, confirm)?;
+                run.step(side, index, cycle, confirm)?;
             }
         }
-        let used = course.data(side, index, cycle)?;
+        let used = run.data(side, index, cycle)?;
         if used != Groups::NONE {
-            course.offloaded += 1;
-            course.step(side, index, cycle, EventKind::Verdict { safe: *safe, groups: used })?;
+            run.offloaded += 1;
+            run.step(side, index, cycle, EventKind::Verdict { safe: *safe, groups: used })?;
         }
         if !safe {
             let hold = match side.hold_until_ns() {
@@ -91,13 +91,13 @@ pub fn follow<'a>(
                 Some(until_ns) if until_ns > cycle.now_ns => Hold::Running,
                 Some(_) | None => Hold::Off,
             };
-            course.unsafe_cycles.push(UnsafeCycle { index, hold });
+            run.unsafe_cycles.push(UnsafeCycle { index, hold });
         }
     }
-    Ok(course)
+    Ok(run)
 }
 
-impl Course {
+impl RequesterRun {
     /// How many waits were started.
     pub fn fallbacks(&self) -> usize {
         let started = |cycle: &&UnsafeCycle| matches!(cycle.hold, Hold::Started { .. });

@@ -1,6 +1,6 @@
 //! Drives checked by the model and the implementation side by side.
 
-pub mod course;
+pub mod checked;
 pub mod fallback;
 pub mod judge;
 pub mod pictures;
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use indicatif::{ProgressBar, ProgressStyle};
 use mufasa_model::offloading::requester::Parameters;
 
-use self::course::Checked;
+use self::checked::Checked;
 use self::judge::in_order;
 use self::tally::Tally;
 use crate::{Drive, ReadError};
@@ -82,7 +82,7 @@ impl Findings {
         self.drives += 1;
         self.tally.merge(&checked.tallies()[0]);
         self.disagreements += checked.disagreements();
-        self.fallbacks += checked.courses[0].fallbacks();
+        self.fallbacks += checked.requesters[0].fallbacks();
     }
 
     /// One sentence over the run.

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::course::Checked;
+use super::checked::Checked;
 use super::words;
-use crate::pictures::{Scene, picture};
+use crate::pictures::{Content, picture};
 use mufasa_records::files;
 use mufasa_records::names;
 
@@ -29,7 +29,7 @@ pub fn write(
             names::profile(cycle.profile)
         );
         let at = checked.seconds(index);
-        let scene = Scene {
+        let content = Content {
             title: format!("{} at {at:.2} s ({setting})", checked.drive.name),
             subtitle: words::answer(&judged.model),
             cycle,
@@ -38,7 +38,7 @@ pub fn write(
         let stage = report.failed_stage.map_or("", names::failed_stage);
         let name = files::name(&checked.drive.name);
         let file = folder.join(format!("{name}-{index:04}-{stage}.svg"));
-        files::write(&file, &picture(&scene)).map_err(|error| (file.clone(), error))?;
+        files::write(&file, &picture(&content)).map_err(|error| (file.clone(), error))?;
         written.push(file);
     }
     Ok(written)

@@ -4,8 +4,8 @@ use mufasa_model::report::{InvalidInput, Report, Stage};
 use mufasa_props::conformance::Answer;
 use serde::Serialize;
 
-use super::course::Checked;
-use super::fallback::{Course, Hold};
+use super::checked::Checked;
+use super::fallback::{Hold, RequesterRun};
 use super::judge::Judged;
 use super::tally::Tally;
 use super::{Findings, words};
@@ -125,7 +125,7 @@ pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
         })?);
     }
     let [model, implementation] = checked.tallies();
-    let [model_course, implementation_course] = &checked.courses;
+    let [model_course, implementation_course] = &checked.requesters;
     lines.push(serde_json::to_string(&DriveRecord {
         drive: &checked.drive.name,
         source: &checked.drive.source,
@@ -185,7 +185,7 @@ fn implementation_answer(answer: &Answer) -> ImplementationAnswer {
 fn side(
     checked: &Checked,
     tally: &Tally,
-    course: &Course,
+    run: &RequesterRun,
     answer: impl Fn(&Judged) -> &Answer,
 ) -> SideRecord {
     let stages = Stage::ALL.into_iter().zip(&tally.stages).map(|(stage, count)| StageRecord {
@@ -196,7 +196,7 @@ fn side(
         not_applicable: count.not_applicable,
         not_scheduled: count.not_scheduled,
     });
-    let fallbacks = course.unsafe_cycles.iter().map(|cycle| {
+    let fallbacks = run.unsafe_cycles.iter().map(|cycle| {
         let (hold, hold_until_ns) = match cycle.hold {
             Hold::Started { until_ns } => ("started", Some(until_ns)),
             Hold::Running => ("running", None),
@@ -218,9 +218,9 @@ fn side(
         input: tally.input,
         no_obstacle_check: tally.no_obstacle_check,
         stages: stages.collect(),
-        offloaded: course.offloaded,
-        late: course.late,
-        silent: course.silent,
+        offloaded: run.offloaded,
+        late: run.late,
+        silent: run.silent,
         fallbacks: fallbacks.collect(),
     }
 }

@@ -6,9 +6,9 @@ use std::io::{self, Write};
 use mufasa_model::report::FailedStage;
 use mufasa_props::conformance::{Answer, name};
 
+use super::checked::Checked;
 use super::counted;
-use super::course::Checked;
-use super::fallback::{Course, Hold, UnsafeCycle};
+use super::fallback::{Hold, RequesterRun, UnsafeCycle};
 use super::words;
 use crate::check::table;
 
@@ -50,14 +50,14 @@ pub fn line(checked: &Checked) -> table::Line {
     table::Line {
         name: checked.drive.name.clone(),
         tally,
-        fallbacks: checked.courses[0].fallbacks(),
+        fallbacks: checked.requesters[0].fallbacks(),
         otherwise: checked.otherwise(),
         disagreements: checked.disagreements(),
     }
 }
 
 fn write_fallbacks(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
-    let [model, implementation] = &checked.courses;
+    let [model, implementation] = &checked.requesters;
     if model == implementation {
         return write_course(out, checked, model, "", |judged| &judged.model);
     }
@@ -70,7 +70,7 @@ fn write_fallbacks(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
 fn write_course(
     out: &mut impl Write,
     checked: &Checked,
-    course: &Course,
+    run: &RequesterRun,
     whose: &str,
     answer: impl Fn(&super::judge::Judged) -> &Answer,
 ) -> io::Result<()> {
@@ -78,18 +78,18 @@ fn write_course(
     writeln!(
         out,
         "fallbacks{whose}: {} ({} of {} cycles offloaded)",
-        course.fallbacks(),
-        course.offloaded,
+        run.fallbacks(),
+        run.offloaded,
         checked.judged.len()
     )?;
-    if course.late > 0 {
-        writeln!(out, "  data too late {} times: back to local without a wait", course.late)?;
+    if run.late > 0 {
+        writeln!(out, "  data too late {} times: back to local without a wait", run.late)?;
     }
-    if course.silent > 0 {
-        let times = course.silent;
+    if run.silent > 0 {
+        let times = run.silent;
         writeln!(out, "  silence longer than dt_max {times} times: back to local without a wait")?;
     }
-    let mut rest = &course.unsafe_cycles[..];
+    let mut rest = &run.unsafe_cycles[..];
     while let Some((first, after)) = rest.split_first() {
         let at = checked.seconds(first.index);
         if let Hold::Started { until_ns } = first.hold {
@@ -99,26 +99,26 @@ fn write_course(
             rest = after;
             continue;
         }
-        let run = rest.iter().take_while(|cycle| cycle.hold == first.hold).count();
-        let (run, after) = rest.split_at(run);
-        let last = checked.seconds(run[run.len() - 1].index);
+        let alike = rest.iter().take_while(|cycle| cycle.hold == first.hold).count();
+        let (alike, after) = rest.split_at(alike);
+        let last = checked.seconds(alike[alike.len() - 1].index);
         let why = if first.hold == Hold::Running { "during that wait" } else { "while all local" };
-        let span = if run.len() == 1 {
+        let span = if alike.len() == 1 {
             format!("at {at:.1} s")
         } else {
             format!("{at:.1} s to {last:.1} s")
         };
-        let stages = by_stage(run, |cycle| answer(&checked.judged[cycle.index]));
-        writeln!(out, "  {span}: {} more unsafe {why} ({stages})", run.len())?;
+        let stages = by_stage(alike, |cycle| answer(&checked.judged[cycle.index]));
+        writeln!(out, "  {span}: {} more unsafe {why} ({stages})", alike.len())?;
         rest = after;
     }
     Ok(())
 }
 
 /// How many of these cycles failed where: `ii 3, iii 20`.
-fn by_stage<'a>(run: &[UnsafeCycle], answer: impl Fn(&UnsafeCycle) -> &'a Answer) -> String {
+fn by_stage<'a>(cycles: &[UnsafeCycle], answer: impl Fn(&UnsafeCycle) -> &'a Answer) -> String {
     let mut counts: BTreeMap<(u8, &str), usize> = BTreeMap::new();
-    for cycle in run {
+    for cycle in cycles {
         let key = match answer(cycle) {
             Ok(report) => (rank(report.failed_stage), name(report.failed_stage)),
             Err(_) => (u8::MAX, "error"),

@@ -12,6 +12,8 @@ use std::fmt::Write as _;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Report;
 
+pub use canvas::escape;
+
 use canvas::Canvas;
 use frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
 use legend::LEGEND_HEIGHT;
@@ -42,7 +44,7 @@ stroke-opacity:.75;paint-order:stroke}\
 .scale{fill:none;stroke:#1d2733;stroke-width:2}.arrow{fill:#1d2733}";
 
 /// A cycle that failed, with the words of its picture.
-pub struct Scene<'a> {
+pub struct Content<'a> {
     /// First line: drive, time, configuration, profile.
     pub title: String,
     /// Second line: stage, rule and the numbers compared.
@@ -55,8 +57,8 @@ pub struct Scene<'a> {
 
 /// The picture of a cycle as an SVG document: route, objects, trajectory, and the witness in a
 /// strong colour. Values that are not finite are left out.
-pub fn picture(scene: &Scene<'_>) -> String {
-    let Scene { cycle, report, .. } = scene;
+pub fn picture(content: &Content<'_>) -> String {
+    let Content { cycle, report, .. } = content;
     let (musts, wishes) = seen(cycle, report);
     let frame = Frame::new(cycle, &musts, &wishes);
     let mut map = Canvas::default();
@@ -67,14 +69,14 @@ pub fn picture(scene: &Scene<'_>) -> String {
     map.close();
     let size = [PAGE_WIDTH - 2.0 * MARGIN, frame.height];
     map.rect([MARGIN, TITLE_HEIGHT], size, "frame");
-    legend::title(&mut map, &scene.title, &scene.subtitle);
+    legend::title(&mut map, &content.title, &content.subtitle);
     legend::draw(&mut map, &frame, &drawn);
-    document(&frame, &scene.title, map)
+    document(&frame, &content.title, map)
 }
 
 fn document(frame: &Frame, title: &str, body: Canvas) -> String {
     let height = TITLE_HEIGHT + frame.height + LEGEND_HEIGHT;
-    let title = canvas::escape(title);
+    let title = escape(title);
     let (width, map_height) = (PAGE_WIDTH - 2.0 * MARGIN, frame.height);
     let mut out = String::new();
     let _ = write!(

@@ -4,15 +4,15 @@
 use std::path::Path;
 
 use crate::drive::Drive;
+use crate::geometry::{Point, distance};
 use crate::options::Options;
 use crate::readers::error::ReadError;
 use crate::readers::lanes::{Change, Network, Run};
 use crate::readers::route::route;
 use crate::readers::scenario::Scenario;
 use crate::readers::solution::Solution;
-use crate::scene::geometry::{Point, distance};
-use crate::scene::object::{Motion, Object, State};
-use crate::scene::{self, Recording};
+use crate::recording::object::{Motion, Object, State};
+use crate::recording::{self, Recording};
 
 /// Kinds of recorded objects that can be the CAV.
 const VEHICLES: [&str; 6] = ["car", "truck", "bus", "taxi", "priorityVehicle", "motorcycle"];
@@ -113,7 +113,7 @@ impl Parts {
         })?;
         let dt_ns = scenario.dt_ns;
         let recording = Recording { name, source, dt_ns, ego, size, objects, route, notes };
-        let drive = scene::drive(recording, options, 1);
+        let drive = recording::drive(recording, options, 1);
         if drive.cycles.is_empty() {
             return Err(ReadError::no_cycle(file));
         }
@@ -166,7 +166,7 @@ fn picked<'a>(
         if states.len() < 2 || !on_lanelets(&scenario.network, states) {
             continue;
         }
-        let cycles = scene::cycles(states, scenario.dt_ns, options);
+        let cycles = recording::cycles(states, scenario.dt_ns, options);
         let key = (travelled(&states[..cycles]), states.len());
         let better = best.is_none_or(|((far, n), o)| {
             key.0.total_cmp(&far).then(key.1.cmp(&n)).then(o.id.cmp(&object.id)).is_gt()

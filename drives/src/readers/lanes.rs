@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::scene::geometry::{Point, Polyline, distance, foot, inside, norm, sub, wrap};
+use crate::geometry::{Point, Polyline, distance, foot, inside, norm, sub, wrap};
 
 /// A lanelet: bounds with corresponding points, and its neighbours.
 #[derive(Clone, Debug)]

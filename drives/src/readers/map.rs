@@ -10,14 +10,12 @@ use std::path::Path;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Route};
 
 use crate::drive::Drive;
+use crate::geometry::{Point, Polyline, add, distance, mix, mix_angle, norm, scale, sub, wrap};
 use crate::options::{Options, Sensor};
 use crate::readers::error::ReadError;
 use crate::readers::npy;
-use crate::scene::geometry::{
-    Point, Polyline, add, distance, mix, mix_angle, norm, scale, sub, wrap,
-};
-use crate::scene::object::State;
-use crate::scene::{self, Recording};
+use crate::recording::object::State;
+use crate::recording::{self, Recording};
 
 /// Length and width of the test vehicle in the scenarios that come with the maps, m.
 const SIZE: [f64; 2] = [5.1, 1.89];
@@ -51,7 +49,7 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     let mut notes = Vec::new();
     let rows = checked(file, npy::table::<6>(file, bytes)?)?;
     let (points, closed) = cross_sections(file, &rows, &mut notes)?;
-    let path = Course::new(&points, closed);
+    let path = ReferencePath::new(&points, closed);
     let ego = path.states(&mut notes);
     let every = ego.len().div_ceil(CYCLES_MAX).max(1);
     notes.push(format!(
@@ -71,7 +69,7 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     };
     // Clutter would be all there is to see.
     let sensor = Sensor { clutter: 0.0, ..options.sensor.clone() };
-    let mut drive = scene::drive(recording, &Options { sensor, ..options.clone() }, every);
+    let mut drive = recording::drive(recording, &Options { sensor, ..options.clone() }, every);
     if drive.cycles.is_empty() {
         return Err(ReadError::no_cycle(file));
     }
@@ -187,13 +185,13 @@ fn cross_sections(
 }
 
 /// A reference path with its directions.
-struct Course<'a> {
+struct ReferencePath<'a> {
     points: &'a [Control],
     headings: Vec<f64>,
     closed: bool,
 }
 
-impl<'a> Course<'a> {
+impl<'a> ReferencePath<'a> {
     fn new(points: &'a [Control], closed: bool) -> Self {
         let n = points.len();
         let heading = |i: usize| {

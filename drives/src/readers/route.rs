@@ -6,8 +6,8 @@
 
 use mufasa_model::input::cycle::{CrossSection, Route};
 
+use crate::geometry::{Point, Polyline, add, cross, distance, mix, scale, sub};
 use crate::readers::lanes::{Change, Network, Run};
-use crate::scene::geometry::{Point, Polyline, add, cross, distance, mix, scale, sub};
 
 /// Distance between cross sections, m; more where there would be too many.
 const SPACING: f64 = 2.0;
@@ -163,18 +163,4 @@ fn cross_section(strips: &[Strip], spans: &[Span], k: usize, s: f64) -> CrossSec
         }
     }
     CrossSection { x: reference[0], y: reference[1], left: bounds[0], right: bounds[1] }
-}
-
-/// Whether a point is in the corridor, in doubles: for notes and tests, not for verdicts.
-pub(crate) fn in_corridor(route: &Route, p: Point) -> bool {
-    let next = route.cross_sections.iter().cycle().skip(1);
-    let segments = route.cross_sections.len() - usize::from(!route.closed);
-    route.cross_sections.iter().zip(next).take(segments).any(|(a, b)| {
-        in_triangle(p, [a.left, a.right, b.right]) || in_triangle(p, [a.left, b.right, b.left])
-    })
-}
-
-fn in_triangle(p: Point, [a, b, c]: [Point; 3]) -> bool {
-    let sides = [[a, b], [b, c], [c, a]].map(|[q, r]| cross(sub(r, q), sub(p, q)));
-    sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)
 }

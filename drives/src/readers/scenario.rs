@@ -6,11 +6,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::geometry::{Point, Rectangle, add, cross, mix, sub};
 use crate::readers::error::ReadError;
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::xml::{Element, with_root};
-use crate::scene::geometry::{Point, Rectangle, add, cross, mix, sub};
-use crate::scene::object::{Footprint, Motion, Object, State};
+use crate::recording::object::{Footprint, Motion, Object, State};
 
 /// A scenario as far as drives need it.
 pub(crate) struct Scenario {

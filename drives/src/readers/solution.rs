@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::readers::error::ReadError;
 use crate::readers::xml::{Element, with_root};
-use crate::scene::object::State;
+use crate::recording::object::State;
 
 /// A solution of one planning problem.
 pub(crate) struct Solution {

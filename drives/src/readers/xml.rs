@@ -5,8 +5,8 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
+use crate::geometry::Point;
 use crate::readers::error::ReadError;
-use crate::scene::geometry::Point;
 
 /// `CommonRoad` files nest less than 10 deep.
 const DEPTH_MAX: usize = 64;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use mufasa_drives::check::course::Checked;
+use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, inject};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;

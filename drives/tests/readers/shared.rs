@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use mufasa_drives::check::course::Checked;
+use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Drive, DriveCycle, Options, PreviousTracks, read};
 use mufasa_model::input::cycle::{Cycle, Profile, TrackList};
 use mufasa_model::offloading::requester::Parameters;

@@ -7,12 +7,12 @@ use crate::report::FailedStage;
 use crate::services::configuration::Configuration;
 
 /// H-05: stage v is conditional in `PlanRemote`, too.
-pub(crate) fn grid_map_in_plan_remote(cycle: &Cycle<'_>) -> bool {
+pub(crate) fn has_stage_v_in_plan_remote(cycle: &Cycle<'_>) -> bool {
     cycle.profile == Profile::Hardened
 }
 
 /// H-10: in `AllRemote` what stage iii did keeps neither iv nor v from running.
-pub(crate) fn iii_replaces_others(cycle: &Cycle<'_>) -> bool {
+pub(crate) fn stage_iii_replaces_others(cycle: &Cycle<'_>) -> bool {
     cycle.profile == Profile::Paper || cycle.configuration != Configuration::AllRemote
 }
 

@@ -6,12 +6,11 @@ use core::slice;
 
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
-use crate::input::profile::Profile;
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::report::Witness;
-use crate::services::configuration::{Configuration, Group};
+use crate::services::configuration::Group;
 use crate::stages::distances::{Number, s_b};
 
 /// `s_stop` = e + v tau + `a_max` tau^2/2 + (v + `a_max` tau)^2/(2 `a_b`), m; `e` is how far
@@ -97,10 +96,4 @@ impl PlacesBeyond {
             find(&moved, slice::from_ref(last)).map(|witness| witness.at_point(index))
         })
     }
-}
-
-/// Whether the gap is compared at the place of stage iv although that stage did not run.
-/// `trajectory`: one is current.
-pub(crate) fn compares_gap_alone(cycle: &Cycle<'_>, trajectory: bool) -> bool {
-    cycle.profile == Profile::Hardened && cycle.configuration != Configuration::Local && trajectory
 }

@@ -21,21 +21,26 @@ pub(crate) fn progress_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) ->
         return None;
     }
     let bounds = Bounds::new(cycle, first);
-    let tolerance = Real::new(cycle.parameters.start_tolerance);
-    let too_short = sums(points, way).find_map(|(index, t_ns, way)| {
-        let least = bounds.braking(Real::seconds(t_ns)) - tolerance;
-        let least = if index.saturating_add(1) < points.len() { least } else { least.max(end) };
-        let witness = Witness::of(Rule::ArcTooShort, [way.value(), least.value()]);
-        (!least.certainly_at_most(way)).then(|| witness.at_point(index))
-    });
-    let too_long = || {
-        sums(points, length).find_map(|(index, t_ns, arc)| {
-            let most = bounds.accelerating(Real::seconds(t_ns)) + tolerance;
-            let witness = Witness::of(Rule::ArcTooLong, [arc.value(), most.value()]);
-            (!arc.certainly_at_most(most)).then(|| witness.at_point(index))
-        })
-    };
-    too_short.or_else(too_long).or_else(|| {
+    let (mut driven, mut arc, mut before) = (Real::ZERO, Real::ZERO, first);
+    let (mut lags, mut outruns) = (None, None);
+    for (index, point) in points.iter().enumerate() {
+        (driven, arc) = (driven + way(before, point), arc + length(before, point));
+        before = point;
+        let t = Real::seconds(elapsed_ns(first.t_ns, point.t_ns));
+        let least = bounds.braking(t);
+        let is_last = index.saturating_add(1) == points.len();
+        let least = if is_last { least.max(end) } else { least };
+        if lags.is_none() && !least.certainly_at_most(driven) {
+            let compared = [driven.value(), least.value()];
+            lags = Some(Witness::of(Rule::ArcTooShort, compared).at_point(index));
+        }
+        let most = bounds.accelerating(t);
+        if outruns.is_none() && !arc.certainly_at_most(most) {
+            let compared = [arc.value(), most.value()];
+            outruns = Some(Witness::of(Rule::ArcTooLong, compared).at_point(index));
+        }
+    }
+    lags.or(outruns).or_else(|| {
         let needed = bounds.v_lo.over(Real::new(cycle.parameters.a_b)).min(Real::new(50.0));
         let compared = [Real::seconds(end_ns).value(), needed.value()];
         let index = points.len().saturating_sub(1);
@@ -75,27 +80,14 @@ fn arcs_are_fine(
     all && end.value() + 1e-6 <= driven - error
 }
 
-/// Index, time after the first point in ns, and sum over the steps, for every point.
-fn sums(
-    points: &[TrajectoryPoint],
-    of: impl Fn(&TrajectoryPoint, &TrajectoryPoint) -> Real,
-) -> impl Iterator<Item = (usize, i64, Real)> {
-    let first_ns = points.first().map_or(0, |first| first.t_ns);
-    let steps = points.iter().zip(points.iter().skip(1)).zip(1_usize..);
-    let later = steps.scan(Real::ZERO, move |sum, ((a, b), index)| {
-        *sum = *sum + of(a, b);
-        Some((index, elapsed_ns(first_ns, b.t_ns), *sum))
-    });
-    core::iter::once((0, 0, Real::ZERO)).chain(later)
-}
-
-/// How far the CAV gets at least and at most.
+/// How far the CAV gets at least and at most, with the tolerance.
 struct Bounds {
     v_lo: Real,
     v_hi: Real,
     a_b: Real,
     a_max: Real,
     stopping: Real,
+    tolerance: Real,
 }
 
 impl Bounds {
@@ -105,19 +97,21 @@ impl Bounds {
         let d = Real::seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
         let v_now = Real::new(cycle.ego.speed);
         let v_lo = (v_now - a_max * d).max(Real::ZERO);
-        Self { v_lo, v_hi: v_now + a_b * d, a_b, a_max, stopping: s_b(parameters, v_lo) }
+        let (v_hi, stopping) = (v_now + a_b * d, s_b(parameters, v_lo));
+        let tolerance = Real::new(parameters.start_tolerance);
+        Self { v_lo, v_hi, a_b, a_max, stopping, tolerance }
     }
 
-    /// b(t): with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both branches of H-12 are
+    /// b(t) - tolerance: with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both branches of H-12 are
     /// `s_b(v_lo)` - w^2 / (2 `a_b`).
     fn braking(&self, t: Real) -> Real {
         let left = (self.v_lo - self.a_b * t).max(Real::ZERO);
-        self.stopping - left.squared().over(self.a_b + self.a_b)
+        self.stopping - left.squared().over(self.a_b + self.a_b) - self.tolerance
     }
 
-    /// `v_hi` t + `a_max` t^2/2.
+    /// `v_hi` t + `a_max` t^2/2 + tolerance.
     fn accelerating(&self, t: Real) -> Real {
-        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5)
+        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5) + self.tolerance
     }
 }
 

@@ -4,6 +4,7 @@
 pub(crate) mod h01_matched_pairs;
 pub(crate) mod h02_h05_h10_schedule;
 pub(crate) mod h03_circumradii;
+pub(crate) mod h04_gap;
 pub(crate) mod h04_horizon;
 pub(crate) mod h06_closed_cells;
 pub(crate) mod h07_start;

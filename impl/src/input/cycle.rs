@@ -7,7 +7,8 @@ use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
 
-/// One cycle. Positions in m, speeds in m/s, times in ns, directions as (cos, sin).
+/// One cycle. Positions in m, speeds in m/s, times in ns, directions as (cos, sin). Source:
+/// `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle<'a> {
     /// Profile in force.
@@ -36,7 +37,7 @@ pub struct Cycle<'a> {
     pub previous_tracks: Option<TrackList<'a>>,
 }
 
-/// Pose, speed and size of the CAV.
+/// Pose, speed and size of the CAV. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ego {
     /// Position, m.
@@ -57,7 +58,7 @@ pub struct Ego {
     pub center_offset: f64,
 }
 
-/// A trajectory with the time at which it was made.
+/// A trajectory with the time at which it was made. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trajectory<'a> {
     /// Time of generation, ns.
@@ -66,7 +67,7 @@ pub struct Trajectory<'a> {
     pub points: &'a [TrajectoryPoint],
 }
 
-/// One pose of a trajectory.
+/// One pose of a trajectory. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryPoint {
     /// When the CAV is to be there, ns.
@@ -81,7 +82,7 @@ pub struct TrajectoryPoint {
     pub sin: f64,
 }
 
-/// A list of tracks.
+/// A list of tracks. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackList<'a> {
     /// Time that the positions are valid for, ns.
@@ -90,7 +91,7 @@ pub struct TrackList<'a> {
     pub items: &'a [Track],
 }
 
-/// A tracked object.
+/// A tracked object. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Track {
     /// Identity over time.
@@ -113,7 +114,7 @@ pub struct Track {
     pub width: f64,
 }
 
-/// The detections of all local detectors.
+/// The detections of all local detectors. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DetectionList<'a> {
     /// Time of measurement, ns.
@@ -122,7 +123,7 @@ pub struct DetectionList<'a> {
     pub items: &'a [Detection],
 }
 
-/// A detected object.
+/// A detected object. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detection {
     /// Centre, m.
@@ -139,7 +140,7 @@ pub struct Detection {
     pub width: f64,
 }
 
-/// The leading vehicle.
+/// The leading vehicle. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lead {
     /// Time of measurement, ns.
@@ -150,7 +151,7 @@ pub struct Lead {
     pub speed: f64,
 }
 
-/// A route: reference path and boundaries.
+/// A route: reference path and boundaries. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Route<'a> {
     /// The last cross section is followed by the first.
@@ -159,7 +160,7 @@ pub struct Route<'a> {
     pub cross_sections: &'a [CrossSection],
 }
 
-/// One cross section of a route.
+/// One cross section of a route. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossSection {
     /// Reference point, m.
@@ -173,7 +174,7 @@ pub struct CrossSection {
 }
 
 /// An occupancy grid map; the cell (column i, row k) is the square from (i, k) to (i+1, k+1)
-/// times `resolution` in the frame (x, y, cos, sin).
+/// times `resolution` in the frame (x, y, cos, sin). Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid<'a> {
     /// Time of measurement, ns.

@@ -5,7 +5,6 @@ mod lists;
 mod own;
 mod place;
 pub(crate) mod route;
-mod screen;
 
 use crate::input::cycle::{
     Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, TrajectoryPoint,

@@ -8,7 +8,8 @@ use crate::report::{InvalidInput, Problem};
 /// Cross sections, or blocks, that are under one box.
 const FAN: usize = 16;
 
-/// Working memory for the index: the box around some cross sections, or around some boxes.
+/// Working memory for the index: the box around some cross sections, or around some boxes. Source:
+/// `spec/3-stages.md#stage-ii-trajectory-to-map`.
 #[derive(Clone, Copy, Debug)]
 pub struct Block {
     least: [f64; 2],
@@ -22,7 +23,8 @@ impl Default for Block {
 }
 
 impl Block {
-    /// How many blocks the index of a route needs.
+    /// How many blocks the index of a route needs. Source:
+    /// `spec/3-stages.md#stage-ii-trajectory-to-map`.
     pub const fn needed(cross_sections: usize) -> usize {
         cross_sections.div_ceil(FAN).saturating_add(cross_sections.div_ceil(FAN * FAN))
     }
@@ -43,7 +45,7 @@ impl Block {
     }
 }
 
-/// A valid route with its index.
+/// A valid route with its index. Source: `spec/3-stages.md#stage-ii-trajectory-to-map`.
 #[derive(Clone, Copy, Debug)]
 pub struct RouteIndex<'a> {
     route: Route<'a>,

@@ -5,7 +5,8 @@ use core::mem::size_of;
 use crate::input::cycle::Cycle;
 use crate::report::{InvalidInput, Problem};
 
-/// Working memory for one row of the assignment; its content between cycles means nothing.
+/// Working memory for one row of the assignment; its content between cycles means nothing. Source:
+/// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Row {
     /// Dual potential.
@@ -17,6 +18,7 @@ pub struct Row {
 }
 
 /// Working memory for one column of the assignment; its content between cycles means nothing.
+/// Source: `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Column {
     /// Dual potential.
@@ -45,7 +47,8 @@ pub(crate) fn short(index: usize) -> u16 {
     u16::try_from(index).unwrap_or(NONE)
 }
 
-/// How many elements of each kind a cycle needs.
+/// How many elements of each kind a cycle needs. Source:
+/// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
     /// Elements of the slice of rows.
@@ -59,13 +62,15 @@ impl Sizes {
     pub const MAX: Self = Self { rows: 1024, columns: 2112 };
 
     /// How many bytes that is: 16 for a row and 32 for a column where 64-bit integers are aligned
-    /// to 8 bytes, at most 83,968 in all. Nothing else is needed, however large the grid.
+    /// to 8 bytes, at most 83,968 in all. Nothing else is needed, however large the grid. Source:
+    /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub const fn bytes(self) -> usize {
         let rows = self.rows.saturating_mul(size_of::<Row>());
         rows.saturating_add(self.columns.saturating_mul(size_of::<Column>()))
     }
 
-    /// What this cycle needs; O(tracks + detections).
+    /// What this cycle needs; O(tracks + detections). Source:
+    /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub fn for_cycle(cycle: &Cycle<'_>) -> Self {
         let tracks = cycle.tracks.map_or(0, |list| list.items.len());
         let detections = cycle.detections.map_or(0, |list| list.items.len());
@@ -74,7 +79,8 @@ impl Sizes {
     }
 }
 
-/// Memory lent by the caller for one call of `stages::check`.
+/// Memory lent by the caller for one call of `stages::check`. Source:
+/// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Debug)]
 pub struct Scratch<'a> {
     pub(crate) rows: &'a mut [Row],
@@ -82,7 +88,8 @@ pub struct Scratch<'a> {
 }
 
 impl<'a> Scratch<'a> {
-    /// Scratch from two slices of at least the `Sizes` of the cycle.
+    /// Scratch from two slices of at least the `Sizes` of the cycle. Source:
+    /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub fn new(rows: &'a mut [Row], columns: &'a mut [Column]) -> Self {
         Self { rows, columns }
     }

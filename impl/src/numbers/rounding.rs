@@ -1,11 +1,13 @@
-//! Real numbers with a proven error bound (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+//! Real numbers with a bound on their error
+//! (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 //!
 //! A `Real` stands for one unknown real number x and knows abs(x - (hi + lo)) <= err. The centre
-//! is a double-double, so that the bound stays below 1e-15 m for every quantity of the stages, far
-//! below the least margin delta = 1e-8 m. Every operation computes its rounding error, or a bound
-//! on it, from its own result; where nothing is rounded the bound is 0, and an equality is decided
-//! as in the model. Only + - * / and the correctly rounded square root are used, never a fused
-//! operation. Comparisons answer "certainly" or "possibly"; a NaN is never certain.
+//! is a double-double, so that bounds stay far below the least margin delta = 1e-8 m. Every
+//! operation computes its rounding error, or a bound on it, from its own result; where nothing is
+//! rounded the bound is 0, and an equality is decided as in the model. Each bound is argued beside
+//! its operation and tested against rational numbers (`rounding/tests.rs`). Only + - * / and the
+//! correctly rounded square root are used, never a fused operation. Comparisons answer "certainly"
+//! or "possibly"; a NaN is never certain.
 
 use core::ops::{Add, Mul, Neg, Sub};
 

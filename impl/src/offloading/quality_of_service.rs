@@ -3,7 +3,7 @@
 //! All times are signed 64-bit nanoseconds of the CAV's monotonic clock. Differences are taken
 //! in 128 bits, so they are exact for every pair of times.
 
-/// The limits of the quality of service.
+/// The limits of the quality of service. Source: `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limits {
     /// Largest latency that is no violation, in ns, >= 0.
@@ -12,7 +12,8 @@ pub struct Limits {
     pub dt_max_ns: i64,
 }
 
-/// What breaks the quality of service; with several, the first in this order.
+/// What breaks the quality of service; with several, the first in this order. Source:
+/// `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Violation {
     /// The generation time is later than the arrival: the clocks cannot be trusted.
@@ -23,7 +24,8 @@ pub enum Violation {
     InterArrival,
 }
 
-/// What becomes of an element of the running session.
+/// What becomes of an element of the running session. Source:
+/// `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Element {
     /// It is used.
@@ -34,7 +36,7 @@ pub enum Element {
     Violating(Violation),
 }
 
-/// The arrivals of one session.
+/// The arrivals of one session. Source: `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Arrivals {
     last_arrival_ns: i64,
@@ -43,27 +45,32 @@ pub struct Arrivals {
 
 impl Arrivals {
     /// No element yet. `now_ns`: the activation, from which the first inter-arrival time runs.
+    /// Source: `spec/2-offloading.md#quality-of-service`.
     pub const fn since_activation(now_ns: i64) -> Self {
         Self { last_arrival_ns: now_ns, last_used_ns: None }
     }
 
     /// The arrivals of a session that was stored. Times in ns: of the last arrival (or of the
-    /// activation), and of generation of the last element used since the activation.
+    /// activation), and of generation of the last element used since the activation. Source:
+    /// `spec/2-offloading.md#quality-of-service`.
     pub const fn from_parts(last_arrival_ns: i64, last_used_ns: Option<i64>) -> Self {
         Self { last_arrival_ns, last_used_ns }
     }
 
-    /// Time of the last arrival, or of the activation, in ns.
+    /// Time of the last arrival, or of the activation, in ns. Source:
+    /// `spec/2-offloading.md#quality-of-service`.
     pub const fn last_arrival_ns(&self) -> i64 {
         self.last_arrival_ns
     }
 
-    /// Generation time of the last element used since the activation, in ns.
+    /// Generation time of the last element used since the activation, in ns. Source:
+    /// `spec/2-offloading.md#quality-of-service`.
     pub const fn last_used_ns(&self) -> Option<i64> {
         self.last_used_ns
     }
 
-    /// Whether an element was used since the activation.
+    /// Whether an element was used since the activation. Source:
+    /// `spec/2-offloading.md#quality-of-service`.
     pub const fn has_used(&self) -> bool {
         self.last_used_ns.is_some()
     }

@@ -35,7 +35,8 @@ use self::stations::Stations;
 use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
 
-/// Why a requester could not be made, or an event not be taken; then nothing has changed.
+/// Why a requester could not be made, or an event not be taken; then nothing has changed. Source:
+/// `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum RequesterError {
     /// A parameter is below 0; it must be from 0 to 2^63 - 1.
@@ -79,7 +80,7 @@ impl core::fmt::Display for RequesterError {
 impl core::error::Error for RequesterError {}
 
 /// The requester. The same events give the same states and actions; time is an argument of every
-/// event.
+/// event. Source: `spec/2-offloading.md#requester`.
 #[derive(Debug)]
 pub struct Requester<'a> {
     profile: Profile,
@@ -117,13 +118,13 @@ impl<'a> Requester<'a> {
         })
     }
 
-    /// The state of a group.
+    /// The state of a group. Source: `spec/2-offloading.md#requester`.
     pub const fn state(&self, group: Group) -> GroupState {
         self.slots.get(group).state()
     }
 
     /// No request is sent before this time, in ns; the last value stays when it has passed.
-    /// `None`: there never was a hold.
+    /// `None`: there never was a hold. Source: `spec/2-offloading.md#fallback`.
     pub const fn hold_until_ns(&self) -> Option<i64> {
         self.hold_until_ns
     }
@@ -135,6 +136,7 @@ impl<'a> Requester<'a> {
 
     /// The configuration for the stages: a group is remote from its confirmation on, also while
     /// its local services still compute (H-08), because its results have to be checked first.
+    /// Source: `spec/1-services.md#configuration`.
     pub const fn configuration(&self) -> Configuration {
         Configuration::of(Groups {
             mot: matches!(self.state(Group::Mot), GroupState::Remote { .. }),
@@ -143,28 +145,32 @@ impl<'a> Requester<'a> {
     }
 
     /// How many elements of a group were dropped because their session was not the running one.
+    /// Source: `spec/2-offloading.md#requester`.
     pub const fn dropped(&self, group: Group) -> u64 {
         *self.dropped.get(group)
     }
 
-    /// The number of requests so far, which is the last session.
+    /// The number of requests so far, which is the last session. Source:
+    /// `spec/2-offloading.md#requester`.
     pub const fn sessions(&self) -> i64 {
         self.sessions
     }
 
-    /// Whether there is no number left for another request: none is sent any more.
+    /// Whether there is no number left for another request: none is sent any more. Source:
+    /// `spec/2-offloading.md#requester`.
     pub const fn sessions_exhausted(&self) -> bool {
         self.sessions == i64::MAX
     }
 
-    /// The table with the stations that are remembered.
+    /// The table with the stations that are remembered. Source: `spec/2-offloading.md#requester`.
     pub const fn stations(&self) -> &[StationRecord] {
         self.stations.records()
     }
 
     /// What holds in every reachable state: a group in use is in the area, its station offers it
     /// and was asked for it last in this session; sessions are numbered within the requests so
-    /// far, and no two are the same; local services are stopped only as the profile allows.
+    /// far, and no two are the same; local services are stopped only as the profile allows. Source:
+    /// `spec/2-offloading.md#requester`.
     pub fn is_valid(&self) -> bool {
         let group_is_valid = |group| {
             let slot = self.slots.get(group);

@@ -1,6 +1,6 @@
 //! Which groups of services run where (`spec/1-services.md#configuration`).
 
-/// The four configurations of a CAV.
+/// The four configurations of a CAV. Source: `spec/1-services.md#configuration`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Configuration {
     /// Everything on station 0.
@@ -38,14 +38,14 @@ impl Configuration {
         }
     }
 
-    /// Whether `group` is remote.
+    /// Whether `group` is remote. Source: `spec/1-services.md#configuration`.
     pub const fn is_remote(self, group: Group) -> bool {
         self.remote_groups().contains(group)
     }
 }
 
 /// A group of services that is offloaded as a whole. ENV and TPL share memory and are one group,
-/// so that they can never have different sources.
+/// so that they can never have different sources. Source: `spec/1-services.md#configuration`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Group {
     /// Multi-object tracking.
@@ -59,7 +59,7 @@ impl Group {
     pub const ALL: [Self; 2] = [Self::Mot, Self::Plan];
 }
 
-/// A set of groups.
+/// A set of groups. Source: `spec/1-services.md#configuration`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Groups {
     /// Whether MOT is in the set.
@@ -124,7 +124,8 @@ impl From<Group> for Groups {
     }
 }
 
-/// Whose results of a group may reach control. Being one value, it is exactly one source.
+/// Whose results of a group may reach control. Being one value, it is exactly one source. Source:
+/// `spec/1-services.md#configuration`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// The services of station 0.
@@ -148,7 +149,8 @@ impl Source {
         }
     }
 
-    /// The station whose results may reach control; 0 is the CAV.
+    /// The station whose results may reach control; 0 is the CAV. Source:
+    /// `spec/1-services.md#configuration`.
     pub const fn station(self) -> i64 {
         match self {
             Self::Local => 0,

@@ -5,14 +5,14 @@ pub(crate) mod horizon;
 pub(crate) mod i_track_validation;
 pub(crate) mod ii_trajectory_to_map;
 mod iii_tracks;
-mod iv_detections;
+pub(crate) mod iv_detections;
 pub(crate) mod llcc;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::h02_h05_h10_schedule::{
-    ObstacleChecks, grid_map_in_plan_remote, iii_replaces_others, no_obstacle_check,
+    ObstacleChecks, has_stage_v_in_plan_remote, no_obstacle_check, stage_iii_replaces_others,
 };
-use crate::hardened::h04_horizon::compares_gap_alone;
+use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h09_velocity::previous_in_use;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable, validate};
@@ -24,7 +24,7 @@ use crate::services::configuration::Configuration;
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
-use crate::stages::iv_detections::{gap_failure, trajectory_with_detections};
+use crate::stages::iv_detections::trajectory_with_detections;
 use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
@@ -56,7 +56,8 @@ pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, Inv
 }
 
 /// As `check`, with the index of the cycle's route: the same stations in the same memory. An index
-/// of another route is not used. The answer is the same.
+/// of another route is not used. The answer is the same. Source:
+/// `spec/3-stages.md#stage-ii-trajectory-to-map`.
 pub fn check_indexed<'a>(
     cycle: &Cycle<'a>,
     index: &RouteIndex<'a>,
@@ -88,7 +89,8 @@ fn decide<'a>(
     }
 }
 
-/// A cycle whose input is valid, for running one stage alone: to test it, or to time it.
+/// A cycle whose input is valid, for running one stage alone: to test it, or to time it. Source:
+/// `spec/3-stages.md`.
 #[derive(Debug)]
 pub struct ValidCycle<'c, 'a> {
     cycle: &'c Cycle<'a>,
@@ -186,7 +188,7 @@ fn scheduled(cycle: &Cycle<'_>, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
     match (stage, cycle.configuration) {
-        (Stage::V, PlanRemote) if grid_map_in_plan_remote(cycle) => Conditional,
+        (Stage::V, PlanRemote) if has_stage_v_in_plan_remote(cycle) => Conditional,
         (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
         (Stage::I, MotRemote | AllRemote)
         | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
@@ -230,13 +232,13 @@ impl<'c, 'a> Current<'c, 'a> {
 }
 
 /// What is known of the cycle so far.
-struct Progress<'c, 'a> {
+struct Decision<'c, 'a> {
     cycle: &'c Cycle<'a>,
     failed: Option<FailedStage>,
     stages: [Outcome; 5],
 }
 
-impl Progress<'_, '_> {
+impl Decision<'_, '_> {
     /// Settles one stage. `replaced`: another stage made a conditional one unnecessary; `find`:
     /// what the stage finds, if it runs. Whether it ran.
     fn settle(&mut self, stage: Stage, replaced: bool, find: impl FnOnce() -> Found) -> bool {
@@ -267,26 +269,26 @@ impl Progress<'_, '_> {
 /// Runs the stages on valid input.
 fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     let ValidCycle { cycle, ref current, .. } = *valid;
-    let mut progress = Progress { cycle, failed: None, stages: [Outcome::NotScheduled; 5] };
-    let ran_i = progress.settle(Stage::I, false, || valid.i(scratch));
-    progress.settle(Stage::Ii, false, || valid.ii());
-    let ran_iii = progress.settle(Stage::Iii, false, || valid.iii(ran_i));
+    let mut decision = Decision { cycle, failed: None, stages: [Outcome::NotScheduled; 5] };
+    let ran_i = decision.settle(Stage::I, false, || valid.i(scratch));
+    decision.settle(Stage::Ii, false, || valid.ii());
+    let ran_iii = decision.settle(Stage::Iii, false, || valid.iii(ran_i));
 
-    let replaced = ran_iii && iii_replaces_others(cycle);
-    let ran_iv = progress.settle(Stage::Iv, replaced, || valid.iv());
-    let alone = compares_gap_alone(cycle, current.trajectory.is_some());
-    if alone && !ran_iv && progress.failed.is_none() {
-        if let Some(witness) = gap_failure(cycle, current.lead) {
-            progress.report(Stage::Iv, Outcome::Failed(witness));
+    let replaced = ran_iii && stage_iii_replaces_others(cycle);
+    let ran_iv = decision.settle(Stage::Iv, replaced, || valid.iv());
+    if !ran_iv && decision.failed.is_none() {
+        let found = failure_without_stage_iv(cycle, current.trajectory, current.lead);
+        if let Some(witness) = found {
+            decision.report(Stage::Iv, Outcome::Failed(witness));
         }
     }
-    let ran_v = progress.settle(Stage::V, replaced || ran_iv, || valid.v(ran_iv));
+    let ran_v = decision.settle(Stage::V, replaced || ran_iv, || valid.v(ran_iv));
 
     let checks = ObstacleChecks {
         trajectory: current.trajectory.is_some(),
         detections: current.detections.is_some(),
         ran: [ran_iii, ran_iv, ran_v],
     };
-    let failed_stage = progress.failed.or_else(|| no_obstacle_check(cycle, checks));
-    Report { failed_stage, stages: progress.stages, input: None }
+    let failed_stage = decision.failed.or_else(|| no_obstacle_check(cycle, checks));
+    Report { failed_stage, stages: decision.stages, input: None }
 }

@@ -312,14 +312,13 @@ fn nearest<N: Number>(tree: &Tree<N>) -> Option<usize> {
 mod tests {
     use super::{Costs, costs_less, least_cost, minimum_over_assignments};
     use crate::numbers::real::Real;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
 
     #[test]
     fn least_cost_is_the_minimum_over_all_assignments() {
-        let mut state = 1u64;
-        let mut draw = |bound: usize| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            usize::try_from(state >> 33).unwrap_or(0) % bound
-        };
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let mut draw = |bound: usize| random.random_range(0..bound);
         let (mut infeasible, mut feasible) = (0, 0);
         for _ in 0..1500 {
             let (rows, columns, density) = (draw(6), draw(6), draw(7));

@@ -137,6 +137,7 @@ pub(super) struct ConformArguments {
         long,
         value_name = "KINDS",
         value_delimiter = ',',
+        value_parser = one_of(Kind::ALL, Kind::name),
         default_value = "cycle,offloading,composition,line"
     )]
     pub(super) kinds: Vec<Kind>,

@@ -1,17 +1,21 @@
 //! The graph as a picture (paper Fig. 2): the goal at the top, boxes coloured by station, arrows
-//! from provider to consumer, device switches dashed.
+//! from provider to consumer, device switches dashed. The crate `layout-rs` finds the places.
 
-use super::graph::{Edge, Graph, station_name};
-use super::layout::{Layout, lay_out};
+use layout::core::base::Orientation;
+use layout::core::format::{ClipHandle, RenderBackend, Visible as _};
+use layout::core::geometry::Point;
+use layout::core::style::{LineStyleKind, StyleAttr};
+use layout::std_shapes::shapes::{Arrow, Element, LineEndKind, ShapeKind};
+use layout::topo::layout::VisualGraph;
+use mufasa_drives::pictures::escape;
+
+use super::graph::{Graph, station_name};
 
 /// px
 const BOX_HEIGHT: f64 = 34.0;
-const LAYER_STEP: f64 = 96.0;
 const BORDER: f64 = 28.0;
 const TITLE_HEIGHT: f64 = 44.0;
 const LEGEND_HEIGHT: f64 = 54.0;
-/// How far the control points of a detour lie beside the boxes.
-const REACH: f64 = 48.0;
 const FONT_SIZE: f64 = 14.0;
 /// Longest label, characters; the whole id is in the tooltip.
 const LABEL_CHARS: usize = 32;
@@ -33,233 +37,226 @@ pub fn colour(station: i64) -> &'static str {
 
 /// Draws the graph below a title.
 pub fn draw(graph: &Graph, title: &str) -> String {
+    let mut sheet = VisualGraph::new(Orientation::TopToBottom);
+    // `downwards` leaves no cycle; looking for one after every edge takes exponential time.
+    sheet.dag.set_validate(false);
     let labels: Vec<String> = graph.nodes.iter().map(|node| label(&node.id)).collect();
-    let widths: Vec<f64> = labels.iter().map(|label| text_width(label) + 28.0).collect();
-    let layout = lay_out(graph, &widths);
-    let legend = Legend::of(graph);
-    let inner = (layout.width + 2.0 * REACH).max(legend.width).max(text_width(title) * 1.15);
-    let page = Page { left: BORDER + (inner - layout.width) / 2.0, layout, widths };
-    let width = inner + 2.0 * BORDER;
-    let legend_top = top(page.layout.layers.saturating_sub(1)) + BOX_HEIGHT + BORDER;
-    let height = legend_top + LEGEND_HEIGHT;
-
-    let mut out = head(width, height, title);
-    for (index, edge) in graph.edges.iter().enumerate() {
-        let (class, marker) = if edge.switch { ("switch", "to-switch") } else { ("link", "to") };
-        let path = page.path(graph, index);
-        let about = escape(&format!(
-            "{} to {}: {}",
-            graph.nodes[edge.provider].id,
-            graph.nodes[edge.consumer].id,
-            edge.interfaces.join(", ")
-        ));
-        out.push(format!(
-            "<path class=\"{class}\" d=\"{path}\" marker-end=\"url(#{marker})\"><title>{about}</title></path>"
+    let element = |label: &String| {
+        let size = Point::new(text_width(label) + 28.0, BOX_HEIGHT);
+        sheet.add_node(Element::create(
+            ShapeKind::new_box(label),
+            StyleAttr::simple(),
+            Orientation::TopToBottom,
+            size,
+        ))
+    };
+    let nodes: Vec<_> = labels.iter().map(element).collect();
+    for (arrow, from, to) in downwards(graph) {
+        sheet.add_edge(arrow, nodes[from], nodes[to]);
+    }
+    let mut page = Page::default();
+    sheet.do_it(false, false, false, &mut page);
+    for ((node, label), handle) in graph.nodes.iter().zip(&labels).zip(nodes) {
+        let about = escape(&format!("{}, {}", node.id, station_name(node.station)));
+        let place = sheet.element(handle).position();
+        let ([x, y], size, middle) = (xy(place.bbox(false).0), place.size(false), place.center());
+        let swatch = swatch([x, y], [size.x, size.y], node.station);
+        page.reach([x, y]);
+        page.reach([x + size.x, y + size.y]);
+        page.elements.push(format!(
+            "<g><title>{about}</title>{swatch}<text class=\"label\" x=\"{:.1}\" y=\"{:.1}\">{}</text></g>",
+            middle.x,
+            middle.y + FONT_SIZE * 0.35,
+            escape(label)
         ));
     }
-    for (index, node) in graph.nodes.iter().enumerate() {
-        let (x, y) = (page.x(index), top(page.layout.layer[index]));
-        out.push(format!(
-            "<g><title>{}</title>{}<text class=\"label\" x=\"{x:.1}\" y=\"{:.1}\">{}</text></g>",
-            escape(&format!("{}, {}", node.id, station_name(node.station))),
-            swatch(x - page.widths[index] / 2.0, y, page.widths[index], node.station),
-            y + BOX_HEIGHT / 2.0 + FONT_SIZE * 0.35,
-            escape(&labels[index])
-        ));
-    }
-    legend.draw(&mut out, (width - legend.width) / 2.0, legend_top);
-    out.push(String::from("</svg>\n"));
-    out.join("\n")
+    page.finish(graph, title)
 }
 
-/// A layout on the page.
+/// The links, each from its end nearer to the goal to the other, ordered by the first; the arrow
+/// head is at the consumer, which is the end nearer to the goal unless the link closes a cycle.
+fn downwards(graph: &Graph) -> Vec<(Arrow, usize, usize)> {
+    let mut left = Vec::new();
+    let mut seen = vec![false; graph.nodes.len()];
+    for node in 0..graph.nodes.len() {
+        visit(graph, node, &mut seen, &mut left);
+    }
+    let mut place = vec![0; left.len()];
+    for (index, node) in left.iter().rev().enumerate() {
+        place[*node] = index;
+    }
+    let mut links: Vec<_> = graph
+        .edges
+        .iter()
+        .map(|edge| {
+            let names = [edge.provider, edge.consumer].map(|node| graph.nodes[node].id.as_str());
+            let about = format!("{} to {}: {}", names[0], names[1], edge.interfaces.join(", "));
+            let style = if edge.switch { LineStyleKind::Dashed } else { LineStyleKind::Normal };
+            let (head, tail) = (LineEndKind::Arrow, LineEndKind::None);
+            let up = place[edge.consumer] < place[edge.provider];
+            let arrow = Arrow::with_properties(
+                head,
+                tail,
+                style,
+                "",
+                &StyleAttr::simple(),
+                about,
+                &None,
+                &None,
+            );
+            if up {
+                (arrow, edge.consumer, edge.provider)
+            } else {
+                (arrow.reverse(), edge.provider, edge.consumer)
+            }
+        })
+        .collect();
+    links.sort_by_key(|(_, from, to)| (place[*from], place[*to]));
+    links
+}
+
+/// Appends the node, after everything that it needs and that is not seen yet.
+fn visit(graph: &Graph, node: usize, seen: &mut [bool], left: &mut Vec<usize>) {
+    if std::mem::replace(&mut seen[node], true) {
+        return;
+    }
+    for edge in graph.edges.iter().filter(|edge| edge.consumer == node) {
+        visit(graph, edge.provider, seen, left);
+    }
+    left.push(node);
+}
+
+fn xy(point: Point) -> [f64; 2] {
+    [point.x, point.y]
+}
+
+/// Elements, and the lower right corner of all of them.
+#[derive(Default)]
 struct Page {
-    layout: Layout,
-    widths: Vec<f64>,
-    left: f64,
+    elements: Vec<String>,
+    corner: [f64; 2],
+}
+
+impl RenderBackend for Page {
+    fn draw_arrow(
+        &mut self,
+        path: &[(Point, Point)],
+        dashed: bool,
+        (at_start, _): (bool, bool),
+        _: &StyleAttr,
+        about: Option<String>,
+        _: &str,
+    ) {
+        let class = if dashed { "switch" } else { "link" };
+        let end = if at_start { "start" } else { "end" };
+        // `M point C control control point S control point ...`
+        let step = |(index, (a, b)): (usize, &(Point, Point))| {
+            let [before, between] = [["M ", " C "], ["", " "], ["S ", " "]][index.min(2)];
+            format!("{before}{:.1} {:.1}{between}{:.1} {:.1}", a.x, a.y, b.x, b.y)
+        };
+        let d = path.iter().enumerate().map(step).collect::<Vec<_>>().join(" ");
+        path.iter().for_each(|(a, b)| [a, b].iter().for_each(|point| self.reach(xy(**point))));
+        self.elements.push(format!(
+            "<path class=\"{class}\" d=\"{d}\" marker-{end}=\"url(#to-{class})\"><title>{}</title></path>",
+            escape(&about.unwrap_or_default())
+        ));
+    }
+
+    // Boxes are drawn by `draw`, which knows their stations.
+    fn draw_rect(
+        &mut self,
+        _: Point,
+        _: Point,
+        _: &StyleAttr,
+        _: Option<String>,
+        _: Option<ClipHandle>,
+    ) {
+    }
+    fn draw_line(&mut self, _: Point, _: Point, _: &StyleAttr, _: Option<String>) {}
+    fn draw_circle(&mut self, _: Point, _: Point, _: &StyleAttr, _: Option<String>) {}
+    fn draw_text(&mut self, _: Point, _: &str, _: &StyleAttr) {}
+    fn create_clip(&mut self, _: Point, _: Point, _: usize) -> ClipHandle {
+        0
+    }
 }
 
 impl Page {
-    fn x(&self, node: usize) -> f64 {
-        self.left + self.layout.x[node]
+    fn reach(&mut self, point: [f64; 2]) {
+        self.corner = [0, 1].map(|axis| self.corner[axis].max(point[axis]));
     }
 
-    /// From the top of the provider, straight up through its lanes, to the bottom of the consumer.
-    fn path(&self, graph: &Graph, index: usize) -> String {
-        let edge = &graph.edges[index];
-        if !self.rises(edge) {
-            return self.detour(edge);
-        }
-        let upwards = |e: &&Edge| e.provider == edge.provider && self.rises(e);
-        let downwards = |e: &&Edge| e.consumer == edge.consumer && self.rises(e);
-        let leaves = self.port(graph, edge.provider, index, upwards);
-        let arrives = self.port(graph, edge.consumer, index, downwards);
-        let (from, to) = (self.layout.layer[edge.provider], self.layout.layer[edge.consumer]);
-        let mut y = top(from);
-        let mut path = vec![format!("M {leaves:.1} {y:.1}")];
-        let mut x = leaves;
-        for (lane, layer) in self.layout.lanes[index].iter().rev().zip((to + 1..from).rev()) {
-            let (next, bottom) = (self.left + lane, top(layer) + BOX_HEIGHT);
-            path.push(curve([x, y], [next, bottom]));
-            y = top(layer);
-            path.push(format!("V {y:.1}"));
-            x = next;
-        }
-        path.push(curve([x, y], [arrives, top(to) + BOX_HEIGHT + 1.0]));
-        path.join(" ")
-    }
-
-    /// Whether the consumer lies above the provider, which is so unless the edge closes a cycle.
-    fn rises(&self, edge: &Edge) -> bool {
-        self.layout.layer[edge.consumer] < self.layout.layer[edge.provider]
-    }
-
-    /// From the right side of the provider round to the right side of the consumer.
-    fn detour(&self, edge: &Edge) -> String {
-        let side = |node: usize, y: f64| {
-            let right = self.x(node) + self.widths[node] / 2.0;
-            (right, top(self.layout.layer[node]) + BOX_HEIGHT * y)
-        };
-        let ((x, y), (to_x, to_y)) = (side(edge.provider, 0.25), side(edge.consumer, 0.75));
-        let reach = x.max(to_x) + REACH;
-        format!(
-            "M {x:.1} {y:.1} C {reach:.1} {y:.1} {reach:.1} {to_y:.1} {:.1} {to_y:.1}",
-            to_x + 1.0
-        )
-    }
-
-    /// Where an edge meets the side of a node: the edges there share it from left to right.
-    fn port(
-        &self,
-        graph: &Graph,
-        node: usize,
-        index: usize,
-        meets: impl Fn(&&Edge) -> bool,
-    ) -> f64 {
-        let mut here: Vec<(f64, usize)> = graph
-            .edges
-            .iter()
-            .enumerate()
-            .filter(|(_, edge)| meets(edge))
-            .map(|(other, edge)| {
-                let lanes = &self.layout.lanes[other];
-                let provides = edge.provider == node;
-                let lane = if provides { lanes.last() } else { lanes.first() };
-                let end = if provides { edge.consumer } else { edge.provider };
-                (lane.copied().unwrap_or(self.layout.x[end]), other)
-            })
-            .collect();
-        here.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let place = here.iter().position(|(_, other)| *other == index).unwrap_or(0);
-        let [place, all] = [place, here.len()].map(|n| u32::try_from(n).map_or(1.0, f64::from));
-        let step = (0.7 * self.widths[node] / all).min(22.0);
-        self.x(node) + (place + 0.5 - all / 2.0) * step
+    /// The document: title, graph and legend, one below the other, all centred.
+    fn finish(self, graph: &Graph, title: &str) -> String {
+        let [width, height] = self.corner;
+        let (legend, legend_width) = legend(graph);
+        let inner = width.max(legend_width).max(text_width(title) * 1.15);
+        let (page_width, legend_top) = (inner + 2.0 * BORDER, TITLE_HEIGHT + height + BORDER);
+        let page_height = legend_top + LEGEND_HEIGHT;
+        let title = escape(title);
+        let mut out = vec![
+            format!(
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page_width:.0}\" height=\"{page_height:.0}\" \
+                 viewBox=\"0 0 {page_width:.1} {page_height:.1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" \
+                 font-size=\"{FONT_SIZE}\">\n<title>{title}</title>\n<defs>{}{}</defs>",
+                marker("link", "#333333"),
+                marker("switch", SWITCH)
+            ),
+            format!(
+                "<style>.link {{ fill: none; stroke: #333333; stroke-width: 1.3 }} .switch {{ fill: none; \
+                 stroke: {SWITCH}; stroke-width: 1.8; stroke-dasharray: 7 4 }} .label {{ text-anchor: middle }} \
+                 .title {{ text-anchor: middle; font-size: 16px }}</style>\n\
+                 <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"
+            ),
+            format!(
+                "<text class=\"title\" x=\"{:.1}\" y=\"{TITLE_HEIGHT}\">{title}</text>",
+                page_width / 2.0
+            ),
+            moved((page_width - width) / 2.0, TITLE_HEIGHT, &self.elements),
+            moved((page_width - legend_width) / 2.0, legend_top, &legend),
+        ];
+        out.push(String::from("</svg>\n"));
+        out.join("\n")
     }
 }
 
-/// Upper side of the boxes of a layer.
-#[expect(clippy::cast_precision_loss, reason = "a page has less than 2^52 layers")]
-fn top(layer: usize) -> f64 {
-    TITLE_HEIGHT + BORDER + layer as f64 * LAYER_STEP
+fn moved(x: f64, y: f64, elements: &[String]) -> String {
+    format!("<g transform=\"translate({x:.1} {y:.1})\">\n{}\n</g>", elements.join("\n"))
 }
 
-/// Vertical at both ends.
-fn curve([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> String {
-    let middle = f64::midpoint(y, to_y);
-    format!("C {x:.1} {middle:.1} {to_x:.1} {middle:.1} {to_x:.1} {to_y:.1}")
-}
-
-/// Swatches with names side by side.
-struct Legend {
-    stations: Vec<(i64, String)>,
-    switch: bool,
-    width: f64,
-}
-
-/// Widths of a swatch, of a sample of an arrow, and of the room after an entry, px.
-const SWATCH_WIDTH: f64 = 26.0;
-const ARROW_WIDTH: f64 = 44.0;
-const ENTRY_GAP: f64 = 26.0;
-const LINK_NAME: &str = "provides for";
-const SWITCH_NAME: &str = "device switch";
-
-impl Legend {
-    fn of(graph: &Graph) -> Self {
-        let stations: Vec<(i64, String)> =
-            graph.stations().into_iter().map(|station| (station, station_name(station))).collect();
-        let switch = graph.edges.iter().any(|edge| edge.switch);
-        let mut width: f64 = stations.iter().map(|(_, name)| entry_width(SWATCH_WIDTH, name)).sum();
-        width += entry_width(ARROW_WIDTH, LINK_NAME);
-        if switch {
-            width += entry_width(ARROW_WIDTH, SWITCH_NAME);
-        }
-        Self { stations, switch, width: width - ENTRY_GAP }
-    }
-
-    fn draw(&self, out: &mut Vec<String>, left: f64, top: f64) {
-        let mut x = left;
-        let text = |x: f64, name: &str| {
-            format!("<text x=\"{x:.1}\" y=\"{:.1}\">{name}</text>", top + 17.0)
-        };
-        for (station, name) in &self.stations {
-            out.push(format!(
-                "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"{SWATCH_WIDTH}\" height=\"18\" rx=\"5\" \
-                 fill=\"{}\" stroke=\"#333333\"/>",
-                top + 3.0,
-                colour(*station)
-            ));
-            out.push(text(x + SWATCH_WIDTH + 8.0, name));
-            x += entry_width(SWATCH_WIDTH, name);
-        }
-        let arrows = [("link", "to", LINK_NAME), ("switch", "to-switch", SWITCH_NAME)];
-        for (class, marker, name) in arrows.into_iter().take(if self.switch { 2 } else { 1 }) {
-            let (y, end) = (top + 12.0, x + ARROW_WIDTH - 4.0);
-            out.push(format!(
-                "<path class=\"{class}\" d=\"M {x:.1} {y:.1} H {end:.1}\" marker-end=\"url(#{marker})\"/>"
-            ));
-            out.push(text(x + ARROW_WIDTH + 8.0, name));
-            x += entry_width(ARROW_WIDTH, name);
-        }
-    }
-}
-
-fn entry_width(sample: f64, name: &str) -> f64 {
-    sample + 8.0 + text_width(name) + ENTRY_GAP
-}
-
-fn head(width: f64, height: f64, title: &str) -> Vec<String> {
-    let marker = |id: &str, fill: &str| {
-        format!(
-            "<marker id=\"{id}\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" \
-             markerHeight=\"9\" markerUnits=\"userSpaceOnUse\" orient=\"auto\">\
-             <path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"{fill}\"/></marker>"
-        )
+/// Samples with their names side by side, and their width, px.
+fn legend(graph: &Graph) -> (Vec<String>, f64) {
+    let stations = graph.stations().into_iter();
+    let mut entries: Vec<_> = stations
+        .map(|station| (26.0, swatch([0.0, 3.0], [26.0, 18.0], station), station_name(station)))
+        .collect();
+    let arrow = |class: &str, name: &str| {
+        let path =
+            format!("<path class=\"{class}\" d=\"M 0 12 H 40\" marker-end=\"url(#to-{class})\"/>");
+        (44.0, path, name.to_owned())
     };
-    vec![
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-             viewBox=\"0 0 {width:.1} {height:.1}\" font-family=\"DejaVu Sans, Verdana, sans-serif\" \
-             font-size=\"{FONT_SIZE}\">"
-        ),
-        format!("<title>{}</title>", escape(title)),
-        format!("<defs>{}{}</defs>", marker("to", "#333333"), marker("to-switch", SWITCH)),
-        format!(
-            "<style>.link {{ fill: none; stroke: #333333; stroke-width: 1.3 }} .switch {{ fill: none; \
-             stroke: {SWITCH}; stroke-width: 1.8; stroke-dasharray: 7 4 }} .label {{ text-anchor: middle }} \
-             .title {{ text-anchor: middle; font-size: 16px }}</style>"
-        ),
-        String::from("<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>"),
-        format!(
-            "<text class=\"title\" x=\"{:.1}\" y=\"{TITLE_HEIGHT}\">{}</text>",
-            width / 2.0,
-            escape(title)
-        ),
-    ]
+    entries.push(arrow("link", "provides for"));
+    entries
+        .extend(graph.edges.iter().any(|it| it.switch).then(|| arrow("switch", "device switch")));
+    let (mut out, mut x) = (Vec::new(), 0.0);
+    for (sample_width, sample, name) in entries {
+        let text = format!("<text x=\"{:.1}\" y=\"17\">{name}</text>", sample_width + 8.0);
+        out.push(moved(x, 0.0, &[sample, text]));
+        x += sample_width + 8.0 + text_width(&name) + 26.0;
+    }
+    (out, x - 26.0)
 }
 
-fn swatch(x: f64, y: f64, width: f64, station: i64) -> String {
+fn marker(class: &str, fill: &str) -> String {
     format!(
-        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{BOX_HEIGHT}\" rx=\"8\" \
+        "<marker id=\"to-{class}\" viewBox=\"0 0 10 10\" refX=\"9\" refY=\"5\" markerWidth=\"9\" \
+         markerHeight=\"9\" markerUnits=\"userSpaceOnUse\" orient=\"auto-start-reverse\">\
+         <path d=\"M 0 0 L 10 5 L 0 10 z\" fill=\"{fill}\"/></marker>"
+    )
+}
+
+fn swatch([x, y]: [f64; 2], [width, height]: [f64; 2], station: i64) -> String {
+    format!(
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" rx=\"8\" \
          fill=\"{}\" stroke=\"#333333\"/>",
         colour(station)
     )
@@ -284,21 +281,4 @@ fn text_width(text: &str) -> f64 {
         _ => 1.05,
     };
     text.chars().map(em).sum::<f64>() * FONT_SIZE
-}
-
-/// Text for XML; what XML 1.0 does not allow becomes a replacement character.
-fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            control if control.is_control() => escaped.push('\u{fffd}'),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }

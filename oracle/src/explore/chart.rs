@@ -1,6 +1,6 @@
 //! A story of the exploration as a message sequence chart.
 
-use mufasa_exploration::replay::{Look, Post, Scene, What};
+use mufasa_exploration::replay::{Episode, Look, Post, What};
 use mufasa_exploration::system::System;
 use mufasa_exploration::words;
 use mufasa_model::offloading::requester::{Action, EventKind, Group, GroupState, Groups};
@@ -8,7 +8,7 @@ use mufasa_model::offloading::requester::{Action, EventKind, Group, GroupState, 
 use mufasa_drives::pictures::sequence::{self, Arrow, Chart, Fate, Note, Partner, Span, State};
 
 /// The chart of a story as an SVG document: CAVs, stations and, where there is one, the attacker.
-pub fn draw(system: &System, title: &str, subtitle: &str, scenes: &[Scene]) -> String {
+pub fn draw(system: &System, title: &str, subtitle: &str, episodes: &[Episode]) -> String {
     let world = system.world();
     let bars: Vec<_> = world.groups().map(words::name).collect();
     let cavs =
@@ -16,7 +16,7 @@ pub fn draw(system: &System, title: &str, subtitle: &str, scenes: &[Scene]) -> S
     let stations = (1..=world.stations.len())
         .map(|station| Partner { name: format!("station {station}"), bars: vec![] });
     let attacker = Partner { name: String::from("attacker"), bars: vec![] };
-    let forged = world.attacker && scenes.iter().any(is_forged);
+    let forged = world.attacker && episodes.iter().any(is_forged);
     let mut teller = Teller {
         cavs: world.requesters,
         attacker: forged.then_some(world.requesters + world.stations.len()),
@@ -27,12 +27,12 @@ pub fn draw(system: &System, title: &str, subtitle: &str, scenes: &[Scene]) -> S
             title: title.to_owned(),
             subtitle: subtitle.to_owned(),
             partners: cavs.chain(stations).chain(forged.then_some(attacker)).collect(),
-            rows: scenes.len(),
+            rows: episodes.len(),
             ..Chart::default()
         },
     };
-    for (row, scene) in scenes.iter().enumerate() {
-        teller.tell(row, scene);
+    for (row, episode) in episodes.iter().enumerate() {
+        teller.tell(row, episode);
     }
     teller.end();
     sequence::draw(&teller.chart)
@@ -40,8 +40,8 @@ pub fn draw(system: &System, title: &str, subtitle: &str, scenes: &[Scene]) -> S
 
 /// Messages to a CAV that nobody sent through the network. Results always come like this; they
 /// are drawn as the station's.
-fn is_forged(scene: &Scene) -> bool {
-    let What::AtCav { event, post: None, .. } = scene.what else { return false };
+fn is_forged(episode: &Episode) -> bool {
+    let What::AtCav { event, post: None, .. } = episode.what else { return false };
     matches!(event.kind, EventKind::Confirm { .. } | EventKind::Reject { .. })
 }
 
@@ -58,9 +58,9 @@ struct Teller {
 }
 
 impl Teller {
-    fn tell(&mut self, row: usize, scene: &Scene) {
-        match scene.what {
-            What::Time => self.chart.times.push((row, format!("{} ticks", scene.t_ns))),
+    fn tell(&mut self, row: usize, episode: &Episode) {
+        match episode.what {
+            What::Time => self.chart.times.push((row, format!("{} ticks", episode.t_ns))),
             What::Lost(post) => {
                 self.arrive(post, row, Fate::Lost);
                 self.flight.retain(|(sent, ..)| *sent != post);
@@ -74,19 +74,19 @@ impl Teller {
                 self.arrive(post, row, Fate::Arrives);
             }
         }
-        if let What::AtCav { cav, event, .. } = scene.what {
-            self.actions(cav, row, &scene.actions);
+        if let What::AtCav { cav, event, .. } = episode.what {
+            self.actions(cav, row, &episode.actions);
             if let EventKind::Data { group, .. } = event.kind {
-                self.used[cav][group as usize] |= !scene.actions.contains(&Action::Drop(group));
+                self.used[cav][group as usize] |= !episode.actions.contains(&Action::Drop(group));
             }
         }
-        for post in &scene.sent {
+        for post in &episode.sent {
             self.flight.push((*post, row, false));
         }
-        for post in &scene.lost {
+        for post in &episode.lost {
             self.arrow(*post, (row, row), Fate::Lost);
         }
-        for (cav, look) in scene.cavs.iter().enumerate() {
+        for (cav, look) in episode.cavs.iter().enumerate() {
             self.states(cav, row, look);
         }
     }

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use mufasa_exploration::properties::Law;
-use mufasa_exploration::replay::{self, ReplayError, Scene};
-use mufasa_exploration::run::{Counterexample, Outcome};
+use mufasa_exploration::properties::Property;
+use mufasa_exploration::replay::{self, Episode, ReplayError};
+use mufasa_exploration::run::{Counterexample, WorldOutcome};
 use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 
@@ -19,40 +19,41 @@ pub struct Story<'a> {
     /// Its name: that of the finding, or of the property.
     pub name: String,
     /// The property that fails.
-    pub law: Law,
+    pub property: Property,
     /// The system in which it was found.
     pub system: &'a System,
     /// What happens.
-    pub scenes: Vec<Scene>,
+    pub episodes: Vec<Episode>,
 }
 
 /// The stories of all properties that fail: one without an attacker rather than one with, and
 /// the shortest. Errors: a counterexample cannot be walked by the real parts.
-pub fn stories(profile: Profile, outcomes: &[Outcome]) -> Result<Vec<Story<'_>>, ReplayError> {
-    let stories = Law::ALL.into_iter().filter_map(|law| story(law, profile, outcomes));
+pub fn stories(profile: Profile, outcomes: &[WorldOutcome]) -> Result<Vec<Story<'_>>, ReplayError> {
+    let stories =
+        Property::ALL.into_iter().filter_map(|property| story(property, profile, outcomes));
     stories.collect()
 }
 
 fn story(
-    law: Law,
+    property: Property,
     profile: Profile,
-    outcomes: &[Outcome],
+    outcomes: &[WorldOutcome],
 ) -> Option<Result<Story<'_>, ReplayError>> {
     let failures = outcomes.iter().filter_map(|outcome| {
-        let finding = outcome.results.iter().find(|finding| finding.law == law)?;
+        let finding = outcome.results.iter().find(|finding| finding.property == property)?;
         Some((&*outcome.system, finding.counterexample.as_ref()?))
     });
     let length = |it: &Counterexample| it.trace.len() + it.circle.len();
     let (system, found) = failures.min_by_key(|(system, found)| {
         (system.world().attacker, system.world().requesters, length(found))
     })?;
-    let name = if law.is_claimed(profile) {
-        format!("explored-{}-{}", law.name(), names::profile(profile))
+    let name = if property.is_claimed(profile) {
+        format!("explored-{}-{}", property.name(), names::profile(profile))
     } else {
         String::from("explored-F-12")
     };
-    let scenes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat());
-    Some(scenes.map(|scenes| Story { name, law, system, scenes }))
+    let episodes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat());
+    Some(episodes.map(|episodes| Story { name, property, system, episodes }))
 }
 
 /// Writes a vector and a chart of every story. Errors name the file.
@@ -73,7 +74,7 @@ pub fn write(folder: &Path, stories: &[Story<'_>]) -> Result<Vec<PathBuf>, (Path
 impl Story<'_> {
     /// The vector of the first CAV in its profile, and the same events in the other one.
     pub fn vectors(&self) -> io::Result<String> {
-        let events = vector::events(&self.scenes, 0);
+        let events = vector::events(&self.episodes, 0);
         let profile = self.system.profile();
         let mut lines = String::new();
         for profile in [profile, flag::other(profile)] {
@@ -93,23 +94,23 @@ impl Story<'_> {
     pub fn chart(&self) -> String {
         let title =
             format!("{} ({})", self.name, title(self.system.world(), self.system.profile()));
-        chart::draw(self.system, &title, self.note(self.system.profile()), &self.scenes)
+        chart::draw(self.system, &title, self.note(self.system.profile()), &self.episodes)
     }
 
     fn requirement(&self) -> &'static str {
-        match self.law {
-            Law::NoStopBeforeSafeCycle => "F-12",
-            law => law.requirement(),
+        match self.property {
+            Property::NoStopBeforeSafeCycle => "F-12",
+            property => property.requirement(),
         }
     }
 
     fn note(&self, profile: Profile) -> &'static str {
-        match (self.law, profile) {
-            (Law::NoStopBeforeSafeCycle, Profile::Paper) => {
+        match (self.property, profile) {
+            (Property::NoStopBeforeSafeCycle, Profile::Paper) => {
                 "Break before make: the local services of the group stop at the confirmation, \
                  before any result of the station"
             }
-            (Law::NoStopBeforeSafeCycle, Profile::Hardened) => {
+            (Property::NoStopBeforeSafeCycle, Profile::Hardened) => {
                 "Make before break: after the same events the local services of the group compute"
             }
             _ => "Shortest trace that the exploration found",

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use mufasa_exploration::bounds::Bounds;
-use mufasa_exploration::properties::Law;
-use mufasa_exploration::run::Outcome;
+use mufasa_exploration::properties::Property;
+use mufasa_exploration::run::WorldOutcome;
 use mufasa_model::input::cycle::Profile;
 use serde::Serialize;
 
-use super::tables;
+use super::evidence;
 use mufasa_records::names;
 
 /// What was explored in one profile, and what it showed.
@@ -19,14 +19,14 @@ pub struct Report {
     /// The bounds.
     pub bounds: &'static str,
     /// The worlds.
-    pub worlds: Vec<World>,
+    pub worlds: Vec<WorldRow>,
     /// The properties over all these worlds.
-    pub properties: Vec<Property>,
+    pub properties: Vec<PropertyRow>,
 }
 
 /// A world with its sizes.
 #[derive(Debug, Serialize)]
-pub struct World {
+pub struct WorldRow {
     /// Its name.
     pub name: &'static str,
     /// What it is for.
@@ -53,7 +53,7 @@ pub struct World {
 
 /// A property with its verdict.
 #[derive(Debug, Serialize)]
-pub struct Property {
+pub struct PropertyRow {
     /// Its sentence.
     pub name: String,
     /// The heading of its requirement.
@@ -74,14 +74,14 @@ pub struct Property {
 
 impl Report {
     /// Of what was explored in a profile.
-    pub fn new(profile: Profile, bounds: Bounds, outcomes: &[Outcome]) -> Self {
+    pub fn new(profile: Profile, bounds: Bounds, outcomes: &[WorldOutcome]) -> Self {
         Self {
             profile: names::profile(profile),
             bounds: bounds.name(),
-            worlds: outcomes.iter().map(World::new).collect(),
-            properties: Law::ALL
+            worlds: outcomes.iter().map(WorldRow::new).collect(),
+            properties: Property::ALL
                 .into_iter()
-                .map(|it| Property::new(it, profile, outcomes))
+                .map(|it| PropertyRow::new(it, profile, outcomes))
                 .collect(),
         }
     }
@@ -94,7 +94,7 @@ impl Report {
              | stateright: states | seconds |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
         );
         for world in &self.worlds {
-            let number = |number: usize| tables::grouped(tables::wide(number));
+            let number = |number: usize| evidence::grouped(evidence::wide(number));
             let _ = writeln!(
                 out,
                 "| {} | {} | {} | {} | {} | {} | {:.1} | {} | {} | {} |",
@@ -102,7 +102,7 @@ impl Report {
                 number(world.requester_states),
                 number(world.steps_compared),
                 number(world.states),
-                tables::grouped(world.moves),
+                evidence::grouped(world.moves),
                 world.depth,
                 world.seconds,
                 world.bytes.div_ceil(1 << 20),
@@ -112,7 +112,7 @@ impl Report {
         }
         out.push_str("\n| property | | verdict | shown by (moves) |\n|---|---|---|---|\n");
         for property in &self.properties {
-            let Property { name, kind, shown_by, .. } = property;
+            let PropertyRow { name, kind, shown_by, .. } = property;
             let shown_by = shown_by.replace('\n', "; ");
             let _ = writeln!(out, "| {name} | {kind} | {} | {shown_by} |", property.verdict());
         }
@@ -121,8 +121,8 @@ impl Report {
     }
 }
 
-impl World {
-    fn new(outcome: &Outcome) -> Self {
+impl WorldRow {
+    fn new(outcome: &WorldOutcome) -> Self {
         let world = outcome.system.world();
         let requesters = outcome.system.requesters();
         let second = outcome.second.as_ref();
@@ -142,22 +142,22 @@ impl World {
     }
 }
 
-impl Property {
+impl PropertyRow {
     /// A property over all worlds of a profile.
-    pub fn new(law: Law, profile: Profile, outcomes: &[Outcome]) -> Self {
+    pub fn new(property: Property, profile: Profile, outcomes: &[WorldOutcome]) -> Self {
         let results = outcomes.iter().flat_map(|outcome| &outcome.results);
-        let asked: Vec<_> = results.filter(|finding| finding.law == law).collect();
+        let asked: Vec<_> = results.filter(|finding| finding.property == property).collect();
         let failures = asked.iter().filter_map(|finding| finding.counterexample.as_ref());
         let moves: Vec<_> = failures.map(|it| it.trace.len() + it.circle.len()).collect();
         Self {
-            name: law.name().replace('_', " "),
-            requirement: law.requirement(),
-            kind: if law.is_safety() { "always" } else { "eventually" },
-            claimed: law.is_claimed(profile),
+            name: property.name().replace('_', " "),
+            requirement: property.requirement(),
+            kind: if property.is_safety() { "always" } else { "eventually" },
+            claimed: property.is_claimed(profile),
             holds_in: asked.len() - moves.len(),
             fails_in: moves.len(),
             shortest_counterexample: moves.into_iter().min(),
-            shown_by: tables::evidence(law, profile, outcomes),
+            shown_by: evidence::evidence(property, profile, outcomes),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Offloading vectors of what was found (`spec/5-interfaces.md#vectors`).
 
-use mufasa_exploration::replay::{Scene, What};
+use mufasa_exploration::replay::{Episode, What};
 use mufasa_model::offloading::requester::Event;
 
 use mufasa_conform::vectors::book::{Input, Vector};
@@ -10,12 +10,12 @@ use mufasa_records::record::offloading::Offloading;
 use mufasa_records::{Answer, Trace};
 
 /// The events of one CAV in a story.
-pub fn events(scenes: &[Scene], cav: usize) -> Vec<Event> {
-    let at_cav = |scene: &Scene| match scene.what {
+pub fn events(episodes: &[Episode], cav: usize) -> Vec<Event> {
+    let at_cav = |episode: &Episode| match episode.what {
         What::AtCav { cav: at, event, .. } if at == cav => Some(event),
         _ => None,
     };
-    scenes.iter().filter_map(at_cav).collect()
+    episodes.iter().filter_map(at_cav).collect()
 }
 
 /// The vector of a trace, with the model's answer. Errors: the words do not fit into JSON, which

@@ -15,8 +15,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use indicatif::ProgressBar;
 use mufasa_mutants::Engine;
 
-use super::Settings;
 use super::line::Line;
+use super::settings::Settings;
 
 /// A source of claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

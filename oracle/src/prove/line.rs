@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What an engine says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Verdict {
+pub enum Status {
     /// True of the whole domain.
     #[serde(rename = "proved")]
     Proved,
@@ -22,7 +22,7 @@ pub enum Verdict {
     NotRun,
 }
 
-impl Verdict {
+impl Status {
     /// All of them.
     pub const ALL: [Self; 5] =
         [Self::Proved, Self::Refuted, Self::Unknown, Self::Tested, Self::NotRun];
@@ -38,7 +38,7 @@ impl Verdict {
         }
     }
 
-    /// Which of two verdicts on one claim counts: the one that comes first here. Who does not know
+    /// Which of two answers on one claim counts: the one that comes first here. Who does not know
     /// what it should counts more than a test.
     const fn rank(self) -> u8 {
         match self {
@@ -57,7 +57,8 @@ pub struct Answer {
     /// The engine.
     pub engine: &'static str,
     /// What it says.
-    pub verdict: Verdict,
+    #[serde(rename = "verdict")]
+    pub status: Status,
     /// Time taken, s; none where nothing ran.
     pub seconds: Option<f64>,
     /// What was run, as a number of cases or paths.
@@ -72,12 +73,12 @@ impl Answer {
     /// Nothing was asked.
     pub fn not_run(engine: &'static str, reason: &str) -> Self {
         let reason = Some(reason.to_owned());
-        Self { engine, verdict: Verdict::NotRun, seconds: None, ran: None, reason }
+        Self { engine, status: Status::NotRun, seconds: None, ran: None, reason }
     }
 
     /// An answer after this time.
-    pub fn given(engine: &'static str, verdict: Verdict, seconds: f64) -> Self {
-        Self { engine, verdict, seconds: Some(seconds), ran: None, reason: None }
+    pub fn given(engine: &'static str, status: Status, seconds: f64) -> Self {
+        Self { engine, status, seconds: Some(seconds), ran: None, reason: None }
     }
 }
 
@@ -119,7 +120,7 @@ impl Line {
 
     /// Takes the answers of several engines: the one that counts first, then the others.
     pub fn answered(self, mut answers: Vec<Answer>) -> Self {
-        answers.sort_by_key(|answer| answer.verdict.rank());
+        answers.sort_by_key(|answer| answer.status.rank());
         let mut answers = answers.into_iter();
         match answers.next() {
             Some(answer) => Self { answer, others: answers.collect(), ..self },

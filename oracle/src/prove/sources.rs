@@ -5,13 +5,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// What decides about the compiled code and what is claimed of it; `scripts/prove-wasm` lists the same.
-const PARTS: [&str; 6] = [
+const PARTS: [&str; 7] = [
     "impl/src",
     "proofs/expected.toml",
     "proofs/src",
     "proofs/wasm",
     "scripts/prove-wasm",
     "proofs/compiled/src",
+    "proofs/z3/src",
 ];
 
 /// A number of the paths and contents of the sources in this checkout: FNV-1a of 64 bits, in hex.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
-use super::line::{Answer, Line, Verdict};
+use super::line::{Answer, Line, Status};
 
 /// Width of a table, characters.
 const WIDTH: u16 = 150;
@@ -81,14 +81,14 @@ fn engines(lines: &[Line]) -> String {
         }
     }
     let mut text = String::from("| engine |");
-    let _ = writeln!(text, " {} |", Verdict::ALL.map(Verdict::name).join(" | "));
-    let _ = writeln!(text, "|---|{}", "--:|".repeat(Verdict::ALL.len()));
+    let _ = writeln!(text, " {} |", Status::ALL.map(Status::name).join(" | "));
+    let _ = writeln!(text, "|---|{}", "--:|".repeat(Status::ALL.len()));
     for name in names {
-        let count = |verdict| {
-            let those = answers().filter(|it| it.engine == name && it.verdict == verdict);
+        let count = |status| {
+            let those = answers().filter(|it| it.engine == name && it.status == status);
             those.count().to_string()
         };
-        let _ = writeln!(text, "| {name} | {} |", Verdict::ALL.map(count).join(" | "));
+        let _ = writeln!(text, "| {name} | {} |", Status::ALL.map(count).join(" | "));
     }
     text
 }
@@ -98,8 +98,8 @@ fn verdict(line: &Line) -> String {
     let mut text = said(&line.answer);
     for other in &line.others {
         let brief = Answer { ran: None, ..other.clone() };
-        let brief = match other.verdict {
-            Verdict::NotRun => other.verdict.name().to_owned(),
+        let brief = match other.status {
+            Status::NotRun => other.status.name().to_owned(),
             _ => said(&brief),
         };
         let _ = write!(text, "; {} {brief}", other.engine);
@@ -108,7 +108,7 @@ fn verdict(line: &Line) -> String {
 }
 
 fn said(answer: &Answer) -> String {
-    let mut text = answer.verdict.name().to_owned();
+    let mut text = answer.status.name().to_owned();
     if let Some(ran) = &answer.ran {
         let _ = write!(text, " ({ran})");
     }
@@ -123,8 +123,8 @@ fn seconds(answer: &Answer) -> String {
 }
 
 fn counts(lines: &[Line]) -> String {
-    let count = |verdict| lines.iter().filter(|line| line.answer.verdict == verdict).count();
-    let counts = Verdict::ALL.map(|verdict| format!("{} {}", count(verdict), verdict.name()));
+    let count = |status| lines.iter().filter(|line| line.answer.status == status).count();
+    let counts = Status::ALL.map(|status| format!("{} {}", count(status), status.name()));
     counts.join(", ")
 }
 
@@ -141,9 +141,9 @@ mod tests {
 
     #[test]
     fn what_was_not_run_or_only_tested_is_not_counted_as_proved() {
-        let proved = line(vec![Answer::given("z3", Verdict::Proved, 0.5)]);
+        let proved = line(vec![Answer::given("z3", Status::Proved, 0.5)]);
         let ran = Some(String::from("7 cases"));
-        let tested = Answer { ran, ..Answer::given("sampling", Verdict::Tested, 0.5) };
+        let tested = Answer { ran, ..Answer::given("sampling", Status::Tested, 0.5) };
         let tested = line(vec![tested, Answer::not_run("kani", "not here")]);
         let lines = [line(Vec::new()), proved.clone(), proved, tested];
         let text = text(&lines);
@@ -162,10 +162,10 @@ mod tests {
 
     #[test]
     fn the_strongest_answer_counts_and_a_refutation_most() {
-        use Verdict::{NotRun, Proved, Refuted, Tested, Unknown};
-        let of = |verdicts: &[Verdict]| {
+        use Status::{NotRun, Proved, Refuted, Tested, Unknown};
+        let of = |verdicts: &[Status]| {
             let answers = verdicts.iter().map(|&verdict| Answer::given("z3", verdict, 0.0));
-            line(answers.collect()).answer.verdict
+            line(answers.collect()).answer.status
         };
         assert_eq!(of(&[Tested, Proved, NotRun]), Proved);
         assert_eq!(of(&[Proved, Refuted]), Refuted);

@@ -7,8 +7,8 @@ use wasmparser::{BlockType, Operator};
 use crate::machine::{Machine, Run};
 use crate::module::{Body, Module};
 use crate::numeric::numeric;
-use crate::smt::Answer;
-use crate::state::{State, merged};
+use crate::smt::Possible;
+use crate::state::{Label, State, merged};
 use crate::term::{Op, Term};
 
 /// Rounds of a loop that may have ended before the machine gives up.
@@ -18,13 +18,6 @@ const STEPS: u64 = 50_000_000;
 /// Instructions of a loop after which the machine asks whether it goes on; then twice as many.
 /// Most loops end before that by themselves, because their counters are numbers.
 const PATIENCE: u64 = 1000;
-
-/// The end of a block or the start of a loop.
-pub(crate) struct Label {
-    pub(crate) results: usize,
-    pub(crate) height: usize,
-    pub(crate) arrived: Option<State>,
-}
 
 impl<'a> Machine<'a> {
     /// The state where this is true too, if that can be.
@@ -188,7 +181,7 @@ impl<'a> Machine<'a> {
             }
             if self.steps >= ask_at {
                 let path = self.terms.all(&back.path);
-                if self.ask(path)? == Answer::Never {
+                if self.ask(path)? == Possible::Never {
                     return Ok(left);
                 }
                 patience *= 2;

@@ -6,16 +6,15 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::control::Label;
 use crate::module::{Function, Module, width};
-use crate::smt::{self, Answer};
-use crate::state::{State, merged};
+use crate::smt::{self, Possible};
+use crate::state::{Label, State, merged};
 use crate::term::{Op, Term, Terms};
 
 /// Calls in calls before the machine gives up.
 const CALLS: usize = 60;
 /// Time of a question that the run itself asks, ms.
-const QUESTION_MS: u64 = 20_000;
+const QUESTION_MS: u32 = 20_000;
 
 /// Where a value is drawn: calls, rounds of loops, and the instruction.
 pub type Place = Vec<u32>;
@@ -177,7 +176,7 @@ impl<'a> Machine<'a> {
         Ok(self.terms.variable(number, 64))
     }
 
-    pub(crate) fn ask(&mut self, truth: Term) -> Result<Answer, String> {
+    pub(crate) fn ask(&mut self, truth: Term) -> Result<Possible, String> {
         if self.terms.number(truth).is_none() {
             self.questions += 1;
         }
@@ -197,12 +196,14 @@ impl<'a> Machine<'a> {
         let (mut found, mut rest) = (Vec::new(), path);
         loop {
             let values = match self.ask(rest)? {
-                Answer::Never => return Ok(found),
-                Answer::Unknown => return Err("the values of an address are not known".to_owned()),
-                Answer::With(_) if found.len() == MOST => {
+                Possible::Never => return Ok(found),
+                Possible::Unknown => {
+                    return Err("the values of an address are not known".to_owned());
+                }
+                Possible::With(_) if found.len() == MOST => {
                     return Err(format!("an address with more than {MOST} values"));
                 }
-                Answer::With(values) => values,
+                Possible::With(values) => values,
             };
             let value = self.terms.value(term, &values.into_iter().collect());
             found.push(value);

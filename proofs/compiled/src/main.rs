@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{Verdict, prove};
+use mufasa_compiled::prove::{Trap, prove};
 
 /// The machine calls itself for blocks in blocks.
 const STACK_BYTES: usize = 1 << 30;
@@ -25,14 +25,14 @@ fn judge() -> Result<(), String> {
     let [file, export, seconds @ ..] = arguments.as_slice() else {
         return Err("usage: mufasa-compiled FILE.wasm EXPORT [SECONDS]".to_owned());
     };
-    let seconds: u64 =
+    let seconds: u32 =
         seconds.first().map_or(Ok(120), |text| text.parse()).map_err(|_| "seconds")?;
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
-    let found = prove(&Module::read(&bytes)?, export, seconds * 1000)?;
-    match &found.verdict {
-        Verdict::Proved => println!("proved"),
-        Verdict::Refuted(place) => println!("refuted: {place}"),
-        Verdict::Unknown(why) => println!("unknown: {why}"),
+    let found = prove(&Module::read(&bytes)?, export, seconds.saturating_mul(1000))?;
+    match &found.trap {
+        Trap::Never => println!("proved"),
+        Trap::At(place) => println!("refuted: {place}"),
+        Trap::Unknown(why) => println!("unknown: {why}"),
     }
     println!("reached: {:?}", found.reached);
     println!("{} instructions, {} terms, {} questions", found.steps, found.terms, found.questions);

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, HashMap};
 
 use crate::machine::{Machine, Place};
 use crate::module::Module;
-use crate::smt::{self, Answer};
+use crate::smt::{self, Possible};
 use crate::term::Term;
 
 /// What was found about one harness.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
     /// What can be said of its assertions.
-    pub verdict: Verdict,
+    pub trap: Trap,
     /// Covers, and 0 for the end, that some input reaches; a run with that input has been seen.
     pub reached: Vec<u32>,
     /// Terms of the graph.
@@ -24,11 +24,11 @@ pub struct Found {
 
 /// Whether an input makes it trap.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Trap {
     /// None does.
-    Proved,
-    /// One does, seen in a run with that input.
-    Refuted(String),
+    Never,
+    /// One does, here, as a run with that input has shown.
+    At(String),
     /// Why nothing can be said.
     Unknown(String),
 }
@@ -37,7 +37,7 @@ pub enum Verdict {
 pub const END: u32 = 0;
 
 /// Runs the exported harness and asks z3, at most `limit_ms` for each question.
-pub fn prove(module: &Module<'_>, export: &str, limit_ms: u64) -> Result<Found, String> {
+pub fn prove(module: &Module<'_>, export: &str, limit_ms: u32) -> Result<Found, String> {
     let mut machine = Machine::new(module);
     let end = machine.run(export)?;
     let mut goals = machine.covers.clone();
@@ -51,20 +51,20 @@ pub fn prove(module: &Module<'_>, export: &str, limit_ms: u64) -> Result<Found, 
         questions += 1;
         smt::ask(&machine.terms, truth, limit_ms).map_err(|error| error.to_string())
     };
-    let verdict = match ask(any_trap)? {
-        Answer::Never => Verdict::Proved,
-        Answer::Unknown => Verdict::Unknown(format!("z3 had not ended after {limit_ms} ms")),
-        Answer::With(values) => {
+    let trap = match ask(any_trap)? {
+        Possible::Never => Trap::Never,
+        Possible::Unknown => Trap::Unknown(format!("z3 had not ended after {limit_ms} ms")),
+        Possible::With(values) => {
             let (again, _) = replay(module, export, &machine.draws, &values)?;
             let Some((_, place)) = again.traps.first() else {
                 return Err("a counterexample that is none: the machine is wrong".to_owned());
             };
-            Verdict::Refuted(place.clone())
+            Trap::At(place.clone())
         }
     };
     let mut reached = Vec::new();
     for (cover, condition) in &goals {
-        let Answer::With(values) = ask(*condition)? else { continue };
+        let Possible::With(values) = ask(*condition)? else { continue };
         let (again, ended) = replay(module, export, &machine.draws, &values)?;
         let seen = if *cover == END { Some(&ended) } else { again.covers.get(cover) };
         if seen.and_then(|truth| again.terms.number(*truth)) != Some(1) {
@@ -72,7 +72,7 @@ pub fn prove(module: &Module<'_>, export: &str, limit_ms: u64) -> Result<Found, 
         }
         reached.push(*cover);
     }
-    Ok(Found { verdict, reached, terms: machine.terms.len(), steps: machine.steps, questions })
+    Ok(Found { trap, reached, terms: machine.terms.len(), steps: machine.steps, questions })
 }
 
 /// The run with these numbers of the variables, in which every term is a number.

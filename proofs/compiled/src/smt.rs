@@ -1,14 +1,15 @@
-//! z3 as a process that decides whether a truth value can be true.
+//! z3 decides whether a truth value can be true.
 
 use std::fmt::Write as _;
-use std::io::{self, BufRead, BufReader, Write};
-use std::process::{Command, Stdio};
+use std::io;
+
+use mufasa_z3::{Effort, Solver};
 
 use crate::term::{Node, Op, Term, Terms};
 
 /// What z3 says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Answer {
+pub enum Possible {
     /// Nothing makes it true.
     Never,
     /// These numbers of the variables do.
@@ -17,49 +18,31 @@ pub enum Answer {
     Unknown,
 }
 
-/// Whether there is a z3.
-pub fn is_here() -> bool {
-    Command::new("z3").arg("--version").output().is_ok_and(|output| output.status.success())
-}
-
-/// Asks whether the truth value can be true, for at most `limit_ms`.
-pub fn ask(terms: &Terms, truth: Term, limit_ms: u64) -> io::Result<Answer> {
+/// Asks whether the truth value can be true, for at most `limit_ms`. Errors are those of running z3.
+pub fn ask(terms: &Terms, truth: Term, limit_ms: u32) -> io::Result<Possible> {
     if let Some(value) = terms.number(truth) {
-        return Ok(if value == 0 { Answer::Never } else { Answer::With(Vec::new()) });
+        return Ok(if value == 0 { Possible::Never } else { Possible::With(Vec::new()) });
     }
     let (script, variables) = script(terms, truth);
-    let mut process = Command::new("z3")
-        .args(["-in", &format!("-t:{limit_ms}")])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()?;
-    let missing = || io::Error::other("z3 has no pipes");
-    let mut input = process.stdin.take().ok_or_else(missing)?;
-    let output = BufReader::new(process.stdout.take().ok_or_else(missing)?);
-    input.write_all(script.as_bytes())?;
-    drop(input);
-    let mut lines = output.lines();
-    let answer = match lines.next().transpose()?.as_deref() {
-        Some("unsat") => Answer::Never,
-        Some("sat") => {
-            let mut values = Vec::new();
-            for variable in variables {
-                let line = lines.next().transpose()?.unwrap_or_default();
-                values.push((variable, value(&line)?));
-            }
-            Answer::With(values)
+    let names: Vec<String> = variables.iter().map(|number| format!("v{number}")).collect();
+    let mut solver = Solver::start()?;
+    let answer = solver.check(&script, &names, Effort { steps: 0, limit_ms });
+    if let Some(error) = solver.error.take() {
+        return Err(error);
+    }
+    Ok(match answer {
+        mufasa_z3::Answer::Unsat => Possible::Never,
+        mufasa_z3::Answer::Unknown => Possible::Unknown,
+        mufasa_z3::Answer::Sat(values) => {
+            let values: io::Result<Vec<u64>> = values.iter().map(|line| value(line)).collect();
+            Possible::With(variables.into_iter().zip(values?).collect())
         }
-        Some("unknown" | "timeout") => Answer::Unknown,
-        other => return Err(io::Error::other(format!("z3 says: {other:?}"))),
-    };
-    process.kill()?;
-    process.wait()?;
-    Ok(answer)
+    })
 }
 
-/// `((v3 #x00ff))`
+/// `#x00ff`
 fn value(line: &str) -> io::Result<u64> {
-    let digits = line.split("#x").nth(1).unwrap_or_default().trim_end_matches(')');
+    let digits = line.strip_prefix("#x").unwrap_or_default();
     u64::from_str_radix(digits, 16).map_err(|_| io::Error::other(format!("z3 says: {line}")))
 }
 
@@ -89,10 +72,7 @@ fn script(terms: &Terms, truth: Term) -> (String, Vec<u32>) {
         };
         said.expect("text takes any text");
     }
-    writeln!(script, "(assert {})\n(check-sat)", name(terms, truth)).expect("text takes any text");
-    for variable in &variables {
-        writeln!(script, "(get-value (v{variable}))").expect("text takes any text");
-    }
+    write!(script, "(assert {})", name(terms, truth)).expect("text takes any text");
     (script, variables)
 }
 

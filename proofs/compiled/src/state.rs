@@ -19,6 +19,13 @@ pub struct State {
     pub memory: Rc<Vec<Term>>,
 }
 
+/// The end of a block or the start of a loop.
+pub(crate) struct Label {
+    pub(crate) results: usize,
+    pub(crate) height: usize,
+    pub(crate) arrived: Option<State>,
+}
+
 impl State {
     /// Pops an operand. The module is compiled code, which has one.
     pub fn pop(&mut self) -> Term {

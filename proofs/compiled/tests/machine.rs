@@ -1,8 +1,7 @@
 //! Small modules of which it is known what they do.
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{END, Found, Verdict, prove};
-use mufasa_compiled::smt;
+use mufasa_compiled::prove::{END, Found, Trap, prove};
 
 /// The judgement on a body that may draw, assume and cover, with 64 bytes of memory in use.
 fn judge(body: &str) -> Found {
@@ -29,12 +28,12 @@ fn judge(body: &str) -> Found {
 
 fn assert_proved(body: &str) {
     let found = judge(body);
-    assert_eq!(found.verdict, Verdict::Proved, "{body}");
+    assert_eq!(found.trap, Trap::Never, "{body}");
     assert!(found.reached.contains(&END), "{body}");
 }
 
 fn assert_refuted(body: &str) {
-    assert!(matches!(judge(body).verdict, Verdict::Refuted(_)), "{body}");
+    assert!(matches!(judge(body).trap, Trap::At(_)), "{body}");
 }
 
 /// Traps unless the condition holds.
@@ -44,7 +43,7 @@ fn must(condition: &str) -> String {
 
 #[test]
 fn what_always_holds_is_proved_and_what_does_not_is_refuted() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -60,7 +59,7 @@ fn what_always_holds_is_proved_and_what_does_not_is_refuted() {
 
 #[test]
 fn a_number_below_a_limit_is_any_of_them() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -77,7 +76,7 @@ fn a_number_below_a_limit_is_any_of_them() {
 
 #[test]
 fn what_cannot_be_is_not_reached() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -89,12 +88,12 @@ fn what_cannot_be_is_not_reached() {
         "(local.set $x (call $any)) (call $assume (i64.lt_u (local.get $x) (i64.const 9)))";
     assert_eq!(judge(&format!("{assumed} {small} {none}")).reached, [END, 7]);
     let nothing = judge("(call $assume (i32.const 0)) unreachable");
-    assert_eq!((nothing.verdict, nothing.reached), (Verdict::Proved, vec![]));
+    assert_eq!((nothing.trap, nothing.reached), (Trap::Never, vec![]));
 }
 
 #[test]
 fn branches_come_together_with_the_values_of_each() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -122,7 +121,7 @@ fn branches_come_together_with_the_values_of_each() {
 
 #[test]
 fn loops_end_where_they_do() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -145,7 +144,7 @@ fn loops_end_where_they_do() {
 /// So many rounds that the machine asks whether there is another one.
 #[test]
 fn a_long_loop_is_left_when_it_cannot_go_on() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -180,7 +179,7 @@ fn a_loop_without_end_is_no_proof() {
 
 #[test]
 fn memory_holds_what_was_stored_last() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }
@@ -204,7 +203,7 @@ fn memory_holds_what_was_stored_last() {
 
 #[test]
 fn an_access_outside_of_memory_is_a_trap() {
-    if !smt::is_here() {
+    if mufasa_z3::version().is_none() {
         eprintln!("NOT RUN: z3 is not installed");
         return;
     }

@@ -2,7 +2,7 @@
 #![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "32 bits of 64")]
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{END, Verdict, prove};
+use mufasa_compiled::prove::{END, Trap, prove};
 
 type Two<T> = (&'static str, fn(T, T) -> T);
 type Compare<T> = (&'static str, fn(T, T) -> bool);
@@ -111,20 +111,20 @@ fn checks() -> Vec<String> {
     checks
 }
 
-fn judge(body: &str) -> Verdict {
+fn judge(body: &str) -> Trap {
     let text = format!(
         r#"(module (global (export "__heap_base") i32 (i32.const 0)) (func (export "run") {body}))"#
     );
     let bytes = wat::parse_str(text).expect("WebAssembly");
     let found = prove(&Module::read(&bytes).expect("a module"), "run", 1000).expect("a judgement");
-    assert_eq!(found.reached.contains(&END), found.verdict == Verdict::Proved);
-    found.verdict
+    assert_eq!(found.reached.contains(&END), found.trap == Trap::Never);
+    found.trap
 }
 
 #[test]
 fn every_instruction_computes_what_rust_does() {
     let checks = checks();
-    assert_eq!(judge(&checks.concat()), Verdict::Proved);
+    assert_eq!(judge(&checks.concat()), Trap::Never);
     let wrong = check("i32", "(i32.add (i32.const 1) (i32.const 1))", 3);
-    assert!(matches!(judge(&wrong), Verdict::Refuted(_)));
+    assert!(matches!(judge(&wrong), Trap::At(_)));
 }

@@ -23,10 +23,10 @@ fn main() -> ExitCode {
                     continue;
                 }
             };
-            for finding in outcome.results.iter().filter(|it| it.law.is_claimed(profile)) {
+            for finding in outcome.results.iter().filter(|it| it.property.is_claimed(profile)) {
                 if let Some(found) = &finding.counterexample {
                     let moves = found.trace.len() + found.circle.len();
-                    println!("{profile:?} {} {} {moves}", world.name, finding.law.name());
+                    println!("{profile:?} {} {} {moves}", world.name, finding.property.name());
                     fails = true;
                 }
             }

@@ -32,7 +32,7 @@ pub struct Leap {
 
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Verdict {
+pub struct Hunted {
     /// States from which the aim lies ahead.
     pub ahead: usize,
     /// Most time that a run needs, ticks; meaningless with a lasso.
@@ -64,7 +64,7 @@ pub fn find(
     explored: &Explored,
     leaps: impl Fn(u128, &mut Vec<Leap>),
     aim: impl Fn(u128) -> Aim,
-) -> Verdict {
+) -> Hunted {
     let mut hunt = Hunt {
         explored,
         leaps,
@@ -84,10 +84,10 @@ pub fn find(
             && let Some(first) = hunt.run(start)
         {
             let lasso = Some(lasso(system, explored, &hunt.path, first));
-            return Verdict { ahead, longest: hunt.longest, lasso };
+            return Hunted { ahead, longest: hunt.longest, lasso };
         }
     }
-    Verdict { ahead, longest: hunt.longest, lasso: None }
+    Hunted { ahead, longest: hunt.longest, lasso: None }
 }
 
 /// A depth-first search through the states from which the aim lies ahead.

@@ -4,7 +4,7 @@
 //! * `bounds`: every bound with its reason.
 //! * `mufasa_props::refine`: the model's and the implementation's requester, step by step.
 //! * `automaton`, `cav`, `station`: the real parts as finite automata, and why that loses nothing.
-//! * `state`, `moves`, `system`: the whole system.
+//! * `state`, `flight`, `moves`, `possible`, `system`: the whole system.
 //! * `properties`, `observer`: what has to hold, judged from outside.
 //! * `search`, `lasso`, `runs`: the exact search, and the search for endless runs.
 //! * `second`: stateright on the same system.
@@ -15,9 +15,11 @@ pub mod automaton;
 pub mod bounds;
 pub mod cav;
 mod fit;
+mod flight;
 pub mod lasso;
 pub mod moves;
 pub mod observer;
+mod possible;
 pub mod properties;
 pub mod replay;
 pub mod run;

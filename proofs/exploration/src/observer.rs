@@ -6,14 +6,14 @@ use mufasa_model::offloading::requester::{Group, Groups};
 use mufasa_model::services::configuration::Offloadable;
 
 use super::cav::{CavLikeness, Deed, Named, Stimulus, Use};
-use super::properties::{Law, Set, Sight};
+use super::properties::{Property, Set, Sight};
 use super::state::{Cav, Proof};
 
 /// What a step shows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Findings {
     /// The properties that it breaks.
-    pub broken: Set<Law>,
+    pub broken: Set<Property>,
     /// What it shows.
     pub seen: Set<Sight>,
 }
@@ -47,7 +47,7 @@ impl CavStep<'_> {
         self.judge_results(*cav, barred, found);
         self.judge_requests(barred, found);
         self.judge_sessions(found);
-        found.broken.note(Law::PartsValid, !self.after.valid);
+        found.broken.note(Property::PartsValid, !self.after.valid);
         self.see(found);
     }
 
@@ -61,7 +61,7 @@ impl CavStep<'_> {
             };
             for bit in services(group) {
                 let stopped = cav.stopped & bit != 0;
-                found.broken.note(Law::OneSource, stopped == stop);
+                found.broken.note(Property::OneSource, stopped == stop);
                 cav.stopped = if stop { cav.stopped | bit } else { cav.stopped & !bit };
             }
         }
@@ -111,24 +111,24 @@ impl CavStep<'_> {
                 None => !stopped,
                 Some(station) => stopped && group.remote() == Some(station),
             };
-            found.broken.note(Law::OneSource, !right);
+            found.broken.note(Property::OneSource, !right);
             let proven = cav.proof[service.group() as usize] == Proof::Safe;
-            found.broken.note(Law::NoStopBeforeSafeCycle, stopped && !proven);
+            found.broken.note(Property::NoStopBeforeSafeCycle, stopped && !proven);
         }
         let [_, env, tpl] = self.after.sources;
         let (env_stopped, tpl_stopped) = (cav.stopped >> 1 & 1, cav.stopped >> 2 & 1);
-        found.broken.note(Law::EnvAndTplTogether, env != tpl || env_stopped != tpl_stopped);
+        found.broken.note(Property::EnvAndTplTogether, env != tpl || env_stopped != tpl_stopped);
     }
 
     /// `barred`: whether a safety issue barred remote results before the step.
     fn judge_results(&self, cav: Cav, barred: bool, found: &mut Findings) {
-        let law = Law::NoRemoteResultBeforeHoldUntil;
+        let property = Property::NoRemoteResultBeforeHoldUntil;
         if let Stimulus::Data(named, _) = self.stimulus {
-            found.broken.note(law, barred && self.is_used(named));
+            found.broken.note(property, barred && self.is_used(named));
             found.seen.note(Sight::ResultDuringWait, barred);
         }
         let remote = self.after.sources.iter().any(Option::is_some);
-        found.broken.note(law, cav.blocked > 0 && remote);
+        found.broken.note(property, cav.blocked > 0 && remote);
     }
 
     /// A tick asks for every local group that may be asked for, when no safety issue bars it.
@@ -144,27 +144,27 @@ impl CavStep<'_> {
                 .iter()
                 .any(|deed| matches!(deed, Deed::Request { group: of, .. } if *of == group));
             let may = local && offered && self.before.area.contains(group);
-            found.broken.note(Law::AskedOnceAllowed, may && !asked);
+            found.broken.note(Property::AskedOnceAllowed, may && !asked);
         }
     }
 
     /// A message that names another session than the running or requested one changes nothing,
     /// and a new session has a number that no message of an older one can name.
     fn judge_sessions(&self, found: &mut Findings) {
-        let law = Law::EndedSessionChangesNothing;
+        let property = Property::EndedSessionChangesNothing;
         if let Stimulus::Confirm(named) | Stimulus::Reject(named) | Stimulus::Data(named, _) =
             self.stimulus
         {
             let partner = self.before.groups[named.group as usize].partner();
             if !(named.current && partner == Some(named.station)) {
                 let answers = self.deeds == self.answer().as_slice();
-                found.broken.note(law, !answers || self.before != self.after);
+                found.broken.note(property, !answers || self.before != self.after);
                 found.seen.note(Sight::EndedMeetsLaterAtCav, partner.is_some());
             }
         }
         for deed in self.deeds {
             let stale = matches!(deed, Deed::Request { fresh: false, .. });
-            found.broken.note(law, stale);
+            found.broken.note(property, stale);
         }
     }
 

@@ -8,7 +8,7 @@ use mufasa_model::input::cycle::Profile;
 
 /// A property that holds in every reachable state or in every endless run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
+pub enum Property {
     /// `spec/2-offloading.md#properties-of-the-whole-protocol.1`
     OneSource,
     /// `spec/2-offloading.md#properties-of-the-whole-protocol.2`
@@ -80,7 +80,7 @@ pub enum Sight {
     TwoServedAtOnce,
 }
 
-impl Law {
+impl Property {
     /// All of them.
     pub const ALL: [Self; 12] = [
         Self::OneSource,
@@ -293,7 +293,7 @@ pub trait Member: Copy {
     fn bit(self) -> u32;
 }
 
-impl Member for Law {
+impl Member for Property {
     fn bit(self) -> u32 {
         self as u32
     }

@@ -48,7 +48,7 @@ pub struct Post {
 
 /// What happened in a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Scene {
+pub struct Episode {
     /// When, ns.
     pub t_ns: i64,
     /// What.
@@ -66,7 +66,7 @@ pub struct Scene {
 /// What happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
-    /// Time passes, up to the time of the scene.
+    /// Time passes, up to the time of the episode.
     Time,
     /// An event at a CAV; `post` is the message that arrived, unless it was forged or none.
     AtCav {
@@ -135,13 +135,13 @@ impl From<Box<Difference>> for ReplayError {
 
 /// Walks a trace from the start, at 0 ns, one tick being 1 ns, beside the explored system. Errors:
 /// model and implementation differ, a move cannot happen, or the states differ.
-pub fn replay(system: &System, trace: &[Move]) -> Result<Vec<Scene>, ReplayError> {
+pub fn replay(system: &System, trace: &[Move]) -> Result<Vec<Episode>, ReplayError> {
     let (mut replay, mut state) = (Replay::new(system, 0)?, system.start());
     let walk = trace.iter().map(|by| {
-        let scene = replay.go(*by)?;
+        let episode = replay.go(*by)?;
         state = system.apply(&state, *by).ok_or(ReplayError::Impossible(*by))?.state;
         let same = replay.state() == Some(state.parts());
-        same.then_some(scene).ok_or(ReplayError::OtherState(*by))
+        same.then_some(episode).ok_or(ReplayError::OtherState(*by))
     });
     walk.collect()
 }
@@ -162,8 +162,8 @@ impl<'a> Replay<'a> {
     }
 
     /// Makes a move.
-    pub fn go(&mut self, by: Move) -> Result<Scene, ReplayError> {
-        let mut scene = Scene {
+    pub fn go(&mut self, by: Move) -> Result<Episode, ReplayError> {
+        let mut episode = Episode {
             t_ns: self.now_ns,
             what: What::Time,
             actions: Vec::new(),
@@ -175,7 +175,7 @@ impl<'a> Replay<'a> {
         match by {
             Move::TimePasses => {
                 self.now_ns += 1;
-                scene.t_ns = self.now_ns;
+                episode.t_ns = self.now_ns;
                 for provider in &mut self.providers {
                     let kind = ProviderEventKind::Tick;
                     provider.step(&ProviderEvent { t_ns: self.now_ns, kind });
@@ -185,25 +185,25 @@ impl<'a> Replay<'a> {
                 let stimulus = self.system.requesters().stimuli()[usize::from(place)];
                 let number = |named| self.session(cav.into(), named, rank);
                 let kind = stimulus.event(self.now_ns, number).ok_or_else(impossible)?;
-                self.at_cav(cav.into(), kind, None, &mut scene)?;
+                self.at_cav(cav.into(), kind, None, &mut episode)?;
             }
             Move::Deliver { message, kept } => {
                 let post = self.take(message, kept).ok_or_else(impossible)?;
-                self.arrive(post, &mut scene)?;
+                self.arrive(post, &mut episode)?;
             }
             Move::Refuse { message } => {
                 let post = self.take(message, false).ok_or_else(impossible)?;
-                scene.what = What::AtStation(post);
-                self.send(Post { kind: Kind::Reject, ..post }, &mut scene);
+                episode.what = What::AtStation(post);
+                self.send(Post { kind: Kind::Reject, ..post }, &mut episode);
             }
             Move::Lose { message } => {
-                scene.what = What::Lost(self.take(message, false).ok_or_else(impossible)?);
+                episode.what = What::Lost(self.take(message, false).ok_or_else(impossible)?);
             }
             Move::Crash { station } => {
                 let world = self.system.world();
                 let capacity = world.stations[usize::from(station)].capacity;
                 self.providers[usize::from(station)] = Provider::new(capacity, world.ticks.lease);
-                scene.what = What::Crash { station: i64::from(station) + 1 };
+                episode.what = What::Crash { station: i64::from(station) + 1 };
             }
             Move::Alive { cav, group } => {
                 let cav = usize::from(cav);
@@ -211,12 +211,12 @@ impl<'a> Replay<'a> {
                 else {
                     return Err(impossible());
                 };
-                scene.what = What::Alive { cav };
-                self.send(Post { kind: Kind::Alive, station, cav, group, session }, &mut scene);
+                episode.what = What::Alive { cav };
+                self.send(Post { kind: Kind::Alive, station, cav, group, session }, &mut episode);
             }
         }
-        scene.cavs = self.cavs.iter().map(look).collect();
-        Ok(scene)
+        episode.cavs = self.cavs.iter().map(look).collect();
+        Ok(episode)
     }
 
     /// The state as the exploration keeps it, without what the observer remembers. `None`: a part
@@ -266,7 +266,7 @@ impl<'a> Replay<'a> {
         cav: usize,
         kind: EventKind,
         post: Option<Post>,
-        scene: &mut Scene,
+        episode: &mut Episode,
     ) -> Result<(), ReplayError> {
         let event = Event { t_ns: self.now_ns, kind };
         let known = |replay: &Self, group, station, session| {
@@ -275,21 +275,21 @@ impl<'a> Replay<'a> {
                 || post.is_some_and(|it| it.session == session)
         };
         let before = self.clone();
-        scene.actions = self.cavs[cav].step(&event)?;
-        scene.what = What::AtCav { cav, event, post };
-        for action in scene.actions.clone() {
+        episode.actions = self.cavs[cav].step(&event)?;
+        episode.what = What::AtCav { cav, event, post };
+        for action in episode.actions.clone() {
             match action {
                 Action::Request { station, group, session } => {
-                    self.send(Post { kind: Kind::Request, station, cav, group, session }, scene);
+                    self.send(Post { kind: Kind::Request, station, cav, group, session }, episode);
                 }
                 // As in the exploration, a number that the station was never told is not kept.
                 Action::Release { station, group, session }
                     if known(&before, group, station, session) =>
                 {
-                    self.send(Post { kind: Kind::Release, station, cav, group, session }, scene);
+                    self.send(Post { kind: Kind::Release, station, cav, group, session }, episode);
                 }
                 Action::Release { station, group, session } => {
-                    scene.lost.push(Post { kind: Kind::Release, station, cav, group, session });
+                    episode.lost.push(Post { kind: Kind::Release, station, cav, group, session });
                 }
                 Action::Activate(_) | Action::Deactivate(_) | Action::Drop(_) => {}
             }
@@ -297,41 +297,41 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    fn arrive(&mut self, post: Post, scene: &mut Scene) -> Result<(), ReplayError> {
+    fn arrive(&mut self, post: Post, episode: &mut Episode) -> Result<(), ReplayError> {
         let Post { kind, station, cav, group, session } = post;
         let requester = requester(cav);
         let kind = match kind {
             Kind::Confirm => {
                 let kind = EventKind::Confirm { station, group, session };
-                return self.at_cav(cav, kind, Some(post), scene);
+                return self.at_cav(cav, kind, Some(post), episode);
             }
             Kind::Reject => {
                 let kind = EventKind::Reject { station, group, session };
-                return self.at_cav(cav, kind, Some(post), scene);
+                return self.at_cav(cav, kind, Some(post), episode);
             }
             Kind::Request => ProviderEventKind::Request { requester, group, session },
             Kind::Release => ProviderEventKind::Release { requester, group, session },
             Kind::Alive => ProviderEventKind::Heard { requester, group, session },
         };
-        scene.what = What::AtStation(post);
+        episode.what = What::AtStation(post);
         let provider = &mut self.providers[place(station)];
         let kind = match provider.step(&ProviderEvent { t_ns: self.now_ns, kind }) {
             None => return Ok(()),
             Some(Reply::Confirm { .. }) => Kind::Confirm,
             Some(Reply::Reject { .. }) => Kind::Reject,
         };
-        self.send(Post { kind, ..post }, scene);
+        self.send(Post { kind, ..post }, episode);
         Ok(())
     }
 
-    fn send(&mut self, post: Post, scene: &mut Scene) {
+    fn send(&mut self, post: Post, episode: &mut Episode) {
         if self.flight.contains(&post) {
-            scene.sent.push(post);
+            episode.sent.push(post);
         } else if self.flight.len() < self.system.world().in_flight {
             self.flight.push(post);
-            scene.sent.push(post);
+            episode.sent.push(post);
         } else {
-            scene.lost.push(post);
+            episode.lost.push(post);
         }
     }
 

@@ -9,7 +9,7 @@ use mufasa_model::offloading::requester::Group;
 use super::bounds::World;
 use super::lasso::{self, Lasso};
 use super::moves::Move;
-use super::properties::{Law, Sight};
+use super::properties::{Property, Sight};
 use super::runs::{self, Manner};
 use super::search::{self, Explored, Progress};
 use super::second::{self, Confirmation};
@@ -18,7 +18,7 @@ use mufasa_props::refine::Difference;
 
 /// What the exploration of a world in a profile found.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct WorldOutcome {
     /// The system explored.
     pub system: Arc<System>,
     /// Reachable states.
@@ -32,17 +32,17 @@ pub struct Outcome {
     /// Time for the parts, the states and the endless runs.
     pub time: Duration,
     /// The properties that the world can speak of.
-    pub results: Vec<Finding>,
+    pub results: Vec<PropertyOutcome>,
     /// The sights seen, each with a shortest trace to it.
     pub seen: Vec<(Sight, Vec<Move>)>,
     /// What the second engine says, and its time, if it was asked.
     pub second: Option<(Confirmation, Duration)>,
 }
 
-impl Outcome {
+impl WorldOutcome {
     /// Length of a shortest trace that shows it, if the world asks the property and shows it.
-    pub fn moves_to(&self, law: Law, sight: Sight) -> Option<usize> {
-        let asked = self.results.iter().any(|finding| finding.law == law);
+    pub fn moves_to(&self, property: Property, sight: Sight) -> Option<usize> {
+        let asked = self.results.iter().any(|finding| finding.property == property);
         let trace = self.seen.iter().find(|(it, _)| asked && *it == sight);
         trace.map(|(_, trace)| trace.len())
     }
@@ -50,9 +50,9 @@ impl Outcome {
 
 /// A property in a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct PropertyOutcome {
     /// Which.
-    pub law: Law,
+    pub property: Property,
     /// How it fails, if it does.
     pub counterexample: Option<Counterexample>,
     /// For a property of endless runs: states from which its aim lies ahead, and the most ticks
@@ -76,14 +76,14 @@ pub fn run(
     profile: Profile,
     threads: usize,
     report: impl FnMut(Progress),
-) -> Result<Outcome, Box<Difference>> {
+) -> Result<WorldOutcome, Box<Difference>> {
     let start = Instant::now();
     let system = Arc::new(System::new(world, profile)?);
     let explored = search::explore(&system, report);
-    let results = Law::ALL
+    let results = Property::ALL
         .into_iter()
-        .filter(|law| is_asked(*law, world))
-        .map(|law| judge(&system, &explored, law))
+        .filter(|property| is_asked(*property, world))
+        .map(|property| judge(&system, &explored, property))
         .collect();
     let seen = explored
         .seen
@@ -95,7 +95,7 @@ pub fn run(
         let start = Instant::now();
         (second::explore(&system, threads), start.elapsed())
     });
-    Ok(Outcome {
+    Ok(WorldOutcome {
         states: explored.len(),
         transitions: explored.transitions,
         depth: explored.depth,
@@ -110,34 +110,34 @@ pub fn run(
 
 /// Whether a world can break a property: without a network no station runs anything, and a CAV
 /// that has to wait for the place of another may wait for ever.
-pub fn is_asked(law: Law, world: &World) -> bool {
-    match law {
-        Law::OneSource
-        | Law::NoRemoteResultBeforeHoldUntil
-        | Law::AskedOnceAllowed
-        | Law::EnvAndTplTogether
-        | Law::NoStopBeforeSafeCycle
-        | Law::EndedSessionChangesNothing
-        | Law::PartsValid => true,
-        Law::OffloadingReachedAgain => world.has_network() && world.has_room_for_all(),
-        Law::LeftSessionWithinLease | Law::LeftSessionEnds | Law::NoMoreThanCapacity => {
-            world.has_network()
-        }
-        Law::OthersKeepTheirSessions => world.requesters > 1 && world.has_network(),
+pub fn is_asked(property: Property, world: &World) -> bool {
+    match property {
+        Property::OneSource
+        | Property::NoRemoteResultBeforeHoldUntil
+        | Property::AskedOnceAllowed
+        | Property::EnvAndTplTogether
+        | Property::NoStopBeforeSafeCycle
+        | Property::EndedSessionChangesNothing
+        | Property::PartsValid => true,
+        Property::OffloadingReachedAgain => world.has_network() && world.has_room_for_all(),
+        Property::LeftSessionWithinLease
+        | Property::LeftSessionEnds
+        | Property::NoMoreThanCapacity => world.has_network(),
+        Property::OthersKeepTheirSessions => world.requesters > 1 && world.has_network(),
     }
 }
 
-fn judge(system: &System, explored: &Explored, law: Law) -> Finding {
-    let verdicts = match law {
-        Law::OffloadingReachedAgain => offloading_is_reached_again(system, explored),
-        Law::LeftSessionEnds => a_left_session_ends(system, explored),
+fn judge(system: &System, explored: &Explored, property: Property) -> PropertyOutcome {
+    let verdicts = match property {
+        Property::OffloadingReachedAgain => offloading_is_reached_again(system, explored),
+        Property::LeftSessionEnds => a_left_session_ends(system, explored),
         _ => {
-            let broken = explored.broken.iter().find(|(broken, _)| *broken == law);
+            let broken = explored.broken.iter().find(|(broken, _)| *broken == property);
             let counterexample = broken.map(|(_, step)| Counterexample {
                 trace: explored.trace_of(system, *step),
                 circle: Vec::new(),
             });
-            return Finding { law, counterexample, ahead: None };
+            return PropertyOutcome { property, counterexample, ahead: None };
         }
     };
     let ahead = verdicts.iter().map(|verdict| verdict.ahead).sum();
@@ -146,11 +146,11 @@ fn judge(system: &System, explored: &Explored, law: Law) -> Finding {
     let shortest = lassos.min_by_key(|it| it.stem.len() + it.way.len() + it.circle.len());
     let counterexample = shortest
         .map(|Lasso { stem, way, circle }| Counterexample { trace: [stem, way].concat(), circle });
-    Finding { law, counterexample, ahead: Some((ahead, longest)) }
+    PropertyOutcome { property, counterexample, ahead: Some((ahead, longest)) }
 }
 
 /// In calm runs, for every choice of the stations' manners and for every group.
-fn offloading_is_reached_again(system: &System, explored: &Explored) -> Vec<lasso::Verdict> {
+fn offloading_is_reached_again(system: &System, explored: &Explored) -> Vec<lasso::Hunted> {
     let manners = runs::manners(system);
     let cavs = 0..system.world().requesters;
     let groups = cavs.flat_map(|cav| system.world().groups().map(move |group| (cav, group)));
@@ -169,7 +169,7 @@ fn offloading_is_reached_again(system: &System, explored: &Explored) -> Vec<lass
 }
 
 /// In quiet runs, for every station, CAV and group.
-fn a_left_session_ends(system: &System, explored: &Explored) -> Vec<lasso::Verdict> {
+fn a_left_session_ends(system: &System, explored: &Explored) -> Vec<lasso::Hunted> {
     let world = system.world();
     let mut verdicts = Vec::new();
     for station in 0..world.stations.len() {

@@ -5,7 +5,7 @@
 
 use super::fit::fit;
 use super::moves::Move;
-use super::properties::{Law, Set, Sight};
+use super::properties::{Property, Set, Sight};
 use super::system::System;
 
 /// All reachable states of a system.
@@ -19,7 +19,7 @@ pub struct Explored {
     /// Largest distance of a state from the start.
     pub depth: usize,
     /// The properties broken, each with the first step that breaks it.
-    pub broken: Vec<(Law, Step)>,
+    pub broken: Vec<(Property, Step)>,
     /// The sights seen, each with the first step that shows it.
     pub seen: Vec<(Sight, Step)>,
 }
@@ -76,7 +76,7 @@ pub fn explore(system: &System, mut report: impl FnMut(Progress)) -> Explored {
             let Some(next) = system.apply(&state, by) else { continue };
             transitions += 1;
             let step = Step { from, by };
-            note(&Law::ALL, next.found.broken, &mut all_broken, step, &mut broken);
+            note(&Property::ALL, next.found.broken, &mut all_broken, step, &mut broken);
             note(&Sight::ALL, next.found.seen, &mut all_seen, step, &mut seen);
             if next.state != state && index.insert(layout.pack(&next.state)) {
                 parents.push(from);

@@ -8,10 +8,10 @@ use std::net::ToSocketAddrs;
 use std::sync::Arc;
 
 use mufasa_model::services::configuration::Offloadable;
-use stateright::{Checker, Model, Path, Property};
+use stateright::{Checker, Model, Path};
 
 use super::moves::Move;
-use super::properties::{Law, Member, Set};
+use super::properties::{Member, Property, Set};
 use super::state::State;
 use super::system::System;
 
@@ -48,10 +48,11 @@ pub fn explore(system: &Arc<System>, threads: usize) -> Confirmation {
     let twin = Twin { system: Arc::clone(system), draw: |_, _| None };
     let checker = twin.checker().threads(threads).spawn_bfs().join();
     let found = checker.discoveries();
-    let laws = Law::ALL.into_iter().filter(|law| found.contains_key(law.name()));
+    let properties =
+        Property::ALL.into_iter().filter(|property| found.contains_key(property.name()));
     Confirmation {
         states: checker.unique_state_count(),
-        broken: laws.map(Law::name).collect(),
+        broken: properties.map(Property::name).collect(),
         offloaded: found.contains_key(OFFLOADED),
     }
 }
@@ -98,17 +99,18 @@ impl Model for Twin {
         (self.draw)(&self.system, &path.into_actions())
     }
 
-    fn properties(&self) -> Vec<Property<Self>> {
-        let mut properties = vec![Property::sometimes(OFFLOADED, |twin: &Self, seen| {
-            let state = twin.state(seen);
-            let cav = twin.system.cav(&state, 0);
-            Offloadable::ALL.into_iter().zip(cav.sources).any(|(_, source)| source.is_some())
-        })];
+    fn properties(&self) -> Vec<stateright::Property<Self>> {
+        let mut properties =
+            vec![stateright::Property::sometimes(OFFLOADED, |twin: &Self, seen| {
+                let state = twin.state(seen);
+                let cav = twin.system.cav(&state, 0);
+                Offloadable::ALL.into_iter().zip(cav.sources).any(|(_, source)| source.is_some())
+            })];
         macro_rules! always {
-            ($($law:ident),*) => {
-                $(properties.push(Property::always(
-                    Law::$law.name(),
-                    |_: &Self, seen: &Seen| seen.broken >> Law::$law.bit() & 1 == 0,
+            ($($property:ident),*) => {
+                $(properties.push(stateright::Property::always(
+                    Property::$property.name(),
+                    |_: &Self, seen: &Seen| seen.broken >> Property::$property.bit() & 1 == 0,
                 ));)*
             };
         }
@@ -135,7 +137,8 @@ impl Twin {
 }
 
 /// The broken properties that the profile claims, as bits.
-fn claimed(system: &System, broken: Set<Law>) -> u32 {
-    let claimed = |law: &Law| broken.contains(*law) && law.is_claimed(system.profile());
-    Law::ALL.into_iter().filter(claimed).fold(0, |bits, law| bits | 1 << law.bit())
+fn claimed(system: &System, broken: Set<Property>) -> u32 {
+    let claimed =
+        |property: &Property| broken.contains(*property) && property.is_claimed(system.profile());
+    Property::ALL.into_iter().filter(claimed).fold(0, |bits, property| bits | 1 << property.bit())
 }

@@ -10,9 +10,10 @@ use super::automaton::Automaton;
 use super::bounds::World;
 use super::cav::{CavLikeness, CavPart, Deed, Stimulus};
 use super::fit::fit;
+use super::flight::{end_session, take, tidy};
 use super::moves::Move;
 use super::observer::{CavStep, Findings};
-use super::properties::{Law, Sight};
+use super::properties::{Property, Sight};
 use super::state::{Kind, Layout, Letter, Message, State};
 use super::station::{
     Order, StationEffect, StationLikeness, StationPart, StationStimulus, ToStation,
@@ -150,7 +151,7 @@ impl System {
                         *unheard = (*unheard + 1).min(self.lease);
                         let left = memory.runs[cav][group] > 1;
                         let beyond = left && *unheard >= self.lease;
-                        next.found.broken.note(Law::LeftSessionWithinLease, beyond);
+                        next.found.broken.note(Property::LeftSessionWithinLease, beyond);
                     }
                 }
             }
@@ -242,9 +243,9 @@ impl System {
         }
         let running = memory.runs.iter().flatten().filter(|session| **session > 0).count();
         let full = self.world.stations[station].capacity;
-        next.found.broken.note(Law::NoMoreThanCapacity, running > full);
+        next.found.broken.note(Property::NoMoreThanCapacity, running > full);
         if let Some(confirms) = effect.confirms {
-            next.found.broken.note(Law::NoMoreThanCapacity, confirms && !effect.runs);
+            next.found.broken.note(Property::NoMoreThanCapacity, confirms && !effect.runs);
             let kind = if confirms { Kind::Confirm } else { Kind::Reject };
             self.send(&mut next.state, Letter { kind, ..letter });
             let others = (0..self.world.requesters)
@@ -268,10 +269,10 @@ impl System {
         let found = &mut next.found;
         let older = order == Order::Older;
         found.seen.note(Sight::EndedMeetsLaterAtStation, older);
-        found.broken.note(Law::EndedSessionChangesNothing, older && before != after);
+        found.broken.note(Property::EndedSessionChangesNothing, older && before != after);
         for cav in (0..self.world.requesters).filter(|cav| *cav != letter.cav) {
             let changed = before.ages[cav] != after.ages[cav];
-            found.broken.note(Law::OthersKeepTheirSessions, changed);
+            found.broken.note(Property::OthersKeepTheirSessions, changed);
             let runs = |cav: usize| before.ages[cav].iter().any(Option::is_some);
             found.seen.note(Sight::TwoServedAtOnce, runs(cav) && runs(letter.cav));
         }
@@ -296,7 +297,7 @@ impl System {
         let (id, effect) = provider.react(next.state.stations[station].id, place)?;
         next.state.stations[station].id = id;
         let likeness = provider.likeness(id);
-        next.found.broken.note(Law::PartsValid, !likeness.valid);
+        next.found.broken.note(Property::PartsValid, !likeness.valid);
         for (cav, ages) in likeness.ages.iter().enumerate() {
             for (group, age) in ages.iter().enumerate() {
                 let memory = &mut next.state.stations[station];
@@ -336,70 +337,4 @@ impl System {
             *free = message;
         }
     }
-}
-
-/// Takes a message out of flight, or a copy of it.
-fn take(state: &mut State, message: Message, kept: bool) -> Option<Letter> {
-    let place = state.flight.iter_mut().find(|place| **place == message)?;
-    let letter = message.letter()?;
-    if !kept {
-        *place = Message::default();
-    }
-    Some(letter)
-}
-
-/// What was the current session of a CAV, group and station becomes the newest ended one.
-fn end_session(state: &mut State, cav: usize, group: usize, station: usize) {
-    if let Some(memory) = state.stations.get_mut(station)
-        && memory.runs[cav][group] > 0
-    {
-        memory.runs[cav][group] += 1;
-    }
-    for message in &mut state.flight {
-        if let Some(letter) = message.letter()
-            && (letter.cav, letter.group, letter.station) == (cav, group, station)
-        {
-            *message = Message::new(Letter { rank: letter.rank + 1, ..letter });
-        }
-    }
-}
-
-/// Closes the gaps between the ranks of ended sessions, and sorts the messages.
-fn tidy(state: &mut State) {
-    const PLACES: usize = 16;
-    let place = |cav: usize, group: usize, station: usize| (cav * 2 + group) * 4 + station;
-    let mut known = [0_u8; PLACES];
-    for (station, memory) in state.stations.iter().enumerate() {
-        for cav in 0..memory.runs.len() {
-            for group in 0..2 {
-                if memory.runs[cav][group] > 0 {
-                    known[place(cav, group, station)] |= 1 << (memory.runs[cav][group] - 1);
-                }
-            }
-        }
-    }
-    for letter in state.flight.iter().filter_map(|message| message.letter()) {
-        known[place(letter.cav, letter.group, letter.station)] |= 1 << letter.rank;
-    }
-    // The rank of an ended session is one more than the number of newer ended ones.
-    let closed = |ranks: u8, rank: u8| {
-        let newer = ranks & ((1 << rank) - 1) & !1;
-        if rank == 0 { 0 } else { 1 + fit::<_, u8>(newer.count_ones()) }
-    };
-    for (station, memory) in state.stations.iter_mut().enumerate() {
-        for cav in 0..memory.runs.len() {
-            for group in 0..2 {
-                if let Some(rank) = memory.runs[cav][group].checked_sub(1) {
-                    memory.runs[cav][group] = closed(known[place(cav, group, station)], rank) + 1;
-                }
-            }
-        }
-    }
-    for message in &mut state.flight {
-        if let Some(letter) = message.letter() {
-            let ranks = known[place(letter.cav, letter.group, letter.station)];
-            *message = Message::new(Letter { rank: closed(ranks, letter.rank), ..letter });
-        }
-    }
-    state.flight.sort_unstable_by(|one, other| other.cmp(one));
 }

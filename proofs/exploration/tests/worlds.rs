@@ -10,9 +10,9 @@ use std::collections::BTreeSet;
 
 use mufasa_exploration::bounds::Bounds;
 use mufasa_exploration::moves::Move;
-use mufasa_exploration::properties::{Law, Sight};
+use mufasa_exploration::properties::{Property, Sight};
 use mufasa_exploration::replay;
-use mufasa_exploration::run::{self, Outcome};
+use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
 
 /// Of a world: states of the requester, its steps compared, states of the system, moves; states
@@ -43,7 +43,7 @@ const HARDENED: &[Sizes] = &[
     ("roam", 80, 1_888, 51_010, 1_679_378, [Some((32_762, 6)), Some((41_596, 3))]),
 ];
 
-fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
+fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<WorldOutcome> {
     let worlds = Bounds::Small.worlds();
     let outcomes: Vec<_> = worlds
         .iter()
@@ -56,8 +56,14 @@ fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
             let name = outcome.system.world().name;
             let (states, moves) = (outcome.states, outcome.transitions);
             println!("{profile:?} {name}: {states} states, {moves} moves, {:?}", outcome.time);
-            let endless = [Law::OffloadingReachedAgain, Law::LeftSessionEnds]
-                .map(|law| outcome.results.iter().find(|it| it.law == law).and_then(|it| it.ahead));
+            let endless =
+                [Property::OffloadingReachedAgain, Property::LeftSessionEnds].map(|property| {
+                    outcome
+                        .results
+                        .iter()
+                        .find(|it| it.property == property)
+                        .and_then(|it| it.ahead)
+                });
             (name, requesters.len(), requesters.reactions(), states, moves, endless)
         })
         .collect();
@@ -66,7 +72,7 @@ fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<Outcome> {
 }
 
 /// The second engine finds as many states, and nothing broken.
-fn both_engines_agree(outcome: &Outcome) {
+fn both_engines_agree(outcome: &WorldOutcome) {
     let name = outcome.system.world().name;
     let (second, _) = outcome.second.as_ref().expect("it was asked");
     assert_eq!(second.states, outcome.states, "{name}");
@@ -74,30 +80,30 @@ fn both_engines_agree(outcome: &Outcome) {
     assert!(second.offloaded, "{name}: nobody offloaded anything");
 }
 
-fn claimed_properties_hold(profile: Profile, outcome: &Outcome) {
-    for finding in outcome.results.iter().filter(|finding| finding.law.is_claimed(profile)) {
+fn claimed_properties_hold(profile: Profile, outcome: &WorldOutcome) {
+    for finding in outcome.results.iter().filter(|finding| finding.property.is_claimed(profile)) {
         let name = outcome.system.world().name;
-        assert_eq!(finding.counterexample, None, "{name}: {}", finding.law.name());
+        assert_eq!(finding.counterexample, None, "{name}: {}", finding.property.name());
         // An aim that never lay ahead would have been reached by nobody.
         assert_ne!(finding.ahead.map(|(states, _)| states), Some(0), "{name}");
     }
 }
 
 /// Every property was asked somewhere, and everything was seen that it speaks of.
-fn no_property_is_empty(profile: Profile, outcomes: &[Outcome]) {
-    for law in Law::ALL {
-        let asked = outcomes.iter().flat_map(|it| &it.results).any(|it| it.law == law);
-        assert!(asked, "{} was asked nowhere", law.name());
-        for sight in law.companions().iter().filter(|sight| sight.is_expected(profile)) {
-            let seen = outcomes.iter().any(|it| it.moves_to(law, *sight).is_some());
-            assert!(seen, "{}: never seen: {}", law.name(), sight.name());
+fn no_property_is_empty(profile: Profile, outcomes: &[WorldOutcome]) {
+    for property in Property::ALL {
+        let asked = outcomes.iter().flat_map(|it| &it.results).any(|it| it.property == property);
+        assert!(asked, "{} was asked nowhere", property.name());
+        for sight in property.companions().iter().filter(|sight| sight.is_expected(profile)) {
+            let seen = outcomes.iter().any(|it| it.moves_to(property, *sight).is_some());
+            assert!(seen, "{}: never seen: {}", property.name(), sight.name());
         }
     }
 }
 
 /// Each shortest trace to a sight, and each to what fails, can be walked by the real parts, and
 /// comes by the explored states.
-fn traces_are_real(outcome: &Outcome) {
+fn traces_are_real(outcome: &WorldOutcome) {
     let sights = outcome.seen.iter().map(|(_, trace)| trace.clone());
     let failures = outcome.results.iter().filter_map(|it| it.counterexample.as_ref());
     for trace in sights.chain(failures.map(|it| [&it.trace[..], &it.circle].concat())) {
@@ -108,9 +114,9 @@ fn traces_are_real(outcome: &Outcome) {
 }
 
 /// A station that waits for a left session does so for its lease at most.
-fn left_sessions_end_within_the_lease(outcome: &Outcome) {
+fn left_sessions_end_within_the_lease(outcome: &WorldOutcome) {
     let lease = outcome.system.world().ticks.lease;
-    let finding = outcome.results.iter().find(|it| it.law == Law::LeftSessionEnds);
+    let finding = outcome.results.iter().find(|it| it.property == Property::LeftSessionEnds);
     if let Some((_, ticks)) = finding.and_then(|it| it.ahead) {
         assert!(i64::from(ticks) <= lease, "{}: {ticks}", outcome.system.world().name);
     }
@@ -167,15 +173,16 @@ fn all_properties_but_f_12_hold_in_the_paper_profile() {
         claimed_properties_hold(Profile::Paper, outcome);
         traces_are_real(outcome);
         left_sessions_end_within_the_lease(outcome);
-        let finding = outcome.results.iter().find(|it| it.law == Law::NoStopBeforeSafeCycle);
+        let finding =
+            outcome.results.iter().find(|it| it.property == Property::NoStopBeforeSafeCycle);
         let found = finding.and_then(|it| it.counterexample.as_ref()).expect("F-12");
         // Offer, tick, forged confirmation; or offer, tick, request and confirmation delivered.
         let shortest = if outcome.system.world().attacker { 3 } else { 4 };
         assert_eq!(found.trace.len(), shortest);
-        let scenes = replay::replay(&outcome.system, &found.trace).expect("it can be walked");
-        let last = scenes.last().expect("some moves");
+        let episodes = replay::replay(&outcome.system, &found.trace).expect("it can be walked");
+        let last = episodes.last().expect("some moves");
         assert!(!last.cavs[0].computes[0], "the local services stopped");
-        assert!(scenes.iter().rev().skip(1).all(|scene| scene.cavs[0].computes[0]));
+        assert!(episodes.iter().rev().skip(1).all(|episode| episode.cavs[0].computes[0]));
     }
     no_property_is_empty(Profile::Paper, &outcomes);
 }

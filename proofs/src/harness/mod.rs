@@ -8,84 +8,71 @@
 #![allow(clippy::missing_panics_doc, reason = "a harness panics when its statement is false")]
 
 pub mod any;
-pub mod assignment;
 pub mod bounds;
 pub mod configuration;
-pub mod distance;
-pub mod grid;
+pub mod distances;
+pub mod i_track_validation;
 pub mod input;
-pub mod qos;
+pub mod quality_of_service;
 pub mod requester;
 pub mod scene;
 pub mod schedule;
 pub mod stages;
+pub mod v_grid_map;
 pub mod world;
 
 /// Name and body of a harness.
 pub type Harness = (&'static str, fn());
 
-/// All harnesses by their paths below this module.
-pub const ALL: [Harness; 32] = [
-    ("assignment::verify_mean_cost_is_minimal", assignment::verify_mean_cost_is_minimal),
-    ("assignment::verify_matched_cost_is_minimal", assignment::verify_matched_cost_is_minimal),
-    (
-        "configuration::verify_configurations_are_the_sets_of_groups",
-        configuration::verify_configurations_are_the_sets_of_groups,
-    ),
-    ("distance::verify_s_follow_is_at_least_s_cav", distance::verify_s_follow_is_at_least_s_cav),
-    ("distance::verify_s_follow_falls_with_v_lead", distance::verify_s_follow_falls_with_v_lead),
-    ("distance::verify_gap_keeps_its_laws", distance::verify_gap_keeps_its_laws),
-    ("distance::verify_s_valid_has_two_cases", distance::verify_s_valid_has_two_cases),
-    (
-        "grid::verify_paper_cells_include_their_borders",
-        grid::verify_paper_cells_include_their_borders,
-    ),
-    (
-        "grid::verify_hardened_cells_are_closed_squares",
-        grid::verify_hardened_cells_are_closed_squares,
-    ),
-    ("input::verify_bad_number_is_never_safe", input::verify_bad_number_is_never_safe),
-    ("input::verify_bad_structure_is_never_safe", input::verify_bad_structure_is_never_safe),
-    ("qos::verify_latency_is_exact", qos::verify_latency_is_exact),
-    ("qos::verify_silence_is_exact", qos::verify_silence_is_exact),
-    ("qos::verify_arrivals_take_an_element", qos::verify_arrivals_take_an_element),
-    ("requester::verify_requester_starts_valid", requester::verify_requester_starts_valid),
-    (
-        "requester::verify_requester_keeps_every_law_at_offers",
-        requester::verify_requester_keeps_every_law_at_offers,
-    ),
-    (
-        "requester::verify_requester_keeps_every_law_at_areas",
-        requester::verify_requester_keeps_every_law_at_areas,
-    ),
-    (
-        "requester::verify_requester_keeps_every_law_at_ticks",
-        requester::verify_requester_keeps_every_law_at_ticks,
-    ),
-    (
-        "requester::verify_requester_keeps_every_law_at_answers",
-        requester::verify_requester_keeps_every_law_at_answers,
-    ),
-    (
-        "requester::verify_requester_keeps_every_law_at_data",
-        requester::verify_requester_keeps_every_law_at_data,
-    ),
-    (
-        "requester::verify_requester_keeps_every_law_at_verdicts",
-        requester::verify_requester_keeps_every_law_at_verdicts,
-    ),
-    ("requester::verify_fallback_ends_everything", requester::verify_fallback_ends_everything),
-    ("requester::verify_hold_bars_requests", requester::verify_hold_bars_requests),
-    (
-        "requester::verify_requester_refuses_without_a_trace",
-        requester::verify_requester_refuses_without_a_trace,
-    ),
-    ("schedule::verify_schedule_is_the_table", schedule::verify_schedule_is_the_table),
-    ("stages::verify_stage_i_never_panics", stages::verify_stage_i_never_panics),
-    ("stages::verify_stage_ii_never_panics", stages::verify_stage_ii_never_panics),
-    ("stages::verify_stage_iii_never_panics", stages::verify_stage_iii_never_panics),
-    ("stages::verify_stage_iv_never_panics", stages::verify_stage_iv_never_panics),
-    ("stages::verify_stage_v_never_panics", stages::verify_stage_v_never_panics),
-    ("stages::verify_index_changes_nothing", stages::verify_index_changes_nothing),
-    ("stages::verify_stage_alone_says_the_same", stages::verify_stage_alone_says_the_same),
-];
+macro_rules! harnesses {
+    ($($module:ident: $($name:ident)*;)*) => {
+        /// All harnesses by their paths below this module.
+        pub const ALL: &[Harness] = &[
+            $($((concat!(stringify!($module), "::", stringify!($name)), $module::$name as fn()),)*)*
+        ];
+    };
+}
+
+harnesses! {
+    configuration:
+        verify_configurations_are_the_sets_of_groups;
+    distances:
+        verify_s_follow_is_never_below_s_cav
+        verify_s_follow_falls_with_v_lead
+        verify_gap_keeps_its_laws
+        verify_s_valid_is_s_follow_or_s_b;
+    i_track_validation:
+        verify_mean_cost_is_minimal
+        verify_matched_cost_is_minimal;
+    input:
+        verify_bad_number_is_never_safe
+        verify_bad_structure_is_never_safe;
+    quality_of_service:
+        verify_latency_is_exact
+        verify_silence_is_exact
+        verify_arrivals_take_an_element;
+    requester:
+        verify_requester_starts_valid
+        verify_requester_keeps_every_law_at_offers
+        verify_requester_keeps_every_law_at_areas
+        verify_requester_keeps_every_law_at_ticks
+        verify_requester_keeps_every_law_at_answers
+        verify_requester_keeps_every_law_at_data
+        verify_requester_keeps_every_law_at_verdicts
+        verify_a_safety_issue_ends_every_remote_service
+        verify_t_wait_blocks_offloading
+        verify_requester_refuses_without_a_trace;
+    schedule:
+        verify_schedule_is_the_table;
+    stages:
+        verify_stage_i_never_panics
+        verify_stage_ii_never_panics
+        verify_stage_iii_never_panics
+        verify_stage_iv_never_panics
+        verify_stage_v_never_panics
+        verify_index_changes_nothing
+        verify_stage_alone_says_the_same;
+    v_grid_map:
+        verify_paper_cells_include_their_borders
+        verify_hardened_cells_are_closed_squares;
+}

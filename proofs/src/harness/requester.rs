@@ -179,7 +179,7 @@ fn after_any_event(about: About, see: impl FnOnce(&Step<'_>)) {
 /// looked at.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(10))]
-pub fn verify_fallback_ends_everything() {
+pub fn verify_a_safety_issue_ends_every_remote_service() {
     let (mut table, aside, _, parameters) = any_state();
     let mut requester = Requester::resume(aside, &mut table);
     let before = Group::ALL.map(|group| requester.state(group));
@@ -212,7 +212,7 @@ pub fn verify_fallback_ends_everything() {
 /// larger tables.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(10))]
-pub fn verify_hold_bars_requests() {
+pub fn verify_t_wait_blocks_offloading() {
     let (mut table, aside, _, _) = any_state();
     let mut requester = Requester::resume(aside, &mut table);
     let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());

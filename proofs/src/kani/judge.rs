@@ -14,7 +14,7 @@ pub const LEAST_HELD: u64 = 1_000;
 
 /// What a harness was shown to be.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Evidence {
     /// True of every value of a finite domain.
     Every(Run),
     /// True of the random and boundary values that were run: testing, no proof.
@@ -26,25 +26,25 @@ pub enum Verdict {
 }
 
 /// Runs the harness, which has to reach exactly these covers.
-pub fn judge(harness: fn(), covers: &BTreeSet<&str>) -> Verdict {
+pub fn judge(harness: fn(), covers: &BTreeSet<&str>) -> Evidence {
     let found = match caught(|| run(harness, BUDGET)) {
         Ok(found) => found,
-        Err(message) => return Verdict::Refuted(message),
+        Err(message) => return Evidence::Refuted(message),
     };
     let come_to: BTreeSet<&str> = found.covers.keys().copied().collect();
     let other: Vec<_> = come_to.symmetric_difference(covers).collect();
     let missed: Vec<_> = found.covers.iter().filter(|&(_, &runs)| runs == 0).collect();
     if !other.is_empty() {
-        return Verdict::Vacuous(std::format!("covers differ from those expected: {other:?}"));
+        return Evidence::Vacuous(std::format!("covers differ from those expected: {other:?}"));
     }
     if !missed.is_empty() {
-        return Verdict::Vacuous(std::format!("covers never reached: {missed:?}"));
+        return Evidence::Vacuous(std::format!("covers never reached: {missed:?}"));
     }
     if found.exhaustive {
-        return Verdict::Every(found);
+        return Evidence::Every(found);
     }
     if found.held < LEAST_HELD {
-        return Verdict::Vacuous(std::format!("only {} runs met the assumptions", found.held));
+        return Evidence::Vacuous(std::format!("only {} runs met the assumptions", found.held));
     }
-    Verdict::Some(found)
+    Evidence::Some(found)
 }

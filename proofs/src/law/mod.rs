@@ -4,6 +4,6 @@
 //! whoever runs the implementation: an exhaustive run, proptest, a fuzzer, a model checker. Each
 //! is refuted by a wrong variant in `proofs/tests`, so that none holds of nothing.
 
-pub mod distance;
+pub mod distances;
 pub mod requester;
 pub mod schedule;

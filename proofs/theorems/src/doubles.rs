@@ -6,13 +6,13 @@
 mod process;
 
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 pub use process::version;
 
 use crate::numbers::real::Real;
-use crate::numbers::real::program::{Operand, Operator, record};
-use crate::prove::Verdict;
+use crate::numbers::real::program::{Operand, Operator};
+use crate::prove::Judgement;
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
 /// A claim about results in doubles.
@@ -108,27 +108,6 @@ fn follow() -> Real {
     s_follow(&v_now(), &v_lead(), &a_b(), &safety_time())
 }
 
-/// A claim judged.
-#[derive(Clone, Debug)]
-pub struct Judgement {
-    /// Of the claim.
-    pub claim: Verdict,
-    /// Of its wrong variant, which must be refuted.
-    pub control: Verdict,
-    /// Time taken.
-    pub time: Duration,
-}
-
-impl Judgement {
-    /// The claim's verdict; not known when the wrong variant is not refuted.
-    pub fn verdict(&self) -> &Verdict {
-        match (&self.claim, &self.control) {
-            (Verdict::Proved, Verdict::Proved | Verdict::Unknown) => &Verdict::Unknown,
-            (verdict, _) => verdict,
-        }
-    }
-}
-
 impl Range {
     /// Asks for a counterexample to the claim, and for one to the wrong variant, which there must
     /// be. Errors are those of running bitwuzla.
@@ -136,7 +115,7 @@ impl Range {
         let start = Instant::now();
         let claim = process::ask(&self.question(self.claim))?;
         let control = process::ask(&self.question(self.wrong.claim))?;
-        Ok(Judgement { claim, control, time: start.elapsed() })
+        Ok(Judgement { claim, control, paths: 1, time: start.elapsed() })
     }
 
     /// Is there a counterexample? In SMT-LIB.
@@ -147,7 +126,7 @@ impl Range {
             lines.push(format!("(assert (fp.leq (number {least}) {name}))"));
             lines.push(format!("(assert (fp.leq {name} (number {most})))"));
         }
-        let program = record(self.formulas);
+        let program = Real::record(self.formulas);
         for step in &program.steps {
             let [a, b] = step.operands.each_ref().map(text);
             let result = match step.operator {

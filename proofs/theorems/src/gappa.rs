@@ -4,55 +4,21 @@
 //! would do them in the order of the source. `tests/rounding.rs` holds the bounds against exact
 //! numbers. The implementation computes in double-doubles with bounds of its own.
 
+mod bound;
 mod process;
 mod script;
 
 use std::io;
 use std::time::{Duration, Instant};
 
+pub use bound::Bound;
 pub use process::version;
 
 use crate::numbers::real::Real;
-use crate::prove::Verdict;
+use crate::prove::Decision;
 use crate::stages::distances::{s_b, s_follow};
+use bound::Known;
 use script::Script;
-
-/// A bound on a rounding error.
-#[derive(Debug)]
-pub struct Bound {
-    /// Its name.
-    pub id: &'static str,
-    /// What is claimed.
-    pub statement: &'static str,
-    /// Of which numbers.
-    pub domain: &'static str,
-    /// Of `formula`, over the ranges of its inputs.
-    formula: fn() -> Real,
-    inputs: &'static [Input],
-    /// Whether the limit is one of the relative error.
-    relative: bool,
-    /// Values within the formula of which a bound is known from another line.
-    known: &'static [fn() -> Real],
-    /// What is known of these.
-    lemma: Known,
-    /// What is shown first of a value of which the maximum with 0 is taken, and used of that: the
-    /// maximum makes no error larger.
-    of_max: Known,
-    /// The limit claimed.
-    limit: &'static str,
-    /// A smaller one, for which there must be no proof.
-    wrong: &'static str,
-}
-
-/// An input: name, least and largest value.
-type Input = (&'static str, &'static str, &'static str);
-
-/// A value from 0 to `most` with an absolute error of at most `error`.
-#[derive(Clone, Copy, Debug)]
-struct Known {
-    most: &'static str,
-    error: &'static str,
-}
 
 const NOTHING: Known = Known { most: "0", error: "0" };
 
@@ -117,12 +83,12 @@ fn a_b() -> Real {
 
 impl Bound {
     /// Proved, or not known: Gappa refutes nothing. The wrong bound must have no proof, or the
-    /// verdict is not known either. Errors are those of running Gappa.
-    pub fn judge(&self) -> io::Result<(Verdict, Duration)> {
+    /// decision is not known either. Errors are those of running Gappa.
+    pub fn judge(&self) -> io::Result<(Decision, Duration)> {
         let start = Instant::now();
         let is_proved = self.are_proved(self.limit)? && !self.are_proved(self.wrong)?;
-        let verdict = if is_proved { Verdict::Proved } else { Verdict::Unknown };
-        Ok((verdict, start.elapsed()))
+        let decision = if is_proved { Decision::Proved } else { Decision::Unknown };
+        Ok((decision, start.elapsed()))
     }
 
     /// The texts for Gappa that together claim this limit.

@@ -11,7 +11,6 @@ pub mod gappa;
 pub mod input;
 pub mod numbers;
 pub mod prove;
-pub mod solver;
 pub mod theorem;
 pub mod witness;
 

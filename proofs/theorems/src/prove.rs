@@ -3,18 +3,19 @@
 use std::io;
 use std::time::{Duration, Instant};
 
+use mufasa_z3::{Answer, Effort, Solver, number};
+
 use crate::numbers::real::formula::{Formula, not};
 use crate::numbers::real::path;
-use crate::solver::{Answer, Effort, Solver};
 use crate::theorem::Theorem;
 
 /// For the claim on one path.
 const CLAIM: Effort = Effort { steps: 100_000_000, limit_ms: 60_000 };
 
-/// How a proof ended.
+/// What a solver decides of a claim.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// True of all real numbers on every path.
+pub enum Decision {
+    /// True of all numbers of its domain.
     Proved,
     /// False of these.
     Refuted(Vec<(String, f64)>),
@@ -26,56 +27,57 @@ pub enum Verdict {
 #[derive(Clone, Debug)]
 pub struct Proof {
     /// How it ended.
-    pub verdict: Verdict,
+    pub decision: Decision,
     /// Paths executed.
     pub paths: usize,
-    /// Questions to the solver.
-    pub questions: usize,
+}
+
+/// A claim judged.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// Of the claim.
+    pub claim: Decision,
+    /// Of its wrong variant, which must be refuted.
+    pub control: Decision,
+    /// Paths of the claim executed, of which ranges of doubles have one.
+    pub paths: usize,
     /// Time taken.
     pub time: Duration,
 }
 
-/// A theorem judged.
-#[derive(Clone, Debug)]
-pub struct Judgement {
-    /// Of its claim.
-    pub proof: Proof,
-    /// Of its wrong variant, which must be refuted.
-    pub control: Proof,
-}
-
 impl Judgement {
-    /// The claim's verdict; not known when the wrong variant is not refuted, because then the
-    /// claim may be one of nothing.
-    pub fn verdict(&self) -> &Verdict {
-        match (&self.proof.verdict, &self.control.verdict) {
-            (Verdict::Proved, Verdict::Proved | Verdict::Unknown) => &Verdict::Unknown,
-            (verdict, _) => verdict,
+    /// Of the claim; not known when the wrong variant is not refuted, because then the claim may
+    /// be one of nothing.
+    pub fn decision(&self) -> &Decision {
+        match (&self.claim, &self.control) {
+            (Decision::Proved, Decision::Proved | Decision::Unknown) => &Decision::Unknown,
+            (decision, _) => decision,
         }
     }
 }
 
 /// Proves a theorem and refutes its wrong variant. Errors are those of talking to the solver.
 pub fn judge(theorem: &Theorem) -> io::Result<Judgement> {
-    let proof = prove(&theorem.claim)?;
-    Ok(Judgement { proof, control: prove(&theorem.wrong.claim)? })
+    let start = Instant::now();
+    let Proof { decision: claim, paths } = prove(&theorem.claim)?;
+    let control = prove(&theorem.wrong.claim)?.decision;
+    Ok(Judgement { claim, control, paths, time: start.elapsed() })
 }
 
 /// Runs `claim` on every path that its comparisons take, and asks the solver for a
 /// counterexample on each, up to the first path where there is one. Errors are those of talking to
 /// the solver.
 pub fn prove(claim: &dyn Fn() -> Formula) -> io::Result<Proof> {
-    let start = Instant::now();
     path::exchange_solver(Some(Solver::start()?));
     path::first();
-    let (mut verdict, mut paths) = (Verdict::Proved, 0);
+    let (mut decision, mut paths) = (Decision::Proved, 0);
     loop {
         paths += 1;
         match on_this_path(claim) {
-            Verdict::Proved => {}
-            Verdict::Unknown => verdict = Verdict::Unknown,
-            refuted @ Verdict::Refuted(_) => {
-                verdict = refuted;
+            Decision::Proved => {}
+            Decision::Unknown => decision = Decision::Unknown,
+            refuted @ Decision::Refuted(_) => {
+                decision = refuted;
                 break;
             }
         }
@@ -85,22 +87,25 @@ pub fn prove(claim: &dyn Fn() -> Formula) -> io::Result<Proof> {
     }
     let solver = path::exchange_solver(None);
     path::first();
-    let questions = solver.as_ref().map_or(0, |solver| solver.questions);
     match solver.and_then(|mut solver| solver.error.take()) {
         Some(error) => Err(error),
-        None => Ok(Proof { verdict, paths, questions, time: start.elapsed() }),
+        None => Ok(Proof { decision, paths }),
     }
 }
 
-fn on_this_path(claim: &dyn Fn() -> Formula) -> Verdict {
+fn on_this_path(claim: &dyn Fn() -> Formula) -> Decision {
     let claim = claim();
     if let Formula::Known(true) = claim {
-        return Verdict::Proved;
+        return Decision::Proved;
     }
     let assertion = path::with(|path| not(claim).text(path));
     match path::ask(&assertion, CLAIM) {
-        Answer::Unsat => Verdict::Proved,
-        Answer::Sat(values) => Verdict::Refuted(values),
-        Answer::Unknown => Verdict::Unknown,
+        Answer::Unsat => Decision::Proved,
+        Answer::Sat(values) => {
+            let names = path::with(|path| path.names.clone());
+            let values = values.iter().map(|value| number(value));
+            Decision::Refuted(names.into_iter().zip(values).collect())
+        }
+        Answer::Unknown => Decision::Unknown,
     }
 }

@@ -12,7 +12,7 @@ use crate::input::cycle::{Cycle, Profile};
 use crate::input::scene::Scene;
 use crate::numbers::real::formula::{Formula, given, not};
 use crate::numbers::real::hole::name_of;
-use crate::prove::{Verdict, prove};
+use crate::prove::{Decision, prove};
 use crate::stages::decide;
 use crate::theorem::base;
 
@@ -38,7 +38,7 @@ impl Search {
             given(wrong);
             not(Formula::from(decide(&scene).failed_stage.is_none()))
         })?;
-        let Verdict::Refuted(values) = proof.verdict else { return Ok(None) };
+        let Decision::Refuted(values) = proof.decision else { return Ok(None) };
         let mut cycle = (self.cycle)(Profile::Paper);
         for number in numbers(&mut cycle) {
             let Some(name) = name_of(*number) else { continue };

@@ -2,21 +2,20 @@
 
 use std::collections::BTreeSet;
 
-use mufasa_theorems::prove::{Verdict, judge};
-use mufasa_theorems::solver;
+use mufasa_theorems::prove::{Decision, judge};
 use mufasa_theorems::theorem;
 use mufasa_theorems::{doubles, gappa};
 
 #[test]
 fn every_theorem_is_proved_and_its_wrong_variant_refuted() {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
     for theorem in theorem::all() {
         let judgement = judge(theorem).expect("z3 answers");
-        println!("{}: {} paths", theorem.id, judgement.proof.paths);
-        assert_eq!(*judgement.verdict(), Verdict::Proved, "{}: {judgement:?}", theorem.id);
+        println!("{}: {} paths", theorem.id, judgement.paths);
+        assert_eq!(*judgement.decision(), Decision::Proved, "{}: {judgement:?}", theorem.id);
     }
 }
 
@@ -28,9 +27,9 @@ fn every_bound_is_proved_and_a_smaller_one_is_not() {
     };
     println!("{version}");
     for bound in &gappa::BOUNDS {
-        let (verdict, time) = bound.judge().expect("Gappa runs");
+        let (decision, time) = bound.judge().expect("Gappa runs");
         println!("{}: {time:.1?}", bound.id);
-        assert_eq!(verdict, Verdict::Proved, "{}", bound.id);
+        assert_eq!(decision, Decision::Proved, "{}", bound.id);
     }
 }
 
@@ -44,8 +43,8 @@ fn every_range_is_proved_and_its_wrong_variant_refuted() {
     for range in &doubles::RANGES {
         let judgement = range.judge().expect("bitwuzla runs");
         println!("{}: {judgement:?}", range.id);
-        assert_eq!(*judgement.verdict(), Verdict::Proved, "{}", range.id);
-        let Verdict::Refuted(values) = judgement.control else { panic!("{}", range.id) };
+        assert_eq!(*judgement.decision(), Decision::Proved, "{}", range.id);
+        let Decision::Refuted(values) = judgement.control else { panic!("{}", range.id) };
         let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["v_now", "v_lead", "a_b", "safety_time"], "the values are read");
         assert!(values.iter().all(|(_, value)| (0.0..=150.0).contains(value)), "{values:?}");

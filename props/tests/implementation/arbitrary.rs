@@ -11,19 +11,14 @@ use mufasa_model::services::configuration::Configuration;
 use mufasa_props::bridge::check_impl;
 use mufasa_props::conformance::name;
 use mufasa_props::strategy::draw::Draw;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 const CYCLES: u64 = 60_000;
 
-/// Numbers for one cycle from a seed (`SplitMix64`).
+/// Numbers for one cycle from a seed.
 pub fn tape(seed: u64) -> Vec<u32> {
-    let mut state = seed.wrapping_mul(0xd134_2543_de82_ef95);
-    let bits = std::iter::repeat_with(|| {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        u32::try_from((z ^ (z >> 31)) >> 32).expect("32 bits")
-    });
-    bits.take(2_000).collect()
+    ChaCha8Rng::seed_from_u64(seed).random_iter().take(2_000).collect()
 }
 
 /// Draws values, of which every so many is of any bits.

@@ -8,6 +8,8 @@ use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
 };
 use mufasa_model::services::configuration::{Offloadable, Source};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::{Cav, PROFILES, TICK, UNSAFE, confirm, data, offer, reject};
 
@@ -24,15 +26,13 @@ fn parameters() -> Parameters {
     }
 }
 
-/// Reproducible numbers (Knuth's linear congruential generator).
-struct Numbers(u64);
+/// Reproducible numbers.
+struct Numbers(ChaCha8Rng);
 
 impl Numbers {
     /// A number below `bound`.
     fn below(&mut self, bound: i64) -> i64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        i64::try_from(self.0 >> 33).expect("31 bits") % bound
+        self.0.random_range(0..bound)
     }
 
     fn groups(&mut self) -> Groups {
@@ -315,7 +315,7 @@ fn the_properties_hold_with_a_bad_network_failing_providers_and_an_attacker() {
     for profile in PROFILES {
         let mut total = Count::default();
         for seed in 0..400 {
-            let mut numbers = Numbers(seed);
+            let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(seed));
             let mut world = World::new(profile);
             for _ in 0..1_000 {
                 world.step(&mut numbers);

@@ -19,7 +19,7 @@ fn cross_sections(random: &mut Random, count: usize) -> Vec<CrossSection> {
 
 #[test]
 fn no_segment_that_is_near_is_left_out() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut left_out = 0;
     for count in (2..70).chain([255, 256, 257, 271, 272, 273, 600]) {
         let cross_sections = cross_sections(&mut random, count);
@@ -58,7 +58,7 @@ fn no_segment_that_is_near_is_left_out() {
 
 #[test]
 fn another_route_has_another_index() {
-    let cross_sections = cross_sections(&mut Random(5), 40);
+    let cross_sections = cross_sections(&mut Random::new(5), 40);
     let route = Route { closed: false, cross_sections: &cross_sections };
     let mut memory = std::vec![Block::default(); Block::needed(40)];
     let index = RouteIndex::new(route, &mut memory).expect("a valid route");
@@ -70,7 +70,7 @@ fn another_route_has_another_index() {
 
 #[test]
 fn invalid_routes_and_too_little_memory_are_refused() {
-    let cross_sections = cross_sections(&mut Random(5), 40);
+    let cross_sections = cross_sections(&mut Random::new(5), 40);
     let route = Route { closed: false, cross_sections: &cross_sections };
     let mut memory = std::vec![Block::default(); Block::needed(40) - 1];
     let refused = RouteIndex::new(route, &mut memory).map(|_| ()).map_err(|error| error.problem);

@@ -33,7 +33,7 @@ fn fixed_point(left: &[Product], right: &[Product]) -> Ordering {
 
 #[test]
 fn signs_are_exact() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let mut seen = [0; 3];
     for _ in 0..20_000 {
         let values = random.related(16);
@@ -51,7 +51,7 @@ fn signs_are_exact() {
 
 #[test]
 fn orientation_next_to_a_line_is_exact() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for _ in 0..20_000 {
         let v = random.related(4);
         let (a, b) = ([v[0], v[1]], [v[2], v[3]]);

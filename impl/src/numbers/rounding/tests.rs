@@ -33,7 +33,7 @@ fn draw(random: &mut Random) -> (Real, RBig) {
 
 #[test]
 fn results_are_within_their_bounds() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for _ in 0..40_000 {
         let ((a, x), (b, y)) = (draw(&mut random), draw(&mut random));
         assert!(holds(a, &x) && holds(b, &y));
@@ -61,7 +61,7 @@ fn results_are_within_their_bounds() {
 
 #[test]
 fn comparisons_are_certain_only_when_they_hold() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let mut certain = 0;
     for _ in 0..40_000 {
         let ((a, x), (b, y)) = (draw(&mut random), draw(&mut random));
@@ -77,7 +77,7 @@ fn comparisons_are_certain_only_when_they_hold() {
 /// Completeness rests on this: bounds far below the least margin on the whole domain.
 #[test]
 fn bounds_of_lengths_are_tiny() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     for _ in 0..10_000 {
         let v = random.related(4);
         let (dx, dy) = (Real::difference(v[0], v[1]), Real::difference(v[2], v[3]));

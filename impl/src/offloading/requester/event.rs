@@ -7,7 +7,7 @@ use super::per_group::PerGroup;
 use crate::report::{InvalidInput, Report};
 use crate::services::configuration::{Group, Groups};
 
-/// Something that happens at a time.
+/// Something that happens at a time. Source: `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Event {
     /// The CAV's monotonic clock, in ns. Never compared with a clock.
@@ -17,6 +17,7 @@ pub struct Event {
 }
 
 /// What happens. Every `station` must be >= 1; sessions and generation times may be anything.
+/// Source: `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EventKind {
     /// A station offers groups; this replaces its previous offer.
@@ -92,7 +93,8 @@ impl EventKind {
         Self::Verdict { safe, groups }
     }
 
-    /// The station that the event names, if it is of a kind that names one.
+    /// The station that the event names, if it is of a kind that names one. Source:
+    /// `spec/5-interfaces.md#offloading-trace`.
     pub const fn station(&self) -> Option<i64> {
         match *self {
             Self::Offer { station, .. }
@@ -106,7 +108,7 @@ impl EventKind {
     }
 }
 
-/// Something that the requester does.
+/// Something that the requester does. Source: `spec/2-offloading.md#fallback`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
     /// Ask a station to run a group.
@@ -136,7 +138,8 @@ pub enum Action {
 }
 
 /// The actions of one event, in the order in which they are taken: drops, releases, activations
-/// and deactivations, requests; MOT before PLAN within each. Read it as a slice.
+/// and deactivations, requests; MOT before PLAN within each. Read it as a slice. Source:
+/// `spec/2-offloading.md#fallback`.
 #[derive(Clone, Copy, Debug)]
 pub struct Actions {
     items: [Action; Outbox::CAPACITY],

@@ -21,7 +21,7 @@ pub struct Running {
     pub local_computes: bool,
 }
 
-/// All of a requester but its table.
+/// All of a requester but its table. Source: `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug)]
 pub struct Suspended {
     pub(super) profile: Profile,
@@ -34,7 +34,7 @@ pub struct Suspended {
 }
 
 impl<'a> Requester<'a> {
-    /// The running session of a remote group.
+    /// The running session of a remote group. Source: `spec/2-offloading.md#requester`.
     pub const fn session_of(&self, group: Group) -> Option<Running> {
         match *self.slots.get(group) {
             Slot::Local | Slot::Requested { .. } => None,
@@ -54,6 +54,7 @@ impl<'a> Requester<'a> {
     }
 
     /// The requester without its table, so that the table need not stay borrowed between events.
+    /// Source: `spec/2-offloading.md#requester`.
     pub const fn suspend(&self) -> Suspended {
         Suspended {
             profile: self.profile,
@@ -67,7 +68,8 @@ impl<'a> Requester<'a> {
     }
 
     /// The requester again. `table`: the one it had, or a copy, unchanged since; with another one
-    /// it remembers other offers and requests, which `is_valid` may tell.
+    /// it remembers other offers and requests, which `is_valid` may tell. Source:
+    /// `spec/2-offloading.md#requester`.
     pub const fn resume(suspended: Suspended, table: &'a mut [StationRecord]) -> Self {
         let Suspended { profile, parameters, slots, hold_until_ns, area, sessions, dropped } =
             suspended;

@@ -11,7 +11,7 @@ use super::{Group, Groups, Parameters, StationRecord};
 use crate::input::profile::Profile;
 use crate::offloading::quality_of_service::Arrivals;
 
-/// All that a requester remembers of one group.
+/// All that a requester remembers of one group. Source: `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GroupRecord {
     /// It runs on station 0.
@@ -29,7 +29,8 @@ pub enum GroupRecord {
     Remote(Running),
 }
 
-/// All that a requester remembers, but for its table. Times in ns.
+/// All that a requester remembers, but for its table. Times in ns. Source:
+/// `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Parts {
     /// Profile in force.
@@ -65,7 +66,7 @@ impl Suspended {
         }
     }
 
-    /// The parts of the requester that was put aside.
+    /// The parts of the requester that was put aside. Source: `spec/2-offloading.md#requester`.
     pub const fn parts(&self) -> Parts {
         Parts {
             profile: self.profile,
@@ -81,7 +82,8 @@ impl Suspended {
 
 impl StationRecord {
     /// The place of a station. `last_request`: the sessions of its last requests for MOT and PLAN.
-    /// A station that offers nothing and was never asked leaves its place free.
+    /// A station that offers nothing and was never asked leaves its place free. Source:
+    /// `spec/2-offloading.md#requester`.
     pub const fn from_parts(station: i64, offer: Groups, last_request: [Option<i64>; 2]) -> Self {
         let [mot, plan] = last_request;
         Self { station, offer, last_request: PerGroup::new(number(mot), number(plan)) }

@@ -4,7 +4,7 @@ use crate::input::profile::Profile;
 use crate::offloading::quality_of_service::Arrivals;
 use crate::services::configuration::Source;
 
-/// The state of a group as the protocol names it.
+/// The state of a group as the protocol names it. Source: `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GroupState {
     /// It runs on station 0.

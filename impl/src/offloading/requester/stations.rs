@@ -6,7 +6,8 @@ use crate::services::configuration::{Group, Groups};
 
 /// One place of the table. A place is taken by every station that has a current offer, and for
 /// good by every station that was ever asked, because a withdrawal forgets nothing. A table of
-/// as many places as stations can ever offer something never becomes full.
+/// as many places as stations can ever offer something never becomes full. Source:
+/// `spec/2-offloading.md#requester`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StationRecord {
     /// The station's id, or 0 in a free place.
@@ -28,12 +29,13 @@ impl StationRecord {
         if self.is_free() { None } else { Some(self.station) }
     }
 
-    /// What the station offers now.
+    /// What the station offers now. Source: `spec/2-offloading.md#requester`.
     pub const fn offer(&self) -> Groups {
         self.offer
     }
 
     /// The session of the last request for `group` to this station; `None` if it was never asked.
+    /// Source: `spec/2-offloading.md#requester`.
     pub const fn last_request(&self, group: Group) -> Option<i64> {
         match *self.last_request.get(group) {
             0 => None,

@@ -8,7 +8,7 @@ use crate::services::configuration::{Group, Groups};
 
 /// Whether the station hears that its session has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Farewell {
+enum Farewell {
     Release,
     Silent,
 }
@@ -50,7 +50,7 @@ impl Requester<'_> {
     }
 
     /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.
-    pub(super) fn offer(
+    fn offer(
         &mut self,
         station: i64,
         groups: Groups,
@@ -70,7 +70,7 @@ impl Requester<'_> {
         Ok(())
     }
 
-    pub(super) fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
+    fn set_area(&mut self, groups: Groups, out: &mut Outbox) {
         self.area = groups;
         for group in Group::ALL {
             if !groups.contains(group) {
@@ -79,36 +79,31 @@ impl Requester<'_> {
         }
     }
 
-    /// Overdue requests, then silent sessions, then new requests.
-    pub(super) fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
-        let mut returned = Groups::NONE;
+    /// First every group is judged, then requests are sent: a hold that starts now bars them, and a
+    /// group that returns now waits for the next tick.
+    fn tick(&mut self, now_ns: i64, out: &mut Outbox) {
+        let limits = self.parameters.limits();
+        let mut waiting = Groups::NONE;
         for group in Group::ALL {
-            if self.is_overdue(group, now_ns) {
-                self.leave(group, Farewell::Release, out);
-                returned = returned.with(group);
+            match *self.slots.get(group) {
+                Slot::Local => waiting = waiting.with(group),
+                Slot::Requested { deadline_ns, .. } if now_ns >= deadline_ns => {
+                    self.leave(group, Farewell::Release, out);
+                }
+                Slot::Remote { arrivals, .. } if arrivals.silence(now_ns, limits).is_some() => {
+                    self.violate(group, now_ns, out);
+                }
+                Slot::Requested { .. } | Slot::Remote { .. } => {}
             }
         }
         for group in Group::ALL {
-            if self.is_silent(group, now_ns) {
-                self.violate(group, now_ns, out);
-                returned = returned.with(group);
-            }
-        }
-        for group in Group::ALL {
-            if !returned.contains(group) && self.may_request(group, now_ns) {
+            if waiting.contains(group) && self.may_request(group, now_ns) {
                 self.request(group, now_ns, out);
             }
         }
     }
 
-    pub(super) fn confirm(
-        &mut self,
-        now_ns: i64,
-        station: i64,
-        group: Group,
-        session: i64,
-        out: &mut Outbox,
-    ) {
+    fn confirm(&mut self, now_ns: i64, station: i64, group: Group, session: i64, out: &mut Outbox) {
         let profile = self.profile;
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
@@ -127,7 +122,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn reject(&mut self, station: i64, group: Group, session: i64) {
+    fn reject(&mut self, station: i64, group: Group, session: i64) {
         let slot = self.slots.get_mut(group);
         let names_it = slot.in_use() == Some((station, session));
         if names_it && matches!(slot, Slot::Requested { .. }) {
@@ -135,7 +130,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn data(
+    fn data(
         &mut self,
         now_ns: i64,
         (station, group, session): (i64, Group, i64),
@@ -161,7 +156,7 @@ impl Requester<'_> {
 
     /// H-08: the first safe verdict that names a group after a used result stops its local
     /// services. In the paper profile they were stopped at the confirmation.
-    pub(super) fn safe(&mut self, groups: Groups, out: &mut Outbox) {
+    fn safe(&mut self, groups: Groups, out: &mut Outbox) {
         for group in Group::ALL {
             if let Slot::Remote { arrivals, local_computes, .. } = self.slots.get_mut(group) {
                 if groups.contains(group) && *local_computes && arrivals.has_used() {
@@ -172,7 +167,7 @@ impl Requester<'_> {
         }
     }
 
-    pub(super) fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
+    fn fall_back(&mut self, now_ns: i64, out: &mut Outbox) {
         for group in Group::ALL {
             self.leave(group, Farewell::Release, out);
         }
@@ -191,25 +186,8 @@ impl Requester<'_> {
         }
     }
 
-    fn is_overdue(&self, group: Group, now_ns: i64) -> bool {
-        match *self.slots.get(group) {
-            Slot::Requested { deadline_ns, .. } => now_ns >= deadline_ns,
-            Slot::Local | Slot::Remote { .. } => false,
-        }
-    }
-
-    fn is_silent(&self, group: Group, now_ns: i64) -> bool {
-        match *self.slots.get(group) {
-            Slot::Remote { arrivals, .. } => {
-                arrivals.silence(now_ns, self.parameters.limits()).is_some()
-            }
-            Slot::Local | Slot::Requested { .. } => false,
-        }
-    }
-
     fn may_request(&self, group: Group, now_ns: i64) -> bool {
-        matches!(self.slots.get(group), Slot::Local)
-            && self.area.contains(group)
+        self.area.contains(group)
             && self.hold_until_ns.is_none_or(|hold_until_ns| now_ns >= hold_until_ns)
     }
 

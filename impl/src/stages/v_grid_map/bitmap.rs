@@ -10,7 +10,7 @@ pub(crate) struct Bitmap<'a> {
 
 /// A set cell near another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Near {
+pub(crate) struct NearCell {
     pub(crate) row: i64,
     pub(crate) column: i64,
     /// The square of the distance that was asked for, in cells.
@@ -73,7 +73,7 @@ impl Bitmap<'_> {
 
     /// The first set cell, by row, then column, whose centre is at most the root of `most` cells
     /// away from that of a cell, and the square of that distance.
-    pub(crate) fn within(&self, column: i64, row: i64, most: i64) -> Option<Near> {
+    pub(crate) fn within(&self, column: i64, row: i64, most: i64) -> Option<NearCell> {
         let reach = root(most);
         let rows = row.saturating_sub(reach).max(0)..=row.saturating_add(reach);
         rows.take_while(|&k| k < self.height).find_map(|k| {
@@ -82,7 +82,7 @@ impl Bitmap<'_> {
             let from = column.saturating_sub(across);
             let found = self.first_in_row(k, from, column.saturating_add(across))?;
             let squared = up.saturating_add(square(found.saturating_sub(column)));
-            Some(Near { row: k, column: found, squared })
+            Some(NearCell { row: k, column: found, squared })
         })
     }
 }

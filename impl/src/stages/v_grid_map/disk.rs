@@ -4,7 +4,7 @@
 use crate::input::cycle::{Cycle, Grid, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::rounding::Real;
-use crate::stages::v_grid_map::bitmap::{Bitmap, Near};
+use crate::stages::v_grid_map::bitmap::{Bitmap, NearCell};
 
 /// A disk centre in the grid's frame, m.
 pub(crate) struct Disk {
@@ -75,7 +75,7 @@ impl GridGeometry {
     pub(crate) fn marked(&self, disk: &Disk, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
         let column = disk.column.over(self.resolution);
         let row = disk.row.over(self.resolution);
-        let place = |near: &Near| (near.row, near.column);
+        let place = |near: &NearCell| (near.row, near.column);
         let marks = cells_around(row, self.height)
             .filter_map(|k| {
                 let columns = cells_around(column, self.width);

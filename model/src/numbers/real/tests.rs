@@ -1,18 +1,15 @@
 use super::{Real, unfiltered};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 
 fn number(value: f64) -> Real {
     Real::from_double(value)
 }
 
-/// A small linear congruential generator: the tests need no more than reproducible variety.
 fn draws(seed: u64) -> impl FnMut(u64) -> u64 {
-    let mut state = seed;
-    move |bound| {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % bound
-    }
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    move |bound| random.random_range(0..bound)
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn less(costs: &Costs, pairs: usize, bound: f64) -> bool {
 
 #[test]
 fn all_assignments_up_to_7_by_7_have_the_least_cost_of_the_model() {
-    let mut draw = Draw(1);
+    let mut draw = Draw::new(1);
     for (rows, columns) in (1..=7).flat_map(|rows| (1..=7).map(move |columns| (rows, columns))) {
         for highest in [1, 3, 9, 1000] {
             let mut row = || (0..columns).map(|_| f64::from(draw.between(0, highest))).collect();
@@ -82,7 +82,7 @@ fn cheapest_of(costs: &[Vec<Option<f64>>], pairs: usize, used: u32) -> Option<f6
 /// H-01
 #[test]
 fn fewer_pairs_some_of_them_forbidden_are_decided_as_by_trying_all() {
-    let mut draw = Draw(12);
+    let mut draw = Draw::new(12);
     let (mut possible, mut impossible) = (0, 0);
     for case in 0..300 {
         let (rows, columns) = (draw.between(1, 7), draw.between(1, 7));
@@ -117,7 +117,7 @@ fn fewer_pairs_some_of_them_forbidden_are_decided_as_by_trying_all() {
 /// Roots, which doubles round: on the least sum itself only exact numbers can tell.
 #[test]
 fn a_bound_that_is_the_least_sum_of_roots_is_not_undercut() {
-    let mut draw = Draw(11);
+    let mut draw = Draw::new(11);
     for (rows, columns) in [(1, 1), (2, 5), (5, 2), (4, 4), (6, 6), (6, 7), (7, 6), (7, 7)] {
         let mut root = || Real::from_integer(draw.between(1, 50).into()).sqrt();
         let costs: Vec<Vec<Real>> =
@@ -136,7 +136,7 @@ fn a_bound_that_is_the_least_sum_of_roots_is_not_undercut() {
 /// of all assignments is below `theta_tr`.
 #[test]
 fn stage_i_decides_up_to_7_tracks_and_detections_as_all_assignments_do() {
-    let mut draw = Draw(2);
+    let mut draw = Draw::new(2);
     let (mut decided, mut beyond) = (0, 0);
     while decided < 300 {
         let mut places = |count: i32| -> Vec<(f64, f64)> {
@@ -173,7 +173,7 @@ fn stage_i_decides_up_to_7_tracks_and_detections_as_all_assignments_do() {
 
 #[test]
 fn a_solver_of_others_finds_the_least_cost_of_the_model_in_large_tables() {
-    let mut draw = Draw(3);
+    let mut draw = Draw::new(3);
     for (rows, columns) in [(20, 60), (40, 40), (40, 50), (60, 60)] {
         let table = Matrix::from_fn(rows, columns, |_| i64::from(draw.between(0, 999)));
         let (least, _) = kuhn_munkres_min(&table);
@@ -191,7 +191,7 @@ fn a_solver_of_others_finds_the_least_cost_of_the_model_in_large_tables() {
 /// mean of 32 of them is a double.
 #[test]
 fn a_mean_of_many_tracks_on_the_threshold_fails_and_one_double_below_passes() {
-    let mut draw = Draw(4);
+    let mut draw = Draw::new(4);
     for _ in 0..5 {
         let mut steps =
             |count: usize| -> Vec<i32> { (0..count).map(|_| draw.between(0, 2000)).collect() };

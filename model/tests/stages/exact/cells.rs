@@ -29,7 +29,7 @@ fn cells(half: i32) -> std::ops::RangeInclusive<i32> {
 /// cells lie exactly on them.
 #[test]
 fn cells_are_marked_as_all_pairs_of_integers_say() {
-    let mut draw = Draw(10);
+    let mut draw = Draw::new(10);
     let (mut seen, mut on) = ([0; 2], 0);
     for _ in 0..1500 {
         let [l, w] = [(6, 8), (8, 6), (12, 5), (8, 4), (4, 3), (16, 6)]

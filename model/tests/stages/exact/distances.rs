@@ -43,7 +43,7 @@ fn is_at(p: [i128; 2], path: &[[i128; 2]; 3], limit: i128) -> bool {
 /// Quarters of a metre. A corridor without width holds nothing but the path.
 #[test]
 fn a_point_is_too_far_from_the_reference_path_as_integers_say() {
-    let mut draw = Draw(7);
+    let mut draw = Draw::new(7);
     let (mut seen, mut on) = ([0; 2], 0);
     for _ in 0..2000 {
         let mut place = || [0; 2].map(|_| i128::from(draw.between(-40, 40)));
@@ -81,7 +81,7 @@ const STEPS: [[i32; 3]; 5] = [[3, 4, 5], [5, 12, 13], [8, 15, 17], [7, 24, 25], 
 
 #[test]
 fn lengths_of_trajectories_with_whole_steps_are_whole() {
-    let mut draw = Draw(8);
+    let mut draw = Draw::new(8);
     for _ in 0..200 {
         let (mut at, mut length) = ([0, 0], 0);
         let point = |[x, y]: [i32; 2]| Point {
@@ -110,7 +110,7 @@ fn lengths_of_trajectories_with_whole_steps_are_whole() {
 /// eighths of a second: times 32 `a_b` everything is whole.
 #[test]
 fn the_gap_is_compared_as_integers_are() {
-    let mut draw = Draw(9);
+    let mut draw = Draw::new(9);
     let mut seen = [0; 2];
     for _ in 0..500 {
         let (v, v_lead) = (draw.between(0, 120), draw.between(0, 120));

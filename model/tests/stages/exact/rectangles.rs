@@ -95,7 +95,7 @@ fn drawn(draw: &mut Draw) -> Whole {
 
 #[test]
 fn rectangles_anywhere_meet_as_their_corners_and_sides_say() {
-    let mut draw = Draw(5);
+    let mut draw = Draw::new(5);
     let mut seen = [0; 2];
     for _ in 0..3000 {
         let (a, b) = (drawn(&mut draw), drawn(&mut draw));
@@ -109,7 +109,7 @@ fn rectangles_anywhere_meet_as_their_corners_and_sides_say() {
 /// Side on side, corner on side, corner on corner; and 2^-23 m nearer or farther.
 #[test]
 fn rectangles_that_touch_meet_and_a_unit_apart_they_do_not() {
-    let mut draw = Draw(6);
+    let mut draw = Draw::new(6);
     let mut seen = [0; 2];
     for case in 0..600 {
         let a = drawn(&mut draw);

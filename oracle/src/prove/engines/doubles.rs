@@ -3,7 +3,8 @@
 use std::io;
 
 use indicatif::ProgressBar;
-use mufasa_theorems::doubles::{self, Judgement, Range};
+use mufasa_theorems::doubles::{self, Range};
+use mufasa_theorems::prove::Judgement;
 
 use super::theorems;
 use crate::prove::line::{Answer, Line};
@@ -39,6 +40,6 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
 
 fn answer(judgement: &Judgement) -> Answer {
     let reason = theorems::reason(&judgement.claim, &judgement.control);
-    let verdict = theorems::verdict(judgement.verdict());
-    Answer { reason, ..Answer::given(ENGINE, verdict, judgement.time.as_secs_f64()) }
+    let status = theorems::status(judgement.decision());
+    Answer { reason, ..Answer::given(ENGINE, status, judgement.time.as_secs_f64()) }
 }

@@ -4,25 +4,29 @@ use std::collections::BTreeMap;
 
 use indicatif::ProgressBar;
 use mufasa_exploration::bounds::{Bounds, World};
-use mufasa_exploration::properties::Law;
+use mufasa_exploration::properties::Property;
 use mufasa_exploration::run;
 use mufasa_model::input::cycle::Profile;
 
-use crate::prove::line::{Answer, Line, Verdict};
+use crate::prove::line::{Answer, Line, Status};
 
 const ENGINE: &str = "exploration";
 /// `mufasa explore` does the other small worlds, too, and the large ones.
 const WORLDS: [&str; 6] = ["anything", "qos-hold", "choice", "shared", "honest", "roam"];
 
 pub(super) fn claims() -> Vec<Line> {
-    let claim = |law: Law| {
+    let claim = |property: Property| {
         let worlds: Vec<String> =
-            worlds().filter(|world| run::is_asked(law, world)).map(bounds_of).collect();
+            worlds().filter(|world| run::is_asked(property, world)).map(bounds_of).collect();
         let domain = format!("hardened profile, every state of: {}", worlds.join("; "));
-        let parts = [law.name(), law.statement(), domain.as_str()];
+        let parts = [property.name(), property.statement(), domain.as_str()];
         Line::new(parts, Answer::not_run(ENGINE, ""))
     };
-    Law::ALL.into_iter().filter(|law| law.is_claimed(Profile::Hardened)).map(claim).collect()
+    Property::ALL
+        .into_iter()
+        .filter(|property| property.is_claimed(Profile::Hardened))
+        .map(claim)
+        .collect()
 }
 
 fn worlds() -> impl Iterator<Item = &'static World> {
@@ -44,20 +48,23 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
     let mut found: BTreeMap<&str, Found> = BTreeMap::new();
     bar.set_length(u64::try_from(worlds().count()).unwrap_or(u64::MAX));
     for world in worlds() {
-        let is_wanted = |law: Law| claims.iter().any(|line| line.id == law.name());
-        if !Law::ALL.into_iter().any(|law| is_wanted(law) && run::is_asked(law, world)) {
+        let is_wanted = |property: Property| claims.iter().any(|line| line.id == property.name());
+        if !Property::ALL
+            .into_iter()
+            .any(|property| is_wanted(property) && run::is_asked(property, world))
+        {
             continue;
         }
         bar.set_message(world.name);
         bar.inc(1);
         match run::run(world, Profile::Hardened, 0, |_| bar.tick()) {
             Ok(outcome) => outcome.results.iter().for_each(|finding| {
-                let found = found.entry(finding.law.name()).or_default();
+                let found = found.entry(finding.property.name()).or_default();
                 found.add(world, &outcome, finding);
             }),
             // Model and implementation differ, so nothing is known of what they do together.
-            Err(difference) => Law::ALL.into_iter().for_each(|law| {
-                let found = found.entry(law.name()).or_default();
+            Err(difference) => Property::ALL.into_iter().for_each(|property| {
+                let found = found.entry(property.name()).or_default();
                 found.difference = Some(format!("{}: {difference}", world.name));
             }),
         }
@@ -79,7 +86,7 @@ struct Found {
 }
 
 impl Found {
-    fn add(&mut self, world: &World, outcome: &run::Outcome, finding: &run::Finding) {
+    fn add(&mut self, world: &World, outcome: &run::WorldOutcome, finding: &run::PropertyOutcome) {
         let share = u32::try_from(outcome.results.len().max(1)).unwrap_or(u32::MAX);
         self.states += outcome.states;
         self.seconds += (outcome.time / share).as_secs_f64();
@@ -90,14 +97,14 @@ impl Found {
     }
 
     fn answer(self, id: &str) -> Answer {
-        let (verdict, reason) = match (self.broken, self.difference) {
-            (None, None) => (Verdict::Proved, None),
-            (None, Some(difference)) if id != Law::PartsValid.name() => {
-                (Verdict::Unknown, Some(difference))
+        let (status, reason) = match (self.broken, self.difference) {
+            (None, None) => (Status::Proved, None),
+            (None, Some(difference)) if id != Property::PartsValid.name() => {
+                (Status::Unknown, Some(difference))
             }
-            (Some(reason), _) | (None, Some(reason)) => (Verdict::Refuted, Some(reason)),
+            (Some(reason), _) | (None, Some(reason)) => (Status::Refuted, Some(reason)),
         };
         let ran = Some(format!("{} states", self.states));
-        Answer { ran, reason, ..Answer::given(ENGINE, verdict, self.seconds) }
+        Answer { ran, reason, ..Answer::given(ENGINE, status, self.seconds) }
     }
 }

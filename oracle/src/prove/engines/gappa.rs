@@ -4,7 +4,7 @@ use std::io;
 
 use indicatif::ProgressBar;
 use mufasa_theorems::gappa::{self, Bound};
-use mufasa_theorems::prove::Verdict as Found;
+use mufasa_theorems::prove::Decision as Found;
 
 use super::theorems;
 use crate::prove::line::{Answer, Line};
@@ -31,7 +31,7 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
         let (found, time) = bound.judge()?;
         let reason =
             (found != Found::Proved).then(|| String::from("no proof, or one of less, too"));
-        let answer = Answer::given(ENGINE, theorems::verdict(&found), time.as_secs_f64());
+        let answer = Answer::given(ENGINE, theorems::status(&found), time.as_secs_f64());
         Ok(line.answered(vec![Answer { reason, ..answer }]))
     };
     claims.into_iter().map(judged).collect()

@@ -9,12 +9,12 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use mufasa_proofs::OVERFLOW_PANICS;
 use mufasa_proofs::harness::ALL;
-use mufasa_proofs::kani::{Run, Verdict as Found, judge as run};
+use mufasa_proofs::kani::{Evidence as Found, Run, judge as run};
 use serde::Deserialize;
 
 use super::{laws, side_by_side};
-use crate::prove::Settings;
-use crate::prove::line::{Answer, Line, Verdict};
+use crate::prove::line::{Answer, Line, Status};
+use crate::prove::settings::Settings;
 use crate::prove::sources;
 
 /// Some values of an infinite domain are run, which is testing.
@@ -44,7 +44,7 @@ struct Harness {
 struct Compiled {
     id: String,
     engine: String,
-    verdict: Verdict,
+    verdict: Status,
     seconds: Option<f64>,
     reason: Option<String>,
     /// `sources::hash` of what was compiled.
@@ -112,20 +112,20 @@ fn stand_in(one: &Harness) -> Answer {
         let domain = if few { " in the domain" } else { "" };
         format!("{held}{of} {kind}{domain}{wraps}")
     };
-    let (verdict, ran, reason) = match found {
+    let (status, ran, reason) = match found {
         Found::Every(run) if one.engine() == laws::ENGINE => {
-            (Verdict::Proved, Some(ran(&run)), None)
+            (Status::Proved, Some(ran(&run)), None)
         }
-        Found::Some(run) if one.engine() == SAMPLING => (Verdict::Tested, Some(ran(&run)), None),
+        Found::Some(run) if one.engine() == SAMPLING => (Status::Tested, Some(ran(&run)), None),
         Found::Every(run) | Found::Some(run) => {
             let reason = Some(format!("expected.toml says {}", one.stand_in));
-            (Verdict::Unknown, Some(ran(&run)), reason)
+            (Status::Unknown, Some(ran(&run)), reason)
         }
-        Found::Vacuous(reason) => (Verdict::Unknown, None, Some(reason)),
-        Found::Refuted(reason) => (Verdict::Refuted, None, Some(reason)),
+        Found::Vacuous(reason) => (Status::Unknown, None, Some(reason)),
+        Found::Refuted(reason) => (Status::Refuted, None, Some(reason)),
     };
     let seconds = start.elapsed().as_secs_f64();
-    Answer { ran, reason, ..Answer::given(one.engine(), verdict, seconds) }
+    Answer { ran, reason, ..Answer::given(one.engine(), status, seconds) }
 }
 
 /// What was said of the compiled sources that are here, by harness.

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use mufasa_proofs::exhaust::{Run, TOPICS};
 use serde::Deserialize;
 
-use crate::prove::line::{Answer, Line, Verdict};
+use crate::prove::line::{Answer, Line, Status};
 
 /// Every value of a finite domain is run.
 pub(super) const ENGINE: &str = "exhaustion";
@@ -62,20 +62,20 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
 }
 
 fn answer(run: &Result<Run, String>, law: &str, seconds: f64) -> Answer {
-    let (verdict, reason, ran) = match run {
-        Err(panic) => (Verdict::Unknown, Some(format!("the run ended: {panic}")), None),
+    let (status, reason, ran) = match run {
+        Err(panic) => (Status::Unknown, Some(format!("the run ended: {panic}")), None),
         Ok(run) => {
-            let (verdict, reason) = match run.laws.get(law) {
-                Some(Some(case)) => (Verdict::Refuted, Some(format!("by {case}"))),
-                Some(None) if run.missed().is_empty() => (Verdict::Proved, None),
+            let (status, reason) = match run.laws.get(law) {
+                Some(Some(case)) => (Status::Refuted, Some(format!("by {case}"))),
+                Some(None) if run.missed().is_empty() => (Status::Proved, None),
                 Some(None) => {
                     let missed = format!("never reached: {}", run.missed().join(", "));
-                    (Verdict::Unknown, Some(missed))
+                    (Status::Unknown, Some(missed))
                 }
-                None => (Verdict::Unknown, Some(String::from("not asked"))),
+                None => (Status::Unknown, Some(String::from("not asked"))),
             };
-            (verdict, reason, Some(format!("{} cases", run.cases)))
+            (status, reason, Some(format!("{} cases", run.cases)))
         }
     };
-    Answer { ran, reason, ..Answer::given(ENGINE, verdict, seconds) }
+    Answer { ran, reason, ..Answer::given(ENGINE, status, seconds) }
 }

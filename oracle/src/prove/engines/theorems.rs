@@ -3,12 +3,11 @@
 use std::io;
 
 use indicatif::ProgressBar;
-use mufasa_theorems::prove::{self as solve, Judgement, Verdict as Found};
-use mufasa_theorems::solver;
+use mufasa_theorems::prove::{self as solve, Decision as Found, Judgement};
 use mufasa_theorems::theorem::{self, Theorem};
 
 use super::side_by_side;
-use crate::prove::line::{Answer, Line, Verdict};
+use crate::prove::line::{Answer, Line, Status};
 
 const ENGINE: &str = "z3";
 
@@ -24,7 +23,7 @@ pub(super) fn claims() -> Vec<Line> {
 }
 
 pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
-    if !solver::is_new_enough() {
+    if !mufasa_z3::is_new_enough() {
         return Ok(claims);
     }
     let answers = side_by_side(&claims, |line| {
@@ -41,14 +40,13 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
 }
 
 fn answer(judgement: &Judgement) -> Answer {
-    let Judgement { proof, control } = judgement;
-    let reason = reason(&proof.verdict, &control.verdict);
-    let seconds = (proof.time + control.time).as_secs_f64();
-    let ran = Some(match proof.paths {
+    let reason = reason(&judgement.claim, &judgement.control);
+    let seconds = judgement.time.as_secs_f64();
+    let ran = Some(match judgement.paths {
         1 => String::from("1 path"),
         paths => format!("{paths} paths"),
     });
-    Answer { ran, reason, ..Answer::given(ENGINE, verdict(judgement.verdict()), seconds) }
+    Answer { ran, reason, ..Answer::given(ENGINE, status(judgement.decision()), seconds) }
 }
 
 /// Why a claim is not proved, by what is found of it and of its wrong variant.
@@ -61,11 +59,11 @@ pub(super) fn reason(claim: &Found, control: &Found) -> Option<String> {
     }
 }
 
-pub(super) fn verdict(found: &Found) -> Verdict {
+pub(super) fn status(found: &Found) -> Status {
     match found {
-        Found::Proved => Verdict::Proved,
-        Found::Refuted(_) => Verdict::Refuted,
-        Found::Unknown => Verdict::Unknown,
+        Found::Proved => Status::Proved,
+        Found::Refuted(_) => Status::Refuted,
+        Found::Unknown => Status::Unknown,
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::prove::Verdict;
+use crate::prove::Decision;
 
 /// Longest time for a question.
 const LIMIT: Duration = Duration::from_mins(2);
@@ -25,7 +25,7 @@ pub fn version() -> Option<String> {
 }
 
 /// Proved when there is no counterexample. Errors are those of running it.
-pub(super) fn ask(question: &str) -> io::Result<Verdict> {
+pub(super) fn ask(question: &str) -> io::Result<Decision> {
     let mut process = python(ASK)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -35,15 +35,15 @@ pub(super) fn ask(question: &str) -> io::Result<Verdict> {
     // Dropped at once, so that it sees the end of its input. Its answer is a few lines.
     process.stdin.take().map_or(Ok(()), |mut input| input.write_all(question.as_bytes()))?;
     if !ends(&mut process)? {
-        return Ok(Verdict::Unknown);
+        return Ok(Decision::Unknown);
     }
     let output = process.wait_with_output()?;
     let text = String::from_utf8_lossy(&output.stdout);
     let mut lines = text.lines();
     match (lines.next(), output.status.success()) {
-        (Some("unsat"), _) => Ok(Verdict::Proved),
-        (Some("sat"), true) => Ok(Verdict::Refuted(lines.filter_map(value).collect())),
-        (Some("unknown"), _) => Ok(Verdict::Unknown),
+        (Some("unsat"), _) => Ok(Decision::Proved),
+        (Some("sat"), true) => Ok(Decision::Refuted(lines.filter_map(value).collect())),
+        (Some("unknown"), _) => Ok(Decision::Unknown),
         (other, _) => Err(io::Error::other(format!("bitwuzla says: {other:?}"))),
     }
 }

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Bound, Known};
-use crate::numbers::real::program::{Operand, Operator, Program, Step, record};
+use super::bound::{Bound, Known};
+use crate::numbers::real::Real;
+use crate::numbers::real::program::{Operand, Operator, Program, Step};
 
 /// A formula and what is known of values within it.
 pub(super) struct Script<'a> {
@@ -14,7 +15,7 @@ pub(super) struct Script<'a> {
 
 impl<'a> Script<'a> {
     pub(super) fn new(bound: &'a Bound) -> Self {
-        let program = record(|| {
+        let program = Real::record(|| {
             let known = bound.known.iter().map(|value| value());
             known.chain([(bound.formula)()]).collect()
         });

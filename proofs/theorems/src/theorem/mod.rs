@@ -1,16 +1,16 @@
 //! The theorems: statement, claim, and a wrong variant that must be refuted. `proofs/mutants.toml` has
 //! changes of the source under which each must fail.
 
-pub mod assignment;
 pub mod base;
 pub mod closure;
-pub mod collision;
-pub mod distance;
-pub mod grid;
+pub mod distances;
+pub mod h04_horizon;
+pub mod i_track_validation;
 pub mod lemma;
+pub mod llcc;
 pub mod rectangle;
 pub mod rounding;
-pub mod stop;
+pub mod v_grid_map;
 
 use crate::numbers::real::formula::Formula;
 
@@ -42,13 +42,13 @@ pub struct Wrong {
 /// All theorems, in the order of `spec/`.
 pub fn all() -> impl Iterator<Item = &'static Theorem> {
     [
-        distance::THEOREMS,
+        distances::THEOREMS,
         lemma::THEOREMS,
         rectangle::THEOREMS,
-        collision::THEOREMS,
-        stop::THEOREMS,
-        grid::THEOREMS,
-        assignment::THEOREMS,
+        llcc::THEOREMS,
+        h04_horizon::THEOREMS,
+        v_grid_map::THEOREMS,
+        i_track_validation::THEOREMS,
         closure::THEOREMS,
         rounding::THEOREMS,
     ]

@@ -91,7 +91,7 @@ fn best(costs: &[Vec<Option<i64>>], taken: &mut Vec<bool>) -> (usize, i64) {
 
 #[test]
 fn no_assignment_is_cheaper() {
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     let mut left_out = 0;
     for _ in 0..3_000 {
         let rows = 1 + random.below(5) as usize;
@@ -132,7 +132,7 @@ fn costs_at_the_limit() {
 /// equality holds for the pairs, no column has one above 0, and columns without a row have 0.
 #[test]
 fn potentials_prove_that_nothing_is_cheaper() {
-    let mut random = Random(8);
+    let mut random = Random::new(8);
     for (rows, columns) in [(1, 1), (7, 9), (60, 60), (60, 90), (200, 210)] {
         for range in [50, 1 << 40] {
             let mut cost = || Some(random.below(range) as i64);

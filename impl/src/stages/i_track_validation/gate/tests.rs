@@ -19,7 +19,7 @@ fn track([x, y]: [f64; 2]) -> Track {
 #[test]
 fn the_gate_is_exact() {
     const ULP: f64 = 1.0 / 4_503_599_627_370_496.0;
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let (mut equal, mut next) = (0, 0);
     for _ in 0..5_000 {
         let mut coordinate = || (i128::from(random.below(4)), i128::from(random.below(9)) - 4);

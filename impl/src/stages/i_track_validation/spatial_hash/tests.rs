@@ -13,7 +13,7 @@ fn members(columns: &[Column], list: usize) -> Vec<usize> {
 /// Every column is met once, and none nearer than the bounds said until then.
 #[test]
 fn lists_come_by_distance() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut tight = 0;
     for case in 0..2_000 {
         let count = 1 + random.below(40) as usize;

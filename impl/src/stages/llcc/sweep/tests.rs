@@ -39,7 +39,7 @@ fn object(random: &mut Random, far: f64) -> MovingRectangle {
 
 #[test]
 fn what_is_certainly_apart_does_not_touch() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let (mut apart, mut missed, mut touching) = (0, 0, 0);
     for round in 0..20_000 {
         let far = [0.0, 1e7][round % 2];

@@ -97,7 +97,7 @@ fn try_cell(
 
 #[test]
 fn what_a_disk_can_reach_is_in_the_band() {
-    let mut random = Random(21);
+    let mut random = Random::new(21);
     let (mut free, mut near) = (0, 0);
     for _ in 0..20_000 {
         let grid = grid(&mut random, &[]);
@@ -123,7 +123,7 @@ fn what_a_disk_can_reach_is_in_the_band() {
 /// the grid and the other one up to 10,000 km away.
 #[test]
 fn a_band_almost_upright_is_wide_enough() {
-    let mut random = Random(22);
+    let mut random = Random::new(22);
     let (mut free, mut near) = (0, 0);
     for case in 0..20_000 {
         let grid = Grid { cos: 1.0, sin: 0.0, ..grid(&mut random, &[]) };

@@ -2,12 +2,12 @@
 
 use std::vec;
 
-use super::{Bitmap, Near};
+use super::{Bitmap, NearCell};
 use crate::random::Random;
 
 #[test]
 fn searches_find_what_a_look_at_every_cell_finds() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let mut found = 0;
     for _ in 0..3_000 {
         let most = [20, 150][random.below(2) as usize];
@@ -37,7 +37,7 @@ fn searches_find_what_a_look_at_every_cell_finds() {
         let squared = |i: i64, k: i64| (i - column) * (i - column) + (k - row) * (k - row);
         let mut cells = (0..height).flat_map(|k| (0..width).map(move |i| (i, k)));
         let expected = cells.find(|&(i, k)| set(i, k) && squared(i, k) <= most);
-        let near = |(i, k)| Near { row: k, column: i, squared: squared(i, k) };
+        let near = |(i, k)| NearCell { row: k, column: i, squared: squared(i, k) };
         assert_eq!(map.within(column, row, most), expected.map(near));
         found += u32::from(expected.is_some());
     }

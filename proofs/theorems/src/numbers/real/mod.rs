@@ -17,8 +17,8 @@ use dashu_base::SquareRoot;
 use dashu_ratio::RBig;
 
 use path::{Operation, Signs};
-use polynomial::{Polynomial, Variable};
-use program::Operator;
+use polynomial::Polynomial;
+use program::{Operator, Program};
 
 /// A symbolic number: a polynomial in the variables of the path.
 #[derive(Clone, Debug)]
@@ -35,11 +35,7 @@ impl Real {
 
     /// The variable of this name, new or not.
     pub fn named(name: &str) -> Self {
-        let known = path::with(|path| path.names.iter().position(|other| other == name));
-        match known.map(Variable::try_from) {
-            Some(Ok(variable)) => Self::of(Polynomial::variable(variable)),
-            Some(Err(_)) | None => Self::variable(name),
-        }
+        Self::of(Polynomial::variable(path::with(|path| path.named(name))))
     }
 
     /// cos and sin of a new unit vector.
@@ -115,7 +111,7 @@ impl Real {
     /// The larger one.
     #[must_use]
     pub fn max(self, other: Self) -> Self {
-        program::step(Operator::Max, &self, &other).unwrap_or_else(|| Ord::max(self, other))
+        Self::step(Operator::Max, &self, &other).unwrap_or_else(|| Ord::max(self, other))
     }
 
     /// The result of an operation: rounded by one monotone function that keeps 0, if this path
@@ -172,6 +168,28 @@ impl Real {
     /// Assumes that the sign is one of these.
     pub fn assume(&self, signs: Signs) {
         path::with(|path| path.assume(&self.0, signs));
+    }
+
+    /// Executes the formula and takes down its operations. Its inputs are `Real::named`.
+    ///
+    /// # Panics
+    /// If it compares numbers other than by `max`, or takes roots: a program here has no branches.
+    pub fn record(formula: impl FnOnce() -> Vec<Self>) -> Program {
+        path::first();
+        path::with(|path| path.steps = Some(Vec::new()));
+        let results = formula();
+        let program = path::with(|path| Program {
+            results: results.iter().map(|number| path.operand(&number.0)).collect(),
+            steps: path.steps.take().unwrap_or_default(),
+        });
+        path::first();
+        program
+    }
+
+    /// The result of a step of a program, if operations are taken down and this is none of constants.
+    fn step(operator: Operator, a: &Self, b: &Self) -> Option<Self> {
+        let variable = path::with(|path| path.step(operator, [&a.0, &b.0]))?;
+        Some(Self::of(Polynomial::variable(variable)))
     }
 
     fn of(polynomial: Polynomial) -> Self {
@@ -307,7 +325,7 @@ impl std::iter::Sum for Real {
 impl Neg for &Real {
     type Output = Real;
     fn neg(self) -> Real {
-        let step = program::step(Operator::Minus, &Real::zero(), self);
+        let step = Real::step(Operator::Minus, &Real::zero(), self);
         step.unwrap_or_else(|| Real::of(self.0.scaled(&RBig::NEG_ONE)))
     }
 }
@@ -325,7 +343,7 @@ macro_rules! operator {
             type Output = Real;
             fn $op(self, other: &Real) -> Real {
                 let compute: fn(&Real, &Real) -> Real = $compute;
-                let step = program::step(Operator::$operator, self, other);
+                let step = Real::step(Operator::$operator, self, other);
                 step.unwrap_or_else(|| compute(self, other).result())
             }
         }

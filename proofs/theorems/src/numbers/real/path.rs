@@ -6,13 +6,16 @@ use std::collections::BTreeMap;
 
 use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
+use mufasa_z3::{Answer, Effort, Solver};
 
 use crate::numbers::real::polynomial::{Polynomial, Rules, Variable};
-use crate::numbers::real::program::Step;
-use crate::solver::{Answer, Effort, Solver};
+use crate::numbers::real::program::{Operand, Operator, Step};
 
 /// For telling whether a branch can be reached. Without an answer the branch is taken.
 const BRANCH: Effort = Effort { steps: 30_000, limit_ms: 1000 };
+
+/// Values as decimal fractions.
+const DECIMALS: &str = "(set-option :pp.decimal true)(set-option :pp.decimal_precision 20)\n";
 
 /// A set of signs: which of negative, zero and positive a polynomial may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,7 +77,7 @@ pub struct Path {
     pub roots_are_any_numbers: bool,
     /// Every sum, difference, product and quotient is rounded by some monotone function.
     pub rounds: bool,
-    /// The operations so far, while they are taken down (`program::record`).
+    /// The operations so far, while they are taken down (`Real::record`).
     pub steps: Option<Vec<Step>>,
     /// Roots, quotients, absolute values and roundings made so far, by what they are made of.
     pub made: BTreeMap<(Operation, Polynomial), Polynomial>,
@@ -194,11 +197,51 @@ impl Execution {
 
     fn ask(&mut self, assertion: &str, effort: Effort) -> Answer {
         let Some(solver) = &mut self.solver else { return Answer::Unknown };
-        solver.check(&self.path, assertion, effort)
+        solver.check(&self.path.script_with(assertion), &self.path.names, effort)
     }
 }
 
 impl Path {
+    /// The variable of this name, new or not.
+    pub fn named(&mut self, name: &str) -> Variable {
+        let known = self.names.iter().position(|other| other == name);
+        known
+            .and_then(|place| Variable::try_from(place).ok())
+            .unwrap_or_else(|| self.variable(name))
+    }
+
+    /// The result of a step, if operations are taken down and this is none of two constants.
+    pub(super) fn step(
+        &mut self,
+        operator: Operator,
+        operands: [&Polynomial; 2],
+    ) -> Option<Variable> {
+        self.steps.as_ref()?;
+        let operands = operands.map(|number| self.operand(number));
+        if let [Operand::Constant(_), Operand::Constant(_)] = operands {
+            return None;
+        }
+        let steps = self.steps.get_or_insert_default();
+        let same = |step: &&Step| step.operator == operator && step.operands == operands;
+        let name = if let Some(known) = steps.iter().find(same) {
+            known.name.clone()
+        } else {
+            let name = format!("t{}", steps.len() + 1);
+            steps.push(Step { name: name.clone(), operator, operands });
+            name
+        };
+        Some(self.named(&name))
+    }
+
+    /// A constant, or the name of an input or of the result of a step.
+    pub(super) fn operand(&self, number: &Polynomial) -> Operand {
+        if let Some(value) = number.as_constant() {
+            return Operand::Constant(value);
+        }
+        let (variable, _) = number.terms().next().expect("a number that is not constant");
+        Operand::Name(self.names[usize::from(variable[0])].clone())
+    }
+
     /// A new variable. A name that is taken gets a number, so that two of one name differ.
     ///
     /// # Panics
@@ -219,6 +262,14 @@ impl Path {
         }
         let assertion = self.assertion(&key, signs);
         self.script.push(assertion);
+    }
+
+    /// What was assumed, and one more assertion, in SMT-LIB.
+    fn script_with(&self, assertion: &str) -> String {
+        let names = self.names.iter().map(|name| format!("(declare-const |{name}| Real)\n"));
+        let script = self.script.iter().map(|line| format!("(assert {line})\n"));
+        let last = format!("(assert {assertion})");
+        [DECIMALS.to_owned()].into_iter().chain(names).chain(script).chain([last]).collect()
     }
 
     /// "The sign of the polynomial is one of these" in SMT-LIB.

@@ -1,0 +1,339 @@
+//! A campaign on its way: case by case, with the classes found so far.
+
+use std::collections::BTreeMap;
+use std::ffi::OsString;
+use std::io::Write;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mufasa_props::conformance::name as stage_name;
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use super::class::{Breach, Class, Kind, Scale};
+use super::error::ConformError;
+use super::examine::{Examined, Expected, examine, expect};
+use super::explain::explain;
+use super::question::Question;
+use super::report;
+use super::settings::Settings;
+use super::shrink::Hunt;
+use super::source::Source;
+use super::subject::{Broken, Subject};
+use super::summary::{Campaign, CaseCount, Found, Summary};
+use mufasa_records::names;
+
+/// So often in a row a program may break before its kind of record is given up, and so often it may
+/// hang in all.
+const RESTARTS: u64 = 5;
+
+/// So often it may break in all.
+const RESTARTS_IN_ALL: u64 = 200;
+
+/// A case is small when it has so many objects; of a class without a small one further cases are
+/// shrunk, too.
+const SMALL: usize = 3;
+
+/// So many cases of a class are shrunk at most.
+const SHRUNK: u64 = 6;
+
+/// A case that is not answered in time is asked once more, with so many times the limit, before a
+/// program is said to hang: on a busy machine it may stand still.
+const LONGER: u32 = 5;
+
+/// So many late answers are forgiven; a program with more of them does not keep the limit.
+const FORGIVEN: u64 = 20;
+
+/// A campaign on its way.
+#[derive(Debug)]
+pub struct Runner<'a> {
+    settings: &'a Settings,
+    source: &'a Source,
+    subject: Subject,
+    bar: ProgressBar,
+    asked: u64,
+    skipped: u64,
+    tolerated: u64,
+    late: u64,
+    given_up: Vec<Kind>,
+    /// By kind of record: how often the program broke in a row, hung, and broke in all.
+    broken: BTreeMap<Kind, [u64; 3]>,
+    groups: BTreeMap<(Kind, &'static str, &'static str, &'static str), (u64, u64)>,
+    classes: BTreeMap<Class, Found>,
+}
+
+/// A case that is asked.
+struct Case {
+    number: u64,
+    name: String,
+    question: Question,
+}
+
+impl<'a> Runner<'a> {
+    /// A campaign that has not begun.
+    pub fn new(settings: &'a Settings, source: &'a Source, subject: Subject) -> Self {
+        Self {
+            settings,
+            source,
+            subject,
+            bar: ProgressBar::hidden(),
+            asked: 0,
+            skipped: 0,
+            tolerated: 0,
+            late: 0,
+            given_up: Vec::new(),
+            broken: BTreeMap::new(),
+            groups: BTreeMap::new(),
+            classes: BTreeMap::new(),
+        }
+    }
+
+    /// Asks all cases; prints each class with its smallest case as it is found.
+    /// Errors: the program cannot be started again, `out` cannot be written.
+    pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
+        let (first, step) = self.settings.shard.unwrap_or((0, 1));
+        let cases = self.source.cases(self.settings.cases);
+        self.bar = progress(cases.saturating_sub(first).div_ceil(step));
+        let mut last = None;
+        let mut number = first;
+        while number < cases {
+            if self.given_up.contains(&self.source.kind(number)) {
+                self.skipped += 1;
+            } else {
+                let (name, question) = self.source.case(number);
+                let case = Case { number, name, question };
+                self.ask(&case, last.as_ref(), out)?;
+                last = Some(case);
+            }
+            self.bar.inc(1);
+            number = number.saturating_add(step);
+        }
+        self.bar.finish_and_clear();
+        match (self.subject.finish(), last) {
+            (Err(broken), Some(case)) => self.afterwards(broken, &case, out),
+            (Ok(()), _) | (_, None) => Ok(()),
+        }
+    }
+
+    /// What the program did after its answer to a case, which was counted with that answer.
+    fn afterwards(
+        &mut self,
+        broken: Broken,
+        case: &Case,
+        out: &mut impl Write,
+    ) -> Result<(), ConformError> {
+        let class = Class {
+            kind: case.question.kind(),
+            breach: broken.breach,
+            place: String::from("after its answer"),
+            profile: String::new(),
+            configuration: String::new(),
+            scale: Scale::Clear,
+        };
+        self.broke(class.kind, class.breach);
+        let expected = expect(&case.name, &case.question);
+        let answered = Err(broken);
+        let examined =
+            Examined { expected, answered, class: Some(class.clone()), tolerated: false };
+        self.settle(&class, case, &examined, out)
+    }
+
+    /// What was found.
+    pub fn summary(mut self) -> Summary {
+        self.given_up.sort();
+        let campaign = self.campaign();
+        let group =
+            |((kind, profile, configuration, expected), (cases, disagreements))| CaseCount {
+                kind,
+                profile: str::to_owned(profile),
+                configuration: str::to_owned(configuration),
+                expected: str::to_owned(expected),
+                cases,
+                disagreements,
+            };
+        Summary {
+            campaign,
+            shards: vec![self.settings.shard.map_or(0, |(at, _)| at)],
+            asked: self.asked,
+            skipped: self.skipped,
+            tolerated: self.tolerated,
+            late: self.late,
+            starts: self.subject.starts(),
+            given_up: self.given_up,
+            groups: self.groups.into_iter().map(group).collect(),
+            classes: self.classes.into_values().collect(),
+        }
+    }
+
+    fn campaign(&self) -> Campaign {
+        let settings = self.settings;
+        let text = |word: &OsString| word.to_string_lossy().into_owned();
+        Campaign {
+            command: settings.command.iter().map(text).collect(),
+            profile: names::profile(settings.profile).to_owned(),
+            seed: settings.seed,
+            cases: self.source.cases(settings.cases),
+            kinds: self.source.kinds(),
+            drives: settings.drives.iter().map(|path| path.display().to_string()).collect(),
+            time_limit_ms: milliseconds(settings.time_limit),
+            tolerance: settings.tolerance,
+            of: settings.shard.map_or(1, |(_, of)| of),
+        }
+    }
+
+    /// `last`: the case before.
+    fn ask(
+        &mut self,
+        case: &Case,
+        last: Option<&Case>,
+        out: &mut impl Write,
+    ) -> Result<(), ConformError> {
+        let Case { name, question, .. } = case;
+        let tolerance = self.settings.tolerance;
+        let mut examined = examine(&mut self.subject, name, question, tolerance)?;
+        let is_known = examined.class.as_ref().is_some_and(|it| self.classes.contains_key(it));
+        if examined.hangs() && !is_known && self.late < FORGIVEN {
+            let limit = self.settings.time_limit;
+            self.subject.set_time_limit(limit.saturating_mul(LONGER));
+            examined = examine(&mut self.subject, name, question, tolerance)?;
+            self.subject.set_time_limit(limit);
+            self.late += u64::from(!examined.hangs());
+        }
+        if let (Some(broken), Some(last)) = (self.subject.take_afterwards(), last) {
+            self.afterwards(broken, last, out)?;
+        }
+        match &examined.class {
+            Some(class) if class.breach.is_broken() => self.broke(class.kind, class.breach),
+            _ => self.broken.entry(question.kind()).or_default()[0] = 0,
+        }
+        self.asked += 1;
+        self.tolerated += u64::from(examined.tolerated);
+        self.count(question, &examined);
+        match examined.class.clone() {
+            None => Ok(()),
+            Some(class) => self.settle(&class, case, &examined, out),
+        }
+    }
+
+    fn count(&mut self, question: &Question, examined: &Examined) {
+        let expected = match &examined.expected {
+            Expected::Cycle(answer) => {
+                answer.as_ref().as_ref().map_or("error", |report| stage_name(report.failed_stage))
+            }
+            Expected::Composition(Err(_)) | Expected::Line(_) => "error",
+            Expected::Composition(Ok(answer)) if answer.none.is_some() => "none",
+            Expected::Composition(Ok(_)) => "some",
+            Expected::Offloading(_) => "",
+        };
+        let (profile, configuration) = question.setting();
+        let group =
+            self.groups.entry((question.kind(), profile, configuration, expected)).or_default();
+        group.0 += 1;
+        group.1 += u64::from(examined.class.is_some());
+    }
+
+    /// Counts a disagreement; shrinks and prints the first of its class.
+    fn settle(
+        &mut self,
+        class: &Class,
+        case: &Case,
+        examined: &Examined,
+        out: &mut impl Write,
+    ) -> Result<(), ConformError> {
+        let known = self.classes.get(class);
+        let known = known.map(|found| (found.count, found.size, found.shrunk, found.first));
+        let enough = known.is_some_and(|(count, size, shrunk, _)| {
+            (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
+        });
+        if !enough {
+            self.bar.set_message(format!("shrinking: {class}"));
+            let found = self.shrunk(class, case, examined)?;
+            let (count, size, shrunk, first) = known.unwrap_or((0, usize::MAX, false, case.number));
+            if (found.shrunk, size) > (shrunk, found.size) {
+                self.bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
+                self.classes.insert(class.clone(), Found { count, first, ..found });
+            }
+            self.bar.set_message("");
+        }
+        if let Some(found) = self.classes.get_mut(class) {
+            found.count += 1;
+        }
+        Ok(())
+    }
+
+    /// The program gave no answer that could be compared. A kind of record for which it does so
+    /// again and again is given up.
+    fn broke(&mut self, kind: Kind, breach: Breach) {
+        let [in_a_row, hung, in_all] = self.broken.entry(kind).or_default();
+        *in_a_row += 1;
+        *hung += u64::from(breach == Breach::Hangs);
+        *in_all += 1;
+        let hopeless = *in_a_row >= RESTARTS || *hung >= RESTARTS || *in_all >= RESTARTS_IN_ALL;
+        if hopeless && !self.given_up.contains(&kind) {
+            self.given_up.push(kind);
+        }
+    }
+
+    fn shrunk(
+        &mut self,
+        class: &Class,
+        case: &Case,
+        examined: &Examined,
+    ) -> Result<Found, ConformError> {
+        let Case { number, name, question } = case;
+        let tolerance = self.settings.tolerance;
+        let hunt = Hunt::new(&mut self.subject, class, name, tolerance);
+        let smallest = match self.source {
+            Source::Generated(generator) => {
+                let kind = question.kind();
+                let read = |tape: &[u32]| generator.read(kind, tape);
+                hunt.run(question, Some((generator.tape(*number), &read)))?
+            }
+            Source::Drives(_) => hunt.run(question, None)?,
+        };
+        // What the program did after an answer while a case was made smaller is no case of its own.
+        let _ = self.subject.take_afterwards();
+        let id = class.slug();
+        let (told, shown, shrunk) = match smallest {
+            None => (explain(question, examined), question, false),
+            Some(ref smallest) => {
+                let again = examine(&mut self.subject, &id, smallest, tolerance)?;
+                (explain(smallest, &again), smallest, true)
+            }
+        };
+        Ok(Found {
+            class: class.clone(),
+            count: 1,
+            first: *number,
+            name: name.clone(),
+            told,
+            shrunk,
+            size: shown.objects(),
+            unit: shown.unit().to_owned(),
+            record: record(&shown.line(&id))?,
+            id,
+        })
+    }
+}
+
+/// A record as it is; a line that is none, as a string.
+fn record(line: &str) -> Result<Box<RawValue>, ConformError> {
+    let text = line.to_owned();
+    RawValue::from_string(text)
+        .or_else(|_| RawValue::from_string(Value::from(line).to_string()))
+        .map_err(|error| ConformError::Output(error.into()))
+}
+
+fn milliseconds(time: Duration) -> u64 {
+    u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(cases: u64) -> ProgressBar {
+    let bar = ProgressBar::new(cases);
+    let style = "{bar:30} {pos}/{len} cases, {per_sec}, {eta} left {msg}";
+    if let Ok(style) = ProgressStyle::with_template(style) {
+        bar.set_style(style);
+    }
+    bar
+}

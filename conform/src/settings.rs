@@ -1,0 +1,34 @@
+//! What a campaign is to do.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use mufasa_model::input::cycle::Profile;
+
+use super::class::Kind;
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The program under test and its arguments.
+    pub command: Vec<OsString>,
+    /// Profile of generated cases and of recorded drives.
+    pub profile: Profile,
+    /// Cases of all shards; by default 10,000, or all that the drives give.
+    pub cases: Option<u64>,
+    /// Seed of the cases.
+    pub seed: u64,
+    /// How long an answer may take.
+    pub time_limit: Duration,
+    /// Kinds of generated records.
+    pub kinds: Vec<Kind>,
+    /// Only the cases whose number leaves the first when divided by the second.
+    pub shard: Option<(u64, u64)>,
+    /// Files of drives that give the cases instead.
+    pub drives: Vec<PathBuf>,
+    /// Margin within which a disagreement is none, m.
+    pub tolerance: Option<f64>,
+    /// Where summary, JUnit and reproducers go.
+    pub out: PathBuf,
+}

@@ -1,0 +1,20 @@
+//! What `mufasa prove` is asked for.
+
+use std::path::PathBuf;
+
+/// What is run and where the answers go.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Only lines whose id or engine contains one of these; all without any.
+    pub names: Vec<String>,
+    /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
+    pub cbmc: PathBuf,
+    /// The checkout that these have to be about.
+    pub sources: PathBuf,
+    /// Where the lines are written as JSON Lines.
+    pub out: PathBuf,
+    /// Print the table as Markdown.
+    pub markdown: bool,
+    /// A document whose table is replaced.
+    pub into: Option<PathBuf>,
+}

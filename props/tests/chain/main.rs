@@ -1,0 +1,183 @@
+//! `docs/chain.md`: from each heading of the spec that has a requirement, each rule, interpretation
+//! and symbol to its places in model, implementation, laws, theorems, harnesses, tests, vectors and
+//! benches. It is made from what the sources say: headings and rules in comments, requirements of
+//! vectors, claims and what refutes them. `UPDATE_CHAIN=1 cargo test -p mufasa-props --test chain`
+//! writes it.
+
+mod claims;
+mod comments;
+mod page;
+mod rows;
+mod symbols;
+#[path = "../tree/mod.rs"]
+mod tree;
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use rows::{Cell, Row};
+use tree::Tree;
+
+const PAGE: &str = "docs/chain.md";
+
+const OFFLOADING: &str =
+    "not measured: a step of the requester looks at two groups and a table of stations";
+const TESTED: &str = "tested only, on both sides of the threshold";
+
+/// Cells that may be empty: start of the names of the rows, cell, and why. A reason that no row needs
+/// any more fails.
+const EMPTY: &[(&str, Cell, &str)] = &[
+    ("spec/1-services.md", Cell::Bench, "nothing of it is computed in a cycle"),
+    (
+        "spec/1-services.md#service",
+        Cell::Impl,
+        "the orchestrator plans before the drive, in the model's program",
+    ),
+    ("spec/1-services.md#device-switch", Cell::Impl, "as of services"),
+    ("spec/1-services.md#composition", Cell::Impl, "as of services"),
+    ("spec/1-services.md#service", Cell::Proof, "tested against every choice on random sets"),
+    ("spec/1-services.md#device-switch", Cell::Proof, "tested against every choice on random sets"),
+    ("spec/1-services.md#composition", Cell::Proof, "tested against every choice on random sets"),
+    (
+        "spec/1-services.md#device-switch",
+        Cell::Vector,
+        "shown by the vectors of compositions, key `switches`",
+    ),
+    ("spec/1-services.md#configuration", Cell::Vector, "every cycle of `vectors/` names one"),
+    ("spec/2-offloading.md", Cell::Bench, OFFLOADING),
+    ("spec/2-offloading.md#provider", Cell::Impl, "it runs on the server"),
+    ("spec/2-offloading.md#provider", Cell::Vector, "no record drives a provider"),
+    (
+        "spec/2-offloading.md#properties-of-the-whole-protocol",
+        Cell::Model,
+        "of requester, provider and network together: `proofs/exploration`",
+    ),
+    ("spec/2-offloading.md#properties-of-the-whole-protocol", Cell::Impl, "as of the model"),
+    (
+        "spec/2-offloading.md#properties-of-the-whole-protocol",
+        Cell::Vector,
+        "a vector is one trace, they are about all",
+    ),
+    (
+        "spec/4-arithmetic.md#the-model-is-exact",
+        Cell::Vector,
+        "docs/exactness.md names a test of each decision",
+    ),
+    (
+        "spec/4-arithmetic.md#strict-and-lax",
+        Cell::Proof,
+        "tested: margins meet each comparison on both sides",
+    ),
+    (
+        "spec/4-arithmetic.md#strict-and-lax",
+        Cell::Vector,
+        "every expected answer has both verdicts",
+    ),
+    ("spec/4-arithmetic.md#conformance-of-an-implementation", Cell::Model, "binds implementations"),
+    ("spec/5-interfaces.md#cycle", Cell::Vector, "every vector is a record"),
+    (
+        "spec/5-interfaces.md#programs-under-test",
+        Cell::Model,
+        "of the tools: `conform/`, `oracle/`",
+    ),
+    ("spec/5-interfaces.md#programs-under-test", Cell::Impl, "of the tools"),
+    ("spec/5-interfaces.md#programs-under-test", Cell::Proof, "tested only"),
+    ("spec/5-interfaces.md#programs-under-test", Cell::Vector, "of the tools"),
+    ("spec/5-interfaces.md#programs-under-test", Cell::Bench, "of the tools"),
+    ("spec/5-interfaces.md#vectors", Cell::Model, "of the tools: `conform/src/vectors`"),
+    ("spec/5-interfaces.md#vectors", Cell::Impl, "of the tools"),
+    ("spec/5-interfaces.md#vectors", Cell::Proof, "tested only"),
+    ("spec/5-interfaces.md#vectors", Cell::Vector, "about all of them"),
+    ("spec/5-interfaces.md#vectors", Cell::Bench, "of the tools"),
+    ("H-08", Cell::Bench, OFFLOADING),
+    ("I-08", Cell::Bench, OFFLOADING),
+    ("I-09", Cell::Bench, OFFLOADING),
+    ("I-10", Cell::Bench, OFFLOADING),
+    ("t_wait", Cell::Bench, OFFLOADING),
+    ("l_max", Cell::Bench, OFFLOADING),
+    ("dt_max", Cell::Bench, OFFLOADING),
+    ("request_timeout", Cell::Bench, OFFLOADING),
+    ("lease", Cell::Bench, OFFLOADING),
+    ("theta_map", Cell::Proof, TESTED),
+    ("v_max", Cell::Proof, TESTED),
+    ("step_max", Cell::Proof, TESTED),
+    ("theta_velocity", Cell::Proof, TESTED),
+    ("work_limit", Cell::Proof, TESTED),
+    ("request_timeout", Cell::Proof, TESTED),
+    ("I-01", Cell::Impl, "a number: nothing is computed with it"),
+    ("I-01", Cell::Proof, "a number: nothing is claimed of it"),
+    ("I-01", Cell::Bench, "a number: nothing is computed with it"),
+    (
+        "n",
+        Cell::Proof,
+        "the theorems on disks (stage v) hold for every n and do not name the parameter",
+    ),
+    ("s_valid", Cell::Impl, "`impl/src/stages/horizon.rs` takes s_follow or s_b itself"),
+    ("s_valid", Cell::Bench, "as of s_follow"),
+    ("lease", Cell::Impl, "of the provider, which runs on the server"),
+    ("lease", Cell::Vector, "no record drives a provider"),
+];
+
+fn rows() -> &'static [Row] {
+    static ROWS: OnceLock<Vec<Row>> = OnceLock::new();
+    ROWS.get_or_init(|| rows::all(&Tree::here()))
+}
+
+#[test]
+fn the_page_is_what_the_sources_say() {
+    let page = page::write(rows(), EMPTY);
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(PAGE);
+    if std::env::var_os("UPDATE_CHAIN").is_some() {
+        std::fs::write(&file, &page).expect("the page can be written");
+    }
+    let kept = std::fs::read_to_string(&file).expect("the page is there");
+    assert!(kept == page, "{PAGE} is old: UPDATE_CHAIN=1 cargo test -p mufasa-props --test chain");
+}
+
+#[test]
+fn no_link_of_the_chain_is_missing_without_a_reason() {
+    let rows = rows();
+    let wrong = page::missing(rows, EMPTY);
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// Each heading with a requirement, each rule and each interpretation, and the symbols of the paper.
+#[test]
+fn every_requirement_has_a_row() {
+    let rows = rows();
+    let names: Vec<&str> = rows.iter().map(|row| row.name.as_str()).collect();
+    let numbers = (1..=12).flat_map(|n| [format!("H-{n:02}"), format!("I-{n:02}")]);
+    let symbols =
+        ["s_follow", "s_CAV", "s_b", "s_valid", "theta_tr", "theta_map", "theta_obj", "a_b"];
+    let symbols = symbols.into_iter().chain(["t_wait", "l_max", "dt_max"]).map(str::to_owned);
+    for name in
+        numbers.chain(symbols).chain(["spec/3-stages.md#stage-i-track-validation".to_owned()])
+    {
+        assert!(names.contains(&name.as_str()), "{name} has no row");
+    }
+    assert!(rows.len() > 70, "{}", rows.len());
+}
+
+/// A link that the sources do not support is seen to be missing, and so is a reason without need.
+#[test]
+fn a_missing_link_is_seen() {
+    let files = [
+        (
+            "spec/3-stages.md",
+            "# Stages\n\n## Distances\n\nPaper Sec. IV-D, eq. (3).\n\n    s_CAV = 1.8 v   (3)\n\n* It MUST be so.\n",
+        ),
+        (
+            "model/src/stages/distances.rs",
+            "//! Distances (`spec/3-stages.md#distances`).\n\npub fn s_cav() {}\n",
+        ),
+    ];
+    let tree = Tree(files.map(|(path, text)| (path.to_owned(), text.to_owned())).into());
+    let rows = rows::all(&tree);
+    let names: Vec<&str> = rows.iter().map(|row| row.name.as_str()).collect();
+    assert_eq!(names, ["spec/3-stages.md#distances", "s_CAV"]);
+    let wrong = page::missing(&rows, &[]).join("\n");
+    assert!(wrong.contains("spec/3-stages.md#distances: no impl"), "{wrong}");
+    assert!(!wrong.contains("no model"), "{wrong}");
+    let stale = page::missing(&rows, &[("s_CAV", Cell::Model, "why")]).join("\n");
+    assert!(stale.contains("s_CAV: model: is there"), "{stale}");
+}

@@ -1,0 +1,315 @@
+//! The rows of the chain and what stands in their cells.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::claims::{self, Claim};
+use super::comments::{Mention, Place, item, mentions, names};
+use super::symbols;
+use super::tree::{Tree, sections};
+
+/// The links of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cell {
+    /// Normative text.
+    Spec,
+    /// The model.
+    Model,
+    /// The implementation.
+    Impl,
+    /// Laws, and properties of the exploration.
+    Law,
+    /// Theorems over the reals.
+    Theorem,
+    /// Proof harnesses.
+    Harness,
+    /// Tests.
+    Test,
+    /// Vectors.
+    Vector,
+    /// Benches.
+    Bench,
+    /// Any of law, theorem and harness: of these one has to be there.
+    Proof,
+}
+
+/// Tests that read the names of all rows.
+pub const BOOKS: [&str; 3] = ["props/tests/chain", "props/tests/requirements", "props/tests/tidy"];
+
+/// It holds model and implementation to every vector.
+const EVERY_VECTOR: &str = "conform/tests/vectors/main.rs";
+
+/// A place in a file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Link {
+    /// From the root; with an anchor in Markdown.
+    pub file: String,
+    /// A function or the like; none: the file.
+    pub name: String,
+}
+
+/// A row.
+pub struct Row {
+    /// `spec/3-stages.md#distances`, `H-04`, `I-02`, or a symbol.
+    pub name: String,
+    /// What it is called.
+    pub title: String,
+    /// Where the paper has it.
+    pub paper: String,
+    /// Interpretations that the lines of a heading name.
+    pub readings: BTreeSet<String>,
+    /// What stands where.
+    pub cells: BTreeMap<Cell, BTreeSet<Link>>,
+}
+
+impl Row {
+    /// A row that leads to the spec alone.
+    pub fn new(name: &str, title: &str, paper: &str, spec: &str) -> Self {
+        let mut row = Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            paper: paper.to_owned(),
+            readings: BTreeSet::new(),
+            cells: BTreeMap::new(),
+        };
+        row.add(Cell::Spec, spec, "");
+        row
+    }
+
+    /// Adds a link.
+    pub fn add(&mut self, cell: Cell, file: &str, name: &str) {
+        let link = Link { file: file.to_owned(), name: name.to_owned() };
+        self.cells.entry(cell).or_default().insert(link);
+    }
+}
+
+/// All rows: headings in the order of the spec, rules, interpretations, symbols.
+pub fn all(tree: &Tree) -> Vec<Row> {
+    let claims = claims::all(tree);
+    let sources: Vec<Source> = tree
+        .ending(".rs")
+        .map(|(file, text)| Source { file, text, mentions: mentions(text) })
+        .collect();
+    let mut rows = headings_and_rules(tree);
+    for row in &mut rows {
+        add_code(&sources, row);
+        add_claims(&claims, row);
+        add_tests(&sources, row);
+        add_vectors(tree, row);
+        add_benches(tree, row);
+    }
+    as_their_headings(&mut rows);
+    let symbols = symbols::all(tree, &claims, &rows);
+    rows.extend(symbols);
+    rows
+}
+
+/// A file of Rust and what its comments name.
+struct Source<'a> {
+    file: &'a str,
+    text: &'a str,
+    mentions: Vec<Mention>,
+}
+
+impl Source<'_> {
+    /// Where it names a row.
+    fn places(&self, row: &Row) -> Vec<Place> {
+        let of_row = self.mentions.iter().filter(|it| it.name == row.name);
+        of_row.map(|it| it.at.clone()).collect()
+    }
+}
+
+fn headings_and_rules(tree: &Tree) -> Vec<Row> {
+    let (mut headings, mut rules) = (Vec::new(), Vec::new());
+    for (file, text) in tree.ending(".md") {
+        let number = file.strip_prefix("spec/").and_then(|name| name.chars().next());
+        let Some(number) = number.filter(char::is_ascii_digit) else { continue };
+        for section in sections(text) {
+            let place = format!("{file}#{}", section.anchor);
+            let title = section.lines[0].trim_start_matches(['#', ' ']);
+            let paper = section
+                .lines
+                .iter()
+                .find(|line| line.starts_with("Paper ") || line.starts_with("Not in "));
+            if section.lines.iter().any(|line| line.contains("MUST")) {
+                let title = format!("{number} {title}");
+                let mut row = Row::new(&place, &title, paper.unwrap_or(&""), &place);
+                row.readings.extend(section.lines.iter().flat_map(|line| names(line)));
+                headings.push(row);
+            }
+            for line in &section.lines {
+                let mut cells = line.split(" | ");
+                let name =
+                    cells.next().and_then(|cell| cell.strip_prefix("| ")).unwrap_or_default();
+                if names(name) == [name] {
+                    let words: String =
+                        cells.next().unwrap_or_default().chars().take(100).collect();
+                    rules.push(Row::new(name, name, &words, &place));
+                }
+            }
+        }
+    }
+    rules.sort_by(|a: &Row, b: &Row| a.name.cmp(&b.name));
+    headings.extend(rules);
+    headings
+}
+
+/// An interpretation says how a requirement is read: what it has no link of its own for is what that
+/// requirement has.
+fn as_their_headings(rows: &mut [Row]) {
+    let (headings, rules): (Vec<&mut Row>, Vec<_>) =
+        rows.iter_mut().partition(|row| row.name.starts_with("spec/"));
+    for row in rules.into_iter().filter(|row| row.name.starts_with("I-")) {
+        let own: BTreeSet<Cell> = row.cells.keys().copied().collect();
+        let name = row.name.clone();
+        for heading in headings.iter().filter(|heading| heading.readings.contains(&name)) {
+            row.add(Cell::Spec, &heading.name, "");
+            for (cell, links) in heading.cells.iter().filter(|(cell, _)| !own.contains(cell)) {
+                row.cells.entry(*cell).or_default().extend(links.iter().cloned());
+            }
+        }
+    }
+}
+
+/// Whether a file is a test, or sources that only tests build.
+pub fn is_test(file: &str) -> bool {
+    file.contains("/tests/") || file.ends_with("/tests.rs")
+}
+
+/// Files of model and implementation that name the row in a comment or, of a rule, in their own name.
+fn add_code(sources: &[Source], row: &mut Row) {
+    let short = row.name.to_lowercase().replace('-', "");
+    for (cell, folder) in [(Cell::Model, "model/src/"), (Cell::Impl, "impl/src/")] {
+        let files = sources.iter().filter(|it| it.file.starts_with(folder) && !is_test(it.file));
+        for source in files {
+            let places = source.places(row);
+            let is_of_rule = row.name.len() == 4 && source.file.contains(&short);
+            if is_of_rule || places.contains(&Place::Head) {
+                let visible =
+                    |line: &&str| line.trim_start().starts_with("pub") && line.contains("fn ");
+                let mut functions = source
+                    .text
+                    .lines()
+                    .filter(visible)
+                    .map(str::trim_start)
+                    .filter_map(item)
+                    .peekable();
+                if functions.peek().is_none() {
+                    row.add(cell, source.file, "");
+                }
+                functions.for_each(|function| row.add(cell, source.file, function));
+            }
+            for place in places {
+                if let Place::Item(name) = place
+                    && !is_test_function(source.text, &name)
+                {
+                    row.add(cell, source.file, &name);
+                }
+            }
+        }
+    }
+}
+
+fn add_claims(claims: &[Claim], row: &mut Row) {
+    for claim in claims.iter().filter(|claim| claim.about.contains(&row.name)) {
+        row.cells.entry(claim.cell).or_default().insert(claim.link.clone());
+    }
+}
+
+/// Tests that name the row, and files of tests that do.
+fn add_tests(sources: &[Source], row: &mut Row) {
+    for source in sources {
+        let has_tests = source.text.contains("#[test]") || source.text.contains("proptest!");
+        let is_own = BOOKS.iter().any(|it| source.file.starts_with(it));
+        for place in source.places(row).into_iter().filter(|_| has_tests && !is_own) {
+            match place {
+                Place::Item(name) if is_test_function(source.text, &name) => {
+                    row.add(Cell::Test, source.file, &name);
+                }
+                _ if is_test(source.file) => row.add(Cell::Test, source.file, ""),
+                _ => {}
+            }
+        }
+    }
+}
+
+fn is_test_function(text: &str, name: &str) -> bool {
+    let signature = format!("fn {name}(");
+    let at = text.find(&signature).map(|at| &text[..at]);
+    at.is_some_and(|before| {
+        let attributes = before.lines().rev().skip(1).take_while(|line| {
+            let line = line.trim_start();
+            line.starts_with("#[") || line.starts_with("//")
+        });
+        attributes.into_iter().any(|line| line.contains("#[test]")) || text.contains("proptest!")
+    })
+}
+
+/// Vectors of the requirement, and those that depend on the interpretation.
+fn add_vectors(tree: &Tree, row: &mut Row) {
+    for (file, text) in tree.ending(".jsonl").filter(|(file, _)| file.starts_with("vectors/")) {
+        let place = format!("\"requirement\": \"{}", row.name);
+        let flag = format!("\"flag\": \"interpretation {}\"", row.name);
+        let is_it = |line: &str| {
+            let after = line.split_once(&place).map(|(_, rest)| rest);
+            after.is_some_and(|rest| rest.starts_with(['.', '"'])) || line.contains(&flag)
+        };
+        if text.lines().any(is_it) {
+            row.add(Cell::Vector, file, "");
+            if tree.0.contains_key(EVERY_VECTOR) {
+                row.add(Cell::Test, EVERY_VECTOR, "");
+            }
+        }
+    }
+}
+
+/// The benches of the stages in which the row's modules of the implementation are used.
+pub fn add_benches(tree: &Tree, row: &mut Row) {
+    let mut groups = BTreeSet::new();
+    for link in row.cells.get(&Cell::Impl).into_iter().flatten() {
+        let word = if row.name == *row.title { link.name.as_str() } else { "" };
+        add_groups(tree, (&link.file, word), &mut BTreeSet::new(), &mut groups);
+    }
+    let file = "benches/benches/stages.rs";
+    let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
+    for group in groups {
+        let begins = group.split(' ').next().unwrap_or_default();
+        if text.contains(&format!("format!(\"{begins} ")) {
+            row.add(Cell::Bench, file, &group);
+        }
+    }
+}
+
+/// Stages that a file of the implementation is a part of, or that use it; with a word: that use it
+/// and name the word.
+fn add_groups(
+    tree: &Tree,
+    (file, word): (&str, &str),
+    seen: &mut BTreeSet<String>,
+    groups: &mut BTreeSet<String>,
+) {
+    let below = file.strip_prefix("impl/src/").filter(|_| seen.insert(file.to_owned()));
+    let Some(below) = below else { return };
+    let mut parts = below.trim_end_matches(".rs").split('/').filter(|part| *part != "mod");
+    let (folder, module) = (parts.next().unwrap_or_default(), parts.next());
+    let number = module.and_then(|module| module.split('_').next()).unwrap_or_default();
+    match (folder, module) {
+        ("stages", None) | ("input", _) => drop(groups.insert("whole cycle".to_owned())),
+        ("stages", _) if ["i", "ii", "iii", "iv", "v"].contains(&number) => {
+            groups.insert(format!("stage {number}"));
+        }
+        ("stages" | "hardened" | "numbers", Some(module)) => {
+            let users = tree.ending(".rs").filter(|(file, text)| {
+                let known =
+                    ["impl/src/stages", "impl/src/hardened"].iter().any(|it| file.starts_with(it));
+                known
+                    && !is_test(file)
+                    && text.contains(&format!("{module}::"))
+                    && text.contains(word)
+            });
+            for (user, _) in users {
+                add_groups(tree, (user, ""), seen, groups);
+            }
+        }
+        _ => {}
+    }
+}

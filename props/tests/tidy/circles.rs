@@ -1,0 +1,217 @@
+//! Circles of modules. A module is a file; it knows another when a path in its code leads there.
+//! A `pub use` hands on and is not counted, nor are tests.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::tree::Tree;
+
+/// A node and whom it knows.
+pub type Graph = BTreeMap<String, BTreeSet<String>>;
+
+/// The circles of modules of each package, each under its first module, with all of it.
+pub fn of_modules(tree: &Tree) -> Vec<(String, String)> {
+    let manifests = tree.ending("Cargo.toml").filter(|(_, text)| text.contains("[package]"));
+    let packages = manifests.map(|(path, _)| path.trim_end_matches("Cargo.toml"));
+    packages.flat_map(|package| circles(&modules(tree, &format!("{package}src/")))).collect()
+}
+
+/// The parts of a graph in which each reaches each, of two nodes or more.
+pub fn circles(graph: &Graph) -> Vec<(String, String)> {
+    let reached = |from: &String| {
+        let mut seen = BTreeSet::new();
+        let mut next = vec![from];
+        while let Some(node) = next.pop() {
+            for known in graph.get(node).into_iter().flatten() {
+                if seen.insert(known) {
+                    next.push(known);
+                }
+            }
+        }
+        seen
+    };
+    let reaches: BTreeMap<_, _> = graph.keys().map(|node| (node, reached(node))).collect();
+    let mut found = BTreeSet::new();
+    for (node, seen) in &reaches {
+        let circle: Vec<&str> = reaches
+            .iter()
+            .filter(|(other, back)| seen.contains(*other) && back.contains(node))
+            .map(|(other, _)| other.as_str())
+            .collect();
+        if circle.len() > 1 {
+            found.insert((circle[0].to_owned(), circle.join(" <-> ")));
+        }
+    }
+    found.into_iter().collect()
+}
+
+/// Which module knows which, below a folder of sources.
+fn modules(tree: &Tree, folder: &str) -> Graph {
+    let mut files = BTreeMap::new();
+    for (path, text) in tree.ending(".rs") {
+        if let Some(below) = path.strip_prefix(folder) {
+            let mut name: Vec<&str> = below.trim_end_matches(".rs").split('/').collect();
+            if ["mod", "lib", "main"].contains(name.last().expect("not empty")) {
+                name.pop();
+            }
+            if !name.contains(&"tests") {
+                files.insert(name, (path, text));
+            }
+        }
+    }
+    let name = |module: &[&str]| format!("{folder}{}", module.join("::"));
+    let mut graph = Graph::new();
+    for (module, (_, text)) in &files {
+        let mut known = BTreeSet::new();
+        for path in paths(text) {
+            let path: Vec<&str> = path.split("::").map(str::trim).collect();
+            let (start, mut rest) = start(module, &path, &files);
+            let Some(mut full) = start else { continue };
+            while let Some((first, more)) = rest.split_first() {
+                full.push(first);
+                if !files.contains_key(&full) {
+                    full.pop();
+                    break;
+                }
+                rest = more;
+            }
+            if full != *module {
+                known.insert(name(&full));
+            }
+        }
+        graph.insert(name(module), known);
+    }
+    graph
+}
+
+/// Where a path begins, and what is left of it; `None` outside of the crate.
+fn start<'a, 'b, T>(
+    module: &[&'a str],
+    path: &'b [&'a str],
+    files: &BTreeMap<Vec<&'a str>, T>,
+) -> (Option<Vec<&'a str>>, &'b [&'a str]) {
+    let (first, rest) = path.split_first().expect("a path is not empty");
+    match *first {
+        "crate" => (Some(Vec::new()), rest),
+        "self" => (Some(module.to_vec()), rest),
+        "super" => {
+            let up = path.iter().take_while(|part| **part == "super").count();
+            let kept = module.len().saturating_sub(up);
+            (Some(module[..kept].to_vec()), &path[up..])
+        }
+        child => {
+            let below = [module, &[child]].concat();
+            (files.contains_key(&below).then(|| module.to_vec()), path)
+        }
+    }
+}
+
+/// The paths in the code of a file: each of a `use`, and those that begin with `crate`, `self` or
+/// `super` elsewhere.
+fn paths(text: &str) -> Vec<String> {
+    let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let code: Vec<&str> =
+        text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    let code = code.join("\n");
+    let mut found = Vec::new();
+    let mut rest = code.as_str();
+    let mut elsewhere = String::new();
+    while let Some((before, after)) = rest.split_once("use ") {
+        let begins = before.rsplit('\n').next().unwrap_or_default();
+        let Some((tree, more)) = after.split_once(';').filter(|_| is_start_of_use(begins)) else {
+            elsewhere += before;
+            elsewhere += " use ";
+            rest = after;
+            continue;
+        };
+        elsewhere += before;
+        if !begins.contains("pub") {
+            expand("", tree.trim(), &mut found);
+        }
+        rest = more;
+    }
+    elsewhere += rest;
+    for start in ["crate::", "super::", "self::"] {
+        for (at, _) in elsewhere.match_indices(start) {
+            if elsewhere[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
+                continue;
+            }
+            let path = &elsewhere[at..];
+            let end = path.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
+            found.push(path[..end.unwrap_or(path.len())].trim_end_matches(':').to_owned());
+        }
+    }
+    found
+}
+
+/// Nothing but a visibility before `use`.
+fn is_start_of_use(before: &str) -> bool {
+    let before = before.trim();
+    before.is_empty() || (before.starts_with("pub") && !before.contains(' '))
+}
+
+/// The paths of a tree of a `use`.
+fn expand(before: &str, tree: &str, found: &mut Vec<String>) {
+    let Some((path, inner)) = tree.split_once('{') else {
+        let path = tree.split(" as ").next().unwrap_or_default();
+        found.push(format!("{before}{}", path.trim()));
+        return;
+    };
+    let inner = inner.trim_end();
+    let inner = inner.strip_suffix('}').unwrap_or(inner);
+    let (mut depth, mut from) = (0, 0);
+    for (at, c) in inner.char_indices().chain([(inner.len(), ',')]) {
+        match c {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 0 => {
+                let part = inner[from..at].trim();
+                from = (at + 1).min(inner.len());
+                if !part.is_empty() {
+                    expand(&format!("{before}{}", path.trim()), part, found);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(files: &[(&str, &str)]) -> Vec<String> {
+        let mut tree = BTreeMap::from([("a/Cargo.toml".to_owned(), "[package]\n".to_owned())]);
+        tree.extend(files.iter().map(|(path, text)| ((*path).to_owned(), (*text).to_owned())));
+        of_modules(&Tree(tree)).into_iter().map(|(_, circle)| circle).collect()
+    }
+
+    #[test]
+    fn a_circle_is_seen_in_every_form() {
+        let lib = ("a/src/lib.rs", "pub mod b;\npub mod c;\npub use b::B;\n");
+        for (b, c) in [
+            ("use crate::c::C;\n", "use super::b::B;\n"),
+            ("use crate::{x::Y, c::{C, D}};\n", "fn f() { crate::b::g() }\n"),
+            ("fn f() -> super::c::C { todo() }\n", "use crate::b as other;\n"),
+        ] {
+            let circle = found(&[lib, ("a/src/b.rs", b), ("a/src/c.rs", c)]);
+            assert_eq!(circle, ["a/src/b <-> a/src/c"], "{b}{c}");
+        }
+        let child =
+            [lib, ("a/src/b.rs", "mod d;\nuse d::D;\n"), ("a/src/b/d.rs", "use super::B;\n")];
+        assert_eq!(found(&child), ["a/src/b <-> a/src/b::d"]);
+    }
+
+    #[test]
+    fn one_way_is_no_circle_nor_are_tests_and_what_is_handed_on() {
+        let files = [
+            ("a/src/lib.rs", "pub mod b;\npub mod c;\n"),
+            ("a/src/b.rs", "use crate::c::C;\n// crate::b\n"),
+            (
+                "a/src/c.rs",
+                "pub use crate::b::B;\n#[cfg(test)]\nmod tests {\n    use crate::b::B;\n}\n",
+            ),
+            ("a/src/c/tests.rs", "use crate::b::B;\n"),
+        ];
+        assert!(found(&files).is_empty());
+    }
+}

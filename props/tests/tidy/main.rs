@@ -1,0 +1,153 @@
+//! Rules about the sources that a test can keep. Each is a function from a tree of files to what it
+//! finds wrong there; here it is asked of the repository, and in its own file of a small tree that
+//! breaks it. Exceptions stand here, each with its reason; one that is not needed any more fails.
+
+mod circles;
+mod length;
+mod links;
+mod names;
+mod packages;
+mod style;
+#[path = "../tree/mod.rs"]
+mod tree;
+
+use tree::Tree;
+
+/// What a rule lets pass, and why.
+type Exceptions = [(&'static str, &'static str)];
+
+/// Long files.
+const LONG: &Exceptions = &[
+    ("model/src/offloading/requester.rs", "to be split"),
+    ("props/tests/offloading/protocol.rs", "to be split"),
+];
+
+/// Modules of one package that know each other, by a module of the circle.
+const CIRCLES: &Exceptions =
+    &[("records/src/", "to be cut"), ("props/src/strategy::end", "to be cut")];
+
+/// Modules that only one of model and implementation has.
+const UNEQUAL: &Exceptions = &[
+    ("impl/src/input/route_index", "saves time; no verdict depends on it"),
+    (
+        "model/src/input/scene",
+        "the cycle in exact numbers; impl computes with the doubles of the record",
+    ),
+    ("impl/src/input/scratch", "memory that the caller lends; the model allocates"),
+    ("model/src/offloading/provider", "runs on the server; a vehicle needs none"),
+    ("model/src/services/composition", "of the orchestrator; a vehicle needs none"),
+    ("model/src/services/orchestrator", "plans before the drive; a vehicle needs none"),
+    ("model/src/services/service", "of the orchestrator; a vehicle needs none"),
+];
+
+/// Files that documents name and that are not in the repository.
+const ELSEWHERE: &Exceptions = &[("exploration/exploration.json", "`mufasa explore` writes it")];
+
+/// Functions called like their module.
+const TWICE: &Exceptions = &[
+    ("drives/src/recording/lead.rs", "to be renamed"),
+    ("oracle/src/explore/evidence.rs", "to be renamed"),
+    ("benches/src/race.rs", "to be renamed"),
+    ("capi/src/event.rs", "to be renamed"),
+    ("capi/src/report.rs", "to be renamed"),
+    ("conform/src/examine.rs", "to be renamed"),
+    ("conform/src/explain.rs", "to be renamed"),
+    ("conform/src/minimise/numbers.rs", "to be renamed"),
+    ("conform/src/minimise/pair.rs", "to be renamed"),
+    ("drives/src/check/judge.rs", "to be renamed"),
+    ("drives/src/readers/route.rs", "to be renamed"),
+    ("model/src/stages/llcc.rs", "the paper's name of the check, which is this function"),
+    ("oracle/src/compose.rs", "to be renamed"),
+    ("proofs/compiled/src/numeric.rs", "to be renamed"),
+    ("proofs/compiled/src/prove.rs", "to be renamed"),
+    ("proofs/exploration/src/fit.rs", "to be renamed"),
+    ("proofs/exploration/src/replay.rs", "to be renamed"),
+    ("proofs/exploration/src/run.rs", "to be renamed"),
+    ("proofs/src/caught.rs", "to be renamed"),
+    ("proofs/src/kani/judge.rs", "to be renamed"),
+    ("proofs/src/kani/run.rs", "to be renamed"),
+    ("proofs/theorems/src/numbers/real/hole.rs", "to be renamed"),
+    ("proofs/theorems/src/prove.rs", "to be renamed"),
+];
+
+/// Fails with everything that was found, and with the exceptions that nothing needed.
+fn judge(found: &[(String, String)], exceptions: &Exceptions) {
+    let mut wrong = Vec::new();
+    for (place, what) in found {
+        if !exceptions.iter().any(|(name, _)| name == place) {
+            wrong.push(format!("{place}: {what}"));
+        }
+    }
+    for (name, reason) in exceptions {
+        if !found.iter().any(|(place, _)| place == name) {
+            wrong.push(format!("{name}: is no exception any more, strike it out ({reason})"));
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+/// A file that does not fit into the head is read by nobody.
+#[test]
+fn no_file_of_rust_has_more_than_400_lines() {
+    judge(&length::too_long(&Tree::here(), 400), LONG);
+}
+
+/// Who has to know a circle has to know all of it at once.
+#[test]
+fn no_modules_of_a_package_know_each_other_in_a_circle() {
+    judge(&circles::of_modules(&Tree::here()), CIRCLES);
+}
+
+/// As above; tests count, since they too have to be built and read.
+#[test]
+fn no_packages_depend_on_each_other_in_a_circle() {
+    judge(&packages::circles(&Tree::here()), &[]);
+}
+
+/// The table is what a newcomer reads first.
+#[test]
+fn the_architecture_names_the_packages_with_their_dependencies() {
+    judge(&packages::table_is_wrong(&Tree::here()), &[]);
+}
+
+/// A reader holds model and implementation side by side.
+#[test]
+fn model_and_implementation_have_modules_of_one_name() {
+    judge(&names::unequal(&Tree::here()), UNEQUAL);
+}
+
+/// `tracks::tracks` says nothing twice.
+#[test]
+fn no_function_is_called_like_its_module() {
+    judge(&names::functions_like_modules(&Tree::here()), TWICE);
+}
+
+/// The way from one page to the next is all that a newcomer has.
+#[test]
+fn no_link_leads_nowhere() {
+    judge(&links::broken(&Tree::here()), &[]);
+}
+
+/// A file that was moved is still named in prose.
+#[test]
+fn every_file_that_is_named_exists() {
+    judge(&links::named(&Tree::here()), ELSEWHERE);
+}
+
+/// Comments of Rust name headings of the spec.
+#[test]
+fn every_heading_that_is_named_exists() {
+    judge(&links::headings_named(&Tree::here()), &[]);
+}
+
+/// A page that is longer is not read.
+#[test]
+fn the_readme_has_at_most_8_kb() {
+    judge(&length::readme(&Tree::here(), 8_000), &[]);
+}
+
+/// See there, each with its reason.
+#[test]
+fn the_style_is_kept() {
+    judge(&style::broken(&Tree::here()), &[]);
+}

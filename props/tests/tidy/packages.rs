@@ -1,0 +1,94 @@
+//! Who depends on whom, by the manifests and by the table of ARCHITECTURE.md.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use toml::Table;
+
+use super::circles::{self, Graph};
+use super::tree::Tree;
+
+/// A package: its dependencies among the packages here, and those of its tests alone.
+#[derive(Default)]
+struct Package {
+    dependencies: BTreeSet<String>,
+    of_tests: BTreeSet<String>,
+}
+
+/// Circles of packages, their tests included.
+pub fn circles(tree: &Tree) -> Vec<(String, String)> {
+    let knows = |package: Package| &package.dependencies | &package.of_tests;
+    let graph: Graph = packages(tree).into_iter().map(|(name, it)| (name, knows(it))).collect();
+    circles::circles(&graph)
+}
+
+/// Rows of the table that say something else than the manifests, and packages without a row.
+pub fn table_is_wrong(tree: &Tree) -> Vec<(String, String)> {
+    let text = tree.0.get("ARCHITECTURE.md").map(String::as_str).unwrap_or_default();
+    let mut wrong = Vec::new();
+    for (name, package) in packages(tree) {
+        let start = format!("| {name} | ");
+        let row = text.lines().find_map(|line| line.split_once(&start).map(|(_, rest)| rest));
+        let said = row.and_then(|rest| rest.trim_end_matches([' ', '|']).split_once(" | "));
+        let (of_all, of_tests) = said
+            .map(|(_, said)| said.split_once("its tests:").unwrap_or((said, "")))
+            .unwrap_or_default();
+        let differs = |said: &str, right: &BTreeSet<String>| {
+            let said: BTreeSet<_> =
+                said.split([',', ';', ' ']).filter(|it| !it.is_empty()).collect();
+            let short =
+                |name: &String| name.trim_start_matches("mufasa-").replace("mufasa", "impl");
+            said != right.iter().map(short).collect::<Vec<_>>().iter().map(String::as_str).collect()
+        };
+        if row.is_none()
+            || differs(of_all, &package.dependencies)
+            || differs(of_tests, &package.of_tests)
+        {
+            let right = format!("{:?}; its tests: {:?}", package.dependencies, package.of_tests);
+            wrong.push((name, format!("the table says something else than the manifest: {right}")));
+        }
+    }
+    wrong
+}
+
+fn packages(tree: &Tree) -> BTreeMap<String, Package> {
+    let manifests: Vec<Table> = tree
+        .ending("Cargo.toml")
+        .map(|(path, text)| text.parse().unwrap_or_else(|error| panic!("{path}: {error}")))
+        .filter(|manifest: &Table| manifest.contains_key("package"))
+        .collect();
+    let name = |manifest: &Table| manifest["package"]["name"].as_str().map(str::to_owned);
+    let names: BTreeSet<_> = manifests.iter().filter_map(name).collect();
+    let of = |manifest: &Table, table: &str| -> BTreeSet<String> {
+        let table = manifest.get(table).and_then(|table| table.as_table());
+        let all = table.into_iter().flat_map(Table::keys).cloned();
+        all.filter(|name| names.contains(name)).collect()
+    };
+    let package = |manifest: &Table| {
+        let dependencies = &of(manifest, "dependencies") | &of(manifest, "build-dependencies");
+        let of_tests = &of(manifest, "dev-dependencies") - &dependencies;
+        Some((name(manifest)?, Package { dependencies, of_tests }))
+    };
+    manifests.iter().filter_map(package).collect()
+}
+
+#[test]
+fn circles_and_wrong_rows_are_seen() {
+    let manifest = |name: &str, rest: &str| format!("[package]\nname = \"{name}\"\n{rest}");
+    let mut files = BTreeMap::from([
+        (
+            "a/Cargo.toml".to_owned(),
+            manifest("a", "[dependencies]\nb.workspace = true\nserde = \"1\"\n"),
+        ),
+        ("b/Cargo.toml".to_owned(), manifest("b", "[dev-dependencies.a]\npath = \"../a\"\n")),
+        (
+            "ARCHITECTURE.md".to_owned(),
+            "| `a/` | a | first | b |\n| `b/` | b | second | |\n".to_owned(),
+        ),
+    ]);
+    assert_eq!(circles(&Tree(files.clone())), [("a".to_owned(), "a <-> b".to_owned())]);
+    let wrong: Vec<_> =
+        table_is_wrong(&Tree(files.clone())).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(wrong, ["b"]);
+    files.insert("b/Cargo.toml".to_owned(), manifest("b", ""));
+    assert!(circles(&Tree(files.clone())).is_empty() && table_is_wrong(&Tree(files)).is_empty());
+}
