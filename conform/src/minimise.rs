@@ -1,81 +1,136 @@
 //! Records made smaller and rounder while they still show what they showed.
+//!
+//! Works on the JSON value of a record: what may be left out, and what is a list or a number, is
+//! what reads as a record without it.
 
 mod cycle;
-mod numbers;
 mod pair;
 
-use super::question::{Damaged, Question};
-use mufasa_model::offloading::requester::Parameters;
-use mufasa_model::services::orchestrator::Task;
-use mufasa_records::Trace;
+use crate::cases::question::{Damaged, Question};
+use serde_json::{Value, json};
 
 /// The smallest record found; `shows` says whether one still shows the class.
 pub fn question(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
-    match question {
-        Question::Cycle(cycle) => {
-            let mut cycle = Case {
-                value: cycle.as_ref().clone(),
-                shows: &mut |it| shows(&Question::Cycle(Box::new(it.clone()))),
-            };
-            cycle.until_stable(cycle::smaller);
-            Question::Cycle(Box::new(cycle.value))
-        }
-        Question::Offloading(trace) => {
-            let mut trace = Case {
-                value: trace.clone(),
-                shows: &mut |it| shows(&Question::Offloading(it.clone())),
-            };
-            trace.until_stable(smaller_trace);
-            Question::Offloading(trace.value)
-        }
-        Question::Composition(task) => {
-            let mut task = Case {
-                value: task.clone(),
-                shows: &mut |it| shows(&Question::Composition(it.clone())),
-            };
-            task.until_stable(smaller_task);
-            Question::Composition(task.value)
-        }
-        Question::Line(Damaged { record, damage, at }) => {
-            let damaged = |record: Question| {
-                let record = Box::new(record);
-                Question::Line(Damaged { record, damage: *damage, at: *at })
-            };
-            let smallest = self::question(record, &mut |it| shows(&damaged(it.clone())));
-            damaged(smallest)
+    if let Question::Line(Damaged { record, damage, at }) = question {
+        let damaged = |record: Question| {
+            let record = Box::new(record);
+            Question::Line(Damaged { record, damage: *damage, at: *at })
+        };
+        let smallest = self::question(record, &mut |it| shows(&damaged(it.clone())));
+        return damaged(smallest);
+    }
+    let Some(value) = question.record() else { return question.clone() };
+    let mut case = Case { value, question: question.clone(), shows };
+    // At most a few times, until nothing changes any more.
+    for _ in 0..4 {
+        let before = case.value.clone();
+        case.smaller();
+        if case.value == before {
+            break;
         }
     }
+    case.question
 }
 
 /// A record that shows the class.
-struct Case<'a, T> {
-    value: T,
-    shows: &'a mut dyn FnMut(&T) -> bool,
+struct Case<'a> {
+    value: Value,
+    question: Question,
+    shows: &'a mut dyn FnMut(&Question) -> bool,
 }
 
-impl<T: Clone + PartialEq> Case<'_, T> {
-    /// Makes a change if the record then still shows the class.
-    fn change(&mut self, change: impl FnOnce(&mut T)) -> bool {
+impl Case<'_> {
+    /// One pass over everything.
+    fn smaller(&mut self) {
+        self.keys();
+        self.lists();
+        if matches!(self.question, Question::Cycle(_)) {
+            cycle::smaller(self);
+        }
+        self.simple();
+    }
+
+    /// Makes a change if it leaves a record that still shows the class.
+    fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
         let mut changed = self.value.clone();
         change(&mut changed);
-        // NaN is unlike itself: such a record is tried again, which costs but does no harm.
-        if changed != self.value && (self.shows)(&changed) {
-            self.value = changed;
-            return true;
+        if changed == self.value {
+            return false;
         }
-        false
+        let Some(question) = Question::of_line(&changed.to_string()) else { return false };
+        let shows = (self.shows)(&question);
+        if shows {
+            (self.value, self.question) = (changed, question);
+        }
+        shows
+    }
+
+    /// Changes the values at these places, all at once.
+    fn change_at(&mut self, places: &[String], new: impl Fn(&Value) -> Option<Value>) -> bool {
+        self.change(|record| {
+            for place in places {
+                if let Some(old) = record.pointer_mut(place)
+                    && let Some(new) = new(old)
+                {
+                    *old = new;
+                }
+            }
+        })
+    }
+
+    /// Puts the first of these values that will do at a place.
+    fn put<T: Into<Value>>(&mut self, place: &str, values: impl IntoIterator<Item = T>) -> bool {
+        let places = [place.to_owned()];
+        values.into_iter().map(T::into).any(|it| self.change_at(&places, |_| Some(it.clone())))
+    }
+
+    /// Leaves out what may be absent, the longest first; the profile stays what it was.
+    fn keys(&mut self) {
+        let mut places = Vec::new();
+        for (name, field) in self.value.as_object().into_iter().flatten() {
+            places.push((field.to_string().len(), String::new(), name.clone()));
+            for (inner, value) in field.as_object().into_iter().flatten() {
+                places.push((value.to_string().len(), format!("/{name}"), inner.clone()));
+            }
+        }
+        places.sort_by(|a, b| b.cmp(a));
+        for (_, pointer, name) in places.into_iter().filter(|(_, _, name)| name != "profile") {
+            self.change(|record| {
+                if let Some(Value::Object(fields)) = record.pointer_mut(&pointer) {
+                    fields.remove(&name);
+                }
+            });
+        }
+    }
+
+    /// Thins every list, the outer ones first.
+    fn lists(&mut self) {
+        let mut open = vec![String::new()];
+        while let Some(pointer) = open.pop() {
+            self.thin(&pointer);
+            match self.value.pointer(&pointer) {
+                Some(Value::Object(fields)) => {
+                    open.extend(fields.keys().map(|name| format!("{pointer}/{name}")));
+                }
+                Some(Value::Array(items)) => {
+                    open.extend((0..items.len()).map(|index| format!("{pointer}/{index}")));
+                }
+                _ => {}
+            }
+        }
     }
 
     /// Removes as many items of a list as possible, in chunks, from the end.
-    fn thin<I>(&mut self, list: impl Fn(&mut T) -> Option<&mut Vec<I>>) {
-        let length = |value: &mut T| list(value).map_or(0, |items| items.len());
-        let mut size = length(&mut self.value);
+    fn thin(&mut self, pointer: &str) {
+        let length =
+            |record: &Value| record.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len);
+        let mut size = length(&self.value);
         while size > 0 {
-            let mut end = length(&mut self.value);
+            let mut end = length(&self.value);
             while end > 0 {
                 let start = end.saturating_sub(size);
-                self.change(|value| {
-                    if let Some(items) = list(value) {
+                self.change(|record| {
+                    if let Some(Value::Array(items)) = record.pointer_mut(pointer) {
                         items.drain(start..end.min(items.len()));
                     }
                 });
@@ -85,58 +140,57 @@ impl<T: Clone + PartialEq> Case<'_, T> {
         }
     }
 
-    /// Goes over the record until nothing changes any more, at most a few times.
-    fn until_stable(&mut self, pass: fn(&mut Self)) {
-        for _ in 0..4 {
-            let before = self.value.clone();
-            pass(self);
-            if self.value == before {
-                return;
-            }
+    /// Stations and ids become 0 or 1; the times of events 0, or the time of the event before;
+    /// what is true becomes false.
+    fn simple(&mut self) {
+        let times = leaves(&self.value, |place, _| {
+            place.starts_with("/events/") && place.ends_with("/t_ns")
+        });
+        self.change_at(&times, |_| Some(json!(0)));
+        let mut before = 0_i64;
+        for place in &times {
+            self.put(place, [0, before, before.saturating_add(1)]);
+            before = self.value.pointer(place).and_then(Value::as_i64).unwrap_or(0);
+        }
+        let names = |place: &str, value: &Value| {
+            value.is_i64() && (place.ends_with("/station") || place.ends_with("/id"))
+        };
+        for place in leaves(&self.value, names) {
+            self.put(&place, [0, 1]);
+        }
+        for place in leaves(&self.value, |_, value| value == &json!(true)) {
+            self.put(&place, [false]);
         }
     }
 }
 
-fn smaller_trace(case: &mut Case<'_, Trace>) {
-    case.thin(|trace| Some(&mut trace.events));
-    let usual = Parameters::default();
-    case.change(|trace| trace.parameters = usual);
-    case.change(|trace| trace.parameters.t_wait_ns = usual.t_wait_ns);
-    case.change(|trace| trace.parameters.request_timeout_ns = usual.request_timeout_ns);
-    case.change(|trace| trace.parameters.l_max_ns = usual.l_max_ns);
-    case.change(|trace| trace.parameters.dt_max_ns = usual.dt_max_ns);
-    case.change(|trace| trace.parameters.qos_hold = usual.qos_hold);
-    // All times at once, then one by one: 0, or the time of the event before.
-    case.change(|trace| trace.events.iter_mut().for_each(|event| event.t_ns = 0));
-    for index in 0..case.value.events.len() {
-        let before = index.checked_sub(1).map_or(0, |i| case.value.events[i].t_ns);
-        let _ = case.change(|trace| trace.events[index].t_ns = 0)
-            || case.change(|trace| trace.events[index].t_ns = before)
-            || case.change(|trace| trace.events[index].t_ns = before.saturating_add(1));
+/// The places, as JSON pointers, of the values that are no list and no object, and wanted.
+fn leaves(record: &Value, wanted: impl Fn(&str, &Value) -> bool) -> Vec<String> {
+    let (mut found, mut open) = (Vec::new(), vec![(String::new(), record)]);
+    while let Some((pointer, value)) = open.pop() {
+        match value {
+            // Taken from the end: in the order of the record.
+            Value::Object(fields) => {
+                open.extend(fields.iter().rev().map(|(key, it)| (format!("{pointer}/{key}"), it)));
+            }
+            Value::Array(items) => {
+                let items = items.iter().enumerate().rev();
+                open.extend(items.map(|(index, it)| (format!("{pointer}/{index}"), it)));
+            }
+            leaf if wanted(&pointer, leaf) => found.push(pointer),
+            _ => {}
+        }
     }
-}
-
-fn smaller_task(case: &mut Case<'_, Task>) {
-    case.thin(|task| Some(&mut task.same_station));
-    case.thin(|task| Some(&mut task.local_only));
-    case.thin(|task| Some(&mut task.services));
-    for index in 0..case.value.same_station.len() {
-        case.thin(|task| task.same_station.get_mut(index));
-    }
-    for index in 0..case.value.services.len() {
-        case.thin(|task| task.services.get_mut(index).map(|it| &mut it.requires));
-        case.thin(|task| task.services.get_mut(index).map(|it| &mut it.guarantees));
-        case.change(|task| task.services[index].station = 0);
-    }
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::class::Kind;
-    use super::super::generate::Generator;
     use super::*;
+    use crate::cases::generate::Generator;
+    use crate::judge::class::Kind;
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
         let generator = Generator { seed: 5, profile: Profile::Paper, kinds: vec![kind] };

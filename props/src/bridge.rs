@@ -3,6 +3,45 @@
 //! Structs are taken apart without `..` and enums matched without a catch-all: a field or variant
 //! that only one of the two crates has breaks the build.
 
+/// Functions from one enum to another with the same variants. What a variant holds goes over as it
+/// is, or by the function behind the colon.
+macro_rules! same_variants {
+    ($(
+        $(#[$doc:meta])*
+        $visibility:vis fn $name:ident($from:ty) -> $to:ty {
+            $(
+                $variant:ident
+                $(($inner:ident: $convert:path))?
+                $({ $($field:ident $(: $change:path)?),* })?,
+            )*
+        }
+    )*) => {$(
+        $(#[$doc])*
+        $visibility fn $name(value: $from) -> $to {
+            type From = $from;
+            type To = $to;
+            match value {
+                $(From::$variant $(($inner))? $({ $($field),* })? => {
+                    To::$variant $(($convert($inner)))? $({ $($field $(: $change($field))?),* })?
+                })*
+            }
+        }
+    )*};
+}
+
+/// Functions from one struct to another with the same fields.
+macro_rules! same_fields {
+    ($($(#[$doc:meta])* $visibility:vis fn $name:ident($from:ty) -> $to:ty { $($field:ident),* })*) => {$(
+        $(#[$doc])*
+        $visibility fn $name(value: &$from) -> $to {
+            type From = $from;
+            type To = $to;
+            let From { $($field),* } = *value;
+            To { $($field),* }
+        }
+    )*};
+}
+
 mod cycle;
 mod requester;
 mod verdict;

@@ -1,20 +1,17 @@
-//! A cycle made smaller: fewer inputs and objects, the CAV at the origin, round numbers.
+//! A cycle made smaller: the CAV at the origin, one time, one pair, few cells, round numbers.
 
 use mufasa_model::input::cycle::{Cycle, Grid};
-use mufasa_model::input::parameters::Parameters;
+use serde_json::{Value, json};
 
-use super::Case;
-use super::numbers::{directions, numbers, places, stamps, vectors};
 use super::pair::pair;
+use super::{Case, leaves};
+use crate::cases::question::Question;
 
 /// When the shrunk cycle is decided, ns.
 const NOW_NS: i64 = 1_000_000_000;
 
 /// One pass over everything.
-pub fn smaller(case: &mut Case<'_, Cycle>) {
-    inputs(case);
-    lists(case);
-    parameters(case);
+pub fn smaller(case: &mut Case<'_>) {
     frame(case);
     pair(case);
     times(case);
@@ -22,150 +19,128 @@ pub fn smaller(case: &mut Case<'_, Cycle>) {
     rounded(case);
 }
 
-fn inputs(case: &mut Case<'_, Cycle>) {
-    case.change(|cycle| cycle.grid = None);
-    case.change(|cycle| cycle.previous_tracks = None);
-    case.change(|cycle| cycle.lead = None);
-    case.change(|cycle| cycle.detections = None);
-    case.change(|cycle| cycle.tracks = None);
-    case.change(|cycle| cycle.trajectory = None);
-    case.change(|cycle| {
-        if let Some(grid) = &mut cycle.grid {
-            grid.unknown = None;
+impl Case<'_> {
+    /// The cycle that is shrunk.
+    pub fn cycle(&self) -> Option<&Cycle> {
+        match &self.question {
+            Question::Cycle(cycle) => Some(cycle),
+            Question::Offloading(_) | Question::Composition(_) | Question::Line(_) => None,
         }
-    });
+    }
+
+    /// A change that is easier to say of the cycle than of its record.
+    pub fn change_cycle(&mut self, change: impl FnOnce(&mut Cycle)) -> bool {
+        let Some(mut cycle) = self.cycle().cloned() else { return false };
+        change(&mut cycle);
+        let changed = Question::Cycle(Box::new(cycle)).record();
+        self.change(|record| *record = changed.unwrap_or_default())
+    }
+
+    fn number(&self, pointer: &str) -> f64 {
+        self.value.pointer(pointer).and_then(Value::as_f64).unwrap_or(f64::NAN)
+    }
 }
 
-fn lists(case: &mut Case<'_, Cycle>) {
-    case.thin(|cycle| cycle.previous_tracks.as_mut().map(|list| &mut list.items));
-    case.thin(|cycle| cycle.tracks.as_mut().map(|list| &mut list.items));
-    case.thin(|cycle| cycle.detections.as_mut().map(|list| &mut list.items));
-    case.thin(|cycle| cycle.trajectory.as_mut().map(|list| &mut list.points));
-    case.thin(|cycle| Some(&mut cycle.route.cross_sections));
-    case.change(|cycle| cycle.route.closed = false);
-}
+/// Two numbers that belong together: of an object by their names, or the two of a list.
+type Names = [&'static str; 2];
+const PLACE: Names = ["x", "y"];
+const DIRECTION: Names = ["cos", "sin"];
+const VELOCITY: Names = ["vx", "vy"];
 
-fn parameters(case: &mut Case<'_, Cycle>) {
-    macro_rules! by_default {
-        ($($name:ident),*) => {
-            let Parameters { $($name),* } = Parameters::default();
-            $(case.change(|cycle| cycle.parameters.$name = $name);)*
-        };
+/// Changes all such pairs. Points of boundaries are lists of two numbers, hence places.
+fn pairs(value: &mut Value, names: Names, change: &mut impl FnMut(f64, f64) -> (f64, f64)) {
+    let mut at = |a: &Value, b: &Value| {
+        let (a, b) = change(a.as_f64()?, b.as_f64()?);
+        Some([json!(a), json!(b)])
+    };
+    match value {
+        Value::Array(items) => {
+            if let ([a, b], PLACE) = (items.as_slice(), names)
+                && let Some(changed) = at(a, b)
+            {
+                *items = changed.into();
+            }
+            items.iter_mut().for_each(|item| pairs(item, names, change));
+        }
+        Value::Object(fields) => {
+            if let (Some(a), Some(b)) = (fields.get(names[0]), fields.get(names[1]))
+                && let Some(changed) = at(a, b)
+            {
+                fields.extend(names.map(String::from).into_iter().zip(changed));
+            }
+            fields.values_mut().for_each(|field| pairs(field, names, change));
+        }
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
-    if case.change(|cycle| cycle.parameters = Parameters::default()) {
-        return;
-    }
-    by_default!(
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta
-    );
 }
 
 /// The CAV at the origin and in the direction of the x axis.
-fn frame(case: &mut Case<'_, Cycle>) {
-    case.change(|cycle| {
-        let (x, y) = (cycle.ego.x, cycle.ego.y);
-        for (px, py) in places(cycle) {
-            (*px, *py) = (*px - x, *py - y);
+fn frame(case: &mut Case<'_>) {
+    let (x, y) = (case.number("/ego/x"), case.number("/ego/y"));
+    case.change(|record| pairs(record, PLACE, &mut |px, py| (px - x, py - y)));
+    let (cos, sin) = (case.number("/ego/cos"), case.number("/ego/sin"));
+    let (x, y) = (case.number("/ego/x"), case.number("/ego/y"));
+    let turned = |a: f64, b: f64| (a * cos + b * sin, b * cos - a * sin);
+    case.change(|record| {
+        pairs(record, PLACE, &mut |px, py| {
+            let (a, b) = turned(px - x, py - y);
+            (x + a, y + b)
+        });
+        for names in [DIRECTION, VELOCITY] {
+            pairs(record, names, &mut |a, b| turned(a, b));
         }
+        (record["ego"]["cos"], record["ego"]["sin"]) = (json!(1.0), json!(0.0));
     });
-    case.change(|cycle| {
-        let (cos, sin) = (cycle.ego.cos, cycle.ego.sin);
-        let (x, y) = (cycle.ego.x, cycle.ego.y);
-        let turned = |a: f64, b: f64| (a * cos + b * sin, b * cos - a * sin);
-        for (px, py) in places(cycle) {
-            let (a, b) = turned(*px - x, *py - y);
-            (*px, *py) = (x + a, y + b);
-        }
-        for (a, b) in vectors(cycle) {
-            (*a, *b) = turned(*a, *b);
-        }
-        (cycle.ego.cos, cycle.ego.sin) = (1.0, 0.0);
-    });
-    for index in 0..directions(&mut case.value).len() {
-        case.change(|cycle| {
-            if let Some((cos, sin)) = directions(cycle).into_iter().nth(index) {
-                (*cos, *sin) = (1.0, 0.0);
+    for place in leaves(&case.value, |place, _| place.ends_with("/cos")) {
+        case.change(|record| {
+            let object = place.strip_suffix("/cos").and_then(|it| record.pointer_mut(it));
+            if let Some(object) = object {
+                (object["cos"], object["sin"]) = (json!(1.0), json!(0.0));
             }
         });
     }
 }
 
 /// Everything at one time, and trajectory times that are multiples of 100, 10 or 1 ms.
-fn times(case: &mut Case<'_, Cycle>) {
-    case.change(|cycle| {
-        let shift = |t_ns: i64| t_ns.saturating_sub(cycle.now_ns).saturating_add(NOW_NS);
-        let mut moved = cycle.clone();
-        for t_ns in stamps(&mut moved) {
-            *t_ns = shift(*t_ns);
-        }
-        for point in moved.trajectory.iter_mut().flat_map(|list| &mut list.points) {
-            point.t_ns = shift(point.t_ns);
-        }
-        moved.now_ns = NOW_NS;
-        *cycle = moved;
-    });
-    for index in 0..stamps(&mut case.value).len() {
-        let now_ns = case.value.now_ns;
-        case.change(|cycle| {
-            stamps(cycle).into_iter().skip(index).take(1).for_each(|t_ns| *t_ns = now_ns);
-        });
+fn times(case: &mut Case<'_>) {
+    let ending = |case: &Case<'_>, end| {
+        leaves(&case.value, |place, _| place.ends_with(end) && !place.starts_with("/parameters"))
+    };
+    let all = ending(case, "_ns");
+    let now_ns = case.value["now_ns"].as_i64().unwrap_or(NOW_NS);
+    let shift = |t_ns: i64| t_ns.saturating_sub(now_ns).saturating_add(NOW_NS);
+    case.change_at(&all, |old| old.as_i64().map(|t_ns| json!(shift(t_ns))));
+    let now_ns = case.value["now_ns"].clone();
+    for place in ending(case, "/stamp_ns") {
+        case.put(&place, [now_ns.clone()]);
     }
-    for unit in [100_000_000, 10_000_000, 1_000_000] {
-        let done = case.change(|cycle| {
-            for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
-                point.t_ns = (point.t_ns / unit).saturating_mul(unit);
-            }
-        });
-        if done {
-            break;
-        }
-    }
+    let points = ending(case, "/t_ns");
+    let round = |t_ns: i64, unit: i64| json!((t_ns / unit).saturating_mul(unit));
+    let units = [100_000_000, 10_000_000, 1_000_000];
+    units
+        .into_iter()
+        .any(|unit| case.change_at(&points, |old| old.as_i64().map(|t_ns| round(t_ns, unit))));
 }
 
 /// A smaller grid with fewer marked cells.
-fn cells(case: &mut Case<'_, Cycle>) {
-    let Some(grid) = &case.value.grid else { return };
-    let bytes = grid.occupied.len();
-    for byte in 0..bytes {
-        if case.value.grid.as_ref().is_none_or(|grid| grid.occupied.iter().all(|it| *it == 0)) {
-            break;
-        }
-        let was = case.value.grid.as_ref().and_then(|grid| grid.occupied.get(byte).copied());
-        if was.unwrap_or(0) == 0 {
-            continue;
-        }
+fn cells(case: &mut Case<'_>) {
+    let Some(grid) = case.cycle().and_then(|cycle| cycle.grid.as_ref()) else { return };
+    let marked: Vec<usize> = (0..grid.occupied.len()).filter(|i| grid.occupied[*i] != 0).collect();
+    for byte in marked {
         for keep in [0, 1, 2, 4, 8, 16, 32, 64, 128] {
-            let done = case.change(|cycle| {
+            if case.change_cycle(|cycle| {
                 if let Some(it) = cycle.grid.as_mut().and_then(|it| it.occupied.get_mut(byte)) {
                     *it &= keep;
                 }
-            });
-            if done {
+            }) {
                 break;
             }
         }
     }
-    for halves in [true, false] {
+    for half in [true, false] {
         while (0..4).any(|side| {
-            case.change(|cycle| {
-                if let Some(cut) = cycle.grid.as_ref().and_then(|grid| cropped(grid, side, halves))
-                {
+            case.change_cycle(|cycle| {
+                if let Some(cut) = cycle.grid.as_ref().and_then(|grid| cropped(grid, side, half)) {
                     cycle.grid = Some(cut);
                 }
             })
@@ -223,30 +198,21 @@ fn steps(cells: usize) -> f64 {
     cells as f64
 }
 
-/// Every number with as few decimals as possible: all at once, then one by one.
-fn rounded(case: &mut Case<'_, Cycle>) {
+/// Every number that may have a fraction with as few decimals as possible: all at once, then one by
+/// one. Parameters keep theirs.
+fn rounded(case: &mut Case<'_>) {
     const DECIMALS: [i32; 6] = [0, 1, 2, 3, 6, 9];
     let to = |value: f64, decimals: i32| {
         let scale = 10_f64.powi(decimals);
         (value * scale).round() / scale
     };
-    for decimals in DECIMALS {
-        let all = case.change(|cycle| {
-            for number in numbers(cycle) {
-                *number = to(*number, decimals);
-            }
-        });
-        if all {
-            break;
-        }
-    }
-    for index in 0..numbers(&mut case.value).len() {
-        let was = *numbers(&mut case.value)[index];
-        let simpler = |value: f64| value.to_string().len() < was.to_string().len();
-        for value in [0.0].into_iter().chain(DECIMALS.map(|decimals| to(was, decimals))) {
-            if simpler(value) && case.change(|cycle| *numbers(cycle)[index] = value) {
-                break;
-            }
-        }
+    let numbers = leaves(&case.value, |place, it| it.is_f64() && !place.starts_with("/parameters"));
+    DECIMALS.into_iter().any(|decimals| {
+        case.change_at(&numbers, |old| old.as_f64().map(|number| json!(to(number, decimals))))
+    });
+    for place in numbers {
+        let was = case.number(&place);
+        let rounder = [0.0].into_iter().chain(DECIMALS.map(|decimals| to(was, decimals)));
+        case.put(&place, rounder.filter(|it| it.to_string().len() < was.to_string().len()));
     }
 }

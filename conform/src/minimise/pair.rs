@@ -13,18 +13,19 @@ const BESIDE_M: f64 = 5e-7;
 /// Taking a pair away moves the mean of the others, so that a cycle at the threshold of stage i
 /// would keep them all. Puts the first track so that it alone is at a threshold: of the mean, of a
 /// pair's distance, of the field of view.
-pub fn pair(case: &mut Case<'_, Cycle>) {
+pub fn pair(case: &mut Case<'_>) {
     let length = |cycle: &Cycle| {
         let tracks = cycle.tracks.as_ref().map_or(0, |list| list.items.len());
         (tracks, cycle.detections.as_ref().map_or(0, |list| list.items.len()))
     };
-    if !matches!(length(&case.value), (1.., 2..) | (2.., 1..)) {
+    let Some(cycle) = case.cycle() else { return };
+    if !matches!(length(cycle), (1.., 2..) | (2.., 1..)) {
         return;
     }
     let sides = |threshold_m: f64| {
         [threshold_m, threshold_m + BESIDE_M, threshold_m - BESIDE_M].into_iter()
     };
-    let parameters = &case.value.parameters;
+    let parameters = cycle.parameters.clone();
     let behind = sides(parameters.theta_tr).chain(sides(parameters.theta_track_max));
     let behind = behind.map(|distance_m| (RADIUS_M - distance_m, 0.0));
     let border = sides(RADIUS_M).map(|radius_m| (0.0, radius_m));
@@ -32,7 +33,7 @@ pub fn pair(case: &mut Case<'_, Cycle>) {
     // A track that may be missed is at no threshold alone.
     for miss_budget in [parameters.miss_budget, 0] {
         for (ahead_m, left_m) in &places {
-            let done = case.change(|cycle| {
+            let done = case.change_cycle(|cycle| {
                 let (x, y) = (cycle.ego.x, cycle.ego.y);
                 cycle.parameters.miss_budget = miss_budget;
                 if let Some(list) = &mut cycle.tracks {
@@ -57,9 +58,9 @@ mod tests {
     use mufasa_model::report::{FailedStage, Reading, Stage};
     use mufasa_model::stages::check;
 
-    use super::super::super::class::Kind;
-    use super::super::super::generate::Generator;
-    use super::super::super::question::Question;
+    use crate::cases::generate::Generator;
+    use crate::cases::question::Question;
+    use crate::judge::class::Kind;
 
     /// Whether stage i fails exactly, but not with a margin of a micrometre.
     fn is_at_the_mean(question: &Question) -> bool {

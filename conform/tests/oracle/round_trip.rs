@@ -97,52 +97,28 @@ fn cycle(random: &mut Random) -> Cycle {
     }
 }
 
-fn parameters(random: &mut Random) -> Parameters {
-    let mut parameters = Parameters::default();
-    let Parameters {
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        max_age_ns,
-        n,
-        theta_track_max,
-        miss_budget,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        step_max_ns,
-        theta_velocity,
-        work_limit,
-        delta,
-    } = &mut parameters;
-    for value in [
-        theta_tr,
-        theta_map,
-        theta_obj,
-        a_b,
-        safety_time,
-        theta_track_max,
-        tau,
-        a_max,
-        start_tolerance,
-        v_max,
-        theta_velocity,
-        delta,
-    ] {
-        if random.bits() & 1 == 0 {
-            *value = float(random);
+macro_rules! parameters {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        fn parameters(random: &mut Random) -> Parameters {
+            let mut parameters = Parameters::default();
+            $(if random.bits() & 1 == 0 {
+                parameters.$name = any!($number)(random);
+            })*
+            parameters
         }
-    }
-    for value in [max_age_ns, n, miss_budget, step_max_ns, work_limit] {
-        if random.bits() & 1 == 0 {
-            *value = integer(random);
-        }
-    }
-    parameters
+    };
 }
+
+macro_rules! any {
+    (f64) => {
+        float
+    };
+    (i64) => {
+        integer
+    };
+}
+
+mufasa_model::parameters!(parameters);
 
 fn tracks(random: &mut Random) -> TrackList {
     TrackList {

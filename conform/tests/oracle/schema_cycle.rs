@@ -28,7 +28,18 @@ fn a_line_holds_one_json_object() {
     {
         refused(line, "", None);
     }
+    refused(&format!("{CYCLE}}}"), "", None);
     refused("{}", "kind", None);
+}
+
+/// As a reader might take them that is derived from the types alone.
+#[test]
+fn objects_are_no_lists_and_words_no_objects() {
+    refused(&format!("[{CYCLE}]"), "", None);
+    let lead = "{\"stamp_ns\": 900, \"gap\": 25, \"speed\": 10}";
+    refused(&with(CYCLE, lead, "[900, 25, 10]"), "lead", None);
+    refused(&with(CYCLE, "\"paper\"", "{\"paper\": null}"), "profile", None);
+    refused(&with(CYCLE, "\"kind\": \"cycle\"", "\"kind\": {\"cycle\": null}"), "kind", None);
 }
 
 /// `spec/3-stages.md#invalid-input.1`
@@ -84,38 +95,31 @@ fn configuration_is_one_of_the_four() {
     refused(&with(CYCLE, "\"configuration\": \"AllRemote\", ", ""), "configuration", None);
 }
 
+macro_rules! override_each {
+    ($($(#[$doc:meta])* $name:ident: $number:ident = $default:literal in $domain:expr;)*) => {
+        /// Each parameter by its name, and what it then is.
+        fn override_each() -> Vec<(&'static str, Parameters)> {
+            let usual = Parameters::default;
+            vec![
+                $((stringify!($name), Parameters { $name: <$number>::from(7_u8), ..usual() }),)*
+            ]
+        }
+    };
+}
+
+mufasa_model::parameters!(override_each);
+
 #[test]
 fn parameters_override_single_defaults_by_name() {
-    let given = with(
-        CYCLE,
-        "\"parameters\": {}",
-        "\"parameters\": {\"theta_tr\": 0.5, \"a_b\": 7, \"safety_time\": 2, \"max_age_ns\": 5, \
-         \"step_max_ns\": 6, \"miss_budget\": 1, \"n\": 3, \"delta\": 1e-5, \"theta_map\": 0.4, \
-         \"theta_obj\": 6, \"theta_track_max\": 2, \"tau\": 0.2, \"a_max\": 2, \
-         \"start_tolerance\": 1, \"v_max\": 100, \"theta_velocity\": 3, \"work_limit\": 9}",
-    );
-    let expected = Parameters {
-        theta_tr: 0.5,
-        theta_map: 0.4,
-        theta_obj: 6.0,
-        a_b: 7.0,
-        safety_time: 2.0,
-        max_age_ns: 5,
-        n: 3,
-        theta_track_max: 2.0,
-        miss_budget: 1,
-        tau: 0.2,
-        a_max: 2.0,
-        start_tolerance: 1.0,
-        v_max: 100.0,
-        step_max_ns: 6,
-        theta_velocity: 3.0,
-        work_limit: 9,
-        delta: 1e-5,
+    let given = |text: String| {
+        cycle(&with(CYCLE, "\"parameters\": {}", &format!("\"parameters\": {{{text}}}"))).parameters
     };
-    assert_eq!(cycle(&given).parameters, expected);
-    let one = with(CYCLE, "\"parameters\": {}", "\"parameters\": {\"a_b\": 7}");
-    assert_eq!(cycle(&one).parameters, Parameters { a_b: 7.0, ..Parameters::default() });
+    for (name, expected) in override_each() {
+        assert_eq!(given(format!("\"{name}\": 7")), expected, "{name}");
+        assert_ne!(expected, Parameters::default(), "{name}");
+    }
+    let both = Parameters { a_b: 7.0, n: 3, ..Parameters::default() };
+    assert_eq!(given(String::from("\"a_b\": 7, \"n\": 3")), both);
     assert_eq!(cycle(CYCLE).parameters, Parameters::default());
 }
 

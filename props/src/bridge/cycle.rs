@@ -103,58 +103,32 @@ macro_rules! same_names {
 
 mufasa::parameters!(same_names);
 
-/// The profile in the implementation's type.
-pub fn profile_to_impl(profile: Profile) -> mufasa::input::profile::Profile {
-    match profile {
-        Profile::Paper => mufasa::input::profile::Profile::Paper,
-        Profile::Hardened => mufasa::input::profile::Profile::Hardened,
+same_variants! {
+    /// The profile in the implementation's type.
+    pub fn profile_to_impl(Profile) -> mufasa::input::profile::Profile { Paper, Hardened, }
+
+    fn configuration_to_impl(Configuration) -> mufasa::services::configuration::Configuration {
+        Local, MotRemote, AllRemote, PlanRemote,
     }
 }
 
-fn configuration_to_impl(
-    configuration: Configuration,
-) -> mufasa::services::configuration::Configuration {
-    match configuration {
-        Configuration::Local => mufasa::services::configuration::Configuration::Local,
-        Configuration::MotRemote => mufasa::services::configuration::Configuration::MotRemote,
-        Configuration::AllRemote => mufasa::services::configuration::Configuration::AllRemote,
-        Configuration::PlanRemote => mufasa::services::configuration::Configuration::PlanRemote,
-    }
-}
+same_fields! {
+    fn ego_to_impl(Ego) -> twin::Ego { x, y, cos, sin, speed, length, width, center_offset }
 
-fn ego_to_impl(ego: &Ego) -> twin::Ego {
-    let Ego { x, y, cos, sin, speed, length, width, center_offset } = *ego;
-    twin::Ego { x, y, cos, sin, speed, length, width, center_offset }
-}
+    fn point_to_impl(TrajectoryPoint) -> twin::TrajectoryPoint { t_ns, x, y, cos, sin }
 
-fn point_to_impl(point: &TrajectoryPoint) -> twin::TrajectoryPoint {
-    let TrajectoryPoint { t_ns, x, y, cos, sin } = *point;
-    twin::TrajectoryPoint { t_ns, x, y, cos, sin }
+    fn track_to_impl(Track) -> twin::Track { id, x, y, cos, sin, vx, vy, length, width }
+
+    fn detection_to_impl(Detection) -> twin::Detection { x, y, cos, sin, length, width }
+
+    fn lead_to_impl(Lead) -> twin::Lead { stamp_ns, gap, speed }
+
+    fn cross_section_to_impl(CrossSection) -> twin::CrossSection { x, y, left, right }
 }
 
 fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
     let TrackList { stamp_ns, items } = list;
     (*stamp_ns, items.iter().map(track_to_impl).collect())
-}
-
-fn track_to_impl(track: &Track) -> twin::Track {
-    let Track { id, x, y, cos, sin, vx, vy, length, width } = *track;
-    twin::Track { id, x, y, cos, sin, vx, vy, length, width }
-}
-
-fn detection_to_impl(detection: &Detection) -> twin::Detection {
-    let Detection { x, y, cos, sin, length, width } = *detection;
-    twin::Detection { x, y, cos, sin, length, width }
-}
-
-fn lead_to_impl(lead: &Lead) -> twin::Lead {
-    let Lead { stamp_ns, gap, speed } = *lead;
-    twin::Lead { stamp_ns, gap, speed }
-}
-
-fn cross_section_to_impl(cross_section: &CrossSection) -> twin::CrossSection {
-    let CrossSection { x, y, left, right } = *cross_section;
-    twin::CrossSection { x, y, left, right }
 }
 
 fn borrow_tracks((stamp_ns, items): &(i64, Vec<twin::Track>)) -> twin::TrackList<'_> {

@@ -19,11 +19,46 @@ macro_rules! same_names {
 
 mufasa::requester_parameters!(same_names);
 
-/// A group in the implementation's type.
-pub fn group_to_impl(group: Group) -> twin::Group {
-    match group {
-        Group::Mot => twin::Group::Mot,
-        Group::Plan => twin::Group::Plan,
+same_variants! {
+    /// A group in the implementation's type.
+    pub fn group_to_impl(Group) -> twin::Group { Mot, Plan, }
+
+    fn group_from_impl(twin::Group) -> Group { Mot, Plan, }
+
+    fn kind_to_impl(EventKind) -> twin::EventKind {
+        Offer { station, groups: groups_to_impl },
+        Withdraw { station },
+        Lost { station },
+        Area { groups: groups_to_impl },
+        Tick,
+        Confirm { station, group: group_to_impl, session },
+        Reject { station, group: group_to_impl, session },
+        Data { station, group: group_to_impl, session, generated_ns },
+        Verdict { safe, groups: groups_to_impl },
+    }
+
+    /// An action in the model's type.
+    pub fn action_from_impl(twin::Action) -> Action {
+        Request { station, group: group_from_impl, session },
+        Release { station, group: group_from_impl, session },
+        Activate(group: group_from_impl),
+        Deactivate(group: group_from_impl),
+        Drop(group: group_from_impl),
+    }
+
+    /// The state of a group in the model's type.
+    pub fn state_from_impl(twin::GroupState) -> GroupState {
+        Local,
+        Requested { station, session, deadline_ns },
+        Remote { station, session },
+    }
+
+    /// The source of a group in the model's type.
+    pub fn source_from_impl(twin::Source) -> Source { Local, Remote { station }, }
+
+    /// A configuration in the model's type.
+    pub fn configuration_from_impl(mufasa::services::configuration::Configuration) -> Configuration {
+        Local, MotRemote, AllRemote, PlanRemote,
     }
 }
 
@@ -36,81 +71,7 @@ pub fn groups_to_impl(groups: Groups) -> twin::Groups {
 /// An event in the implementation's type.
 pub fn event_to_impl(event: &Event) -> twin::Event {
     let Event { t_ns, kind } = *event;
-    let kind = match kind {
-        EventKind::Offer { station, groups } => {
-            twin::EventKind::Offer { station, groups: groups_to_impl(groups) }
-        }
-        EventKind::Withdraw { station } => twin::EventKind::Withdraw { station },
-        EventKind::Lost { station } => twin::EventKind::Lost { station },
-        EventKind::Area { groups } => twin::EventKind::Area { groups: groups_to_impl(groups) },
-        EventKind::Tick => twin::EventKind::Tick,
-        EventKind::Confirm { station, group, session } => {
-            twin::EventKind::Confirm { station, group: group_to_impl(group), session }
-        }
-        EventKind::Reject { station, group, session } => {
-            twin::EventKind::Reject { station, group: group_to_impl(group), session }
-        }
-        EventKind::Data { station, group, session, generated_ns } => {
-            twin::EventKind::Data { station, group: group_to_impl(group), session, generated_ns }
-        }
-        EventKind::Verdict { safe, groups } => {
-            twin::EventKind::Verdict { safe, groups: groups_to_impl(groups) }
-        }
-    };
-    twin::Event { t_ns, kind }
-}
-
-/// An action in the model's type.
-pub fn action_from_impl(action: twin::Action) -> Action {
-    match action {
-        twin::Action::Request { station, group, session } => {
-            Action::Request { station, group: group_from_impl(group), session }
-        }
-        twin::Action::Release { station, group, session } => {
-            Action::Release { station, group: group_from_impl(group), session }
-        }
-        twin::Action::Activate(group) => Action::Activate(group_from_impl(group)),
-        twin::Action::Deactivate(group) => Action::Deactivate(group_from_impl(group)),
-        twin::Action::Drop(group) => Action::Drop(group_from_impl(group)),
-    }
-}
-
-/// The state of a group in the model's type.
-pub fn state_from_impl(state: twin::GroupState) -> GroupState {
-    match state {
-        twin::GroupState::Local => GroupState::Local,
-        twin::GroupState::Requested { station, session, deadline_ns } => {
-            GroupState::Requested { station, session, deadline_ns }
-        }
-        twin::GroupState::Remote { station, session } => GroupState::Remote { station, session },
-    }
-}
-
-/// The source of a group in the model's type.
-pub fn source_from_impl(source: twin::Source) -> Source {
-    match source {
-        twin::Source::Local => Source::Local,
-        twin::Source::Remote { station } => Source::Remote { station },
-    }
-}
-
-/// A configuration in the model's type.
-pub fn configuration_from_impl(
-    configuration: mufasa::services::configuration::Configuration,
-) -> Configuration {
-    match configuration {
-        mufasa::services::configuration::Configuration::Local => Configuration::Local,
-        mufasa::services::configuration::Configuration::MotRemote => Configuration::MotRemote,
-        mufasa::services::configuration::Configuration::AllRemote => Configuration::AllRemote,
-        mufasa::services::configuration::Configuration::PlanRemote => Configuration::PlanRemote,
-    }
-}
-
-fn group_from_impl(group: twin::Group) -> Group {
-    match group {
-        twin::Group::Mot => Group::Mot,
-        twin::Group::Plan => Group::Plan,
-    }
+    twin::Event { t_ns, kind: kind_to_impl(kind) }
 }
 
 #[cfg(test)]

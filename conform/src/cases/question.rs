@@ -3,9 +3,11 @@
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::orchestrator::Task;
 
-use super::class::Kind;
-use super::damage::Damage;
-use mufasa_records::{self as records, Trace, cycle_to_line, names, task_to_line, trace_to_line};
+use crate::cases::damage::Damage;
+use crate::judge::class::Kind;
+use mufasa_records::record::{Recorded, composition, cycle, offloading};
+use mufasa_records::{Record, Trace, cycle_to_line, names, parse, task_to_line, trace_to_line};
+use serde_json::Value;
 
 /// So many places are tried for one where a damage makes a record unreadable.
 const TRIES: usize = 50;
@@ -43,6 +45,27 @@ impl Question {
             Self::Offloading(trace) => (names::profile(trace.profile), ""),
             Self::Composition(_) | Self::Line(_) => ("", ""),
         }
+    }
+
+    /// The record as JSON, without its id; a line that is none has none.
+    pub fn record(&self) -> Option<Value> {
+        match self {
+            Self::Cycle(it) => serde_json::to_value(cycle::Cycle::of_model(it)).ok(),
+            Self::Offloading(it) => serde_json::to_value(offloading::Offloading::of_model(it)).ok(),
+            Self::Composition(it) => {
+                serde_json::to_value(composition::Composition::of_model(it)).ok()
+            }
+            Self::Line(_) => None,
+        }
+    }
+
+    /// What a record asks; `None` when it is none.
+    pub fn of_line(line: &str) -> Option<Self> {
+        Some(match parse(line.as_bytes(), 1).ok()? {
+            Record::Cycle { cycle, .. } => Self::Cycle(cycle),
+            Record::Offloading { trace, .. } => Self::Offloading(trace),
+            Record::Composition { task, .. } => Self::Composition(task),
+        })
     }
 
     /// The record on one line, without the newline.
@@ -104,7 +127,7 @@ impl Damaged {
     pub fn new(record: Question, damage: Damage, at: usize) -> Self {
         let mut damaged = Self { record: Box::new(record), damage, at };
         for _ in 0..TRIES {
-            if records::parse(damaged.line("x").as_bytes(), 1).is_err() {
+            if parse(damaged.line("x").as_bytes(), 1).is_err() {
                 return damaged;
             }
             damaged.at = damaged.at.wrapping_add(1);
@@ -127,9 +150,8 @@ impl Damaged {
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::generate::Generator;
     use super::*;
-    use mufasa_records::{Record, parse};
+    use crate::cases::generate::Generator;
 
     #[test]
     fn the_line_of_a_question_reads_back_to_it() {
@@ -139,13 +161,8 @@ mod tests {
                 Generator { seed: 3, profile: Profile::Paper, kinds: Kind::RECORDS.into() };
             let question = generator.question(case);
             let line = question.line("c-\"1\"");
-            let record = parse(line.as_bytes(), 1).unwrap_or_else(|e| panic!("{e}\n{line}"));
-            let (id, read) = match record {
-                Record::Cycle { id, cycle } => (id, Question::Cycle(cycle)),
-                Record::Offloading { id, trace } => (id, Question::Offloading(trace)),
-                Record::Composition { id, task } => (id, Question::Composition(task)),
-            };
-            assert_eq!(id, "c-\"1\"");
+            let read = Question::of_line(&line).unwrap_or_else(|| panic!("{line}"));
+            assert!(line.contains("\"id\": \"c-\\\"1\\\"\""), "{line}");
             seen[question.kind() as usize] += 1;
             // NaN is not equal to itself; its text is.
             assert_eq!(read.line("x"), question.line("x"));
