@@ -18,7 +18,6 @@ type Exceptions = [(&'static str, &'static str)];
 
 /// Long files.
 const LONG: &Exceptions = &[
-    ("model/src/offloading/requester.rs", "to be split"),
     ("props/tests/offloading/protocol.rs", "to be split"),
 ];
 
