@@ -5,40 +5,31 @@
 //! are disjoint and any case can be had again. The first disagreement of every class is shrunk
 //! while the program is asked about every smaller record.
 
-mod answer;
-mod class;
-mod damage;
-mod drives;
+mod cases;
 mod error;
-mod examine;
-mod explain;
-mod generate;
-mod junit;
+mod judge;
 mod minimise;
-mod question;
 pub mod reference;
-mod report;
+mod results;
 mod runner;
 mod settings;
 mod shrink;
-mod source;
 mod subject;
-mod summary;
 pub mod vectors;
 
 use std::io::Write;
 use std::path::PathBuf;
 
-pub use class::{Breach, Class, Kind, Scale};
+pub use cases::source::CASES;
 pub use error::ConformError;
-pub use explain::{Numbers, Told};
+pub use judge::class::{Breach, Class, Kind, Scale};
+pub use judge::explain::{Numbers, Told};
+pub use results::summary::{Campaign, CaseCount, Found, Summary};
 pub use settings::Settings;
-pub use source::CASES;
-pub use summary::{Campaign, CaseCount, Found, Summary};
 
-use report::Files;
+use cases::source::Source;
+use results::report::Files;
 use runner::Runner;
-use source::Source;
 use subject::Subject;
 
 /// No disagreement.
@@ -64,7 +55,7 @@ pub fn run(
     runner.run(out)?;
     let summary = runner.summary();
     files.write(&summary)?;
-    report::end(&summary, out)?;
+    results::report::end(&summary, out)?;
     writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;
     if !summary.classes.is_empty() {
         writeln!(
@@ -90,9 +81,9 @@ pub fn merge(
 ) -> Result<u8, ConformError> {
     let summary = Summary::merge(inputs)?;
     for found in &summary.classes {
-        report::found(found, out)?;
+        results::report::found(found, out)?;
     }
-    report::end(&summary, out)?;
+    results::report::end(&summary, out)?;
     if let Some(folder) = folder {
         Files::prepare(folder, None)?.write(&summary)?;
     }

@@ -6,7 +6,7 @@
 mod cycle;
 mod pair;
 
-use super::question::{Damaged, Question};
+use crate::cases::question::{Damaged, Question};
 use serde_json::{Value, json};
 
 /// The smallest record found; `shows` says whether one still shows the class.
@@ -188,9 +188,9 @@ fn leaves(record: &Value, wanted: impl Fn(&str, &Value) -> bool) -> Vec<String> 
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::class::Kind;
-    use super::super::generate::Generator;
     use super::*;
+    use crate::cases::generate::Generator;
+    use crate::judge::class::Kind;
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
         let generator = Generator { seed: 5, profile: Profile::Paper, kinds: vec![kind] };

@@ -10,17 +10,17 @@ use mufasa_props::conformance::name as stage_name;
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::class::{Breach, Class, Kind, Scale};
-use super::error::ConformError;
-use super::examine::{Examined, Expected, examine, expect};
-use super::explain::explain;
-use super::question::Question;
-use super::report;
-use super::settings::Settings;
-use super::shrink::Hunt;
-use super::source::Source;
-use super::subject::{Broken, Subject};
-use super::summary::{Campaign, CaseCount, Found, Summary};
+use crate::cases::question::Question;
+use crate::cases::source::Source;
+use crate::error::ConformError;
+use crate::judge::class::{Breach, Class, Kind, Scale};
+use crate::judge::examine::{Examined, Expected, examine, expect};
+use crate::judge::explain::explain;
+use crate::results::report;
+use crate::results::summary::{Campaign, CaseCount, Found, Summary};
+use crate::settings::Settings;
+use crate::shrink::Hunt;
+use crate::subject::{Broken, Subject};
 use mufasa_records::names;
 
 /// So often in a row a program may break before its kind of record is given up, and so often it may

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use mufasa_model::input::cycle::Profile;
 
-use super::class::Kind;
+use crate::judge::class::Kind;
 
 /// What is to be done.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,12 +5,12 @@
 use proptest::num::u32::BinarySearch;
 use proptest::strategy::ValueTree;
 
-use super::class::{Breach, Class};
-use super::error::ConformError;
-use super::examine::examine;
-use super::minimise;
-use super::question::Question;
-use super::subject::Subject;
+use crate::cases::question::Question;
+use crate::error::ConformError;
+use crate::judge::class::{Breach, Class};
+use crate::judge::examine::examine;
+use crate::minimise;
+use crate::subject::Subject;
 
 /// Records tried while the choices are shrunk.
 const TRIES_OF_CHOICES: usize = 1500;

@@ -8,8 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::class::Breach;
-use super::error::ConformError;
+use crate::error::ConformError;
+use crate::judge::class::Breach;
 
 /// Longest answer that is read; traces of thousands of events take a few MB.
 const MAX_ANSWER_BYTES: usize = 16 << 20;

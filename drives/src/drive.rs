@@ -24,7 +24,7 @@ pub struct Drive {
 /// safe cycle, so a source without verdicts cannot know them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PreviousTracks {
-    /// Whoever judges the drive, from cycle to cycle; the reader leaves `None`.
+    /// The check, which carries them from cycle to cycle; the reader leaves `None`.
     Carried,
     /// The source; they stay as they are, `None` included.
     AsGiven,

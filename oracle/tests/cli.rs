@@ -337,7 +337,7 @@ fn the_oracle_answers_standard_input() {
 #[test]
 fn compositions_are_found_drawn_and_refused() {
     let folder = folder("compose");
-    let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../conform/data/fig2.json");
+    let services = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/fig2.json");
     let output = mufasa(["compose", services]);
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     assert!(!output.stdout.is_empty());

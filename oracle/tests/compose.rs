@@ -3,7 +3,7 @@
 use mufasa_oracle::compose::{Composed, compose};
 use mufasa_records::{Answer, answer};
 
-const FIG_2: &str = include_str!("../../conform/data/fig2.json");
+const FIG_2: &str = include_str!("../../examples/fig2.json");
 
 fn fig_2() -> Composed {
     compose(FIG_2).expect("the example composes")
@@ -97,30 +97,15 @@ fn the_graph_of_fig_2_has_exactly_the_arrows_of_the_figure() {
     }
 }
 
-/// Two environment models, two trackings, two detections: 8, of which one is local.
+/// The vectors say what the answer must be, `model/tests/services/figure_2.rs` why.
 #[test]
-fn fig_2_has_8_compositions_of_which_7_are_distributed() {
-    let answer = fig_2().answer();
-    assert_eq!(answer.compositions.len(), 8);
-    assert_eq!(answer.compositions.iter().filter(|it| it.distributed).count(), 7);
-    for composition in &answer.compositions {
-        let has = |id: &str| composition.members.iter().any(|member| member == id);
-        assert!(has("actuation") && has("control") && has("cav-ego-motion"));
-        // ENV and TPL share memory, and each uses the map of its own station.
-        assert_eq!(has("cav-env"), has("cav-tpl"));
-        assert_eq!(has("mec-env"), has("mec-tpl"));
-        assert_eq!(has("cav-env"), has("cav-map"));
-        assert_ne!(has("cav-env"), has("mec-env"));
-    }
-}
-
-/// Without the rule of shared memory the environment model of one station feeds the planning of
-/// the other.
-#[test]
-fn same_station_is_what_keeps_env_and_tpl_of_fig_2_together() {
-    let free = FIG_2.replace("[[\"cav-env\", \"cav-tpl\", \"mec-env\", \"mec-tpl\"]]", "[]");
-    assert_ne!(free, FIG_2);
-    assert_eq!(compose(&free).expect("it composes").answer().compositions.len(), 16);
+fn the_example_composes_as_the_vector_of_fig_2() {
+    let vectors = include_str!("../../vectors/services/composition.jsonl");
+    let vectors = vectors.lines().map(|line| serde_json::from_str(line).expect("a vector"));
+    let of_fig_2 = |it: &serde_json::Value| it["id"] == "composition-figure-2";
+    let vector = vectors.into_iter().find(of_fig_2).expect("there is one");
+    let answer = serde_json::to_value(fig_2().answer()).expect("JSON");
+    assert_eq!(answer["compositions"], vector["expect"]["compositions"]);
 }
 
 #[test]

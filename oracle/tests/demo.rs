@@ -56,7 +56,7 @@ fn the_documents_show_it(hardened: &str, paper: &str, folder: &Path) {
         let told = told.lines().take_while(|line| !line.is_empty()).last().unwrap();
         let (_, again) = paper.split_once(&format!("\n  {case}: ")).unwrap();
         let again = again.lines().next().unwrap();
-        table += &format!("| {case} | {} | {again} |\n", told.trim());
+        table.extend([format!("| {case} | {} | {again} |\n", told.trim())]);
     }
     let picture =
         fs::read_to_string(folder.join("urban.solution+empty-tracks-0130-iv.svg")).unwrap();

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::pair::pair;
 use super::{Case, leaves};
-use crate::question::Question;
+use crate::cases::question::Question;
 
 /// When the shrunk cycle is decided, ns.
 const NOW_NS: i64 = 1_000_000_000;

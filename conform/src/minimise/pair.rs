@@ -58,9 +58,9 @@ mod tests {
     use mufasa_model::report::{FailedStage, Reading, Stage};
     use mufasa_model::stages::check;
 
-    use super::super::super::class::Kind;
-    use super::super::super::generate::Generator;
-    use super::super::super::question::Question;
+    use crate::cases::generate::Generator;
+    use crate::cases::question::Question;
+    use crate::judge::class::Kind;
 
     /// Whether stage i fails exactly, but not with a margin of a micrometre.
     fn is_at_the_mean(question: &Question) -> bool {

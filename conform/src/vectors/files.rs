@@ -6,7 +6,7 @@ macro_rules! files {
     };
 }
 
-/// The cases, by the name of the file that their vectors are written to.
+/// The vectors, by the name of the file that they are published in.
 pub const FILES: [(&str, &str); 69] = files![
     "findings/F-01",
     "findings/F-02",
@@ -79,7 +79,7 @@ pub const FILES: [(&str, &str); 69] = files![
     "stages/tracks",
 ];
 
-/// The cycle of which a case changes something: a straight road along x, 3 m to each side; the CAV
+/// The cycle of which a vector changes something: a straight road along x, 3 m to each side; the CAV
 /// of 4 m by 2 m at the origin, 10 m/s; points 1 m and 0.1 s apart; a car 60 m ahead, tracked and
 /// detected; a free grid of 10 m cells. Safe in every configuration of both profiles.
 pub const BASE: &str = include_str!("../../data/vectors/base.json");

@@ -4,7 +4,7 @@
 pub mod book;
 pub mod flag;
 
-mod cases;
+mod authored;
 mod expected;
 mod files;
 mod random;
@@ -23,7 +23,7 @@ const README: &str = include_str!("readme.md");
 /// on which its author and the model differ is refused.
 pub fn all() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
     let mut book = Book::default();
-    cases::add(&mut book);
+    authored::add(&mut book);
     random::add(&mut book);
     book.finish()
 }

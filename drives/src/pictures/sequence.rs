@@ -52,7 +52,7 @@ pub struct Arrow {
 pub enum Fate {
     /// It arrives.
     Arrives,
-    /// It arrives and nobody sent it who may.
+    /// It arrives, but its sender was not allowed to send it.
     Forged,
     /// It does not arrive, or not any more in the chart.
     Lost,
@@ -87,7 +87,7 @@ pub struct Span {
 /// States of a group of services.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
-    /// The local services compute, nobody is asked.
+    /// The local services compute, and no server is asked.
     Local,
     /// The local services compute, a station is asked.
     Requested,

@@ -19,7 +19,7 @@ pub(crate) struct Cav {
 
 /// The leading vehicle on a route: the nearest object ahead, within `range_m`, whose rectangle
 /// reaches into the band of the CAV's width around the reference path, and which drives along
-/// the path (within 45 degrees) or stands. Crossing and oncoming traffic leads nobody; it is for
+/// the path (within 45 degrees) or stands. Crossing and oncoming traffic is no lead; it is for
 /// stages iii to v. The gap is the free distance along the path, bumper to bumper.
 pub(crate) fn lead(
     route: &Route,

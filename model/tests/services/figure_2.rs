@@ -9,7 +9,7 @@ use mufasa_model::services::service::ServiceSet;
 
 use crate::{brute_force, names, service};
 
-/// The services of `conform/data/fig2.json`. Detections and tracks go from each computer to each,
+/// The services of `examples/fig2.json`. Detections and tracks go from each computer to each,
 /// ego motion from the CAV to both, but each map provider feeds the environment of its own.
 fn figure_2() -> Task {
     let mut services = vec![

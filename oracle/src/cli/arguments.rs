@@ -132,7 +132,7 @@ pub(super) struct ConformArguments {
     /// Longest time that an answer may take, ms.
     #[arg(long, value_name = "MS", default_value = "1000", value_parser = clap::value_parser!(u64).range(1..=3_600_000))]
     pub(super) time_limit: u64,
-    /// Kinds of generated records.
+    /// Kinds of generated records; `line` is one that breaks the schema or is no JSON.
     #[arg(
         long,
         value_name = "KINDS",

@@ -7,11 +7,11 @@ use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, Disagreement, name, rank, stage_conforms};
 use serde_json::{Map, Value};
 
-use super::answer::{self, Said};
-use super::class::{Breach, Class, Kind, Scale};
-use super::error::ConformError;
-use super::question::{Damaged, Question};
-use super::subject::{Broken, Subject};
+use crate::cases::question::{Damaged, Question};
+use crate::error::ConformError;
+use crate::judge::answer::{self, Said};
+use crate::judge::class::{Breach, Class, Kind, Scale};
+use crate::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::offloading_answer::OffloadingAnswer;
 use mufasa_records::record::offloading::event_type;
@@ -199,7 +199,7 @@ fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
     Some(Differs { breach, place, said: Some(Said::Verdict(said)) })
 }
 
-/// Invalid input: whoever says where must say so rightly.
+/// Invalid input: an answer that names a place must name the right one.
 fn compare_place(exact: &Answer, object: &Map<String, Value>) -> Option<Differs> {
     let (key, problem) = match exact {
         Err(problem) => ("error", problem),
@@ -294,7 +294,7 @@ fn compare_compositions(
     Ok(None)
 }
 
-/// A line that is no record must be an error; whoever says where must say so rightly.
+/// A line that is no record must be an error; an answer that names a place must name the right one.
 fn compare_errors(
     wrong: &str,
     expected: &LineError,

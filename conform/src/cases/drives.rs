@@ -13,8 +13,8 @@ use mufasa_model::report::{Outcome, Reading};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_model::stages::check;
 
-use super::error::ConformError;
-use super::generate::mix;
+use crate::cases::generate::mix;
+use crate::error::ConformError;
 use mufasa_drives::{
     self, Attack, Drive, DriveCycle, Injection, Options, PreviousTracks, ReadError, inject,
 };

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::summary::{CaseCount, Found, Summary};
+use crate::results::summary::{CaseCount, Found, Summary};
 
 /// A test per class of disagreements, which failed, and per group of cases without any.
 pub fn xml(summary: &Summary) -> String {

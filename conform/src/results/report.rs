@@ -5,10 +5,10 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::class::Kind;
-use super::error::ConformError;
-use super::junit;
-use super::summary::{Campaign, CaseCount, Found, Summary};
+use crate::error::ConformError;
+use crate::judge::class::Kind;
+use crate::results::junit;
+use crate::results::summary::{Campaign, CaseCount, Found, Summary};
 use mufasa_records::files;
 
 /// Longest record that is printed; the file has all.

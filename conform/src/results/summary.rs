@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
-use super::class::{Class, Kind};
-use super::error::ConformError;
-use super::explain::Told;
+use crate::error::ConformError;
+use crate::judge::class::{Class, Kind};
+use crate::judge::explain::Told;
 
 /// The result of a campaign, or of some of its shards.
 #[derive(Clone, Debug, Serialize, Deserialize)]

@@ -9,8 +9,8 @@ use mufasa_model::report::{FailedStage, Stage};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde_json::{Map, Value};
 
-use super::class::Breach;
-use super::subject::{Broken, excerpt};
+use crate::judge::class::Breach;
+use crate::subject::{Broken, excerpt};
 
 /// The answer to a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

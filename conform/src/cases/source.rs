@@ -2,12 +2,12 @@
 
 use std::io::Write;
 
-use super::class::Kind;
-use super::drives::Pool;
-use super::error::ConformError;
-use super::generate::Generator;
-use super::question::Question;
-use super::settings::Settings;
+use crate::cases::drives::Pool;
+use crate::cases::generate::Generator;
+use crate::cases::question::Question;
+use crate::error::ConformError;
+use crate::judge::class::Kind;
+use crate::settings::Settings;
 use mufasa_drives::Options;
 use mufasa_drives::check::complain;
 

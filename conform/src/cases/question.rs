@@ -3,8 +3,8 @@
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::orchestrator::Task;
 
-use super::class::Kind;
-use super::damage::Damage;
+use crate::cases::damage::Damage;
+use crate::judge::class::Kind;
 use mufasa_records::record::{Recorded, composition, cycle, offloading};
 use mufasa_records::{Record, Trace, cycle_to_line, names, parse, task_to_line, trace_to_line};
 use serde_json::Value;
@@ -150,8 +150,8 @@ impl Damaged {
 mod tests {
     use mufasa_model::input::cycle::Profile;
 
-    use super::super::generate::Generator;
     use super::*;
+    use crate::cases::generate::Generator;
 
     #[test]
     fn the_line_of_a_question_reads_back_to_it() {

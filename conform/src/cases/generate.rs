@@ -7,9 +7,9 @@ use mufasa_props::strategy::{composition, input, requester, schedule, whole};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use super::class::Kind;
-use super::damage::Damage;
-use super::question::{Damaged, Question};
+use crate::cases::damage::Damage;
+use crate::cases::question::{Damaged, Question};
+use crate::judge::class::Kind;
 use mufasa_records::Trace;
 
 /// Where the cases of a campaign come from.

@@ -8,11 +8,11 @@ use mufasa_props::conformance::{Answer, name};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::answer::{self, Said};
-use super::class::Breach;
-use super::examine::{Examined, Expected, index, is_within};
-use super::question::Question;
-use super::subject::Broken;
+use crate::cases::question::Question;
+use crate::judge::answer::{self, Said};
+use crate::judge::class::Breach;
+use crate::judge::examine::{Examined, Expected, index, is_within};
+use crate::subject::Broken;
 use mufasa_drives::check::words;
 use mufasa_records::answer::decimal;
 use mufasa_records::offloading_answer::OffloadingAnswer;

@@ -1,6 +1,6 @@
 //! The vectors that people wrote: `conform/data/vectors`, one file per file of vectors.
 //!
-//! A case is a name, the requirement it is about, a note, an input and what its author expects from
+//! Each has a name, the requirement it is about, a note, an input and what its author expects from
 //! the text of `spec/`, before the model is asked:
 //!
 //! * `cycle`: what differs from `base.json`, by pointer (RFC 6901). Fields of points and objects
@@ -48,7 +48,7 @@ type Raw = Box<RawValue>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Case {
+struct Authored {
     name: String,
     requirement: &'static str,
     read_as: Option<&'static str>,
@@ -118,26 +118,26 @@ impl<'de> Deserialize<'de> for Exact {
     }
 }
 
-/// Adds all cases.
+/// Adds all of them.
 pub fn add(book: &mut Book) {
     for (file, text) in FILES {
-        let cases: Vec<Case> = match from_str(text) {
-            Ok(cases) => cases,
+        let vectors: Vec<Authored> = match from_str(text) {
+            Ok(vectors) => vectors,
             Err(error) => {
                 book.refuse(file, &error);
                 continue;
             }
         };
-        for case in cases {
-            let topic = Topic::new(file, case.requirement, case.read_as);
-            if let Err(problem) = case.add(book, topic) {
-                book.refuse(&format!("{file} {}", case.name), &problem);
+        for vector in vectors {
+            let topic = Topic::new(file, vector.requirement, vector.read_as);
+            if let Err(problem) = vector.add(book, topic) {
+                book.refuse(&format!("{file} {}", vector.name), &problem);
             }
         }
     }
 }
 
-impl Case {
+impl Authored {
     fn add(&self, book: &mut Book, topic: Topic) -> Result<(), String> {
         let Self { name, note, .. } = self;
         if let (Some(edge), Some(cycle)) = (&self.edge, &self.cycle) {

@@ -1,0 +1,6 @@
+//! The exact answer, the answer given, and what breach there is between them.
+
+pub mod answer;
+pub mod class;
+pub mod examine;
+pub mod explain;

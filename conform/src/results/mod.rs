@@ -1,0 +1,5 @@
+//! What was found: the summary, its files, and what is printed.
+
+pub mod junit;
+pub mod report;
+pub mod summary;
