@@ -17,10 +17,7 @@ use tree::Tree;
 type Exceptions = [(&'static str, &'static str)];
 
 /// Long files.
-const LONG: &Exceptions = &[
-    ("model/src/offloading/requester.rs", "to be split"),
-    ("props/tests/offloading/protocol.rs", "to be split"),
-];
+const LONG: &Exceptions = &[("props/tests/offloading/protocol.rs", "to be split")];
 
 /// Modules of one package that know each other, by a module of the circle.
 const CIRCLES: &Exceptions =
