@@ -1,7 +1,8 @@
-//! The published workloads, and the libraries that the implementation is timed against.
+//! The published workloads, periods of the requester, and the libraries that the implementation is timed against.
 
 pub mod contestant;
 pub mod peer;
+pub mod periods;
 pub mod plot;
 pub mod race;
 pub mod table;

@@ -42,8 +42,8 @@ impl Planner {
         let path = Polyline::new(points);
         let foot = path.project([cycle.ego.x, cycle.ego.y]);
         let width = foot.map_or(3.5, |f| {
-            let station = &cycle.route.cross_sections[path.locate(f.s).0];
-            distance(station.left, station.right)
+            let section = &cycle.route.cross_sections[path.locate(f.s).0];
+            distance(section.left, section.right)
         });
         let (s, lateral) = foot.map_or((0.0, 0.0), |f| (f.s, f.lateral));
         Self { path, width, s, lateral, speed: cycle.ego.speed }

@@ -113,9 +113,9 @@ pub fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
 }
 
 fn route(canvas: &mut Canvas, frame: &Frame, route: &Route) {
-    let stations = &route.cross_sections;
-    let mut pairs: Vec<_> = stations.windows(2).map(|pair| (&pair[0], &pair[1])).collect();
-    if let (true, Some(first), Some(last)) = (route.closed, stations.first(), stations.last()) {
+    let sections = &route.cross_sections;
+    let mut pairs: Vec<_> = sections.windows(2).map(|pair| (&pair[0], &pair[1])).collect();
+    if let (true, Some(first), Some(last)) = (route.closed, sections.first(), sections.last()) {
         pairs.push((last, first));
     }
     for (from, to) in &pairs {

@@ -124,9 +124,9 @@ fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, ma
         objects.push(layers::cell(grid, cell));
     }
     if let Some(first) = witness.segment {
-        let stations = &cycle.route.cross_sections;
-        let next = if first + 1 < stations.len() { first + 1 } else { 0 };
-        if let (Some(from), Some(to)) = (stations.get(first), stations.get(next)) {
+        let sections = &cycle.route.cross_sections;
+        let next = if first + 1 < sections.len() { first + 1 } else { 0 };
+        if let (Some(from), Some(to)) = (sections.get(first), sections.get(next)) {
             marks.lines.push([[from.x, from.y], [to.x, to.y]]);
         }
     }

@@ -3,7 +3,7 @@
 //! The real part is stepped, never a copy of its rules. States that behave alike have the same
 //! [`Part::Likeness`]; one real part per likeness stands for all of them. That they do behave
 //! alike is argued where the likeness is made and tested on pairs of parts that differ in
-//! everything that the likeness leaves out (`proofs/tests/explore_likeness.rs`).
+//! everything that the likeness leaves out (`proofs/exploration/tests/likeness.rs`).
 
 use std::collections::HashMap;
 use std::hash::Hash;

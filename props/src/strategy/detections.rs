@@ -5,8 +5,9 @@ use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Lead, Profile,
 use mufasa_model::services::configuration::Configuration;
 
 use super::base;
+use super::base::Obstacle;
 use super::draw::Draw;
-use super::obstacle::{self, Obstacle};
+use super::obstacle;
 use super::track_validation::detection;
 
 /// A cycle that stage iv decides.

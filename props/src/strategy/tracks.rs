@@ -3,9 +3,10 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
+use super::base::Obstacle;
 use super::base::{self, seconds};
 use super::draw::Draw;
-use super::obstacle::{self, Obstacle};
+use super::obstacle;
 use super::track_validation::track;
 
 /// A cycle that stage iii decides.

@@ -20,8 +20,6 @@ use tree::Tree;
 
 const PAGE: &str = "docs/chain.md";
 
-const OFFLOADING: &str =
-    "not measured: a step of the requester looks at two groups and a table of stations";
 const TESTED: &str = "tested only, on both sides of the threshold";
 
 /// Cells that may be empty: start of the names of the rows, cell, and why. A reason that no row needs
@@ -44,7 +42,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         "shown by the vectors of compositions, key `switches`",
     ),
     ("spec/1-services.md#configuration", Cell::Vector, "every cycle of `vectors/` names one"),
-    ("spec/2-offloading.md", Cell::Bench, OFFLOADING),
     ("spec/2-offloading.md#provider", Cell::Impl, "it runs on the server"),
     ("spec/2-offloading.md#provider", Cell::Vector, "no record drives a provider"),
     (
@@ -89,15 +86,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("spec/5-interfaces.md#vectors", Cell::Proof, "tested only"),
     ("spec/5-interfaces.md#vectors", Cell::Vector, "about all of them"),
     ("spec/5-interfaces.md#vectors", Cell::Bench, "of the tools"),
-    ("H-08", Cell::Bench, OFFLOADING),
-    ("I-08", Cell::Bench, OFFLOADING),
-    ("I-09", Cell::Bench, OFFLOADING),
-    ("I-10", Cell::Bench, OFFLOADING),
-    ("t_wait", Cell::Bench, OFFLOADING),
-    ("l_max", Cell::Bench, OFFLOADING),
-    ("dt_max", Cell::Bench, OFFLOADING),
-    ("request_timeout", Cell::Bench, OFFLOADING),
-    ("lease", Cell::Bench, OFFLOADING),
     ("theta_map", Cell::Proof, TESTED),
     ("v_max", Cell::Proof, TESTED),
     ("step_max", Cell::Proof, TESTED),

@@ -273,7 +273,8 @@ pub fn add_benches(tree: &Tree, row: &mut Row) {
     let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
     for group in groups {
         let begins = group.split(' ').next().unwrap_or_default();
-        if text.contains(&format!("format!(\"{begins} ")) {
+        let named = [format!("format!(\"{begins} "), format!("(\"{group}\")")];
+        if named.iter().any(|name| text.contains(name)) {
             row.add(Cell::Bench, file, &group);
         }
     }
@@ -294,6 +295,7 @@ fn add_groups(
     let number = module.and_then(|module| module.split('_').next()).unwrap_or_default();
     match (folder, module) {
         ("stages", None) | ("input", _) => drop(groups.insert("whole cycle".to_owned())),
+        ("offloading", _) => drop(groups.insert("requester step".to_owned())),
         ("stages", _) if ["i", "ii", "iii", "iv", "v"].contains(&number) => {
             groups.insert(format!("stage {number}"));
         }
@@ -307,7 +309,7 @@ fn add_groups(
                     && text.contains(word)
             });
             for (user, _) in users {
-                add_groups(tree, (user, ""), seen, groups);
+                add_groups(tree, (user, word), seen, groups);
             }
         }
         _ => {}

@@ -17,11 +17,10 @@ use tree::Tree;
 type Exceptions = [(&'static str, &'static str)];
 
 /// Long files.
-const LONG: &Exceptions = &[("props/tests/offloading/protocol.rs", "to be split")];
+const LONG: &Exceptions = &[];
 
 /// Modules of one package that know each other, by a module of the circle.
-const CIRCLES: &Exceptions =
-    &[("records/src/", "to be cut"), ("props/src/strategy::end", "to be cut")];
+const CIRCLES: &Exceptions = &[];
 
 /// Modules that only one of model and implementation has.
 const UNEQUAL: &Exceptions = &[
