@@ -421,7 +421,7 @@ typedef struct MufasaCrossSection {
 typedef struct MufasaRoute {
   // Not 0: the last cross section is followed by the first.
   uint8_t closed;
-  // Stations in driving order.
+  // Cross sections in driving order.
   const struct MufasaCrossSection *cross_sections;
   // How many.
   size_t cross_sections_len;

@@ -146,7 +146,7 @@ pub struct MufasaCrossSection {
 pub struct MufasaRoute {
     /// Not 0: the last cross section is followed by the first.
     pub closed: u8,
-    /// Stations in driving order.
+    /// Cross sections in driving order.
     pub cross_sections: *const MufasaCrossSection,
     /// How many.
     pub cross_sections_len: usize,

@@ -14,8 +14,8 @@ use crate::cases::question::Question;
 use crate::cases::source::Source;
 use crate::error::ConformError;
 use crate::judge::class::{Breach, Class, Kind, Scale};
-use crate::judge::examine::{Examined, Expected, examine, expect};
-use crate::judge::explain::explain;
+use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
+use crate::judge::explain::in_words;
 use crate::results::report;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
 use crate::settings::Settings;
@@ -190,12 +190,12 @@ impl<'a> Runner<'a> {
     ) -> Result<(), ConformError> {
         let Case { name, question, .. } = case;
         let tolerance = self.settings.tolerance;
-        let mut examined = examine(&mut self.subject, name, question, tolerance)?;
+        let mut examined = ask_and_compare(&mut self.subject, name, question, tolerance)?;
         let is_known = examined.class.as_ref().is_some_and(|it| self.classes.contains_key(it));
         if examined.hangs() && !is_known && self.late < FORGIVEN {
             let limit = self.settings.time_limit;
             self.subject.set_time_limit(limit.saturating_mul(LONGER));
-            examined = examine(&mut self.subject, name, question, tolerance)?;
+            examined = ask_and_compare(&mut self.subject, name, question, tolerance)?;
             self.subject.set_time_limit(limit);
             self.late += u64::from(!examined.hangs());
         }
@@ -295,10 +295,10 @@ impl<'a> Runner<'a> {
         let _ = self.subject.take_afterwards();
         let id = class.slug();
         let (told, shown, shrunk) = match smallest {
-            None => (explain(question, examined), question, false),
+            None => (in_words(question, examined), question, false),
             Some(ref smallest) => {
-                let again = examine(&mut self.subject, &id, smallest, tolerance)?;
-                (explain(smallest, &again), smallest, true)
+                let again = ask_and_compare(&mut self.subject, &id, smallest, tolerance)?;
+                (in_words(smallest, &again), smallest, true)
             }
         };
         Ok(Found {

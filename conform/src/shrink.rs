@@ -8,7 +8,7 @@ use proptest::strategy::ValueTree;
 use crate::cases::question::Question;
 use crate::error::ConformError;
 use crate::judge::class::{Breach, Class};
-use crate::judge::examine::examine;
+use crate::judge::examine::ask_and_compare;
 use crate::minimise;
 use crate::subject::Subject;
 
@@ -102,7 +102,7 @@ impl<'a> Hunt<'a> {
         self.tries_left -= 1;
         self.tries += 1;
         let id = format!("{}.{}", self.name, self.tries);
-        match examine(self.subject, &id, question, self.tolerance) {
+        match ask_and_compare(self.subject, &id, question, self.tolerance) {
             Ok(examined) => {
                 if examined.answered.is_err() {
                     self.restarts_left -= 1;

@@ -137,7 +137,7 @@ fn compose(arguments: &ComposeArguments, out: &mut impl Write) -> io::Result<u8>
         Ok(text) => text,
         Err(error) => return Ok(refused(&format!("{file}: cannot be read: {error}"))),
     };
-    let composed = match compose::compose(&text) {
+    let composed = match compose::composed(&text) {
         Ok(composed) => composed,
         Err(error) => return Ok(refused(&format!("{file}: {error}"))),
     };

@@ -31,7 +31,7 @@ pub struct Composed {
 
 /// Composes the service set of a composition record, which may go over several lines. Errors: the
 /// text is no composition record, or the orchestrator refuses it; each with the line.
-pub fn compose(text: &str) -> Result<Composed, LineError> {
+pub fn composed(text: &str) -> Result<Composed, LineError> {
     let (id, task) = match json::parse(text.as_bytes(), 1)? {
         Record::Composition { id, task } => (id, task),
         Record::Cycle { id, .. } | Record::Offloading { id, .. } => {

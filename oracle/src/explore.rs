@@ -24,7 +24,7 @@ use mufasa_exploration::second;
 use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 
-use self::report::Report;
+use self::report::ExplorationReport;
 use crate::document;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
@@ -102,7 +102,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
         }
-        reports.push(Report::new(*profile, settings.bounds, &outcomes));
+        reports.push(ExplorationReport::new(*profile, settings.bounds, &outcomes));
         match findings::stories(*profile, &outcomes) {
             Ok(stories) => {
                 let written = findings::write(&settings.folder, &stories);
@@ -117,7 +117,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     }
     end = end.max(say_written(write(&settings.folder, &reports), out, err)?);
     if let Some(path) = &settings.into {
-        let tables: String = reports.iter().map(Report::markdown).collect();
+        let tables: String = reports.iter().map(ExplorationReport::markdown).collect();
         let written = document::write(path, &table_name(settings.bounds), &tables);
         let written = written.map(|()| vec![path.clone()]).map_err(|error| (path.clone(), error));
         end = end.max(say_written(written, out, err)?);
@@ -142,9 +142,9 @@ fn say_written(written: Written, out: &mut impl Write, err: &mut impl Write) -> 
 }
 
 /// Writes all tables, for programs and for documents.
-fn write(folder: &Path, reports: &[Report]) -> Written {
+fn write(folder: &Path, reports: &[ExplorationReport]) -> Written {
     let json = serde_json::to_string_pretty(reports).map_err(io::Error::from);
-    let markdown = Ok(reports.iter().map(Report::markdown).collect());
+    let markdown = Ok(reports.iter().map(ExplorationReport::markdown).collect());
     let mut written = Vec::new();
     for (name, content) in [("exploration.json", json), ("exploration.md", markdown)] {
         let file = folder.join(name);

@@ -1,8 +1,8 @@
 //! What is proved, by which engine, of which inputs: all engines that are here are run, the others
 //! are listed as not run.
 
+pub mod claim;
 pub mod engines;
-pub mod line;
 pub mod settings;
 pub mod sources;
 pub mod tables;
@@ -12,8 +12,8 @@ use std::io::{self, Write};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::document;
-use engines::Source;
-use line::{Line, Status};
+use claim::{Claim, Status};
+use engines::ClaimSource;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 pub use settings::Settings;
@@ -45,7 +45,7 @@ impl End {
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
     let mut lines = Vec::new();
     let mut end = End::default();
-    for source in Source::ALL {
+    for source in ClaimSource::ALL {
         match source.lines(settings, &bar(source)) {
             Ok(more) => lines.extend(more),
             Err(problem) => {
@@ -77,12 +77,13 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
 }
 
 /// All claims, of which nothing was asked. Errors are those of reading the lists of them.
-pub fn claims() -> io::Result<Vec<Line>> {
-    let claims: io::Result<Vec<_>> = Source::ALL.into_iter().map(Source::claims).collect();
+pub fn claims() -> io::Result<Vec<Claim>> {
+    let claims: io::Result<Vec<_>> =
+        ClaimSource::ALL.into_iter().map(ClaimSource::claims).collect();
     Ok(claims?.into_iter().flatten().collect())
 }
 
-fn write_lines(settings: &Settings, lines: &[Line]) -> io::Result<()> {
+fn write_lines(settings: &Settings, lines: &[Claim]) -> io::Result<()> {
     let mut text = String::new();
     for line in lines {
         text.push_str(&serde_json::to_string(line)?);
@@ -94,7 +95,7 @@ fn write_lines(settings: &Settings, lines: &[Line]) -> io::Result<()> {
     files::write(&settings.out, &text)
 }
 
-fn bar(source: Source) -> ProgressBar {
+fn bar(source: ClaimSource) -> ProgressBar {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len} {msg}") {
         bar.set_style(style);

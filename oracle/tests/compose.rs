@@ -1,16 +1,16 @@
 //! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
 
-use mufasa_oracle::compose::{Composed, compose};
+use mufasa_oracle::compose::{Composed, composed};
 use mufasa_records::{Answer, answer};
 
 const FIG_2: &str = include_str!("../../examples/fig2.json");
 
 fn fig_2() -> Composed {
-    compose(FIG_2).expect("the example composes")
+    composed(FIG_2).expect("the example composes")
 }
 
 /// Composes services given as (id, requires, guarantees, station).
-fn composed(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Composed {
+fn of_services(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Composed {
     let services: Vec<String> = services
         .iter()
         .map(|(id, requires, guarantees, station)| {
@@ -21,7 +21,7 @@ fn composed(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Composed 
         })
         .collect();
     let services = services.join(",\n");
-    compose(&format!(
+    composed(&format!(
         "{{\"kind\": \"composition\", \"id\": \"s\", \"goal\": {goal:?}, \"services\": [{services}]}}"
     ))
     .expect("the services compose")
@@ -123,7 +123,7 @@ fn the_table_has_one_row_per_composition() {
 #[test]
 fn the_table_says_what_is_chosen_when_the_members_do_not() {
     // Both serve `top` and `left` in turn, so that two compositions have the same members.
-    let all = composed(
+    let all = of_services(
         "top",
         &[
             ("top", &["a", "b"], &[], 0),
@@ -142,9 +142,9 @@ fn the_table_says_what_is_chosen_when_the_members_do_not() {
 
 #[test]
 fn without_a_composition_the_table_says_why() {
-    let nobody = composed("top", &[("top", &["a"], &[], 0)]);
+    let nobody = of_services("top", &[("top", &["a"], &[], 0)]);
     assert_eq!(nobody.table(), "no composition for top: nobody guarantees a, which top requires\n");
-    let round = composed("top", &[("top", &["a"], &["a"], 0)]);
+    let round = of_services("top", &[("top", &["a"], &["a"], 0)]);
     assert_eq!(round.table(), "no composition for top: the rule acyclic stands in the way\n");
     assert_eq!(round.graph().edges.len(), 1);
 }
@@ -176,7 +176,7 @@ fn the_picture_of_fig_2_shows_every_service_once_and_none_over_another() {
 /// An arrow over several layers passes between the boxes, not through them.
 #[test]
 fn no_arrow_of_a_picture_crosses_a_box() {
-    let long = composed(
+    let long = of_services(
         "goal",
         &[
             ("goal", &["a", "b", "c", "d"], &[], 0),
@@ -232,7 +232,7 @@ fn curve(path: &str) -> Vec<[f64; 2]> {
 /// Two compositions may need a service above and below another: the union has a cycle.
 #[test]
 fn compositions_that_form_a_cycle_together_can_be_drawn() {
-    let both = composed(
+    let both = of_services(
         "goal",
         &[
             ("goal", &["x", "y"], &[], 0),
@@ -260,7 +260,7 @@ fn compositions_that_form_a_cycle_together_can_be_drawn() {
 
 #[test]
 fn names_that_a_picture_cannot_hold_are_escaped() {
-    let odd = composed(
+    let odd = of_services(
         "<goal> & \"co\"",
         &[("<goal> & \"co\"", &["a\\b"], &[], 0), ("tab\tand \u{e9}\u{1f697}", &[], &["a\\b"], 9)],
     );
@@ -289,13 +289,13 @@ fn a_composition_is_answered_as_the_line_protocol_answers_it() {
 #[test]
 fn a_file_that_is_no_composition_is_an_error_with_its_line() {
     let broken = FIG_2.replace("\"goal\": \"actuation\",", "\"goal\": actuation,");
-    let error = compose(&broken).err().expect("no JSON");
+    let error = composed(&broken).err().expect("no JSON");
     let line = FIG_2.lines().position(|line| line.contains("\"goal\"")).expect("there") + 1;
     assert_eq!((error.line, error.field.as_str()), (line, ""));
     let trace = r#"{"kind": "offloading", "id": "o", "events": []}"#;
-    assert_eq!(compose(trace).err().expect("a trace").field, "kind");
+    assert_eq!(composed(trace).err().expect("a trace").field, "kind");
     let goal = FIG_2.replace("\"goal\": \"actuation\"", "\"goal\": \"brake\"");
-    let error = compose(&goal).err().expect("no such service");
+    let error = composed(&goal).err().expect("no such service");
     assert_eq!((error.field.as_str(), error.id.as_deref()), ("goal", Some("paper-fig-2")));
     assert!(error.to_string().contains("brake"));
 }
@@ -315,7 +315,7 @@ fn long_chains_can_be_drawn() {
             let provides = ids[layer].iter().map(std::slice::from_ref);
             services.extend(provides.map(|id| (id[0], requires, id, 0)));
         }
-        let chain = composed("goal", &services);
+        let chain = of_services("goal", &services);
         assert_no_overlap(&chain.svg());
         assert_eq!(chain.graph().edges.len(), width + (layers - 1) * width * width);
     }

@@ -9,7 +9,7 @@ use mufasa_exploration::properties::Property;
 use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
 use mufasa_oracle::document;
-use mufasa_oracle::explore::report::Report;
+use mufasa_oracle::explore::report::ExplorationReport;
 use mufasa_oracle::explore::{self, findings};
 use mufasa_records::{self as json, Record};
 use serde_json::Value;
@@ -59,7 +59,7 @@ fn the_tables_of_the_page_are_those_of_a_run() {
             "{name}: mufasa explore --into docs/exploration.md"
         );
     }
-    let today = Report::new(Profile::Paper, Bounds::Small, &honest()).markdown();
+    let today = ExplorationReport::new(Profile::Paper, Bounds::Small, &honest()).markdown();
     // Up to the depth; what follows depends on the machine.
     let sizes = |text: &str| -> Vec<String> {
         rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()

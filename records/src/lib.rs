@@ -6,12 +6,12 @@ pub mod error;
 pub mod files;
 pub mod names;
 pub mod offloading_answer;
+pub mod record;
 pub mod schema;
 pub mod write;
 
-pub mod record;
-
 mod read;
+mod typed;
 
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::InvalidInput;
@@ -21,39 +21,14 @@ use serde_json::value::RawValue;
 
 pub use answer::Answer;
 pub use error::LineError;
-pub use read::excerpt as shown;
+pub use read::Record;
 pub use record::offloading::Trace;
+pub use typed::excerpt as shown;
 pub use write::{cycle_to_line, task_to_line, trace_to_line};
 
 use answer::CycleAnswer;
 use composition_answer::CompositionAnswer;
 use offloading_answer::OffloadingAnswer;
-
-/// A record of one of the kinds of `spec/5-interfaces.md`.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Record {
-    /// `kind` cycle.
-    Cycle {
-        /// Its id.
-        id: String,
-        /// The cycle.
-        cycle: Box<Cycle>,
-    },
-    /// `kind` offloading.
-    Offloading {
-        /// Its id.
-        id: String,
-        /// The trace.
-        trace: Trace,
-    },
-    /// `kind` composition.
-    Composition {
-        /// Its id.
-        id: String,
-        /// What to compose.
-        task: Task,
-    },
-}
 
 /// Reads the record on line number `number` (from 1), given without its newline. A record may
 /// also go over several lines, of which `number` is the first.

@@ -1,4 +1,4 @@
-//! `growth FILE.svg`: time against tracks, trajectory points, stations and grid side, each over
+//! `growth FILE.svg`: time against tracks, trajectory points, cross sections and grid side, each over
 //! three decades as far as the domain goes; ours, the best library for the same stages, and for
 //! stage v the loop by hand.
 
@@ -30,10 +30,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         panel("stages ii and iii", "trajectory points", &[Stage::Ii, Stage::Iii], &counts, |n| {
             Workload::new(&Size { points: n, ..base }, Variant::Pass)
         }),
-        panel("stage ii", "stations", &[Stage::Ii], &[8, 24, 80, 240, 800, 2400, 8000], |count| {
-            let step = 1000.0 / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
-            Workload::new(&Size { cross_sections: count, step, ..base }, Variant::Pass)
-        }),
+        panel(
+            "stage ii",
+            "cross sections",
+            &[Stage::Ii],
+            &[8, 24, 80, 240, 800, 2400, 8000],
+            |count| {
+                let step = 1000.0 / f64::from(u32::try_from(count).unwrap_or(u32::MAX));
+                Workload::new(&Size { cross_sections: count, step, ..base }, Variant::Pass)
+            },
+        ),
         panel(
             "stage v",
             "grid side, cells",

@@ -41,7 +41,7 @@ fn main() {
 
     let beside = timed(places(1024, 0.1).map(|x| point(x, 0.2)).collect());
     let cycle = Cycle { trajectory: Some(trajectory(&beside)), ..base };
-    let name = "1024 points near 8192 stations of a road without width";
+    let name = "1024 points near 8192 cross sections of a road without width";
     report("ii", name, &cycle, Stage::Ii);
     report_without_index("ii", name, &cycle, Stage::Ii);
     let upon = timed(places(1024, 0.1).map(|x| point(x, 0.0)).collect());

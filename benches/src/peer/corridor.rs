@@ -17,13 +17,16 @@ pub struct Trees {
 }
 
 impl Trees {
-    /// From the stations of the cycle's route, which is open and does not cross itself.
+    /// From the cross sections of the cycle's route, which is open and does not cross itself.
     pub fn new(cycle: &Cycle<'_>) -> Self {
-        let stations = cycle.route.cross_sections;
-        let ring = stations.iter().map(|s| s.left).chain(stations.iter().rev().map(|s| s.right));
+        let cross_sections = cycle.route.cross_sections;
+        let ring = cross_sections
+            .iter()
+            .map(|s| s.left)
+            .chain(cross_sections.iter().rev().map(|s| s.right));
         let ring: Vec<Coord<f64>> = ring.map(|[x, y]| Coord { x, y }).collect();
         let polygon = Polygon::new(LineString(ring), Vec::new());
-        let lines = stations.windows(2);
+        let lines = cross_sections.windows(2);
         let lines = lines.map(|pair| Line::new([pair[0].x, pair[0].y], [pair[1].x, pair[1].y]));
         Self {
             corridor: IntervalTreeMultiPolygon::new(&MultiPolygon(vec![polygon])),

@@ -23,9 +23,9 @@ pub(super) struct Road {
 }
 
 impl Road {
-    pub(super) fn new(stations: usize, step: f64) -> Self {
+    pub(super) fn new(cross_sections: usize, step: f64) -> Self {
         let mut reference = vec![[0.0, 0.0]];
-        for i in 0..stations - 1 {
+        for i in 0..cross_sections - 1 {
             let a = heading(count(i) * step + step / 2.0);
             let [x, y] = reference[i];
             reference.push([x + step * a.cos(), y + step * a.sin()]);

@@ -18,7 +18,7 @@ pub struct Size {
     pub points: usize,
     /// Route cross sections.
     pub cross_sections: usize,
-    /// From station to station, m.
+    /// From cross section to cross section, m.
     pub step: f64,
     /// Columns and rows of the grid.
     pub cells: usize,

@@ -184,7 +184,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use mufasa_drives::check::judge::judge;
+    use mufasa_drives::check::judge::judge_drive;
 
     fn demo() -> Drive {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../drives/data/demo");
@@ -204,7 +204,7 @@ mod tests {
                 it.cycle = taken_in(&it.cycle, configuration);
             }
             let ride = Ride::new(drive.clone());
-            judge(&mut drive, false, || ());
+            judge_drive(&mut drive, false, || ());
             for (index, judged) in drive.cycles.iter().enumerate() {
                 assert_eq!(ride.clean(index, 0), judged.cycle, "{configuration:?} {index}");
             }

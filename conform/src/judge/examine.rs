@@ -55,7 +55,7 @@ impl Examined {
 
 /// Asks a record under this id. A disagreement that a margin of `tolerance` m explains is none.
 /// Errors: the program cannot be started again.
-pub fn examine(
+pub fn ask_and_compare(
     subject: &mut Subject,
     id: &str,
     question: &Question,

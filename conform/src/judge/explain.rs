@@ -53,7 +53,7 @@ pub struct Numbers {
 }
 
 /// A disagreement in words.
-pub fn explain(question: &Question, examined: &Examined) -> Told {
+pub fn in_words(question: &Question, examined: &Examined) -> Told {
     let answered = match &examined.answered {
         Ok(line) => answer::in_short(line),
         Err(broken) => broken.words.clone(),

@@ -3,7 +3,7 @@
 use mufasa_model::input::cycle::{Cycle, Grid};
 use serde_json::{Value, json};
 
-use super::pair::pair;
+use super::pair::one_pair;
 use super::{Case, leaves};
 use crate::cases::question::Question;
 
@@ -13,7 +13,7 @@ const NOW_NS: i64 = 1_000_000_000;
 /// One pass over everything.
 pub fn smaller(case: &mut Case<'_>) {
     frame(case);
-    pair(case);
+    one_pair(case);
     times(case);
     cells(case);
     rounded(case);

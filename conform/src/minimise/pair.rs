@@ -13,7 +13,7 @@ const BESIDE_M: f64 = 5e-7;
 /// Taking a pair away moves the mean of the others, so that a cycle at the threshold of stage i
 /// would keep them all. Puts the first track so that it alone is at a threshold: of the mean, of a
 /// pair's distance, of the field of view.
-pub fn pair(case: &mut Case<'_>) {
+pub fn one_pair(case: &mut Case<'_>) {
     let length = |cycle: &Cycle| {
         let tracks = cycle.tracks.as_ref().map_or(0, |list| list.items.len());
         (tracks, cycle.detections.as_ref().map_or(0, |list| list.items.len()))

@@ -4,7 +4,7 @@ use mufasa_model::input::cycle::{Cycle, Ego, Track, TrajectoryPoint};
 
 use crate::geometry::Rectangle;
 use crate::geometry::{Point, Polyline, add, direction, distance, scale, sub};
-use crate::recording::lead::{Cav, lead};
+use crate::recording::lead::{Cav, leading_vehicle};
 use crate::recording::object::Seen;
 
 /// Points of a trajectory, and the time between them, s and ns.
@@ -115,7 +115,7 @@ impl Planner {
         let seen: Vec<Seen> = objects.iter().map(seen).collect();
         let cav = Cav { position: [x, y], length: cycle.ego.length, width: cycle.ego.width };
         let stamp_ns = cycle.lead.as_ref().map_or(cycle.now_ns, |l| l.stamp_ns);
-        cycle.lead = lead(&cycle.route, stamp_ns, &cav, &seen, LEAD_RANGE);
+        cycle.lead = leading_vehicle(&cycle.route, stamp_ns, &cav, &seen, LEAD_RANGE);
     }
 
     /// Standing cars where there are none.

@@ -6,7 +6,7 @@ use mufasa_model::offloading::requester::{Parameters, Requester};
 use mufasa_props::conformance::Answer;
 
 use super::fallback::{RequesterRun, follow};
-use super::judge::{Judged, is_safe, judge};
+use super::judge::{Judged, is_safe, judge_drive};
 use super::sides::with_implementation;
 use super::tally::Tally;
 use crate::drive::{Drive, DriveCycle};
@@ -28,7 +28,7 @@ impl Checked {
     /// Judges every cycle in order, with `readings` by the strict and the lax model too, and runs
     /// both requesters over the verdicts. `done` is called after each cycle.
     pub fn new(mut drive: Drive, requester: &Parameters, readings: bool, done: impl Fn()) -> Self {
-        let judged = judge(&mut drive, readings, done);
+        let judged = judge_drive(&mut drive, readings, done);
         let (requesters, protocol) = requesters(&drive, &judged, requester);
         Self { drive, judged, requesters, protocol }
     }

@@ -75,7 +75,7 @@ pub fn compare(
 /// by: where `previous_tracks` are carried, the list of a cycle that the exact model finds safe and
 /// in which stage i passed becomes that of the cycles after it (H-09). The drive keeps the cycles
 /// as judged. `done` is called after each.
-pub fn judge(drive: &mut Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
+pub fn judge_drive(drive: &mut Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
     let carried = drive.previous_tracks == PreviousTracks::Carried;
     let mut held: Option<TrackList> = None;
     let each = |DriveCycle { cycle, .. }: &mut DriveCycle| {

@@ -8,7 +8,7 @@ use crate::geometry::{Point, distance};
 use crate::options::Options;
 use crate::readers::error::ReadError;
 use crate::readers::lanes::{Change, Network, Run};
-use crate::readers::route::route;
+use crate::readers::route::route_along;
 use crate::readers::scenario::Scenario;
 use crate::readers::solution::Solution;
 use crate::recording::object::{Motion, Object, State};
@@ -107,7 +107,7 @@ impl Parts {
         let runs = scenario.network.follow(&poses);
         notes.extend(route_notes(&runs));
         let places: Vec<(Point, f64)> = ego.iter().map(|s| (s.position, s.speed.abs())).collect();
-        let route = route(&scenario.network, &runs, &places).ok_or_else(|| {
+        let route = route_along(&scenario.network, &runs, &places).ok_or_else(|| {
             let message = "no lanelet is near the CAV in its direction: there is no route";
             ReadError::file(file, message).at("commonRoad", "lanelet")
         })?;

@@ -26,7 +26,11 @@ const BESIDE: f64 = 8.0;
 
 /// The route along the runs of a drive with these positions and speeds; `None` when no two
 /// different cross sections come of it.
-pub(crate) fn route(network: &Network, runs: &[Run], drive: &[(Point, f64)]) -> Option<Route> {
+pub(crate) fn route_along(
+    network: &Network,
+    runs: &[Run],
+    drive: &[(Point, f64)],
+) -> Option<Route> {
     let strips: Vec<Strip> =
         runs.iter().map(|run| Strip::new(network, run)).collect::<Option<_>>()?;
     let spans = spans(runs, &strips, drive)?;

@@ -21,7 +21,7 @@ pub(crate) struct Cav {
 /// reaches into the band of the CAV's width around the reference path, and which drives along
 /// the path (within 45 degrees) or stands. Crossing and oncoming traffic is no lead; it is for
 /// stages iii to v. The gap is the free distance along the path, bumper to bumper.
-pub(crate) fn lead(
+pub(crate) fn leading_vehicle(
     route: &Route,
     stamp_ns: i64,
     cav: &Cav,
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn the_nearest_object_ahead_on_the_path_leads() {
         let cav = Cav { position: [10.0, 0.0], length: 4.0, width: 2.0 };
-        let find = |objects: &[Seen]| lead(&road(false), 7, &cav, objects, 80.0);
+        let find = |objects: &[Seen]| leading_vehicle(&road(false), 7, &cav, objects, 80.0);
         let cars = [object(60.0, 0.0, 0.0, 9.0), object(30.0, 0.5, 0.0, 5.0)];
         let found = find(&cars).unwrap();
         assert!((found.gap - 16.0).abs() < 1e-9, "{found:?}");

@@ -19,7 +19,7 @@ use mufasa_model::input::cycle::{
 use crate::drive::{Drive, DriveCycle, PreviousTracks};
 use crate::geometry::{Point, cross, direction, mix, mix_angle, sub};
 use crate::options::{Options, Sensor, Tail};
-use crate::recording::lead::{Cav, lead};
+use crate::recording::lead::{Cav, leading_vehicle};
 use crate::recording::object::{Object, Seen, State, state_before};
 use crate::recording::sensor::{grid, scan};
 
@@ -154,7 +154,7 @@ impl Maker<'_> {
                 items: scanned.iter().map(track).collect(),
             }),
             detections: Some(scan(&options.sensor, stream, scan_ns, state.position, &scanned)),
-            lead: lead(route, grid_ns, &cav, &recent, options.sensor.range_m),
+            lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.range_m),
             route: route.clone(),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
             previous_tracks: None,

@@ -82,3 +82,11 @@ pub(crate) fn s_follow<N: Number>(parameters: &Parameters, v_now: f64, v_lead: f
     let [now, lead] = [v_now, v_lead].map(|v| s_b(parameters, N::from_double(v)));
     now.minus(lead).or_larger(N::from_double(0.0)).plus(s_cav(parameters, v_now))
 }
+
+/// `s_valid` = `s_follow` behind a leading vehicle, else `s_b(v_now)`, m.
+pub(crate) fn s_valid<N: Number>(parameters: &Parameters, v_now: f64, v_lead: Option<f64>) -> N {
+    match v_lead {
+        Some(v_lead) => s_follow(parameters, v_now, v_lead),
+        None => s_b(parameters, N::from_double(v_now)),
+    }
+}

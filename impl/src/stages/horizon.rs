@@ -8,7 +8,7 @@ use crate::numbers::plane::distance;
 use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::report::Witness;
-use crate::stages::distances::{Number, s_b, s_cav, s_follow};
+use crate::stages::distances::{Number, s_b, s_cav, s_valid};
 
 /// How far stages iii, iv and v look.
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +27,8 @@ impl Horizon<'_> {
         let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
         match self {
             Self::Cav => s_cav(parameters, v_now),
-            Self::Valid(Some(lead)) => s_follow(parameters, v_now, lead.speed),
-            Self::Valid(None) | Self::Braking => s_b(parameters, N::from_double(v_now)),
+            Self::Valid(lead) => s_valid(parameters, v_now, lead.map(|lead| lead.speed)),
+            Self::Braking => s_b(parameters, N::from_double(v_now)),
         }
     }
 

@@ -13,7 +13,7 @@ use mufasa_records::names;
 
 /// What was explored in one profile, and what it showed.
 #[derive(Debug, Serialize)]
-pub struct Report {
+pub struct ExplorationReport {
     /// The profile.
     pub profile: &'static str,
     /// The bounds.
@@ -72,7 +72,7 @@ pub struct PropertyRow {
     pub shown_by: String,
 }
 
-impl Report {
+impl ExplorationReport {
     /// Of what was explored in a profile.
     pub fn new(profile: Profile, bounds: Bounds, outcomes: &[WorldOutcome]) -> Self {
         Self {

@@ -15,12 +15,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use indicatif::ProgressBar;
 use mufasa_mutants::Engine;
 
-use super::line::Line;
+use super::claim::Claim;
 use super::settings::Settings;
 
 /// A source of claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum ClaimSource {
     /// Theorems over the reals about the model's source.
     Theorems,
     /// Rounding errors.
@@ -35,7 +35,7 @@ pub enum Source {
     Harnesses,
 }
 
-impl Source {
+impl ClaimSource {
     /// All of them.
     pub const ALL: [Self; 6] = [
         Self::Theorems,
@@ -59,7 +59,7 @@ impl Source {
     }
 
     /// Its claims, of which nothing was asked yet. Errors are those of reading the lists of them.
-    pub fn claims(self) -> io::Result<Vec<Line>> {
+    pub fn claims(self) -> io::Result<Vec<Claim>> {
         let (engine, mut lines) = match self {
             Self::Theorems => (Engine::Z3, theorems::claims()),
             Self::Gappa => (Engine::Gappa, gappa::claims()),
@@ -77,13 +77,13 @@ impl Source {
     }
 
     /// The claims that are wanted, judged. Errors are those of talking to the engines.
-    pub fn lines(self, settings: &Settings, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+    pub fn lines(self, settings: &Settings, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
         let names = &settings.names;
-        let is_wanted = |line: &Line| {
+        let is_wanted = |line: &Claim| {
             names.is_empty()
                 || names.iter().any(|name| line.id.contains(name) || self.name() == name)
         };
-        let claims: Vec<Line> = self.claims()?.into_iter().filter(is_wanted).collect();
+        let claims: Vec<Claim> = self.claims()?.into_iter().filter(is_wanted).collect();
         if claims.is_empty() {
             return Ok(claims);
         }

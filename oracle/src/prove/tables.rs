@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
-use super::line::{Answer, Line, Status};
+use super::claim::{Claim, EngineAnswer, Status};
 
 /// Width of a table, characters.
 const WIDTH: u16 = 150;
 
 /// For a terminal, with the number of each verdict below.
-pub fn text(lines: &[Line]) -> String {
+pub fn text(lines: &[Claim]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(WIDTH);
@@ -35,7 +35,7 @@ pub fn text(lines: &[Line]) -> String {
 }
 
 /// For documents: the number of verdicts of each engine, then every line.
-pub fn markdown(lines: &[Line]) -> String {
+pub fn markdown(lines: &[Claim]) -> String {
     let mut text = format!("{}\n{}.\n", engines(lines), counts(lines));
     text.push_str("\n<details><summary>Every line</summary>\n\n");
     text.push_str("| id | statement | engine | domain | verdict | s | fails when |\n");
@@ -72,7 +72,7 @@ pub fn claims(markdown: &str) -> Vec<[&str; 4]> {
 }
 
 /// How often each engine gave each verdict. An engine may speak of a claim that another decides.
-fn engines(lines: &[Line]) -> String {
+fn engines(lines: &[Claim]) -> String {
     let answers = || lines.iter().flat_map(|line| [&line.answer].into_iter().chain(&line.others));
     let mut names: Vec<&str> = Vec::new();
     for answer in answers() {
@@ -94,10 +94,10 @@ fn engines(lines: &[Line]) -> String {
 }
 
 /// The verdict that counts, what was run, why it is no better, and what else was said.
-fn verdict(line: &Line) -> String {
+fn verdict(line: &Claim) -> String {
     let mut text = said(&line.answer);
     for other in &line.others {
-        let brief = Answer { ran: None, ..other.clone() };
+        let brief = EngineAnswer { ran: None, ..other.clone() };
         let brief = match other.status {
             Status::NotRun => other.status.name().to_owned(),
             _ => said(&brief),
@@ -107,7 +107,7 @@ fn verdict(line: &Line) -> String {
     text
 }
 
-fn said(answer: &Answer) -> String {
+fn said(answer: &EngineAnswer) -> String {
     let mut text = answer.status.name().to_owned();
     if let Some(ran) = &answer.ran {
         let _ = write!(text, " ({ran})");
@@ -118,11 +118,11 @@ fn said(answer: &Answer) -> String {
     text
 }
 
-fn seconds(answer: &Answer) -> String {
+fn seconds(answer: &EngineAnswer) -> String {
     answer.seconds.map_or_else(String::new, |seconds| format!("{seconds:.2}"))
 }
 
-fn counts(lines: &[Line]) -> String {
+fn counts(lines: &[Claim]) -> String {
     let count = |status| lines.iter().filter(|line| line.answer.status == status).count();
     let counts = Status::ALL.map(|status| format!("{} {}", count(status), status.name()));
     counts.join(", ")
@@ -132,19 +132,19 @@ fn counts(lines: &[Line]) -> String {
 mod tests {
     use super::*;
 
-    fn line(answers: Vec<Answer>) -> Line {
-        let nothing = Answer::not_run("z3", "no z3 here");
+    fn line(answers: Vec<EngineAnswer>) -> Claim {
+        let nothing = EngineAnswer::not_run("z3", "no z3 here");
         let mutants = vec![String::from("a change")];
-        let line = Line { mutants, ..Line::new(["an_id", "a | b", "all"], nothing) };
+        let line = Claim { mutants, ..Claim::new(["an_id", "a | b", "all"], nothing) };
         line.answered(answers)
     }
 
     #[test]
     fn what_was_not_run_or_only_tested_is_not_counted_as_proved() {
-        let proved = line(vec![Answer::given("z3", Status::Proved, 0.5)]);
+        let proved = line(vec![EngineAnswer::given("z3", Status::Proved, 0.5)]);
         let ran = Some(String::from("7 cases"));
-        let tested = Answer { ran, ..Answer::given("sampling", Status::Tested, 0.5) };
-        let tested = line(vec![tested, Answer::not_run("kani", "not here")]);
+        let tested = EngineAnswer { ran, ..EngineAnswer::given("sampling", Status::Tested, 0.5) };
+        let tested = line(vec![tested, EngineAnswer::not_run("kani", "not here")]);
         let lines = [line(Vec::new()), proved.clone(), proved, tested];
         let text = text(&lines);
         assert!(text.contains("not run: no z3 here"), "{text}");
@@ -164,7 +164,7 @@ mod tests {
     fn the_strongest_answer_counts_and_a_refutation_most() {
         use Status::{NotRun, Proved, Refuted, Tested, Unknown};
         let of = |verdicts: &[Status]| {
-            let answers = verdicts.iter().map(|&verdict| Answer::given("z3", verdict, 0.0));
+            let answers = verdicts.iter().map(|&verdict| EngineAnswer::given("z3", verdict, 0.0));
             line(answers.collect()).answer.status
         };
         assert_eq!(of(&[Tested, Proved, NotRun]), Proved);

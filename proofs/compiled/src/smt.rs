@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io;
 
-use mufasa_z3::{Effort, Solver};
+use mufasa_z3::{Effort, Satisfiability, Solver};
 
 use crate::term::{Node, Op, Term, Terms};
 
@@ -31,9 +31,9 @@ pub fn ask(terms: &Terms, truth: Term, limit_ms: u32) -> io::Result<Possible> {
         return Err(error);
     }
     Ok(match answer {
-        mufasa_z3::Answer::Unsat => Possible::Never,
-        mufasa_z3::Answer::Unknown => Possible::Unknown,
-        mufasa_z3::Answer::Sat(values) => {
+        Satisfiability::Unsat => Possible::Never,
+        Satisfiability::Unknown => Possible::Unknown,
+        Satisfiability::Sat(values) => {
             let values: io::Result<Vec<u64>> = values.iter().map(|line| value(line)).collect();
             Possible::With(variables.into_iter().zip(values?).collect())
         }

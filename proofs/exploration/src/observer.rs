@@ -11,7 +11,7 @@ use super::state::{Cav, Proof};
 
 /// What a step shows.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Findings {
+pub struct Observed {
     /// The properties that it breaks.
     pub broken: Set<Property>,
     /// What it shows.
@@ -38,7 +38,7 @@ pub struct CavStep<'a> {
 
 impl CavStep<'_> {
     /// Follows the step in `cav`, whose memory is that before the step, and judges it.
-    pub fn observe(&self, cav: &mut Cav, found: &mut Findings) {
+    pub fn observe(&self, cav: &mut Cav, found: &mut Observed) {
         let barred = cav.blocked > 0;
         self.follow_services(cav, found);
         self.follow_proof(cav);
@@ -52,7 +52,7 @@ impl CavStep<'_> {
     }
 
     /// Starts and stops the services of a group as the requester says.
-    fn follow_services(&self, cav: &mut Cav, found: &mut Findings) {
+    fn follow_services(&self, cav: &mut Cav, found: &mut Observed) {
         for deed in self.deeds {
             let (group, stop) = match *deed {
                 Deed::Activate(group) => (group, false),
@@ -90,7 +90,7 @@ impl CavStep<'_> {
         }
     }
 
-    fn follow_wait(&self, cav: &mut Cav, found: &mut Findings) {
+    fn follow_wait(&self, cav: &mut Cav, found: &mut Observed) {
         match self.stimulus {
             Stimulus::TimePasses => {
                 let offered = self.before.offers.iter().any(|offer| *offer != Groups::NONE);
@@ -103,7 +103,7 @@ impl CavStep<'_> {
     }
 
     /// The source that the requester names is the one that computes, and ENV and TPL agree.
-    fn judge_sources(&self, cav: Cav, found: &mut Findings) {
+    fn judge_sources(&self, cav: Cav, found: &mut Observed) {
         for (place, service) in Offloadable::ALL.into_iter().enumerate() {
             let stopped = cav.stopped & (1 << place) != 0;
             let group = self.after.groups[service.group() as usize];
@@ -121,7 +121,7 @@ impl CavStep<'_> {
     }
 
     /// `barred`: whether a safety issue barred remote results before the step.
-    fn judge_results(&self, cav: Cav, barred: bool, found: &mut Findings) {
+    fn judge_results(&self, cav: Cav, barred: bool, found: &mut Observed) {
         let property = Property::NoRemoteResultBeforeHoldUntil;
         if let Stimulus::Data(named, _) = self.stimulus {
             found.broken.note(property, barred && self.is_used(named));
@@ -132,7 +132,7 @@ impl CavStep<'_> {
     }
 
     /// A tick asks for every local group that may be asked for, when no safety issue bars it.
-    fn judge_requests(&self, barred: bool, found: &mut Findings) {
+    fn judge_requests(&self, barred: bool, found: &mut Observed) {
         if self.stimulus != Stimulus::Tick || barred || self.qos_hold && self.after.is_held() {
             return;
         }
@@ -150,7 +150,7 @@ impl CavStep<'_> {
 
     /// A message that names another session than the running or requested one changes nothing,
     /// and a new session has a number that no message of an older one can name.
-    fn judge_sessions(&self, found: &mut Findings) {
+    fn judge_sessions(&self, found: &mut Observed) {
         let property = Property::EndedSessionChangesNothing;
         if let Stimulus::Confirm(named) | Stimulus::Reject(named) | Stimulus::Data(named, _) =
             self.stimulus
@@ -184,7 +184,7 @@ impl CavStep<'_> {
         !self.deeds.contains(&Deed::Drop(named.group))
     }
 
-    fn see(&self, found: &mut Findings) {
+    fn see(&self, found: &mut Observed) {
         let [mot, env, _] = self.after.sources;
         let two = mot.is_some() && env.is_some() && mot != env;
         found.seen.note(Sight::TwoStationsAtOnce, two);

@@ -12,7 +12,7 @@ use super::cav::{CavLikeness, CavPart, Deed, Stimulus};
 use super::fit::fit;
 use super::flight::{end_session, take, tidy};
 use super::moves::Move;
-use super::observer::{CavStep, Findings};
+use super::observer::{CavStep, Observed};
 use super::properties::{Property, Sight};
 use super::state::{Kind, Layout, Letter, Message, State};
 use super::station::{
@@ -38,7 +38,7 @@ pub struct Next {
     /// The state.
     pub state: State,
     /// What the move shows.
-    pub found: Findings,
+    pub found: Observed,
 }
 
 impl System {
@@ -100,7 +100,7 @@ impl System {
 
     /// The state after a move, or `None` when the move cannot happen.
     pub fn apply(&self, state: &State, by: Move) -> Option<Next> {
-        let mut next = Next { state: *state, found: Findings::default() };
+        let mut next = Next { state: *state, found: Observed::default() };
         match by {
             Move::TimePasses => self.time_passes(&mut next)?,
             Move::Event { cav, place, rank } => {

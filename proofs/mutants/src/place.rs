@@ -34,16 +34,16 @@ struct Source {
 
 /// Bytes of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found<'a> {
+pub struct Span<'a> {
     /// The file.
     pub file: &'a Path,
     /// The bytes that `from` takes.
     pub bytes: Range<usize>,
 }
 
-impl Found<'_> {
+impl Span<'_> {
     /// Whether a byte is in both.
-    pub fn overlaps(&self, other: &Found<'_>) -> bool {
+    pub fn overlaps(&self, other: &Span<'_>) -> bool {
         let Range { start, end } = &self.bytes;
         self.file == other.file && *start < other.bytes.end && other.bytes.start < *end
     }
@@ -60,7 +60,7 @@ impl Sources {
     }
 
     /// Where `from` stands. Errors say what is missing or ambiguous.
-    pub fn find(&self, place: &Place) -> Result<Found<'_>, String> {
+    pub fn find(&self, place: &Place) -> Result<Span<'_>, String> {
         let Place { item, from, .. } = place;
         let wanted: Vec<&str> = item.split("::").collect();
         let items = self.files.iter().flat_map(|file| {
@@ -77,7 +77,7 @@ impl Sources {
             return Err(format!("{item}: {from:?} stands there {} times", places.len()));
         };
         let bytes = bytes.start + place.start..bytes.start + place.end;
-        Ok(Found { file: &file.path, bytes })
+        Ok(Span { file: &file.path, bytes })
     }
 }
 
@@ -85,7 +85,7 @@ impl Sources {
 pub fn apply(mutant: &Mutant, checkout: &Path) -> io::Result<()> {
     for place in &mutant.at {
         let sources = Sources::read(checkout)?;
-        let Found { file, bytes } = sources.find(place).map_err(io::Error::other)?;
+        let Span { file, bytes } = sources.find(place).map_err(io::Error::other)?;
         let mut text = fs::read_to_string(file)?;
         text.replace_range(bytes, &place.to);
         fs::write(file, text)?;

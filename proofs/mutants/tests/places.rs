@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use mufasa_mutants::place::{Found, Sources};
+use mufasa_mutants::place::{Sources, Span};
 
 #[test]
 fn every_mutant_applies() {
@@ -13,7 +13,7 @@ fn every_mutant_applies() {
     let mut problems = Vec::new();
     for mutant in &mutants {
         assert!(!mutant.at.is_empty() && !mutant.refutes.is_empty(), "{}", mutant.change);
-        let mut taken: Vec<Found<'_>> = Vec::new();
+        let mut taken: Vec<Span<'_>> = Vec::new();
         for place in &mutant.at {
             assert_ne!(place.from, place.to, "{}", mutant.change);
             match sources.find(place) {

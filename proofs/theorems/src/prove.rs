@@ -3,7 +3,7 @@
 use std::io;
 use std::time::{Duration, Instant};
 
-use mufasa_z3::{Answer, Effort, Solver, number};
+use mufasa_z3::{Effort, Satisfiability, Solver, number};
 
 use crate::numbers::real::formula::{Formula, not};
 use crate::numbers::real::path;
@@ -100,12 +100,12 @@ fn on_this_path(claim: &dyn Fn() -> Formula) -> Decision {
     }
     let assertion = path::with(|path| not(claim).text(path));
     match path::ask(&assertion, CLAIM) {
-        Answer::Unsat => Decision::Proved,
-        Answer::Sat(values) => {
+        Satisfiability::Unsat => Decision::Proved,
+        Satisfiability::Sat(values) => {
             let names = path::with(|path| path.names.clone());
             let values = values.iter().map(|value| number(value));
             Decision::Refuted(names.into_iter().zip(values).collect())
         }
-        Answer::Unknown => Decision::Unknown,
+        Satisfiability::Unknown => Decision::Unknown,
     }
 }

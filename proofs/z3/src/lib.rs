@@ -8,7 +8,7 @@ use std::time::Duration;
 
 /// What the solver says of assertions.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
+pub enum Satisfiability {
     /// No values of the variables satisfy them.
     Unsat,
     /// These do, in the order in which they were asked for, as z3 writes them.
@@ -88,7 +88,7 @@ impl Solver {
 
     /// Whether the declarations and assertions of the script can be satisfied; if so, by what
     /// values of these variables. Nothing is left of it afterwards.
-    pub fn check(&mut self, script: &str, variables: &[String], effort: Effort) -> Answer {
+    pub fn check(&mut self, script: &str, variables: &[String], effort: Effort) -> Satisfiability {
         self.questions += 1;
         self.try_check(script, variables, effort).unwrap_or_else(|error| {
             if error.kind() != ErrorKind::TimedOut {
@@ -96,7 +96,7 @@ impl Solver {
             } else if let Err(error) = self.start_again() {
                 self.error.get_or_insert(error);
             }
-            Answer::Unknown
+            Satisfiability::Unknown
         })
     }
 
@@ -105,16 +105,16 @@ impl Solver {
         script: &str,
         variables: &[String],
         effort: Effort,
-    ) -> io::Result<Answer> {
+    ) -> io::Result<Satisfiability> {
         let Effort { steps, limit_ms } = effort;
         let limits = format!("(set-option :rlimit {steps})(set-option :timeout {limit_ms})");
         writeln!(self.input, "(reset){limits}\n{script}\n(check-sat)")?;
         self.input.flush()?;
         let limit = Duration::from_millis(2 * u64::from(limit_ms)) + GRACE;
         match self.line(limit)?.as_str() {
-            "unsat" => Ok(Answer::Unsat),
-            "sat" => Ok(Answer::Sat(self.values(variables)?)),
-            "unknown" | "timeout" => Ok(Answer::Unknown),
+            "unsat" => Ok(Satisfiability::Unsat),
+            "sat" => Ok(Satisfiability::Sat(self.values(variables)?)),
+            "unknown" | "timeout" => Ok(Satisfiability::Unknown),
             other => Err(io::Error::other(format!("z3 says: {other}"))),
         }
     }

@@ -4,7 +4,7 @@
 use std::os::unix::fs::PermissionsExt;
 use std::time::{Duration, Instant};
 
-use mufasa_z3::{Answer, Effort, Solver, is_version_4_8, number};
+use mufasa_z3::{Effort, Satisfiability, Solver, is_version_4_8, number};
 
 #[test]
 fn numbers_are_read_as_z3_writes_them() {
@@ -30,7 +30,7 @@ fn a_solver_that_hangs_does_not_know() {
     let mut solver = Solver::start_program(&program).expect("it starts");
     for questions in 1..=2 {
         let answer = solver.check("", &[], Effort { steps: 1, limit_ms: 100 });
-        assert_eq!((answer, solver.questions), (Answer::Unknown, questions));
+        assert_eq!((answer, solver.questions), (Satisfiability::Unknown, questions));
         assert!(solver.error.is_none(), "{:?}", solver.error);
     }
     assert!(start.elapsed() < Duration::from_secs(30));
@@ -40,6 +40,6 @@ fn a_solver_that_hangs_does_not_know() {
 fn a_solver_that_ends_is_an_error() {
     let mut solver = Solver::start_program("true".as_ref()).expect("true is everywhere");
     let effort = Effort { steps: 1, limit_ms: 100 };
-    assert_eq!(solver.check("", &[], effort), Answer::Unknown);
+    assert_eq!(solver.check("", &[], effort), Satisfiability::Unknown);
     assert!(solver.error.is_some());
 }

@@ -112,8 +112,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         Cell::Proof,
         "the theorems on disks (stage v) hold for every n and do not name the parameter",
     ),
-    ("s_valid", Cell::Impl, "`impl/src/stages/horizon.rs` takes s_follow or s_b itself"),
-    ("s_valid", Cell::Bench, "as of s_follow"),
     ("lease", Cell::Impl, "of the provider, which runs on the server"),
     ("lease", Cell::Vector, "no record drives a provider"),
 ];

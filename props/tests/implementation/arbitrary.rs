@@ -103,28 +103,6 @@ impl Any<'_> {
         CrossSection { x: n(), y: n(), left: [n(), n()], right: [n(), n()] }
     }
 
-    fn parameters(&mut self) -> Parameters {
-        Parameters {
-            theta_tr: self.number(1e-3, 1e3),
-            theta_map: self.number(1e-3, 1e3),
-            theta_obj: self.number(1e-3, 1e3),
-            a_b: self.number(0.1, 100.0),
-            safety_time: self.number(0.0, 60.0),
-            max_age_ns: self.integer(0, 60_000_000_000),
-            n: self.integer(1, 64),
-            theta_track_max: self.number(1e-3, 1e3),
-            miss_budget: self.integer(0, 64),
-            tau: self.number(0.0, 60.0),
-            a_max: self.number(0.1, 100.0),
-            start_tolerance: self.number(1e-3, 1e3),
-            v_max: self.number(1.0, 1000.0),
-            step_max_ns: self.integer(0, 60_000_000_000),
-            theta_velocity: self.number(1.0, 1000.0),
-            work_limit: self.integer(0, i64::MAX),
-            delta: self.number(1e-8, 1e-2),
-        }
-    }
-
     fn trajectory(&mut self, now_ns: i64, s: f64) -> Trajectory {
         let mut t_ns = now_ns.saturating_add(self.integer(-100_000_000, 100_000_000));
         let points = (0..self.draw.between(0, 6)).map(|_| {
@@ -241,3 +219,27 @@ fn no_numbers_panic() {
         assert!(seen.get(verdict).is_some_and(|count| *count >= 50), "{verdict}: {seen:?}");
     }
 }
+
+macro_rules! parameters {
+    ($($(#[$doc:meta])* $name:ident: $type:ident = $default:literal in $domain:expr;)*) => {
+        impl Any<'_> {
+            fn parameters(&mut self) -> Parameters {
+                Parameters {
+                    $($name: any!(self, $type, $domain),)*
+                }
+            }
+        }
+    };
+}
+
+/// A value of the domain.
+macro_rules! any {
+    ($draw:ident, f64, $domain:expr) => {
+        $draw.number(*$domain.start(), *$domain.end())
+    };
+    ($draw:ident, i64, $domain:expr) => {
+        $draw.integer(*$domain.start(), *$domain.end())
+    };
+}
+
+mufasa_model::parameters!(parameters);

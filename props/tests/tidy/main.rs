@@ -17,10 +17,7 @@ use tree::Tree;
 type Exceptions = [(&'static str, &'static str)];
 
 /// Long files.
-const LONG: &Exceptions = &[
-    ("model/src/offloading/requester.rs", "to be split"),
-    ("props/tests/offloading/protocol.rs", "to be split"),
-];
+const LONG: &Exceptions = &[("props/tests/offloading/protocol.rs", "to be split")];
 
 /// Modules of one package that know each other, by a module of the circle.
 const CIRCLES: &Exceptions =
@@ -45,19 +42,11 @@ const ELSEWHERE: &Exceptions = &[("exploration/exploration.json", "`mufasa explo
 
 /// Functions called like their module.
 const TWICE: &Exceptions = &[
-    ("drives/src/recording/lead.rs", "to be renamed"),
     ("oracle/src/explore/evidence.rs", "to be renamed"),
     ("benches/src/race.rs", "to be renamed"),
     ("capi/src/event.rs", "to be renamed"),
     ("capi/src/report.rs", "to be renamed"),
-    ("conform/src/examine.rs", "to be renamed"),
-    ("conform/src/explain.rs", "to be renamed"),
-    ("conform/src/minimise/numbers.rs", "to be renamed"),
-    ("conform/src/minimise/pair.rs", "to be renamed"),
-    ("drives/src/check/judge.rs", "to be renamed"),
-    ("drives/src/readers/route.rs", "to be renamed"),
     ("model/src/stages/llcc.rs", "the paper's name of the check, which is this function"),
-    ("oracle/src/compose.rs", "to be renamed"),
     ("proofs/compiled/src/numeric.rs", "to be renamed"),
     ("proofs/compiled/src/prove.rs", "to be renamed"),
     ("proofs/exploration/src/fit.rs", "to be renamed"),

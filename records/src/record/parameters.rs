@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 use super::value::{Integer, Number};
 use super::{Recorded, from_object};
-use crate::read::typed;
+use crate::typed::typed;
 
 /// How a parameter of this type is written.
 macro_rules! written {

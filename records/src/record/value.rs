@@ -10,8 +10,8 @@ use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use crate::names::Words;
-use crate::read::excerpt;
 use crate::record::Recorded;
+use crate::typed::excerpt;
 
 /// A number, or a word for what JSON cannot write. Read as the nearest double.
 #[derive(Clone, Copy, Debug)]

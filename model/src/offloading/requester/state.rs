@@ -21,6 +21,13 @@ impl Use {
     }
 }
 
+/// Whether who is left is told.
+#[derive(Clone, Copy)]
+pub(super) enum Farewell {
+    Release,
+    Silent,
+}
+
 /// A running session. `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Session {

@@ -7,26 +7,26 @@ use mufasa_theorems::doubles::{self, Range};
 use mufasa_theorems::prove::Judgement;
 
 use super::theorems;
-use crate::prove::line::{Answer, Line};
+use crate::prove::claim::{Claim, EngineAnswer};
 
 const ENGINE: &str = "bitwuzla";
 
-pub(super) fn claims() -> Vec<Line> {
+pub(super) fn claims() -> Vec<Claim> {
     let claim = |range: &Range| {
         let parts = [range.id, range.statement, doubles::DOMAIN];
-        Line {
+        Claim {
             refuted_variant: Some(range.wrong.statement.to_owned()),
-            ..Line::new(parts, Answer::not_run(ENGINE, "no bitwuzla here"))
+            ..Claim::new(parts, EngineAnswer::not_run(ENGINE, "no bitwuzla here"))
         }
     };
     doubles::RANGES.iter().map(claim).collect()
 }
 
-pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
     if doubles::version().is_none() {
         return Ok(claims);
     }
-    let judged = |line: Line| {
+    let judged = |line: Claim| {
         bar.inc(1);
         bar.set_message(line.id.clone());
         let Some(range) = doubles::RANGES.iter().find(|range| range.id == line.id) else {
@@ -38,8 +38,8 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
     claims.into_iter().map(judged).collect()
 }
 
-fn answer(judgement: &Judgement) -> Answer {
+fn answer(judgement: &Judgement) -> EngineAnswer {
     let reason = theorems::reason(&judgement.claim, &judgement.control);
     let status = theorems::status(judgement.decision());
-    Answer { reason, ..Answer::given(ENGINE, status, judgement.time.as_secs_f64()) }
+    EngineAnswer { reason, ..EngineAnswer::given(ENGINE, status, judgement.time.as_secs_f64()) }
 }

@@ -8,19 +8,19 @@ use mufasa_exploration::properties::Property;
 use mufasa_exploration::run;
 use mufasa_model::input::cycle::Profile;
 
-use crate::prove::line::{Answer, Line, Status};
+use crate::prove::claim::{Claim, EngineAnswer, Status};
 
 const ENGINE: &str = "exploration";
 /// `mufasa explore` does the other small worlds, too, and the large ones.
 const WORLDS: [&str; 6] = ["anything", "qos-hold", "choice", "shared", "honest", "roam"];
 
-pub(super) fn claims() -> Vec<Line> {
+pub(super) fn claims() -> Vec<Claim> {
     let claim = |property: Property| {
         let worlds: Vec<String> =
             worlds().filter(|world| run::is_asked(property, world)).map(bounds_of).collect();
         let domain = format!("hardened profile, every state of: {}", worlds.join("; "));
         let parts = [property.name(), property.statement(), domain.as_str()];
-        Line::new(parts, Answer::not_run(ENGINE, ""))
+        Claim::new(parts, EngineAnswer::not_run(ENGINE, ""))
     };
     Property::ALL
         .into_iter()
@@ -44,7 +44,7 @@ fn bounds_of(world: &World) -> String {
     format!("{} ({cavs}, {stations}, {messages})", world.name)
 }
 
-pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
+pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> Vec<Claim> {
     let mut found: BTreeMap<&str, Found> = BTreeMap::new();
     bar.set_length(u64::try_from(worlds().count()).unwrap_or(u64::MAX));
     for world in worlds() {
@@ -69,7 +69,7 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
             }),
         }
     }
-    let judged = |line: Line| {
+    let judged = |line: Claim| {
         let answer = found.remove(line.id.as_str()).map(|found| found.answer(&line.id));
         line.answered(answer.into_iter().collect())
     };
@@ -96,7 +96,7 @@ impl Found {
         }
     }
 
-    fn answer(self, id: &str) -> Answer {
+    fn answer(self, id: &str) -> EngineAnswer {
         let (status, reason) = match (self.broken, self.difference) {
             (None, None) => (Status::Proved, None),
             (None, Some(difference)) if id != Property::PartsValid.name() => {
@@ -105,6 +105,6 @@ impl Found {
             (Some(reason), _) | (None, Some(reason)) => (Status::Refuted, Some(reason)),
         };
         let ran = Some(format!("{} states", self.states));
-        Answer { ran, reason, ..Answer::given(ENGINE, status, self.seconds) }
+        EngineAnswer { ran, reason, ..EngineAnswer::given(ENGINE, status, self.seconds) }
     }
 }

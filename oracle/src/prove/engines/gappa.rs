@@ -7,23 +7,23 @@ use mufasa_theorems::gappa::{self, Bound};
 use mufasa_theorems::prove::Decision as Found;
 
 use super::theorems;
-use crate::prove::line::{Answer, Line};
+use crate::prove::claim::{Claim, EngineAnswer};
 
 const ENGINE: &str = "gappa";
 
-pub(super) fn claims() -> Vec<Line> {
+pub(super) fn claims() -> Vec<Claim> {
     let claim = |bound: &Bound| {
         let parts = [bound.id, bound.statement, bound.domain];
-        Line::new(parts, Answer::not_run(ENGINE, "no Gappa here"))
+        Claim::new(parts, EngineAnswer::not_run(ENGINE, "no Gappa here"))
     };
     gappa::BOUNDS.iter().map(claim).collect()
 }
 
-pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
     if gappa::version().is_none() {
         return Ok(claims);
     }
-    let judged = |line: Line| {
+    let judged = |line: Claim| {
         bar.inc(1);
         let Some(bound) = gappa::BOUNDS.iter().find(|bound| bound.id == line.id) else {
             return Ok(line);
@@ -31,8 +31,8 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
         let (found, time) = bound.judge()?;
         let reason =
             (found != Found::Proved).then(|| String::from("no proof, or one of less, too"));
-        let answer = Answer::given(ENGINE, theorems::status(&found), time.as_secs_f64());
-        Ok(line.answered(vec![Answer { reason, ..answer }]))
+        let answer = EngineAnswer::given(ENGINE, theorems::status(&found), time.as_secs_f64());
+        Ok(line.answered(vec![EngineAnswer { reason, ..answer }]))
     };
     claims.into_iter().map(judged).collect()
 }

@@ -13,7 +13,7 @@ use mufasa_proofs::kani::{Evidence as Found, Run, judge as run};
 use serde::Deserialize;
 
 use super::{laws, side_by_side};
-use crate::prove::line::{Answer, Line, Status};
+use crate::prove::claim::{Claim, EngineAnswer, Status};
 use crate::prove::settings::Settings;
 use crate::prove::sources;
 
@@ -52,10 +52,10 @@ struct Compiled {
     sources: String,
 }
 
-pub(super) fn claims() -> io::Result<Vec<Line>> {
+pub(super) fn claims() -> io::Result<Vec<Claim>> {
     let claim = |one: &Harness| {
         let parts = [one.id.as_str(), &one.statement, &one.domain];
-        Line::new(parts, Answer::not_run(one.engine(), ""))
+        Claim::new(parts, EngineAnswer::not_run(one.engine(), ""))
     };
     Ok(expected()?.iter().map(claim).collect())
 }
@@ -72,10 +72,10 @@ impl Harness {
 }
 
 pub(super) fn judge(
-    claims: Vec<Line>,
+    claims: Vec<Claim>,
     settings: &Settings,
     bar: &ProgressBar,
-) -> io::Result<Vec<Line>> {
+) -> io::Result<Vec<Claim>> {
     let expected = expected()?;
     let mut compiled = compiled(settings)?;
     let seen = side_by_side(&claims, |line| {
@@ -86,9 +86,9 @@ pub(super) fn judge(
         seen
     });
     let lines = claims.into_iter().zip(seen).map(|(line, seen)| {
-        let missing = || Answer::not_run(COMPILED[2], "scripts/prove-wasm did not run it");
+        let missing = || EngineAnswer::not_run(COMPILED[2], "scripts/prove-wasm did not run it");
         let compiled = compiled.remove(&line.id).unwrap_or_else(missing);
-        let kani = Answer::not_run(KANI, "it runs in .github/workflows/kani.yml alone");
+        let kani = EngineAnswer::not_run(KANI, "it runs in .github/workflows/kani.yml alone");
         line.answered(seen.into_iter().chain([compiled, kani]).collect())
     });
     Ok(lines.collect())
@@ -96,10 +96,10 @@ pub(super) fn judge(
 
 /// What the stand-in sees. What it was not expected to see, such as a domain that is not finite any
 /// more, is not known.
-fn stand_in(one: &Harness) -> Answer {
+fn stand_in(one: &Harness) -> EngineAnswer {
     let covers: BTreeSet<&str> = one.covers.iter().map(String::as_str).collect();
     let Some((_, harness)) = ALL.iter().find(|(id, _)| *id == one.id) else {
-        return Answer::not_run(one.engine(), "there is no such harness");
+        return EngineAnswer::not_run(one.engine(), "there is no such harness");
     };
     let start = Instant::now();
     let found = run(*harness, &covers);
@@ -125,11 +125,11 @@ fn stand_in(one: &Harness) -> Answer {
         Found::Refuted(reason) => (Status::Refuted, None, Some(reason)),
     };
     let seconds = start.elapsed().as_secs_f64();
-    Answer { ran, reason, ..Answer::given(one.engine(), status, seconds) }
+    EngineAnswer { ran, reason, ..EngineAnswer::given(one.engine(), status, seconds) }
 }
 
 /// What was said of the compiled sources that are here, by harness.
-fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, Answer>> {
+fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, EngineAnswer>> {
     let text = match fs::read_to_string(&settings.cbmc) {
         Ok(text) => text,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(BTreeMap::new()),
@@ -141,11 +141,14 @@ fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, Answer>> {
         let engine = COMPILED.into_iter().find(|name| *name == one.engine);
         let engine = engine.ok_or_else(|| io::Error::other(format!("no engine {}", one.engine)))?;
         let answer = match one.seconds {
-            _ if one.sources != here => Answer::not_run(engine, "what is here is of other sources"),
-            Some(seconds) => {
-                Answer { reason: one.reason, ..Answer::given(engine, one.verdict, seconds) }
+            _ if one.sources != here => {
+                EngineAnswer::not_run(engine, "what is here is of other sources")
             }
-            None => Answer::not_run(engine, one.reason.as_deref().unwrap_or_default()),
+            Some(seconds) => EngineAnswer {
+                reason: one.reason,
+                ..EngineAnswer::given(engine, one.verdict, seconds)
+            },
+            None => EngineAnswer::not_run(engine, one.reason.as_deref().unwrap_or_default()),
         };
         Ok((one.id, answer))
     };

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use mufasa_proofs::exhaust::{Run, TOPICS};
 use serde::Deserialize;
 
-use crate::prove::line::{Answer, Line, Status};
+use crate::prove::claim::{Claim, EngineAnswer, Status};
 
 /// Every value of a finite domain is run.
 pub(super) const ENGINE: &str = "exhaustion";
@@ -25,20 +25,20 @@ struct Law {
     statement: String,
 }
 
-pub(super) fn claims() -> io::Result<Vec<Line>> {
+pub(super) fn claims() -> io::Result<Vec<Claim>> {
     let list: List = toml::from_str(LAWS).map_err(io::Error::other)?;
     let claim = |law: Law| {
         let topic = TOPICS.iter().find(|topic| law.id.starts_with(topic.name));
         let domain = topic.map_or("", |topic| topic.domain);
         let id = format!("law::{}", law.id);
         let parts = [id.as_str(), &law.statement, domain];
-        Line::new(parts, Answer::not_run(ENGINE, ""))
+        Claim::new(parts, EngineAnswer::not_run(ENGINE, ""))
     };
     Ok(list.law.into_iter().map(claim).collect())
 }
 
-pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
-    let mut answers: BTreeMap<String, Answer> = BTreeMap::new();
+pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> Vec<Claim> {
+    let mut answers: BTreeMap<String, EngineAnswer> = BTreeMap::new();
     for topic in TOPICS {
         let id = |law: &str| format!("law::{}::{law}", topic.name);
         if !topic.laws().any(|law| claims.iter().any(|line| line.id == id(law))) {
@@ -54,14 +54,14 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> Vec<Line> {
             bar.inc(1);
         }
     }
-    let judged = |line: Line| {
+    let judged = |line: Claim| {
         let answer = answers.remove(&line.id);
         line.answered(answer.into_iter().collect())
     };
     claims.into_iter().map(judged).collect()
 }
 
-fn answer(run: &Result<Run, String>, law: &str, seconds: f64) -> Answer {
+fn answer(run: &Result<Run, String>, law: &str, seconds: f64) -> EngineAnswer {
     let (status, reason, ran) = match run {
         Err(panic) => (Status::Unknown, Some(format!("the run ended: {panic}")), None),
         Ok(run) => {
@@ -77,5 +77,5 @@ fn answer(run: &Result<Run, String>, law: &str, seconds: f64) -> Answer {
             (status, reason, Some(format!("{} cases", run.cases)))
         }
     };
-    Answer { ran, reason, ..Answer::given(ENGINE, status, seconds) }
+    EngineAnswer { ran, reason, ..EngineAnswer::given(ENGINE, status, seconds) }
 }

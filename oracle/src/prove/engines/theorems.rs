@@ -7,22 +7,22 @@ use mufasa_theorems::prove::{self as solve, Decision as Found, Judgement};
 use mufasa_theorems::theorem::{self, Theorem};
 
 use super::side_by_side;
-use crate::prove::line::{Answer, Line, Status};
+use crate::prove::claim::{Claim, EngineAnswer, Status};
 
 const ENGINE: &str = "z3";
 
-pub(super) fn claims() -> Vec<Line> {
+pub(super) fn claims() -> Vec<Claim> {
     let claim = |theorem: &Theorem| {
         let parts = [theorem.id, theorem.statement, theorem.domain];
-        Line {
+        Claim {
             refuted_variant: Some(theorem.wrong.statement.to_owned()),
-            ..Line::new(parts, Answer::not_run(ENGINE, "no z3 4.8 or newer"))
+            ..Claim::new(parts, EngineAnswer::not_run(ENGINE, "no z3 4.8 or newer"))
         }
     };
     theorem::all().map(claim).collect()
 }
 
-pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line>> {
+pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
     if !mufasa_z3::is_new_enough() {
         return Ok(claims);
     }
@@ -39,14 +39,18 @@ pub(super) fn judge(claims: Vec<Line>, bar: &ProgressBar) -> io::Result<Vec<Line
         .collect()
 }
 
-fn answer(judgement: &Judgement) -> Answer {
+fn answer(judgement: &Judgement) -> EngineAnswer {
     let reason = reason(&judgement.claim, &judgement.control);
     let seconds = judgement.time.as_secs_f64();
     let ran = Some(match judgement.paths {
         1 => String::from("1 path"),
         paths => format!("{paths} paths"),
     });
-    Answer { ran, reason, ..Answer::given(ENGINE, status(judgement.decision()), seconds) }
+    EngineAnswer {
+        ran,
+        reason,
+        ..EngineAnswer::given(ENGINE, status(judgement.decision()), seconds)
+    }
 }
 
 /// Why a claim is not proved, by what is found of it and of its wrong variant.

@@ -13,7 +13,7 @@ pub struct Bound {
     pub domain: &'static str,
     /// Of `formula`, over the ranges of its inputs.
     pub(super) formula: fn() -> Real,
-    pub(super) inputs: &'static [Input],
+    pub(super) inputs: &'static [InputRange],
     /// Whether the limit is one of the relative error.
     pub(super) relative: bool,
     /// Values within the formula of which a bound is known from another line.
@@ -30,7 +30,7 @@ pub struct Bound {
 }
 
 /// An input: name, least and largest value.
-pub(super) type Input = (&'static str, &'static str, &'static str);
+pub(super) type InputRange = (&'static str, &'static str, &'static str);
 
 /// A value from 0 to `most` with an absolute error of at most `error`.
 #[derive(Clone, Copy, Debug)]

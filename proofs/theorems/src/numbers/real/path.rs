@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
-use mufasa_z3::{Answer, Effort, Solver};
+use mufasa_z3::{Effort, Satisfiability, Solver};
 
 use crate::numbers::real::polynomial::{Polynomial, Rules, Variable};
 use crate::numbers::real::program::{Operand, Operator, Step};
@@ -127,7 +127,7 @@ pub fn exchange_solver(solver: Option<Solver>) -> Option<Solver> {
 }
 
 /// Asks the solver about the path in progress and one more assertion.
-pub fn ask(assertion: &str, effort: Effort) -> Answer {
+pub fn ask(assertion: &str, effort: Effort) -> Satisfiability {
     EXECUTION.with_borrow_mut(|execution| execution.ask(assertion, effort))
 }
 
@@ -186,7 +186,7 @@ impl Execution {
         }
         let mut possible = |signs: Signs| {
             let assertion = self.path.assertion(key, signs);
-            !matches!(self.ask(&assertion, BRANCH), Answer::Unsat)
+            !matches!(self.ask(&assertion, BRANCH), Satisfiability::Unsat)
         };
         // Some answer is possible on a path that can be reached: without the one, the other is.
         let answer = possible(signs);
@@ -195,8 +195,8 @@ impl Execution {
         branch.answer
     }
 
-    fn ask(&mut self, assertion: &str, effort: Effort) -> Answer {
-        let Some(solver) = &mut self.solver else { return Answer::Unknown };
+    fn ask(&mut self, assertion: &str, effort: Effort) -> Satisfiability {
+        let Some(solver) = &mut self.solver else { return Satisfiability::Unknown };
         solver.check(&self.path.script_with(assertion), &self.path.names, effort)
     }
 }

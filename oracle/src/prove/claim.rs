@@ -53,7 +53,7 @@ impl Status {
 
 /// What one engine says of a claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Answer {
+pub struct EngineAnswer {
     /// The engine.
     pub engine: &'static str,
     /// What it says.
@@ -69,7 +69,7 @@ pub struct Answer {
     pub reason: Option<String>,
 }
 
-impl Answer {
+impl EngineAnswer {
     /// Nothing was asked.
     pub fn not_run(engine: &'static str, reason: &str) -> Self {
         let reason = Some(reason.to_owned());
@@ -84,7 +84,7 @@ impl Answer {
 
 /// One claim.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
+pub struct Claim {
     /// Its name, a sentence.
     pub id: String,
     /// What is claimed.
@@ -93,10 +93,10 @@ pub struct Line {
     pub domain: String,
     /// The answer that counts.
     #[serde(flatten)]
-    pub answer: Answer,
+    pub answer: EngineAnswer,
     /// What other engines say of the same claim.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub others: Vec<Answer>,
+    pub others: Vec<EngineAnswer>,
     /// The statement near it that was refuted, of theorems.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub refuted_variant: Option<String>,
@@ -104,9 +104,9 @@ pub struct Line {
     pub mutants: Vec<String>,
 }
 
-impl Line {
+impl Claim {
     /// A claim that nothing was asked about yet.
-    pub fn new([id, statement, domain]: [&str; 3], answer: Answer) -> Self {
+    pub fn new([id, statement, domain]: [&str; 3], answer: EngineAnswer) -> Self {
         Self {
             id: id.to_owned(),
             statement: statement.to_owned(),
@@ -119,7 +119,7 @@ impl Line {
     }
 
     /// Takes the answers of several engines: the one that counts first, then the others.
-    pub fn answered(self, mut answers: Vec<Answer>) -> Self {
+    pub fn answered(self, mut answers: Vec<EngineAnswer>) -> Self {
         answers.sort_by_key(|answer| answer.status.rank());
         let mut answers = answers.into_iter();
         match answers.next() {
