@@ -13,17 +13,17 @@ use crate::input::scratch::{Column, NONE, Row, UNKNOWN, short};
 
 /// What the pairs cost, and in which order a row meets the columns.
 pub(crate) trait Costs {
-    /// What is needed of a row.
-    type Row: Copy;
+    /// Where a row is.
+    type Place: Copy;
 
-    fn row(&self, rows: &[Row], row: usize) -> Option<Self::Row>;
+    fn place(&self, rows: &[Row], row: usize) -> Option<Self::Place>;
 
     /// The cost of a row and a column, at least 0; `None` where the two must not be paired.
-    fn cost(&self, rows: &[Row], row: Self::Row, column: usize) -> Option<i64>;
+    fn cost(&self, rows: &[Row], row: Self::Place, column: usize) -> Option<i64>;
 
     /// The lists of columns (`Column::head`, `Column::next`) that a row may be paired with, some
     /// at a time, with a bound: no column of these lists or of later ones costs less.
-    fn lists(&self, row: Self::Row) -> impl Iterator<Item = (i64, Range<usize>)>;
+    fn lists(&self, row: Self::Place) -> impl Iterator<Item = (i64, Range<usize>)>;
 }
 
 /// Assigns the first `count` rows one after the other. The result is in `Column::row`; returned is
@@ -118,7 +118,7 @@ impl Paths {
         costs: &impl Costs,
     ) {
         let (Some(row), Some(potential)) =
-            (costs.row(rows, from), rows.get(from).map(|row| row.potential))
+            (costs.place(rows, from), rows.get(from).map(|row| row.potential))
         else {
             return;
         };

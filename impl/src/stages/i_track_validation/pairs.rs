@@ -88,9 +88,9 @@ impl<'a> Pairs<'a> {
 }
 
 impl Costs for Pairs<'_> {
-    type Row = [f64; 2];
+    type Place = [f64; 2];
 
-    fn row(&self, rows: &[Row], row: usize) -> Option<[f64; 2]> {
+    fn place(&self, rows: &[Row], row: usize) -> Option<[f64; 2]> {
         if self.swapped { detection(self.detections, row) } else { track(self.tracks, rows, row) }
     }
 

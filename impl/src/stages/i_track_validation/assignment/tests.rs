@@ -18,9 +18,9 @@ struct Matrix<'a> {
 }
 
 impl super::Costs for Matrix<'_> {
-    type Row = usize;
+    type Place = usize;
 
-    fn row(&self, _: &[Row], row: usize) -> Option<usize> {
+    fn place(&self, _: &[Row], row: usize) -> Option<usize> {
         Some(row)
     }
 
