@@ -154,3 +154,23 @@ pub fn to_ns(seconds: f64) -> i64 {
 pub fn count(value: f64) -> usize {
     value.ceil().clamp(0.0, 1000.0) as usize
 }
+
+/// An object and the trajectory point at which it is where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Obstacle {
+    /// Centre and direction.
+    pub frame: Frame,
+    /// Length and width, m.
+    pub size: (f64, f64),
+    /// Index of the trajectory point.
+    pub point: usize,
+    /// Unit vector away from the CAV's rectangle, along which it may move without harm.
+    pub away: (f64, f64),
+}
+
+/// `s_stop` of a trajectory that starts at the CAV, rounded, m.
+pub fn s_stop(cycle: &Cycle) -> f64 {
+    let (p, v) = (&cycle.parameters, cycle.ego.speed);
+    let reached = v + p.a_max * p.tau;
+    v * p.tau + p.a_max * p.tau * p.tau / 2.0 + reached * reached / (2.0 * p.a_b)
+}

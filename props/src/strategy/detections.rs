@@ -4,9 +4,9 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Lead, Profile, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base;
+use super::base::{self, Obstacle};
 use super::draw::Draw;
-use super::obstacle::{self, Obstacle};
+use super::obstacle;
 use super::track_validation::detection;
 
 /// A cycle that stage iv decides.

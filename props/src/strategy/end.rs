@@ -4,9 +4,8 @@
 use mufasa_model::input::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{self, Frame, seconds};
+use super::base::{self, Frame, Obstacle, s_stop, seconds};
 use super::draw::Draw;
-use super::obstacle::{self, Obstacle};
 
 /// Whether the cycle's trajectory is examined beyond its end.
 pub fn is_examined(cycle: &Cycle) -> bool {
@@ -20,7 +19,7 @@ pub fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle, missing: f64) {
     // Enough that the bound of the end, not that of braking, decides.
     cycle.parameters.start_tolerance = draw.pick(&[30.0, 30.0, 2.0]);
     let ahead = draw.pick(&[0.0, 0.0, 0.5, -0.5, 1.75]);
-    let stop = obstacle::s_stop(cycle) + f64::max(ahead, 0.0);
+    let stop = s_stop(cycle) + f64::max(ahead, 0.0);
     let length = (stop - missing).max(0.0);
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
     let plan = base::straight(&ego, road, cycle.now_ns, &cycle.parameters);
@@ -75,7 +74,7 @@ pub fn place(draw: &mut Draw<'_>, cycle: &Cycle) -> Frame {
     let ego = &cycle.ego;
     let ahead = (ego.x - first.x) * first.cos + (ego.y - first.y) * first.sin;
     let length = (last.x - first.x).hypot(last.y - first.y);
-    let missing = (obstacle::s_stop(cycle) + ahead.max(0.0) - length).clamp(0.0, ego.length);
+    let missing = (s_stop(cycle) + ahead.max(0.0) - length).clamp(0.0, ego.length);
     let (from, to) = (4.0 * ego.center_offset, 4.0 * (ego.center_offset + missing));
     let before: u8 = draw.pick(&[1, 1, 1, 0, 1, 1, 2]);
     let quarters = (to.ceil() + 1.0 - f64::from(before)).max(from.floor() + 1.0);

@@ -8,7 +8,7 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
-use super::{end, obstacle};
+use super::end;
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -302,7 +302,7 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let late_ns = draw.pick(&[0, 20_000_000, -20_000_000]);
     let (d, v) = (seconds(late_ns).abs(), cycle.ego.speed);
     let (v_lo, v_hi) = ((v - p.a_max * d).max(0.0), v + p.a_b * d);
-    let (stop, length) = (obstacle::s_stop(cycle), cycle.ego.length);
+    let (stop, length) = (base::s_stop(cycle), cycle.ego.length);
     let aim = draw.below(3);
     let wobble = draw.near(0.0);
     let Some(trajectory) = &mut cycle.trajectory else { return };
@@ -359,7 +359,7 @@ fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         trajectory.points.push(TrajectoryPoint { t_ns: last.t_ns + dt_ns, ..last });
     }
     let braking = ego.speed * ego.speed / (2.0 * p.a_b) - p.start_tolerance;
-    let stop = draw.near(braking.max(obstacle::s_stop(cycle) - ego.length)).max(0.0);
+    let stop = draw.near(braking.max(base::s_stop(cycle) - ego.length)).max(0.0);
     for point in &mut trajectory.points {
         let along = (ego.speed * seconds(point.t_ns - cycle.now_ns)).min(stop);
         (point.x, point.y) = frame.at(along, 0.0);

@@ -3,22 +3,9 @@
 
 use mufasa_model::input::cycle::{Cycle, Profile, TrajectoryPoint};
 
-use super::base::{self, Frame, to_ns};
+use super::base::{self, Frame, Obstacle, s_stop, to_ns};
 use super::draw::Draw;
 use super::end;
-
-/// An object and the trajectory point at which it is where it is.
-#[derive(Clone, Copy, Debug)]
-pub struct Obstacle {
-    /// Centre and direction.
-    pub frame: Frame,
-    /// Length and width, m.
-    pub size: (f64, f64),
-    /// Index of the trajectory point.
-    pub point: usize,
-    /// Unit vector away from the CAV's rectangle, along which it may move without harm.
-    pub away: (f64, f64),
-}
 
 /// An object that decides a cycle with `horizon` metres examined (H-04 included by the caller).
 pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: f64) -> Obstacle {
@@ -181,13 +168,6 @@ fn with_stop(cycle: &Cycle, s: f64) -> f64 {
         Profile::Paper => s,
         Profile::Hardened => s.max(s_stop(cycle)),
     }
-}
-
-/// `s_stop` of a trajectory that starts at the CAV, rounded, m.
-pub fn s_stop(cycle: &Cycle) -> f64 {
-    let (p, v) = (&cycle.parameters, cycle.ego.speed);
-    let reached = v + p.a_max * p.tau;
-    v * p.tau + p.a_max * p.tau * p.tau / 2.0 + reached * reached / (2.0 * p.a_b)
 }
 
 /// The object at a place of the CAV's rectangle's frame.

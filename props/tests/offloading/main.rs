@@ -6,6 +6,7 @@ mod fallback;
 mod protocol;
 mod provider;
 mod quality_of_service;
+mod recovery;
 mod requester;
 mod stations;
 
