@@ -44,7 +44,7 @@ const SLICE: Duration = Duration::from_micros(400);
 const EVICTION_BYTES: usize = 96 << 20;
 
 /// Runs all contestants, round after round.
-pub fn race(contestants: &mut [Entry<'_>], rounds: Rounds) -> Vec<Time> {
+pub fn measure(contestants: &mut [Entry<'_>], rounds: Rounds) -> Vec<Time> {
     let calls: Vec<u32> = contestants.iter_mut().map(|it| calls_in_slice(&mut it.run)).collect();
     let mut warm = vec![Vec::new(); contestants.len()];
     for round in 0..rounds.warm {
@@ -130,7 +130,7 @@ mod tests {
             }),
             ..contestant("sleep", 1)
         };
-        let times = race(&mut [contestant("short", 100), sleep], Rounds { warm: 3, cold: 1 });
+        let times = measure(&mut [contestant("short", 100), sleep], Rounds { warm: 3, cold: 1 });
         assert!(times[0].warm_us < times[1].warm_us, "{times:?}");
         assert!(times[1].cold_us.is_some_and(|cold| cold >= 1e3), "{times:?}");
     }

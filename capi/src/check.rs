@@ -57,7 +57,7 @@ pub unsafe extern "C" fn mufasa_check(
     // SAFETY: the caller's duty.
     let answer = unsafe { check(cycle, scratch, scratch_bytes) };
     let (status, told) = match answer {
-        Ok(Ok(answer)) => (MufasaStatus::Ok, report::report(&answer)),
+        Ok(Ok(answer)) => (MufasaStatus::Ok, report::report_of(&answer)),
         Ok(Err(problem)) => (MufasaStatus::Ok, report::error(Some(problem))),
         Err(status) => (status, report::error(None)),
     };

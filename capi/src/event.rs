@@ -94,7 +94,7 @@ pub struct MufasaAction {
 pub const MUFASA_MAX_ACTIONS: usize = 8;
 
 /// The event of `mufasa`.
-pub(crate) fn event(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
+pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
     let &MufasaEvent { t_ns, event_type, station, session, generated_ns, .. } = raw;
     let kinds = [
         MufasaEventType::Offer,

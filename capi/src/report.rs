@@ -213,7 +213,7 @@ pub(crate) fn error(problem: Option<InvalidInput>) -> MufasaReport {
 }
 
 /// The report of a cycle that was checked.
-pub(crate) fn report(report: &Report) -> MufasaReport {
+pub(crate) fn report_of(report: &Report) -> MufasaReport {
     MufasaReport {
         verdict: match report.failed_stage {
             None => MufasaVerdict::Safe,

@@ -243,7 +243,7 @@ unsafe fn step(
     event: *const MufasaEvent,
 ) -> Result<Actions, MufasaStatus> {
     // SAFETY: the caller's duty.
-    let event = event::event(unsafe { required(event) }?)?;
+    let event = event::event_of(unsafe { required(event) }?)?;
     // SAFETY: the caller's duty.
     let &MufasaRequester { suspended, stations } = unsafe { required(requester) }?;
     // SAFETY: the requester was not null (checked), so it comes from `init`, which was given memory

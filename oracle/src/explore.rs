@@ -212,7 +212,7 @@ fn explore(
     bar.set_message("the parts");
     bar.tick();
     let start = Instant::now();
-    let outcome = run::run(world, profile, threads, |progress| {
+    let outcome = run::explore(world, profile, threads, |progress| {
         bar.set_message(words(progress, start));
         bar.tick();
     });
@@ -286,7 +286,7 @@ fn look_for_unseen(profile: Profile, outcomes: &[WorldOutcome], err: &mut impl W
 
 /// The chart of a trace, for the explorer page.
 fn draw(system: &System, trace: &[Move]) -> Option<String> {
-    let episodes = replay::replay(system, trace).ok()?;
+    let episodes = replay::walk(system, trace).ok()?;
     Some(chart::draw(system, &title(system.world(), system.profile()), "", &episodes))
 }
 

@@ -22,7 +22,7 @@ fn kept(name: &str) -> String {
 /// The world without an attacker, which is small, in the paper profile.
 fn honest() -> Vec<WorldOutcome> {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
-    vec![run::run(world, Profile::Paper, 0, |_| {}).unwrap()]
+    vec![run::explore(world, Profile::Paper, 0, |_| {}).unwrap()]
 }
 
 /// F-12 is what the exploration finds today, neither longer nor shorter.

@@ -11,7 +11,7 @@ use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_records::{self as json, Record};
 use mufasa_theorems::numbers::real::formula::Formula;
-use mufasa_theorems::prove::{Decision, prove};
+use mufasa_theorems::prove::{Decision, prove_claim};
 use mufasa_theorems::report::Reading as SymbolicReading;
 use mufasa_theorems::{stages as symbolic_schedule, theorem, witness};
 
@@ -122,7 +122,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
         };
         let exact = stages::check(&cycle, Reading::Exact).expect("the local input is valid");
         let expected = format!("{:?}", exact.failed_stage);
-        let proof = prove(&|| {
+        let proof = prove_claim(&|| {
             let symbolic = symbolic_schedule::check(&cycle, SymbolicReading::Exact);
             let failed = symbolic.map(|report| report.failed_stage);
             Formula::from(failed.is_ok_and(|failed| format!("{failed:?}") == expected))

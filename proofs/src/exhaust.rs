@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::caught::caught;
+use crate::caught::catch;
 
 /// Laws that are judged by the same run.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ impl Topic {
 
     /// Runs every case. Errors are panics: nothing is known of any law then.
     pub fn run(&self) -> Result<Run, String> {
-        caught(self.run)
+        catch(self.run)
     }
 }
 

@@ -10,8 +10,8 @@ mod run;
 mod tape;
 mod values;
 
-pub use self::judge::{BUDGET, Evidence, LEAST_HELD, judge};
-pub use self::run::{Budget, Run, run};
+pub use self::judge::{BUDGET, Evidence, LEAST_HELD, judge_harness};
+pub use self::run::{Budget, Run, run_harness};
 pub use self::values::{Arbitrary, any, below, near, near_integer};
 
 use std::boxed::Box;

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::panic::catch_unwind;
 
 use mufasa_proofs::harness::ALL;
-use mufasa_proofs::kani::{self, BUDGET, Budget, Evidence, judge, run};
+use mufasa_proofs::kani::{self, BUDGET, Budget, Evidence, judge_harness, run_harness};
 
 #[path = "support/expected.rs"]
 mod expected;
@@ -20,7 +20,7 @@ fn every_harness_holds_and_reaches_its_covers() {
     for expected in expected::expected().iter().filter(|one| one.id.contains(&only)) {
         let (_, harness) = ALL.iter().find(|(id, _)| *id == expected.id).expect("it is listed");
         let covers: BTreeSet<&str> = expected.covers.iter().map(String::as_str).collect();
-        let verdict = judge(*harness, &covers);
+        let verdict = judge_harness(*harness, &covers);
         let (kind, found) = match &verdict {
             Evidence::Every(run) => ("every", run),
             Evidence::Some(run) => ("some", run),
@@ -40,7 +40,7 @@ mod engine {
 
     #[test]
     fn finite_domains_are_run_completely() {
-        let found = run(
+        let found = run_harness(
             || {
                 let (a, b): (bool, u8) = (kani::any(), kani::below(5));
                 kani::assume(a || b > 0);
@@ -59,9 +59,10 @@ mod engine {
 
     #[test]
     fn domains_too_large_or_of_numbers_are_sampled() {
-        let large = run(|| kani::assume(kani::any::<u8>() == kani::any::<u8>()), FEW);
+        let large = run_harness(|| kani::assume(kani::any::<u8>() == kani::any::<u8>()), FEW);
         assert!(!large.exhaustive && large.tried == FEW.random && large.held > 0);
-        let numbers = run(|| assert!(kani::any::<i64>() < i64::MAX || kani::any()), BUDGET_OF_ONE);
+        let numbers =
+            run_harness(|| assert!(kani::any::<i64>() < i64::MAX || kani::any()), BUDGET_OF_ONE);
         assert!(!numbers.exhaustive);
     }
 
@@ -78,7 +79,7 @@ mod engine {
             || assert!((0.0..=1.0).contains(&kani::near(0.0, 1.0))),
         ];
         for harness in harnesses {
-            assert!(catch_unwind(|| run(harness, BUDGET)).is_err());
+            assert!(catch_unwind(|| run_harness(harness, BUDGET)).is_err());
         }
     }
 
@@ -86,21 +87,24 @@ mod engine {
     fn what_is_never_reached_shows_nothing() {
         let covers = |names: &[&'static str]| -> BTreeSet<&str> { names.iter().copied().collect() };
         let harness = || kani::cover(kani::any::<bool>() && kani::any(), "both");
-        assert!(matches!(judge(harness, &covers(&["both"])), Evidence::Every(_)));
-        assert!(matches!(judge(harness, &covers(&[])), Evidence::Vacuous(_)));
-        assert!(matches!(judge(harness, &covers(&["both", "other"])), Evidence::Vacuous(_)));
+        assert!(matches!(judge_harness(harness, &covers(&["both"])), Evidence::Every(_)));
+        assert!(matches!(judge_harness(harness, &covers(&[])), Evidence::Vacuous(_)));
+        assert!(matches!(
+            judge_harness(harness, &covers(&["both", "other"])),
+            Evidence::Vacuous(_)
+        ));
         let never = || kani::cover(kani::below(2) > 1, "never");
-        assert!(matches!(judge(never, &covers(&["never"])), Evidence::Vacuous(_)));
+        assert!(matches!(judge_harness(never, &covers(&["never"])), Evidence::Vacuous(_)));
         let rare = || kani::assume(kani::any::<f64>().to_bits() == 0x3ff8_1234_5678_9abc);
-        assert!(matches!(judge(rare, &covers(&[])), Evidence::Vacuous(_)));
+        assert!(matches!(judge_harness(rare, &covers(&[])), Evidence::Vacuous(_)));
         let wrong = || assert!(kani::any::<u8>() != 7, "seven");
-        let refuted = judge(wrong, &covers(&[]));
+        let refuted = judge_harness(wrong, &covers(&[]));
         assert!(matches!(&refuted, Evidence::Refuted(why) if why.contains("seven")), "{refuted:?}");
     }
 
     #[test]
     fn runs_are_repeatable() {
         let harness = || kani::cover(kani::any::<i64>() > kani::any(), "greater");
-        assert_eq!(run(harness, FEW), run(harness, FEW));
+        assert_eq!(run_harness(harness, FEW), run_harness(harness, FEW));
     }
 }

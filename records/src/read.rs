@@ -9,7 +9,7 @@ use crate::names::Kind;
 use crate::record::offloading::{Offloading, Trace};
 use crate::record::value::Word;
 use crate::record::{Recorded, composition, cycle, from_object};
-use crate::typed::typed;
+use crate::typed::from_json;
 
 /// A record of one of the kinds of `spec/5-interfaces.md`.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,16 +56,16 @@ from_object!(Head, Name);
 
 /// Reads a record. The text is JSON wherever the error is.
 pub fn record(json: &str) -> Result<Record, InvalidInput> {
-    let Head { kind: Word(kind), id } = typed(json)?;
+    let Head { kind: Word(kind), id } = from_json(json)?;
     Ok(match kind {
         Kind::Cycle => {
-            Record::Cycle { id, cycle: Box::new(typed::<cycle::Cycle>(json)?.try_into()?) }
+            Record::Cycle { id, cycle: Box::new(from_json::<cycle::Cycle>(json)?.try_into()?) }
         }
         Kind::Offloading => {
-            Record::Offloading { id, trace: typed::<Offloading>(json)?.try_into()? }
+            Record::Offloading { id, trace: from_json::<Offloading>(json)?.try_into()? }
         }
         Kind::Composition => {
-            let record: composition::Composition = typed(json)?;
+            let record: composition::Composition = from_json(json)?;
             Record::Composition { id, task: record.into_model() }
         }
     })

@@ -10,7 +10,7 @@ use crate::error::text;
 const EXCERPT_CHARS: usize = 40;
 
 /// Reads a part of a record. Errors name the field below `json`.
-pub fn typed<T: DeserializeOwned>(json: &str) -> Result<T, InvalidInput> {
+pub fn from_json<T: DeserializeOwned>(json: &str) -> Result<T, InvalidInput> {
     serde_json::from_str(json).map_err(|error| {
         // The path costs time and is only needed when there is an error.
         let mut reader = serde_json::Deserializer::from_str(json);

@@ -11,7 +11,7 @@ use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer;
 use mufasa_benches::plot::{Line, Panel, svg};
-use mufasa_benches::race::{Entry, Rounds, race};
+use mufasa_benches::race::{Entry, Rounds, measure};
 use mufasa_benches::table::{BY_HAND, OURS, hardened};
 use mufasa_benches::workload::recipe::Size;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
@@ -100,7 +100,7 @@ fn times(workload: &Workload, stages: &[Stage]) -> [f64; 4] {
         // A trajectory of a few points is refused by the hardened profile: its time says nothing.
         let refused = !verdicts[1];
         assert!(verdicts.iter().filter(|&&passes| !passes).count() <= usize::from(refused));
-        let times = race(&mut entries, Rounds { warm: 7, cold: 0 });
+        let times = measure(&mut entries, Rounds { warm: 7, cold: 0 });
         let (by_hand, libraries): (Vec<_>, Vec<_>) =
             times.iter().skip(2).partition(|time| time.name == BY_HAND);
         let best = libraries.iter().map(|time| time.warm_us).fold(f64::MAX, f64::min);

@@ -13,7 +13,7 @@ use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
 use mufasa_benches::peer::{self, corridor::Trees};
-use mufasa_benches::race::{Entry, Rounds, race};
+use mufasa_benches::race::{Entry, Rounds, measure};
 use mufasa_benches::table::{
     Cache, OURS, Results, STAGES, TEAMS, Team, UNSEEN, hardened, markdown,
 };
@@ -111,11 +111,11 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     let run = move || it.check().failed_stage.is_none();
     contestants.push(contestant(UNSEEN, hardened(), false, Box::new(run)));
     agree(&mut contestants, true);
-    let times = race(&mut contestants, rounds);
+    let times = measure(&mut contestants, rounds);
     let mut results = Results { workload: workload.name.clone(), times };
     let mut contestants = whole_cycles(&results, [&paper, &strict]);
     agree(&mut contestants, true);
-    results.times.extend(race(&mut contestants, rounds));
+    results.times.extend(measure(&mut contestants, rounds));
     for (task, variant, stage) in VARIANTS {
         let workload = Workload::new(size, variant);
         let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
@@ -129,7 +129,7 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         contestants.extend(peers.map(|peer| by_peer(task, peer)));
         agree(&mut contestants, false);
         let rounds = Rounds { warm: (rounds.warm / 3) | 1, cold: (rounds.cold / 3) | 1 };
-        results.times.extend(race(&mut contestants, rounds));
+        results.times.extend(measure(&mut contestants, rounds));
     }
     results
 }

@@ -5,7 +5,7 @@ use mufasa_exploration::run::WorldOutcome;
 use mufasa_model::input::cycle::Profile;
 
 /// Sights with the length of a shortest trace to them, and the reach of endless runs.
-pub fn evidence(property: Property, profile: Profile, outcomes: &[WorldOutcome]) -> String {
+pub fn of_property(property: Property, profile: Profile, outcomes: &[WorldOutcome]) -> String {
     let mut parts = Vec::new();
     let reaches = outcomes.iter().flat_map(|outcome| &outcome.results);
     let reaches =

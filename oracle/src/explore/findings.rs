@@ -52,7 +52,7 @@ fn story(
     } else {
         String::from("explored-F-12")
     };
-    let episodes = replay::replay(system, &[found.trace.as_slice(), &found.circle].concat());
+    let episodes = replay::walk(system, &[found.trace.as_slice(), &found.circle].concat());
     Some(episodes.map(|episodes| Story { name, property, system, episodes }))
 }
 

@@ -157,7 +157,7 @@ impl PropertyRow {
             holds_in: asked.len() - moves.len(),
             fails_in: moves.len(),
             shortest_counterexample: moves.into_iter().min(),
-            shown_by: evidence::evidence(property, profile, outcomes),
+            shown_by: evidence::of_property(property, profile, outcomes),
         }
     }
 

@@ -6,7 +6,7 @@ use wasmparser::{BlockType, Operator};
 
 use crate::machine::{Machine, Run};
 use crate::module::{Body, Module};
-use crate::numeric::numeric;
+use crate::numeric;
 use crate::smt::Possible;
 use crate::state::{Label, State, merged};
 use crate::term::{Op, Term};
@@ -274,7 +274,7 @@ impl<'a> Machine<'a> {
             }
             Operator::Nop => {}
             other => {
-                if !numeric(other, state, &mut self.terms) && !self.memory(other, state)? {
+                if !numeric::apply(other, state, &mut self.terms) && !self.memory(other, state)? {
                     return Err(format!("no support for {other:?}"));
                 }
             }

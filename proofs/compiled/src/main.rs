@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{Trap, prove};
+use mufasa_compiled::prove::{Trap, prove_export};
 
 /// The machine calls itself for blocks in blocks.
 const STACK_BYTES: usize = 1 << 30;
@@ -28,7 +28,7 @@ fn judge() -> Result<(), String> {
     let seconds: u32 =
         seconds.first().map_or(Ok(120), |text| text.parse()).map_err(|_| "seconds")?;
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
-    let found = prove(&Module::read(&bytes)?, export, seconds.saturating_mul(1000))?;
+    let found = prove_export(&Module::read(&bytes)?, export, seconds.saturating_mul(1000))?;
     match &found.trap {
         Trap::Never => println!("proved"),
         Trap::At(place) => println!("refuted: {place}"),

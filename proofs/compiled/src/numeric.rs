@@ -6,7 +6,7 @@ use crate::state::State;
 use crate::term::{Op, Term, Terms};
 
 /// Runs the instruction, if it is one of these.
-pub fn numeric(operator: &Operator<'_>, state: &mut State, terms: &mut Terms) -> bool {
+pub fn apply(operator: &Operator<'_>, state: &mut State, terms: &mut Terms) -> bool {
     use Operator as O;
     let result = match operator {
         O::I32Const { value } => terms.constant(value.cast_unsigned().into(), 32),

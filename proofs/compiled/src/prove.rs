@@ -37,7 +37,7 @@ pub enum Trap {
 pub const END: u32 = 0;
 
 /// Runs the exported harness and asks z3, at most `limit_ms` for each question.
-pub fn prove(module: &Module<'_>, export: &str, limit_ms: u32) -> Result<Found, String> {
+pub fn prove_export(module: &Module<'_>, export: &str, limit_ms: u32) -> Result<Found, String> {
     let mut machine = Machine::new(module);
     let end = machine.run(export)?;
     let mut goals = machine.covers.clone();

@@ -1,7 +1,7 @@
 //! Small modules of which it is known what they do.
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{END, Found, Trap, prove};
+use mufasa_compiled::prove::{END, Found, Trap, prove_export};
 
 /// The judgement on a body that may draw, assume and cover, with 64 bytes of memory in use.
 fn judge(body: &str) -> Found {
@@ -23,7 +23,7 @@ fn judge(body: &str) -> Found {
         (func (export "run") (local $x i64) (local $y i64) (local $i i32) {body}))"#
     );
     let bytes = wat::parse_str(text).expect("WebAssembly");
-    prove(&Module::read(&bytes).expect("a module"), "run", 10_000).expect("a judgement")
+    prove_export(&Module::read(&bytes).expect("a module"), "run", 10_000).expect("a judgement")
 }
 
 fn assert_proved(body: &str) {
@@ -173,7 +173,7 @@ fn a_loop_without_end_is_no_proof() {
         (global (export "__heap_base") i32 (i32.const 0))
         (func (export "run") (loop $again (br $again))))"#;
     let bytes = wat::parse_str(text).expect("WebAssembly");
-    let judged = prove(&Module::read(&bytes).expect("a module"), "run", 1000);
+    let judged = prove_export(&Module::read(&bytes).expect("a module"), "run", 1000);
     assert_eq!(judged, Err("50000000 instructions".to_owned()));
 }
 

@@ -2,7 +2,7 @@
 #![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "32 bits of 64")]
 
 use mufasa_compiled::module::Module;
-use mufasa_compiled::prove::{END, Trap, prove};
+use mufasa_compiled::prove::{END, Trap, prove_export};
 
 type Two<T> = (&'static str, fn(T, T) -> T);
 type Compare<T> = (&'static str, fn(T, T) -> bool);
@@ -116,7 +116,8 @@ fn judge(body: &str) -> Trap {
         r#"(module (global (export "__heap_base") i32 (i32.const 0)) (func (export "run") {body}))"#
     );
     let bytes = wat::parse_str(text).expect("WebAssembly");
-    let found = prove(&Module::read(&bytes).expect("a module"), "run", 1000).expect("a judgement");
+    let found =
+        prove_export(&Module::read(&bytes).expect("a module"), "run", 1000).expect("a judgement");
     assert_eq!(found.reached.contains(&END), found.trap == Trap::Never);
     found.trap
 }

@@ -15,7 +15,7 @@ fn main() -> ExitCode {
             if !names.is_empty() && !names.iter().any(|name| name == world.name) {
                 continue;
             }
-            let outcome = match run::run(world, profile, 0, |_| {}) {
+            let outcome = match run::explore(world, profile, 0, |_| {}) {
                 Ok(outcome) => outcome,
                 Err(difference) => {
                     println!("{profile:?} {} refinement: {difference}", world.name);

@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 use std::hash::Hash;
 
-use super::fit::fit;
+use super::fit::fitted;
 use mufasa_props::refine::Difference;
 
 /// Something that reacts.
@@ -66,7 +66,7 @@ impl<P: Part> Automaton<P> {
                     None => IMPOSSIBLE,
                     Some((mut next, effect)) => {
                         let likeness = next.likeness();
-                        let new = fit(automaton.likenesses.len());
+                        let new = fitted(automaton.likenesses.len());
                         let id = *automaton.ids.entry(likeness.clone()).or_insert(new);
                         if id == new {
                             automaton.likenesses.push(likeness);
@@ -75,7 +75,7 @@ impl<P: Part> Automaton<P> {
                         let effects = &mut automaton.effects;
                         let effect = *known_effects.entry(effect).or_insert_with_key(|effect| {
                             effects.push(effect.clone());
-                            fit(effects.len() - 1)
+                            fitted(effects.len() - 1)
                         });
                         (id, effect)
                     }

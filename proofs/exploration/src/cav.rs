@@ -19,7 +19,7 @@ use mufasa_model::services::configuration::{Offloadable, Source};
 
 use super::automaton::Part;
 use super::bounds::{STATIONS, Ticks, World};
-use super::fit::fit;
+use super::fit::fitted;
 use mufasa_props::refine::{Difference, Pair};
 
 /// A requester of a world at a time.
@@ -239,8 +239,8 @@ impl CavPart {
             }
         }
         let stranger = u8::from(world.attacker);
-        let senders = fit::<_, u8>(world.stations.len()) + stranger;
-        let oldest = fit(world.ticks.l_max + 1);
+        let senders = fitted::<_, u8>(world.stations.len()) + stranger;
+        let oldest = fitted(world.ticks.l_max + 1);
         for station in 1..=senders {
             for group in world.groups() {
                 for current in [true, false] {
@@ -291,11 +291,11 @@ impl CavPart {
             Action::Request { station, group, session } => {
                 let fresh = session > self.highest;
                 self.highest = self.highest.max(session);
-                Deed::Request { station: fit(station), group, fresh }
+                Deed::Request { station: fitted(station), group, fresh }
             }
             Action::Release { station, group, session } => {
                 let current = Some(session) == current(&before.pair, group);
-                Deed::Release { station: fit(station), group, current }
+                Deed::Release { station: fitted(station), group, current }
             }
             Action::Activate(group) => Deed::Activate(group),
             Action::Deactivate(group) => Deed::Deactivate(group),
@@ -308,16 +308,16 @@ impl CavPart {
         match model.state(group) {
             GroupState::Local => Use::Local,
             GroupState::Requested { station, deadline_ns, .. } => {
-                Use::Requested { station: fit(station), left: self.left(deadline_ns) }
+                Use::Requested { station: fitted(station), left: self.left(deadline_ns) }
             }
             GroupState::Remote { station, .. } => {
                 let session = model.session_of(group).expect("a remote group has a session");
                 let age = |generated: i64| {
                     let age = self.now.saturating_sub(generated).min(self.ticks.l_max + 1);
-                    fit(age)
+                    fitted(age)
                 };
                 Use::Remote {
-                    station: fit(station),
+                    station: fitted(station),
                     silent: self.since(session.last_arrival_ns, self.ticks.dt_max + 1),
                     used: session.last_used_generated_ns.map(age),
                     local_computes: session.local_computes,
@@ -328,12 +328,12 @@ impl CavPart {
 
     /// Ticks until a time, at least 0.
     fn left(&self, until: i64) -> u8 {
-        fit(until.saturating_sub(self.now).max(0))
+        fitted(until.saturating_sub(self.now).max(0))
     }
 
     /// Ticks since a time, at most `limit`.
     fn since(&self, time: i64, limit: i64) -> u8 {
-        fit(self.now.saturating_sub(time).min(limit))
+        fitted(self.now.saturating_sub(time).min(limit))
     }
 
     fn turns(&self, group: Group) -> [u8; STATIONS] {
@@ -361,7 +361,7 @@ impl Part for CavPart {
         }
         let source = |service: Offloadable| match model.source(service.group()) {
             Source::Local => None,
-            Source::Remote { station } => Some(fit(station)),
+            Source::Remote { station } => Some(fitted(station)),
         };
         CavLikeness {
             groups: Group::ALL.map(|group| self.use_of(group)),

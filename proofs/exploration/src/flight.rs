@@ -1,6 +1,6 @@
 //! Messages in flight, and the ranks of the sessions that they and the stations name.
 
-use super::fit::fit;
+use super::fit::fitted;
 use super::state::{Letter, Message, State};
 
 /// Takes a message out of flight, or a copy of it.
@@ -49,7 +49,7 @@ pub(crate) fn tidy(state: &mut State) {
     // The rank of an ended session is one more than the number of newer ended ones.
     let closed = |ranks: u8, rank: u8| {
         let newer = ranks & ((1 << rank) - 1) & !1;
-        if rank == 0 { 0 } else { 1 + fit::<_, u8>(newer.count_ones()) }
+        if rank == 0 { 0 } else { 1 + fitted::<_, u8>(newer.count_ones()) }
     };
     for (station, memory) in state.stations.iter_mut().enumerate() {
         for cav in 0..memory.runs.len() {

@@ -5,7 +5,7 @@
 //! makes the search itself simple: a run avoids what is wanted for ever exactly when it comes
 //! back to a state, or ends.
 
-use super::fit::fit;
+use super::fit::fitted;
 use super::moves::Move;
 use super::search::Explored;
 use super::system::System;
@@ -75,7 +75,7 @@ pub fn find(
     };
     let mut ahead = 0;
     for start in 0..explored.len() {
-        let start = fit(start);
+        let start = fitted(start);
         if (hunt.aim)(explored.state(start)) != Aim::Ahead {
             continue;
         }

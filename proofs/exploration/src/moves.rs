@@ -3,7 +3,7 @@
 use mufasa_model::offloading::requester::Group;
 
 use super::cav::Named;
-use super::fit::fit;
+use super::fit::fitted;
 use super::state::{Letter, Message};
 
 /// Something that happens.
@@ -54,7 +54,7 @@ pub enum Move {
 impl Letter {
     /// The session that the letter names to a CAV.
     pub fn named(&self) -> Named {
-        let station = fit::<_, u8>(self.station) + 1;
+        let station = fitted::<_, u8>(self.station) + 1;
         Named { station, group: self.group(), current: self.rank == 0 }
     }
 }

@@ -3,7 +3,7 @@
 use mufasa_model::offloading::requester::Group;
 
 use super::cav::{Named, Stimulus};
-use super::fit::fit;
+use super::fit::fitted;
 use super::moves::Move;
 use super::state::{Kind, State};
 use super::system::System;
@@ -22,7 +22,7 @@ impl System {
             for group in Group::ALL {
                 let running = self.cav(state, cav).groups[group as usize].remote();
                 if running.is_some() && self.world().has_network() {
-                    out.push(Move::Alive { cav: fit(cav), group });
+                    out.push(Move::Alive { cav: fitted(cav), group });
                 }
             }
         }
@@ -35,7 +35,7 @@ impl System {
         }
         for (station, memory) in state.stations.iter().enumerate() {
             if memory.runs.iter().flatten().any(|session| *session > 0) {
-                out.push(Move::Crash { station: fit(station) });
+                out.push(Move::Crash { station: fitted(station) });
             }
         }
     }
@@ -56,7 +56,7 @@ impl System {
             if !may || !possible() {
                 continue;
             }
-            let event = |rank| Move::Event { cav: fit(cav), place: fit(place), rank };
+            let event = |rank| Move::Event { cav: fitted(cav), place: fitted(place), rank };
             out.push(event(None));
             if let Stimulus::Confirm(named @ Named { current: false, .. }) = *stimulus {
                 out.extend(ended(state, cav, named).map(|rank| event(Some(rank))));

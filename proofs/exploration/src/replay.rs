@@ -11,7 +11,7 @@ use mufasa_model::offloading::requester::{Action, Event, EventKind, Group, Group
 
 use super::automaton::Part;
 use super::cav::{CavPart, Named};
-use super::fit::fit;
+use super::fit::fitted;
 use super::moves::Move;
 use super::state::{Kind, Letter, Message, State};
 use super::station::StationPart;
@@ -135,7 +135,7 @@ impl From<Box<Difference>> for ReplayError {
 
 /// Walks a trace from the start, at 0 ns, one tick being 1 ns, beside the explored system. Errors:
 /// model and implementation differ, a move cannot happen, or the states differ.
-pub fn replay(system: &System, trace: &[Move]) -> Result<Vec<Episode>, ReplayError> {
+pub fn walk(system: &System, trace: &[Move]) -> Result<Vec<Episode>, ReplayError> {
     let (mut replay, mut state) = (Replay::new(system, 0)?, system.start());
     let walk = trace.iter().map(|by| {
         let episode = replay.go(*by)?;
@@ -371,7 +371,7 @@ impl<'a> Replay<'a> {
     fn rank(&self, cav: usize, group: Group, station: i64, session: i64) -> u8 {
         let known = self.numbers(cav, group, station);
         let ended = known.iter().position(|number| *number == session);
-        ended.map_or(0, |place| fit(place + 1))
+        ended.map_or(0, |place| fitted(place + 1))
     }
 }
 
@@ -386,14 +386,14 @@ fn look(pair: &Pair) -> Look {
 }
 
 fn requester(cav: usize) -> i64 {
-    fit(cav)
+    fitted(cav)
 }
 
 fn station_id(place: usize) -> i64 {
-    fit::<_, i64>(place) + 1
+    fitted::<_, i64>(place) + 1
 }
 
 /// The place of a station; that of one that the world does not have is out of range.
 fn place(station: i64) -> usize {
-    fit(station - 1)
+    fitted(station - 1)
 }

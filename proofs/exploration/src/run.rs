@@ -71,7 +71,7 @@ pub struct Counterexample {
 
 /// Explores a world. `threads`: of the second engine, which is not asked with 0. Errors: model
 /// and implementation of the requester differ.
-pub fn run(
+pub fn explore(
     world: &'static World,
     profile: Profile,
     threads: usize,

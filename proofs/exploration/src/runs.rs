@@ -10,7 +10,7 @@
 use mufasa_model::offloading::requester::Group;
 
 use super::cav::{Named, Stimulus};
-use super::fit::fit;
+use super::fit::fitted;
 use super::lasso::{Aim, Leap};
 use super::moves::Move;
 use super::state::{Kind, Message, State};
@@ -158,7 +158,7 @@ impl Walk<'_> {
 
     fn event(&mut self, cav: usize, stimulus: Stimulus) -> Option<()> {
         let place = self.system.requesters().place(&stimulus)?;
-        self.go(Move::Event { cav: fit(cav), place: fit(place), rank: None })
+        self.go(Move::Event { cav: fitted(cav), place: fitted(place), rank: None })
     }
 
     fn tick(&mut self) -> Option<()> {
@@ -170,7 +170,7 @@ impl Walk<'_> {
     fn session_works(&mut self, cav: usize, group: Group) -> Option<()> {
         let running = self.system.cav(&self.state, cav).groups[group as usize].remote();
         let Some(station) = running else { return Some(()) };
-        self.go(Move::Alive { cav: fit(cav), group })?;
+        self.go(Move::Alive { cav: fitted(cav), group })?;
         let alive = in_flight(&self.state).next()?;
         self.go(Move::Deliver { message: alive, kept: false })?;
         if !runs(&self.state, station, cav, group) {

@@ -3,7 +3,7 @@
 //! Every state is stored whole, so two states are never taken for one. States are found in the
 //! order of their distance from the start, so the first finding of a kind has a shortest trace.
 
-use super::fit::fit;
+use super::fit::fitted;
 use super::moves::Move;
 use super::properties::{Property, Set, Sight};
 use super::system::System;
@@ -68,7 +68,7 @@ pub fn explore(system: &System, mut report: impl FnMut(Progress)) -> Explored {
         if done % REPORT_EVERY == 0 {
             report(Progress { states: index.len(), done, depth, transitions });
         }
-        let from = fit(done);
+        let from = fitted(done);
         let state = layout.unpack(index.state(from));
         moves.clear();
         system.moves(&state, &mut moves);
@@ -197,7 +197,7 @@ impl Index {
             return false;
         }
         self.states.push(state);
-        self.slots[slot] = fit(self.states.len());
+        self.slots[slot] = fitted(self.states.len());
         true
     }
 
@@ -217,7 +217,7 @@ impl Index {
         self.slots.resize(size, 0);
         for place in 0..self.states.len() {
             let slot = self.slot(self.states[place]);
-            self.slots[slot] = fit(place + 1);
+            self.slots[slot] = fitted(place + 1);
         }
     }
 }
@@ -225,7 +225,7 @@ impl Index {
 /// Spreads states over slots; nothing depends on it but speed.
 fn scatter(state: u128) -> usize {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
-    let [high, low] = [state >> 64, state & u128::from(u64::MAX)].map(fit::<_, u64>);
+    let [high, low] = [state >> 64, state & u128::from(u64::MAX)].map(fitted::<_, u64>);
     let mixed = (low ^ high.wrapping_mul(ODD).rotate_left(29)).wrapping_mul(ODD);
-    fit((mixed ^ mixed >> 32) & 0xffff_ffff)
+    fitted((mixed ^ mixed >> 32) & 0xffff_ffff)
 }

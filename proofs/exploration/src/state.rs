@@ -12,7 +12,7 @@
 use mufasa_model::offloading::requester::Group;
 
 use super::bounds::{IN_FLIGHT, REQUESTERS, STATIONS, World};
-use super::fit::fit;
+use super::fit::fitted;
 
 /// A state of the system.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -140,14 +140,14 @@ impl Message {
             debug_assert!(field < 1 << bits);
             packed << bits | field
         });
-        Self(fit(packed))
+        Self(fitted(packed))
     }
 
     /// What it says; `None` for a free place.
     pub fn letter(self) -> Option<Letter> {
         let field = |shift: u32, bits: u32| usize::from(self.0 >> shift) & ((1 << bits) - 1);
         let kind = *Kind::ALL.get(field(7, 3).checked_sub(1)?)?;
-        let rank = fit(field(0, 3));
+        let rank = fitted(field(0, 3));
         Some(Letter { kind, station: field(5, 2), cav: field(4, 1), group: field(3, 1), rank })
     }
 }
@@ -173,7 +173,7 @@ impl Layout {
         for (bits, states) in station_bits.iter_mut().zip(station_states) {
             *bits = width(*states);
         }
-        let values = |most: i64| width(fit::<_, usize>(most) + 1);
+        let values = |most: i64| width(fitted::<_, usize>(most) + 1);
         let layout = Self {
             requesters: world.requesters,
             stations: world.stations.len(),
@@ -189,7 +189,7 @@ impl Layout {
 
     /// Bits of a state.
     pub fn bits(&self) -> u32 {
-        let times = |count: usize, bits: u32| fit::<_, u32>(count) * bits;
+        let times = |count: usize, bits: u32| fitted::<_, u32>(count) * bits;
         let session = times(self.requesters * 2, RANK_BITS + self.unheard_bits);
         times(self.requesters, self.cav_bits + 3 + self.blocked_bits + 4)
             + self.station_bits.iter().sum::<u32>()
@@ -226,12 +226,12 @@ impl Layout {
         let mut shift = self.bits();
         let mut take = |bits: u32| {
             shift -= bits;
-            fit::<_, u32>(packed >> shift & ((1 << bits) - 1))
+            fitted::<_, u32>(packed >> shift & ((1 << bits) - 1))
         };
         for cav in &mut state.cavs[..self.requesters] {
             cav.id = take(self.cav_bits);
-            cav.stopped = fit(take(3));
-            cav.blocked = fit(take(self.blocked_bits));
+            cav.stopped = fitted(take(3));
+            cav.blocked = fitted(take(self.blocked_bits));
             cav.proof = [(); 2].map(|()| match take(2) {
                 0 => Proof::None,
                 1 => Proof::Used,
@@ -242,13 +242,13 @@ impl Layout {
             station.id = take(bits);
             for cav in 0..self.requesters {
                 for group in 0..2 {
-                    station.runs[cav][group] = fit(take(RANK_BITS));
-                    station.unheard[cav][group] = fit(take(self.unheard_bits));
+                    station.runs[cav][group] = fitted(take(RANK_BITS));
+                    station.unheard[cav][group] = fitted(take(self.unheard_bits));
                 }
             }
         }
         for message in &mut state.flight[..self.in_flight] {
-            *message = Message(fit(take(MESSAGE_BITS)));
+            *message = Message(fitted(take(MESSAGE_BITS)));
         }
         state
     }

@@ -10,7 +10,7 @@ use mufasa_model::offloading::requester::Group;
 
 use super::automaton::Part;
 use super::bounds::{REQUESTERS, World};
-use super::fit::fit;
+use super::fit::fitted;
 use mufasa_props::refine::Difference;
 
 /// A provider of a world at a time.
@@ -139,7 +139,7 @@ impl Part for StationPart {
             *ages = Group::ALL.map(|group| {
                 let heard = self.provider.last_heard_ns(cav, group)?;
                 let age = self.now.saturating_sub(heard).min(self.lease);
-                Some(fit(age))
+                Some(fitted(age))
             });
         }
         StationLikeness { ages, valid: self.provider.is_valid() }

@@ -9,7 +9,7 @@ use mufasa_model::offloading::requester::Group;
 use super::automaton::Automaton;
 use super::bounds::World;
 use super::cav::{CavLikeness, CavPart, Deed, Stimulus};
-use super::fit::fit;
+use super::fit::fitted;
 use super::flight::{end_session, take, tidy};
 use super::moves::Move;
 use super::observer::{CavStep, Observed};
@@ -54,7 +54,7 @@ impl System {
             world.stations.iter().map(|it| provider(it.capacity)).collect::<Result<Vec<_>, _>>()?;
         let sizes: Vec<usize> = providers.iter().map(Automaton::len).collect();
         let layout = Layout::new(world, requesters.len(), &sizes);
-        let (t_wait, lease) = (fit(world.ticks.t_wait), fit(world.ticks.lease));
+        let (t_wait, lease) = (fitted(world.ticks.t_wait), fitted(world.ticks.lease));
         Ok(Self { world, profile, requesters, providers, layout, t_wait, lease })
     }
 
@@ -228,7 +228,7 @@ impl System {
         };
         let before = *self.station(&next.state, station);
         let message =
-            StationStimulus::Message { cav: fit(cav), group: letter.group(), kind, order };
+            StationStimulus::Message { cav: fitted(cav), group: letter.group(), kind, order };
         let effect = self.provider(next, station, message)?;
         let after = *self.station(&next.state, station);
         self.judge_message(next, letter, order, [&before, &after]);

@@ -47,7 +47,7 @@ fn explore_all(profile: Profile, expected: &[Sizes]) -> Vec<WorldOutcome> {
     let worlds = Bounds::Small.worlds();
     let outcomes: Vec<_> = worlds
         .iter()
-        .map(|world| run::run(world, profile, 1, |_| {}).unwrap_or_else(|it| panic!("{it}")))
+        .map(|world| run::explore(world, profile, 1, |_| {}).unwrap_or_else(|it| panic!("{it}")))
         .collect();
     let sizes: Vec<Sizes> = outcomes
         .iter()
@@ -107,7 +107,7 @@ fn traces_are_real(outcome: &WorldOutcome) {
     let sights = outcome.seen.iter().map(|(_, trace)| trace.clone());
     let failures = outcome.results.iter().filter_map(|it| it.counterexample.as_ref());
     for trace in sights.chain(failures.map(|it| [&it.trace[..], &it.circle].concat())) {
-        let walked = replay::replay(&outcome.system, &trace);
+        let walked = replay::walk(&outcome.system, &trace);
         let name = outcome.system.world().name;
         assert_eq!(walked.map(|it| it.len()), Ok(trace.len()), "{name}: {trace:?}");
     }
@@ -128,7 +128,7 @@ fn left_sessions_end_within_the_lease(outcome: &WorldOutcome) {
 fn a_session_whose_release_is_lost_ends_with_its_lease() {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").expect("honest");
     for profile in [Profile::Paper, Profile::Hardened] {
-        let outcome = run::run(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
+        let outcome = run::explore(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
         let mut seen = outcome.seen.iter();
         let (_, trace) = seen.find(|(it, _)| *it == Sight::ReleaseLost).expect("a lost release");
         let mut trace = trace.clone();
@@ -146,7 +146,7 @@ fn a_session_whose_release_is_lost_ends_with_its_lease() {
             ticks += 1;
         }
         assert!((1..=world.ticks.lease).contains(&ticks), "{ticks} ticks");
-        let walked = replay::replay(&outcome.system, &trace);
+        let walked = replay::walk(&outcome.system, &trace);
         assert_eq!(walked.map(|it| it.len()), Ok(trace.len()));
     }
 }
@@ -179,7 +179,7 @@ fn all_properties_but_f_12_hold_in_the_paper_profile() {
         // Offer, tick, forged confirmation; or offer, tick, request and confirmation delivered.
         let shortest = if outcome.system.world().attacker { 3 } else { 4 };
         assert_eq!(found.trace.len(), shortest);
-        let episodes = replay::replay(&outcome.system, &found.trace).expect("it can be walked");
+        let episodes = replay::walk(&outcome.system, &found.trace).expect("it can be walked");
         let last = episodes.last().expect("some moves");
         assert!(!last.cavs[0].computes[0], "the local services stopped");
         assert!(episodes.iter().rev().skip(1).all(|episode| episode.cavs[0].computes[0]));

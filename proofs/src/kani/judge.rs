@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::string::String;
 use std::vec::Vec;
 
-use super::run::{Budget, Run, run};
-use crate::caught::caught;
+use super::run::{Budget, Run, run_harness};
+use crate::caught::catch;
 
 /// What every harness gets. The largest finite domain, that of the compositions, has 607,360 values.
 pub const BUDGET: Budget = Budget { every: 1_000_000, random: 150_000, seed: 20_250_617 };
@@ -26,8 +26,8 @@ pub enum Evidence {
 }
 
 /// Runs the harness, which has to reach exactly these covers.
-pub fn judge(harness: fn(), covers: &BTreeSet<&str>) -> Evidence {
-    let found = match caught(|| run(harness, BUDGET)) {
+pub fn judge_harness(harness: fn(), covers: &BTreeSet<&str>) -> Evidence {
+    let found = match catch(|| run_harness(harness, BUDGET)) {
         Ok(found) => found,
         Err(message) => return Evidence::Refuted(message),
     };

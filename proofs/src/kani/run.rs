@@ -34,7 +34,7 @@ pub(super) struct Rejected;
 
 /// Runs the harness on every tape if its domain is finite and fits the budget, else on random
 /// tapes. A failed assertion goes on as a panic, after the values that led to it were printed.
-pub fn run(harness: fn(), budget: Budget) -> Run {
+pub fn run_harness(harness: fn(), budget: Budget) -> Run {
     let all = run_tapes(harness, true, budget);
     if all.exhaustive { all } else { run_tapes(harness, false, budget) }
 }

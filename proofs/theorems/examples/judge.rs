@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mufasa_theorems::prove::{Decision, prove};
+use mufasa_theorems::prove::{Decision, prove_claim};
 use mufasa_theorems::theorem;
 use mufasa_theorems::{doubles, gappa};
 
@@ -12,7 +12,7 @@ fn main() -> io::Result<()> {
     let bound = gappa::BOUNDS.iter().find(|bound| bound.id == name);
     let range = doubles::RANGES.iter().find(|range| range.id == name);
     let decision = match (theorem, bound, range) {
-        (Some(theorem), ..) => prove(&theorem.claim)?.decision,
+        (Some(theorem), ..) => prove_claim(&theorem.claim)?.decision,
         (None, Some(bound), _) => bound.judge()?.0,
         (None, None, Some(range)) => range.judge()?.claim,
         (None, None, None) => return Err(io::Error::other("nothing has such a name")),

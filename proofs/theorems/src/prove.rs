@@ -59,15 +59,15 @@ impl Judgement {
 /// Proves a theorem and refutes its wrong variant. Errors are those of talking to the solver.
 pub fn judge(theorem: &Theorem) -> io::Result<Judgement> {
     let start = Instant::now();
-    let Proof { decision: claim, paths } = prove(&theorem.claim)?;
-    let control = prove(&theorem.wrong.claim)?.decision;
+    let Proof { decision: claim, paths } = prove_claim(&theorem.claim)?;
+    let control = prove_claim(&theorem.wrong.claim)?.decision;
     Ok(Judgement { claim, control, paths, time: start.elapsed() })
 }
 
 /// Runs `claim` on every path that its comparisons take, and asks the solver for a
 /// counterexample on each, up to the first path where there is one. Errors are those of talking to
 /// the solver.
-pub fn prove(claim: &dyn Fn() -> Formula) -> io::Result<Proof> {
+pub fn prove_claim(claim: &dyn Fn() -> Formula) -> io::Result<Proof> {
     path::exchange_solver(Some(Solver::start()?));
     path::first();
     let (mut decision, mut paths) = (Decision::Proved, 0);

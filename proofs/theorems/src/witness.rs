@@ -12,7 +12,7 @@ use crate::input::cycle::{Cycle, Profile};
 use crate::input::scene::Scene;
 use crate::numbers::real::formula::{Formula, given, not};
 use crate::numbers::real::hole::name_of;
-use crate::prove::{Decision, prove};
+use crate::prove::{Decision, prove_claim};
 use crate::stages::decide;
 use crate::theorem::base;
 
@@ -31,7 +31,7 @@ impl Search {
     /// A cycle that the paper profile accepts in spite of what is wrong; none where there is none
     /// or the solver knows none. Errors are those of talking to the solver.
     pub fn find(&self) -> io::Result<Option<Cycle>> {
-        let proof = prove(&|| {
+        let proof = prove_claim(&|| {
             let scene = base::scene(&(self.cycle)(Profile::Paper));
             let [bounds, wrong] = (self.conditions)(&scene);
             given(bounds);

@@ -4,8 +4,7 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Lead, Profile, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base;
-use super::base::Obstacle;
+use super::base::{self, Obstacle};
 use super::draw::Draw;
 use super::obstacle;
 use super::track_validation::detection;

@@ -8,7 +8,7 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
-use super::{end, obstacle};
+use super::end;
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {

@@ -3,8 +3,7 @@
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::Obstacle;
-use super::base::{self, seconds};
+use super::base::{self, Obstacle, seconds};
 use super::draw::Draw;
 use super::obstacle;
 use super::track_validation::track;

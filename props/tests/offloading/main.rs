@@ -1,12 +1,12 @@
 //! One test per requirement of `spec/2-offloading.md`, named after its sentence, of the requesters of
 //! model and implementation together: after each step everything that either remembers is compared.
 
-mod dead_states;
 mod deadlines;
 mod fallback;
 mod protocol;
 mod provider;
 mod quality_of_service;
+mod recovery;
 mod requester;
 mod stations;
 

@@ -10,7 +10,7 @@ use mufasa_model::services::configuration::{Offloadable, Source};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::{Cav, PROFILES, TICK, UNSAFE, confirm, data, offer, reject};
+use crate::{PROFILES, TICK, UNSAFE, confirm, data, reject};
 
 const LEASE_NS: i64 = 40;
 const CAV: i64 = 7;

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 use super::value::{Integer, Number};
 use super::{Recorded, from_object};
-use crate::typed::typed;
+use crate::typed::from_json;
 
 /// How a parameter of this type is written.
 macro_rules! written {
@@ -162,8 +162,8 @@ pub fn settings(
     let names = json!(ProtocolParameters { whole: true, ..ProtocolParameters::default() });
     let is_protocol = |(name, _): &(String, Value)| names.get(name).is_some();
     let (protocol, stages): (Map<_, _>, Map<_, _>) = object.into_iter().partition(is_protocol);
-    let protocol: ProtocolParameters = typed(&Value::Object(protocol).to_string())?;
-    let stages: StageParameters = typed(&Value::Object(stages).to_string())?;
+    let protocol: ProtocolParameters = from_json(&Value::Object(protocol).to_string())?;
+    let stages: StageParameters = from_json(&Value::Object(stages).to_string())?;
     let (stages, protocol) = (stages.into_model(), protocol.check()?);
     check_parameters(&stages)?;
     Ok((stages, protocol))

@@ -9,7 +9,7 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use mufasa_proofs::OVERFLOW_PANICS;
 use mufasa_proofs::harness::ALL;
-use mufasa_proofs::kani::{Evidence as Found, Run, judge as run};
+use mufasa_proofs::kani::{Evidence as Found, Run, judge_harness as run};
 use serde::Deserialize;
 
 use super::{laws, side_by_side};

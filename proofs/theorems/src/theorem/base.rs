@@ -4,7 +4,7 @@ use crate::input::cycle::{CrossSection, Cycle, Ego, Profile, Route, Trajectory, 
 use crate::input::parameters::Parameters;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
-use crate::numbers::real::hole::hole;
+use crate::numbers::real::hole::open_number;
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Reading;
 use crate::services::configuration::Configuration;
@@ -57,9 +57,9 @@ pub fn scene(cycle: &Cycle) -> Scene {
 /// The base scene with holes for the speed of the CAV and its size.
 pub fn any_cav(profile: Profile) -> Scene {
     let mut cycle = cycle(profile, Configuration::PlanRemote);
-    cycle.ego.speed = hole("v_now");
-    cycle.ego.length = hole("L");
-    cycle.ego.width = hole("W");
+    cycle.ego.speed = open_number("v_now");
+    cycle.ego.length = open_number("L");
+    cycle.ego.width = open_number("W");
     scene(&cycle)
 }
 

@@ -9,7 +9,7 @@ use crate::input::cycle::{
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, less};
-use crate::numbers::real::hole::hole;
+use crate::numbers::real::hole::open_number;
 use crate::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 use crate::stages::distances::s_b;
 use crate::theorem::base::{self, NOW_NS};
@@ -21,7 +21,7 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-02",
         cycle: |profile| {
             let mut cycle = bare(profile, MotRemote);
-            cycle.tracks = Some(tracks(vec![track(1, 60.0), track(2, hole("x"))]));
+            cycle.tracks = Some(tracks(vec![track(1, 60.0), track(2, open_number("x"))]));
             cycle.detections = Some(detections(60.0));
             cycle
         },
@@ -31,7 +31,7 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-03",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.tracks = Some(tracks(vec![Track { length: 12.0, ..track(1, hole("x")) }]));
+            cycle.tracks = Some(tracks(vec![Track { length: 12.0, ..track(1, open_number("x")) }]));
             cycle
         },
         conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(79, 10))],
@@ -40,9 +40,9 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-04",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.ego.speed = hole("v_now");
+            cycle.ego.speed = open_number("v_now");
             cycle.trajectory = Some(every_four_metres());
-            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
         conditions: |scene| [both(within("v_now", 35, 40), within("x", 0, 110)), met(scene, 80)],
@@ -51,10 +51,10 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-05",
         cycle: |profile| {
             let mut cycle = bare(profile, MotRemote);
-            cycle.ego.speed = hole("v_now");
+            cycle.ego.speed = open_number("v_now");
             cycle.trajectory = Some(every_four_metres());
-            cycle.lead = Some(Lead { stamp_ns: NOW_NS, gap: 200.0, speed: hole("v_lead") });
-            cycle.detections = Some(detections(hole("x")));
+            cycle.lead = Some(Lead { stamp_ns: NOW_NS, gap: 200.0, speed: open_number("v_lead") });
+            cycle.detections = Some(detections(open_number("x")));
             cycle
         },
         conditions: |scene| {
@@ -67,7 +67,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.trajectory = Some(straight(&[0.0, 1.0]));
-            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
         conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(49, 10))],
@@ -76,7 +76,7 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-07",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle.trajectory = Some(straight(&[0.0, open_number("end")]));
             cycle
         },
         conditions: |_| [within("end", 0, 1), Formula::Known(true)],
@@ -86,7 +86,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, MotRemote);
             cycle.trajectory = Some(straight(&[0.0]));
-            cycle.trajectory.iter_mut().for_each(|list| list.points[0].y = hole("y"));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[0].y = open_number("y"));
             cycle.grid = Some(grid(14, 13));
             cycle
         },
@@ -100,7 +100,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.trajectory = Some(straight(&[0.0, 1.0]));
-            cycle.trajectory.iter_mut().for_each(|list| list.points[1].y = hole("y"));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[1].y = open_number("y"));
             let cross_section =
                 |x: f64| CrossSection { x, y: 0.0, left: [x, 0.125], right: [x, -0.125] };
             cycle.route.cross_sections = vec![cross_section(-50.0), cross_section(150.0)];
@@ -117,7 +117,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.parameters.start_tolerance = 2.0;
-            cycle.ego.x = hole("x");
+            cycle.ego.x = open_number("x");
             cycle.tracks = Some(tracks(Vec::new()));
             cycle
         },
@@ -129,8 +129,8 @@ pub const SEARCHES: [Search; 19] = [
             let mut cycle = bare(profile, PlanRemote);
             cycle.ego.speed = 10.0;
             cycle.parameters.step_max_ns = 1_000_000_000;
-            cycle.trajectory = Some(every(1_000_000_000, &[0.0, hole("end"), 20.0]));
-            cycle.tracks = Some(tracks(vec![Track { length: 1.0, ..track(1, hole("x")) }]));
+            cycle.trajectory = Some(every(1_000_000_000, &[0.0, open_number("end"), 20.0]));
+            cycle.tracks = Some(tracks(vec![Track { length: 1.0, ..track(1, open_number("x")) }]));
             cycle
         },
         conditions: |_| {
@@ -145,7 +145,7 @@ pub const SEARCHES: [Search; 19] = [
             let mut cycle = bare(profile, AllRemote);
             cycle.ego.speed = 5.0;
             cycle.trajectory = Some(straight(&[0.0, 0.5, 1.0, 1.5, 2.0]));
-            cycle.tracks = Some(tracks(vec![Track { vx: hole("vx"), ..track(1, 4.5) }]));
+            cycle.tracks = Some(tracks(vec![Track { vx: open_number("vx"), ..track(1, 4.5) }]));
             cycle.detections = Some(detections(4.5));
             cycle
         },
@@ -156,7 +156,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, AllRemote);
             cycle.tracks = Some(tracks(Vec::new()));
-            cycle.detections = Some(detections(hole("x")));
+            cycle.detections = Some(detections(open_number("x")));
             cycle
         },
         conditions: |_| [within("x", -4, 4), Formula::Known(true)],
@@ -167,7 +167,8 @@ pub const SEARCHES: [Search; 19] = [
             let mut cycle = bare(profile, AllRemote);
             cycle.ego.speed = 0.3;
             cycle.trajectory = Some(straight(&[0.0, 0.5]));
-            cycle.tracks = Some(tracks(vec![Track { length: hole("length"), ..track(1, 4.2) }]));
+            cycle.tracks =
+                Some(tracks(vec![Track { length: open_number("length"), ..track(1, 4.2) }]));
             cycle.detections = Some(detections(4.2));
             cycle
         },
@@ -181,7 +182,7 @@ pub const SEARCHES: [Search; 19] = [
             let mut later = every(2_000_000_000, &[0.0, 0.0]);
             later.points.iter_mut().for_each(|point| point.t_ns += 5_000_000_000);
             cycle.trajectory = Some(later);
-            cycle.tracks = Some(tracks(vec![Track { vx: hole("vx"), ..track(1, 20.0) }]));
+            cycle.tracks = Some(tracks(vec![Track { vx: open_number("vx"), ..track(1, 20.0) }]));
             cycle
         },
         conditions: |_| [within("vx", -12, -8), Formula::Known(true)],
@@ -190,7 +191,7 @@ pub const SEARCHES: [Search; 19] = [
         finding: "F-18",
         cycle: |profile| {
             let mut cycle = bare(profile, AllRemote);
-            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
         conditions: |_| [within("x", -60, 60), Formula::Known(true)],
@@ -200,7 +201,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.parameters.start_tolerance = 2.0;
-            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle.trajectory = Some(straight(&[0.0, open_number("end")]));
             cycle.tracks = Some(tracks(Vec::new()));
             cycle
         },
@@ -211,7 +212,7 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.ego.speed = 4.0;
-            cycle.trajectory = Some(straight(&[0.0, hole("end")]));
+            cycle.trajectory = Some(straight(&[0.0, open_number("end")]));
             cycle.tracks = Some(tracks(vec![track(1, 4.9)]));
             cycle
         },
@@ -222,8 +223,9 @@ pub const SEARCHES: [Search; 19] = [
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
             cycle.ego.speed = 10.0;
-            cycle.trajectory = Some(straight(&[0.0, 1.5, 3.0, 3.6, 4.0, 4.3, 4.5, hole("end")]));
-            cycle.tracks = Some(tracks(vec![track(1, hole("x"))]));
+            cycle.trajectory =
+                Some(straight(&[0.0, 1.5, 3.0, 3.6, 4.0, 4.3, 4.5, open_number("end")]));
+            cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
         conditions: |_| {
@@ -239,7 +241,12 @@ pub const SEARCHES: [Search; 19] = [
             cycle.parameters.start_tolerance = 2.0;
             cycle.ego.speed = 10.0;
             let mut zigzag = every(100_000_000, &[0.0; 14]);
-            zigzag.points.iter_mut().skip(1).step_by(2).for_each(|point| point.y = hole("y"));
+            zigzag
+                .points
+                .iter_mut()
+                .skip(1)
+                .step_by(2)
+                .for_each(|point| point.y = open_number("y"));
             cycle.trajectory = Some(zigzag);
             cycle.tracks = Some(tracks(vec![track(1, 4.5)]));
             cycle

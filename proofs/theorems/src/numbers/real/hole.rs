@@ -16,7 +16,7 @@ thread_local! {
 ///
 /// # Panics
 /// If there are more than 2^50 of them.
-pub fn hole(name: &str) -> f64 {
+pub fn open_number(name: &str) -> f64 {
     NAMES.with_borrow_mut(|names| {
         let place = names.iter().position(|other| other == name).unwrap_or_else(|| {
             names.push(name.to_owned());

@@ -1,5 +1,5 @@
-//! `spec/2-offloading.md#properties-of-the-whole-protocol`: no dead state, for every combination of
-//! three stations that confirm, reject or are silent.
+//! `spec/2-offloading.md#properties-of-the-whole-protocol`, no dead state: every combination of three
+//! stations that confirm, reject or keep silent.
 
 use mufasa_model::offloading::requester::{Action, Group, GroupState, Groups};
 
