@@ -97,6 +97,19 @@ fn the_document_has_a_row_for_every_claim() {
         tables::claims(&expected),
         "the table is old: cargo run -- prove --into docs/proofs.md"
     );
+    // The README says the numbers of the table.
+    let counts = table.lines().find(|line| line.contains(" proved, ")).expect("the counts");
+    let number = |of: &str| {
+        let before = counts.split(of).next().unwrap_or_default();
+        before.rsplit(", ").next().unwrap_or_default().trim().to_owned()
+    };
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    for said in [
+        format!("Of {} claims {} are proved", claims.len(), number(" proved")),
+        format!(" {} tested", number(" tested")),
+    ] {
+        assert!(readme.contains(&said), "the README does not say: {said}");
+    }
     for line in &claims {
         assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);
     }
