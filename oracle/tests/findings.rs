@@ -67,7 +67,7 @@ fn every_file_names_what_exists() {
         .collect();
     let theorems: BTreeSet<&str> = theorem::all().map(|theorem| theorem.id).collect();
     let laws =
-        ["distance", "requester", "schedule"].map(|law| read(format!("proofs/src/law/{law}.rs")));
+        ["distances", "requester", "schedule"].map(|law| read(format!("proofs/src/law/{law}.rs")));
     let laws = [laws.join("\n"), read("proofs/exploration/src/properties.rs")].join("\n");
     let mut lists = [0, 0, 0];
     for (finding, _) in claims() {

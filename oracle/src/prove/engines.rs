@@ -71,7 +71,7 @@ impl ClaimSource {
         let mutants = mufasa_mutants::all().map_err(io::Error::other)?;
         for line in &mut lines {
             let changes = mufasa_mutants::changes(&mutants, engine, &line.id);
-            line.mutants = changes.into_iter().map(ToString::to_string).collect();
+            line.mutants = changes.into_iter().map(|mutant| mutant.change.clone()).collect();
         }
         Ok(lines)
     }

@@ -5,7 +5,6 @@
 pub mod place;
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use serde::Deserialize;
 
@@ -43,13 +42,6 @@ pub struct Mutant {
     pub refutes: BTreeMap<Engine, Vec<String>>,
     /// Where.
     pub at: Vec<Place>,
-}
-
-impl fmt::Display for Mutant {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let items: Vec<_> = self.at.iter().map(|place| format!("`{}`", place.item)).collect();
-        write!(f, "{} ({})", self.change, items.join(", "))
-    }
 }
 
 /// One replacement in one item.

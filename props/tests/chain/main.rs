@@ -43,6 +43,7 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ),
     ("spec/1-services.md#configuration", Cell::Vector, "every cycle of `vectors/` names one"),
     ("spec/2-offloading.md#provider", Cell::Impl, "it runs on the server"),
+    ("spec/2-offloading.md#provider", Cell::Bench, "of the server, which the model plays"),
     ("spec/2-offloading.md#provider", Cell::Vector, "no record drives a provider"),
     (
         "spec/2-offloading.md#properties-of-the-whole-protocol",
@@ -50,6 +51,8 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         "of requester, provider and network together: `proofs/exploration`",
     ),
     ("spec/2-offloading.md#properties-of-the-whole-protocol", Cell::Impl, "as of the model"),
+    ("spec/2-offloading.md#properties-of-the-whole-protocol", Cell::Bench, "of all parts together"),
+    ("lease", Cell::Bench, "of the server, which the model plays"),
     (
         "spec/2-offloading.md#properties-of-the-whole-protocol",
         Cell::Vector,

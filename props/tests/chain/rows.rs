@@ -269,6 +269,12 @@ pub fn add_benches(tree: &Tree, row: &mut Row) {
         let word = if row.name == *row.title { link.name.as_str() } else { "" };
         add_groups(tree, (&link.file, word), &mut BTreeSet::new(), &mut groups);
     }
+    // What is named nowhere else on the way has another name there.
+    if groups.is_empty() {
+        for link in row.cells.get(&Cell::Impl).into_iter().flatten() {
+            add_groups(tree, (&link.file, ""), &mut BTreeSet::new(), &mut groups);
+        }
+    }
     let file = "benches/benches/stages.rs";
     let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
     for group in groups {
@@ -300,15 +306,16 @@ fn add_groups(
             groups.insert(format!("stage {number}"));
         }
         ("stages" | "hardened" | "numbers", Some(module)) => {
-            let users = tree.ending(".rs").filter(|(file, text)| {
-                let known =
-                    ["impl/src/stages", "impl/src/hardened"].iter().any(|it| file.starts_with(it));
-                known
-                    && !is_test(file)
-                    && text.contains(&format!("{module}::"))
-                    && text.contains(word)
-            });
-            for (user, _) in users {
+            let users: Vec<_> = tree
+                .ending(".rs")
+                .filter(|(file, text)| {
+                    let known = ["impl/src/stages", "impl/src/hardened"];
+                    known.iter().any(|it| file.starts_with(it))
+                        && !is_test(file)
+                        && text.contains(&format!("{module}::"))
+                })
+                .collect();
+            for (user, _) in users.iter().filter(|(_, text)| text.contains(word)) {
                 add_groups(tree, (user, word), seen, groups);
             }
         }
