@@ -2,7 +2,7 @@
 
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Event, EventKind, GroupState, Parameters, Requester, StationRecord,
+    Event, EventKind, GroupState, Parameters, Requester, Sessions, StationRecord,
 };
 use mufasa::services::configuration::{Configuration, Group, Groups};
 
@@ -43,7 +43,11 @@ impl<'a> Periods<'a> {
             let generated_ns = self.now_ns - 1;
             self.step(EventKind::Data { station, group, session, generated_ns });
         }
-        self.step(EventKind::Verdict { safe: true, groups: Groups::ALL });
+        let [mot, plan] = Group::ALL.map(|group| match self.requester.state(group) {
+            GroupState::Remote { session, .. } => Some(session),
+            GroupState::Local | GroupState::Requested { .. } => None,
+        });
+        self.step(EventKind::Verdict { safe: true, sessions: Sessions { mot, plan } });
     }
 
     /// An unsafe verdict, the end of the waiting time, and both groups remote again.
@@ -51,7 +55,7 @@ impl<'a> Periods<'a> {
     /// # Panics
     /// If a group is not remote at the end.
     pub fn fallback(&mut self) {
-        self.step(EventKind::Verdict { safe: false, groups: Groups::ALL });
+        self.step(EventKind::Verdict { safe: false, sessions: Sessions::NONE });
         self.now_ns = self.requester.hold_until_ns().expect("a fallback holds");
         self.ask();
     }

@@ -12,7 +12,7 @@
 #define MUFASA_TEXT_BYTES 96
 
 // Bytes of scratch memory that are enough for every cycle.
-#define MUFASA_SCRATCH_BYTES_MAX (1 << 20)
+#define MUFASA_SCRATCH_BYTES_MAX (1 << 21)
 
 // One event never makes more actions than this.
 #define MUFASA_MAX_ACTIONS 8
@@ -183,30 +183,37 @@ enum MufasaRule
  {
   // There is no witness.
   MUFASA_RULE_NONE = 0,
-  MUFASA_RULE_MEAN_COST = 1,
-  MUFASA_RULE_NO_ASSIGNMENT = 2,
-  MUFASA_RULE_VELOCITY = 3,
-  MUFASA_RULE_THETA_MAP = 4,
-  MUFASA_RULE_START_TIME = 5,
-  MUFASA_RULE_START_POSITION = 6,
-  MUFASA_RULE_CORRIDOR = 7,
-  MUFASA_RULE_DIRECTION = 8,
-  MUFASA_RULE_STEP_TIME = 9,
-  MUFASA_RULE_STEP_LENGTH = 10,
-  MUFASA_RULE_STEP_SPEED = 11,
-  MUFASA_RULE_STEP_FORWARD = 12,
-  MUFASA_RULE_STEP_LATERAL = 13,
-  MUFASA_RULE_STEP_TURN = 14,
-  MUFASA_RULE_ARC_TOO_SHORT = 15,
-  MUFASA_RULE_ARC_TOO_LONG = 16,
-  MUFASA_RULE_ENDS_TOO_SOON = 17,
-  MUFASA_RULE_GAP = 18,
-  MUFASA_RULE_COLLISION = 19,
-  MUFASA_RULE_COLLISION_STANDING = 20,
-  MUFASA_RULE_OCCUPIED = 21,
-  MUFASA_RULE_UNKNOWN = 22,
-  MUFASA_RULE_OUTSIDE = 23,
-  MUFASA_RULE_WORK_LIMIT = 24,
+  MUFASA_RULE_AMBIGUOUS = 1,
+  MUFASA_RULE_MEAN_COST = 2,
+  MUFASA_RULE_WORK_LIMIT = 3,
+  MUFASA_RULE_NO_ASSIGNMENT = 4,
+  MUFASA_RULE_THETA_MAP = 5,
+  MUFASA_RULE_START_TIME = 6,
+  MUFASA_RULE_START_POSITION = 7,
+  MUFASA_RULE_START_HEADING = 8,
+  MUFASA_RULE_START_OFFSET = 9,
+  MUFASA_RULE_CORRIDOR = 10,
+  MUFASA_RULE_DIRECTION = 11,
+  MUFASA_RULE_STEP_TIME = 12,
+  MUFASA_RULE_STEP_LENGTH = 13,
+  MUFASA_RULE_STEP_SPEED = 14,
+  MUFASA_RULE_STEP_FORWARD = 15,
+  MUFASA_RULE_STEP_LATERAL = 16,
+  MUFASA_RULE_STEP_TURN = 17,
+  MUFASA_RULE_STEP_SLIDE = 18,
+  MUFASA_RULE_TURN_REVERSED = 19,
+  MUFASA_RULE_TURN_ON_THE_SPOT = 20,
+  MUFASA_RULE_TURN_HARD = 21,
+  MUFASA_RULE_ARC_TOO_SHORT = 22,
+  MUFASA_RULE_ARC_TOO_LONG = 23,
+  MUFASA_RULE_ENDS_TOO_SOON = 24,
+  MUFASA_RULE_GAP = 25,
+  MUFASA_RULE_COLLISION = 26,
+  MUFASA_RULE_COLLISION_STANDING = 27,
+  MUFASA_RULE_COLLISION_MOVING = 28,
+  MUFASA_RULE_OCCUPIED = 29,
+  MUFASA_RULE_UNKNOWN = 30,
+  MUFASA_RULE_OUTSIDE = 31,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -345,7 +352,7 @@ enum MufasaEventType
   MUFASA_EVENT_TYPE_REJECT = 7,
   // A result arrives: station, group, session, generated_ns.
   MUFASA_EVENT_TYPE_DATA = 8,
-  // A cycle ended: safe, and groups whose data it used.
+  // A cycle ended: safe, groups whose data it used, sessions that they came from.
   MUFASA_EVENT_TYPE_VERDICT = 9,
 };
 #ifndef __cplusplus
@@ -389,8 +396,14 @@ typedef struct MufasaParameters {
   double v_max;
   // H-11: longest time between two trajectory points, ns.
   int64_t step_max_ns;
-  // H-09: greatest error of the velocity of a track, m/s.
+  // Greatest error of the velocity of a track, m/s.
   double theta_velocity;
+  // H-07: how far aside of its first heading a trajectory may start, m.
+  double lateral_tolerance;
+  // H-13: the greatest speed of an object that is looked for, m/s.
+  double v_object;
+  // H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
+  double tau_motion;
   // Stage i fails rather than begin an assignment of more work than this.
   int64_t work_limit;
   // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
@@ -548,8 +561,11 @@ typedef struct MufasaCycle {
   const struct MufasaLead *lead;
   // May be null.
   const struct MufasaGrid *grid;
-  // H-09: the last list that stage i passed in a safe cycle. May be null.
-  const struct MufasaTrackList *previous_tracks;
+  // Earlier lists of the CAV's own detections, the youngest first, at most 4. May be null when
+  // there is none.
+  const struct MufasaDetectionList *detection_history;
+  // How many.
+  size_t detection_history_len;
 } MufasaCycle;
 
 // Why a stage failed. Indices that mean nothing for the rule are -1.
@@ -564,6 +580,10 @@ typedef struct MufasaWitness {
   int64_t point;
   // Index of the detection.
   int64_t detection;
+  // Index of the item in a list of the detection history.
+  int64_t item;
+  // Age of that list, ns.
+  int64_t age_ns;
   // Index of the segment of the reference path.
   int64_t segment;
   // Index of the disk.
@@ -638,6 +658,9 @@ typedef struct MufasaEvent {
   int64_t station;
   // The session that the message names.
   int64_t session;
+  // Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
+  // in `groups` may be anything.
+  int64_t sessions[2];
   // When the result was generated, on the CAV's clock.
   int64_t generated_ns;
 } MufasaEvent;

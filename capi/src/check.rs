@@ -15,7 +15,7 @@ use crate::report::{self, MufasaReport};
 use crate::status::MufasaStatus;
 
 /// Bytes of scratch memory that are enough for every cycle.
-pub const MUFASA_SCRATCH_BYTES_MAX: usize = 1 << 20;
+pub const MUFASA_SCRATCH_BYTES_MAX: usize = 1 << 21;
 
 const _: () = assert!(Counts::MAX.bytes() <= MUFASA_SCRATCH_BYTES_MAX);
 

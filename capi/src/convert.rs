@@ -3,6 +3,8 @@
 //! A list longer than its domain is passed on with one element too many: that is enough for the
 //! check to refuse it, whatever its length is, and scratch memory stays bounded.
 
+use core::mem::size_of;
+
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
@@ -12,8 +14,8 @@ use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
-    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaEgo, MufasaGrid,
-    MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
+    MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetection, MufasaDetectionList,
+    MufasaEgo, MufasaGrid, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
 };
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
@@ -21,6 +23,7 @@ use crate::status::MufasaStatus;
 /// The sizes of `spec/4-arithmetic.md#domain` and one.
 const TRACKS: usize = 1025;
 const DETECTIONS: usize = 2049;
+const HISTORY: usize = 5;
 const POINTS: usize = 1025;
 const CROSS_SECTIONS: usize = 8193;
 const BITMAP_BYTES: usize = (1 << 21) + 1;
@@ -30,7 +33,8 @@ const BITMAP_BYTES: usize = (1 << 21) + 1;
 pub(crate) struct Counts {
     points: usize,
     tracks: usize,
-    previous: usize,
+    /// Lists of the history, and the items of all of them.
+    history: [usize; 2],
     detections: usize,
     cross_sections: usize,
     sizes: Sizes,
@@ -41,7 +45,7 @@ impl Counts {
     pub(crate) const MAX: Self = Self {
         points: POINTS,
         tracks: TRACKS,
-        previous: TRACKS,
+        history: [HISTORY, HISTORY * DETECTIONS],
         detections: DETECTIONS,
         cross_sections: CROSS_SECTIONS,
         sizes: Sizes::MAX,
@@ -57,16 +61,17 @@ impl Counts {
         // SAFETY: as above.
         let tracks = unsafe { optional(raw.tracks) }?.map_or(0, |list| list.items_len);
         // SAFETY: as above.
-        let previous = unsafe { optional(raw.previous_tracks) }?.map_or(0, |list| list.items_len);
+        let history = unsafe { history(raw) }?;
         // SAFETY: as above.
         let detections = unsafe { optional(raw.detections) }?.map_or(0, |list| list.items_len);
         let (tracks, detections) = (tracks.min(TRACKS), detections.min(DETECTIONS));
         let spare = usize::try_from(raw.parameters.miss_budget).unwrap_or(0).min(tracks);
-        let columns = detections.saturating_add(spare).max(tracks);
+        let earlier = history.iter().map(items_in_domain).max().unwrap_or(0);
+        let columns = detections.saturating_add(spare).max(tracks).max(earlier);
         Ok(Self {
             points: points.min(POINTS),
             tracks,
-            previous: previous.min(TRACKS),
+            history: [history.len(), history.iter().map(items_in_domain).sum()],
             detections,
             cross_sections: raw.route.cross_sections_len.min(CROSS_SECTIONS),
             sizes: capped(Sizes { rows: tracks, columns }),
@@ -75,9 +80,13 @@ impl Counts {
 
     /// Bytes for all of them, wherever the memory begins.
     pub(crate) const fn bytes(&self) -> usize {
+        let [lists, items] = self.history;
         Arena::bytes_of::<TrajectoryPoint>(self.points)
             .saturating_add(Arena::bytes_of::<Track>(self.tracks))
-            .saturating_add(Arena::bytes_of::<Track>(self.previous))
+            .saturating_add(Arena::bytes_of::<DetectionList<'_>>(lists))
+            .saturating_add(items.saturating_mul(size_of::<Detection>()))
+            // Each list may begin anew.
+            .saturating_add(Arena::bytes_of::<Detection>(0).saturating_mul(lists))
             .saturating_add(Arena::bytes_of::<Detection>(self.detections))
             .saturating_add(Arena::bytes_of::<CrossSection>(self.cross_sections))
             .saturating_add(Arena::bytes_of::<Row>(self.sizes.rows))
@@ -111,12 +120,8 @@ pub(crate) unsafe fn cycle<'a>(
     // SAFETY: as above.
     let detections = match unsafe { optional(raw.detections) }? {
         None => None,
-        Some(it) => {
-            // SAFETY: as above.
-            let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
-            let items = arena.keep(items.iter().map(detection))?;
-            Some(DetectionList { stamp_ns: it.stamp_ns, items })
-        }
+        // SAFETY: as above.
+        Some(it) => Some(unsafe { detections_of(it, arena) }?),
     };
     // SAFETY: as above.
     let cross_sections =
@@ -139,8 +144,48 @@ pub(crate) unsafe fn cycle<'a>(
         // SAFETY: as above.
         grid: unsafe { grid(raw.grid) }?,
         // SAFETY: as above.
-        previous_tracks: unsafe { tracks(raw.previous_tracks, arena) }?,
+        detection_history: unsafe { detection_history(raw, arena) }?,
     })
+}
+
+/// # Safety
+/// As for [`cycle`].
+unsafe fn detections_of<'a>(
+    it: &MufasaDetectionList,
+    arena: &mut Arena<'a>,
+) -> Result<DetectionList<'a>, MufasaStatus> {
+    // SAFETY: the caller's duty.
+    let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
+    let items = arena.keep(items.iter().map(detection))?;
+    Ok(DetectionList { stamp_ns: it.stamp_ns, items })
+}
+
+/// # Safety
+/// As for [`cycle`].
+unsafe fn history<'a>(raw: &MufasaCycle) -> Result<&'a [MufasaDetectionList], MufasaStatus> {
+    // SAFETY: the caller's duty.
+    unsafe { list(raw.detection_history, raw.detection_history_len, HISTORY) }
+}
+
+fn items_in_domain(list: &MufasaDetectionList) -> usize {
+    list.items_len.min(DETECTIONS)
+}
+
+/// # Safety
+/// As for [`cycle`].
+unsafe fn detection_history<'a>(
+    raw: &MufasaCycle,
+    arena: &mut Arena<'a>,
+) -> Result<&'a [DetectionList<'a>], MufasaStatus> {
+    let mut lists = [DetectionList { stamp_ns: 0, items: &[] }; HISTORY];
+    // SAFETY: the caller's duty, here and below.
+    let history = unsafe { history(raw) }?;
+    for (place, list) in lists.iter_mut().zip(history) {
+        // SAFETY: as above.
+        *place = unsafe { detections_of(list, arena) }?;
+    }
+    let kept = arena.keep(lists.into_iter().take(history.len()))?;
+    Ok(kept)
 }
 
 /// # Safety

@@ -208,6 +208,9 @@ pub struct MufasaCycle {
     pub lead: *const MufasaLead,
     /// May be null.
     pub grid: *const MufasaGrid,
-    /// H-09: the last list that stage i passed in a safe cycle. May be null.
-    pub previous_tracks: *const MufasaTrackList,
+    /// Earlier lists of the CAV's own detections, the youngest first, at most 4. May be null when
+    /// there is none.
+    pub detection_history: *const MufasaDetectionList,
+    /// How many.
+    pub detection_history_len: usize,
 }

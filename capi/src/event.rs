@@ -1,6 +1,6 @@
 //! Events and actions of a requester, as C gives and gets them.
 
-use mufasa::offloading::requester::{Action, Event, EventKind, Group, Groups};
+use mufasa::offloading::requester::{Action, Event, EventKind, Group, Groups, Sessions};
 
 use crate::status::MufasaStatus;
 
@@ -34,7 +34,7 @@ pub enum MufasaEventType {
     Reject = 7,
     /// A result arrives: station, group, session, generated_ns.
     Data = 8,
-    /// A cycle ended: safe, and groups whose data it used.
+    /// A cycle ended: safe, groups whose data it used, sessions that they came from.
     Verdict = 9,
 }
 
@@ -56,6 +56,9 @@ pub struct MufasaEvent {
     pub station: i64,
     /// The session that the message names.
     pub session: i64,
+    /// Of a verdict: the sessions of MOT and PLAN that its data came from; one whose group is not
+    /// in `groups` may be anything.
+    pub sessions: [i64; 2],
     /// When the result was generated, on the CAV's clock.
     pub generated_ns: i64,
 }
@@ -122,7 +125,11 @@ pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
             EventKind::Data { station, group: group(raw.group)?, session, generated_ns }
         }
         MufasaEventType::Verdict => {
-            EventKind::Verdict { safe: raw.safe != 0, groups: groups(raw.groups)? }
+            let used = groups(raw.groups)?;
+            let [mot, plan] = raw.sessions;
+            let sessions =
+                Sessions { mot: used.mot.then_some(mot), plan: used.plan.then_some(plan) };
+            EventKind::Verdict { safe: raw.safe != 0, sessions }
         }
     };
     Ok(Event { t_ns, kind })

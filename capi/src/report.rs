@@ -90,30 +90,37 @@ pub enum MufasaInput {
 pub enum MufasaRule {
     /// There is no witness.
     None = 0,
-    MeanCost = 1,
-    NoAssignment = 2,
-    Velocity = 3,
-    ThetaMap = 4,
-    StartTime = 5,
-    StartPosition = 6,
-    Corridor = 7,
-    Direction = 8,
-    StepTime = 9,
-    StepLength = 10,
-    StepSpeed = 11,
-    StepForward = 12,
-    StepLateral = 13,
-    StepTurn = 14,
-    ArcTooShort = 15,
-    ArcTooLong = 16,
-    EndsTooSoon = 17,
-    Gap = 18,
-    Collision = 19,
-    CollisionStanding = 20,
-    Occupied = 21,
-    Unknown = 22,
-    Outside = 23,
-    WorkLimit = 24,
+    Ambiguous = 1,
+    MeanCost = 2,
+    WorkLimit = 3,
+    NoAssignment = 4,
+    ThetaMap = 5,
+    StartTime = 6,
+    StartPosition = 7,
+    StartHeading = 8,
+    StartOffset = 9,
+    Corridor = 10,
+    Direction = 11,
+    StepTime = 12,
+    StepLength = 13,
+    StepSpeed = 14,
+    StepForward = 15,
+    StepLateral = 16,
+    StepTurn = 17,
+    StepSlide = 18,
+    TurnReversed = 19,
+    TurnOnTheSpot = 20,
+    TurnHard = 21,
+    ArcTooShort = 22,
+    ArcTooLong = 23,
+    EndsTooSoon = 24,
+    Gap = 25,
+    Collision = 26,
+    CollisionStanding = 27,
+    CollisionMoving = 28,
+    Occupied = 29,
+    Unknown = 30,
+    Outside = 31,
 }
 
 /// Why a stage failed. Indices that mean nothing for the rule are -1.
@@ -130,6 +137,10 @@ pub struct MufasaWitness {
     pub point: i64,
     /// Index of the detection.
     pub detection: i64,
+    /// Index of the item in a list of the detection history.
+    pub item: i64,
+    /// Age of that list, ns.
+    pub age_ns: i64,
     /// Index of the segment of the reference path.
     pub segment: i64,
     /// Index of the disk.
@@ -189,6 +200,8 @@ const NO_WITNESS: MufasaWitness = MufasaWitness {
     track: 0,
     point: -1,
     detection: -1,
+    item: -1,
+    age_ns: -1,
     segment: -1,
     disk: -1,
     cell: [-1, -1],
@@ -270,13 +283,26 @@ const fn missing(input: Input) -> MufasaInput {
 }
 
 fn witness(witness: &Witness) -> MufasaWitness {
-    let &Witness { rule: broken, point, track, detection, segment, disk, cell, compared } = witness;
+    let &Witness {
+        rule: broken,
+        point,
+        track,
+        detection,
+        item,
+        age_ns,
+        segment,
+        disk,
+        cell,
+        compared,
+    } = witness;
     MufasaWitness {
         rule: rule(broken),
         has_track: u32::from(track.is_some()),
         track: track.unwrap_or(0),
         point: index(point),
         detection: index(detection),
+        item: index(item),
+        age_ns: age_ns.unwrap_or(-1),
         segment: index(segment),
         disk: index(disk),
         cell: cell.map_or([-1, -1], |(column, row)| [column, row]),
@@ -286,13 +312,15 @@ fn witness(witness: &Witness) -> MufasaWitness {
 
 const fn rule(rule: Rule) -> MufasaRule {
     match rule {
+        Rule::Ambiguous => MufasaRule::Ambiguous,
         Rule::MeanCost => MufasaRule::MeanCost,
         Rule::WorkLimit => MufasaRule::WorkLimit,
         Rule::NoAssignment => MufasaRule::NoAssignment,
-        Rule::Velocity => MufasaRule::Velocity,
         Rule::ThetaMap => MufasaRule::ThetaMap,
         Rule::StartTime => MufasaRule::StartTime,
         Rule::StartPosition => MufasaRule::StartPosition,
+        Rule::StartHeading => MufasaRule::StartHeading,
+        Rule::StartOffset => MufasaRule::StartOffset,
         Rule::Corridor => MufasaRule::Corridor,
         Rule::Direction => MufasaRule::Direction,
         Rule::StepTime => MufasaRule::StepTime,
@@ -301,12 +329,17 @@ const fn rule(rule: Rule) -> MufasaRule {
         Rule::StepForward => MufasaRule::StepForward,
         Rule::StepLateral => MufasaRule::StepLateral,
         Rule::StepTurn => MufasaRule::StepTurn,
+        Rule::StepSlide => MufasaRule::StepSlide,
+        Rule::TurnReversed => MufasaRule::TurnReversed,
+        Rule::TurnOnTheSpot => MufasaRule::TurnOnTheSpot,
+        Rule::TurnHard => MufasaRule::TurnHard,
         Rule::ArcTooShort => MufasaRule::ArcTooShort,
         Rule::ArcTooLong => MufasaRule::ArcTooLong,
         Rule::EndsTooSoon => MufasaRule::EndsTooSoon,
         Rule::Gap => MufasaRule::Gap,
         Rule::Collision => MufasaRule::Collision,
         Rule::CollisionStanding => MufasaRule::CollisionStanding,
+        Rule::CollisionMoving => MufasaRule::CollisionMoving,
         Rule::Occupied => MufasaRule::Occupied,
         Rule::Unknown => MufasaRule::Unknown,
         Rule::Outside => MufasaRule::Outside,
@@ -337,37 +370,4 @@ fn text(text: &str) -> [c_char; MUFASA_TEXT_BYTES] {
 }
 
 #[cfg(test)]
-mod tests {
-    use core::ffi::CStr;
-
-    use mufasa::report::{InvalidInput, Problem};
-
-    use super::{MUFASA_TEXT_BYTES, input};
-
-    const PROBLEMS: [Problem; 11] = [
-        Problem::NotFinite,
-        Problem::OutOfDomain,
-        Problem::NotADirection,
-        Problem::TimeOutOfRange,
-        Problem::DuplicateId,
-        Problem::EqualPoints,
-        Problem::TimeNotIncreasing,
-        Problem::TooFew,
-        Problem::TooMany,
-        Problem::BitmapLength,
-        Problem::ScratchTooSmall,
-    ];
-
-    #[test]
-    fn messages_fit_and_end_with_a_zero() {
-        for problem in PROBLEMS {
-            let field = "previous_tracks.items.length";
-            let told = input(Some(InvalidInput { field, index: Some(3), problem }));
-            let bytes: Vec<u8> = told.message.iter().map(|byte| byte.to_ne_bytes()[0]).collect();
-            let text = CStr::from_bytes_until_nul(&bytes).unwrap().to_str().unwrap();
-            assert_eq!(text, problem.message());
-            assert!(field.len() < MUFASA_TEXT_BYTES);
-            assert_eq!(told.index, 3);
-        }
-    }
-}
+mod tests;

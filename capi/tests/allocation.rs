@@ -125,7 +125,8 @@ fn a_check_allocates_nothing() {
         detections: &raw const detections,
         lead: null(),
         grid: null(),
-        previous_tracks: null(),
+        detection_history: null(),
+        detection_history_len: 0,
     };
     let mut scratch = vec![0_u8; MUFASA_SCRATCH_BYTES_MAX];
     let mut report = std::mem::MaybeUninit::<MufasaReport>::uninit();
@@ -171,6 +172,7 @@ fn a_requester_allocates_nothing() {
                 safe: 0,
                 station,
                 session: 0,
+                sessions: [1, 2],
                 generated_ns: 0,
             };
             let places = actions.as_mut_ptr().cast();

@@ -152,6 +152,30 @@ static void invalid_input(void) {
   EXPECT(strcmp(report.input.field, "tracks.items") == 0);
 }
 
+/* A history longer than the detections, in the memory that is said to be enough. */
+static void history(void) {
+  struct scene s;
+  struct MufasaReport report;
+  set_up(&s);
+  struct MufasaDetection seen[8];
+  for (size_t i = 0; i < 8; ++i) {
+    seen[i] = s.detection_items[0];
+    seen[i].y += 30 + (double)i;
+  }
+  struct MufasaDetectionList lists[2] = {
+      {.stamp_ns = s.detections.stamp_ns - 300000000, .items = seen, .items_len = 8},
+      {.stamp_ns = s.detections.stamp_ns - 500000000, .items = seen, .items_len = 3}};
+  s.cycle.detection_history = lists;
+  s.cycle.detection_history_len = 2;
+  size_t enough = mufasa_scratch_bytes(&s.cycle);
+  EXPECT(mufasa_check(&s.cycle, scratch, enough, &report) == MUFASA_STATUS_OK);
+  EXPECT(report.verdict == MUFASA_VERDICT_SAFE);
+  lists[1].stamp_ns = lists[0].stamp_ns;
+  report = checked(&s.cycle);
+  EXPECT(report.verdict == MUFASA_VERDICT_ERROR && report.input.index == 1);
+  EXPECT(strcmp(report.input.field, "detection_history.stamp_ns") == 0);
+}
+
 static void faults_of_the_call(void) {
   struct scene s;
   struct MufasaReport report;
@@ -318,6 +342,7 @@ static void faults_of_the_requester(void) {
 int main(void) {
   verdicts();
   invalid_input();
+  history();
   faults_of_the_call();
   trace();
   faults_of_the_requester();

@@ -12,22 +12,8 @@ pub struct Drive {
     /// Cycles: of recordings and maps in order of time, of records in the order of their lines,
     /// whatever times they have.
     pub cycles: Vec<DriveCycle>,
-    /// Who provides `previous_tracks`.
-    pub previous_tracks: PreviousTracks,
     /// Decisions of the reader that a judgement of this drive depends on.
     pub notes: Vec<String>,
-}
-
-/// Who provides the `previous_tracks` of the cycles of a drive.
-///
-/// By H-09 (`spec/3-stages.md#hardened-profile`) they are the last list that stage i passed in a
-/// safe cycle, so a source without verdicts cannot know them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PreviousTracks {
-    /// The check, which carries them from cycle to cycle; the reader leaves `None`.
-    Carried,
-    /// The source; they stay as they are, `None` included.
-    AsGiven,
 }
 
 /// One cycle of a drive.

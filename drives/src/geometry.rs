@@ -94,6 +94,18 @@ impl Rectangle {
             .map(|[x, y]| add(self.center, [x * c - y * s, x * s + y * c]))
     }
 
+    /// Whether two rectangles share a point: no side of either has all of the other beyond it.
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        let apart = |a: &Self, b: &Self| {
+            let turned = Self::around(&b.corners(), a.heading);
+            let [c, s] = direction(a.heading);
+            let [x, y] = sub(turned.center, a.center);
+            (x * c + y * s).abs() > f64::midpoint(a.length, turned.length)
+                || (y * c - x * s).abs() > f64::midpoint(a.width, turned.width)
+        };
+        !apart(self, other) && !apart(other, self)
+    }
+
     /// The bounding rectangle of points in the direction of `heading`.
     pub(crate) fn around(points: &[Point], heading: f64) -> Self {
         let [c, s] = direction(heading);
@@ -215,6 +227,19 @@ mod tests {
         assert!(distance(found.center, square.center) < 1e-9);
         assert!(inside([3.0, -2.0], &square.corners()));
         assert!(!inside([3.0, -0.5], &square.corners()));
+    }
+
+    #[test]
+    fn rectangles_meet_where_they_share_a_point() {
+        let at = |x: f64, y: f64, heading: f64| {
+            let center = [x, y];
+            Rectangle { center, heading, length: 4.0, width: 2.0 }
+        };
+        assert!(at(0.0, 0.0, 0.0).meets(&at(3.9, 0.0, 0.0)));
+        assert!(!at(0.0, 0.0, 0.0).meets(&at(4.1, 0.0, 0.0)));
+        // Corner to corner the bounding rectangles overlap, the rectangles do not.
+        assert!(!at(0.0, 0.0, 0.8).meets(&at(2.2, -2.2, 0.8)));
+        assert!(at(0.0, 0.0, 0.8).meets(&at(2.2, 2.2, 0.8)));
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod recording;
 pub use attacks::error::InjectError;
 pub use attacks::inject;
 pub use attacks::injection::{Attack, Injection, ParseInjectionError};
-pub use drive::{Drive, DriveCycle, PreviousTracks};
+pub use drive::{Drive, DriveCycle};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};
 pub use readers::read;

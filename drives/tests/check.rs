@@ -6,10 +6,9 @@ use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::{Hold, RequesterRun};
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::{Findings, records, report};
-use mufasa_drives::{Drive, DriveCycle, PreviousTracks};
+use mufasa_drives::{Drive, DriveCycle};
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Stage};
-use mufasa_model::services::configuration::Configuration;
 use mufasa_props::conformance::Disagreement;
 use serde_json::Value;
 
@@ -22,18 +21,8 @@ fn drive(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
         name: "straight".to_owned(),
         source: "test".to_owned(),
         cycles: (0..count).map(cycle).collect(),
-        previous_tracks: PreviousTracks::AsGiven,
         notes: Vec::new(),
     }
-}
-
-/// The same with lists that are carried, and a car that moves as it says.
-fn carried(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
-    let mut drive = Drive { previous_tracks: PreviousTracks::Carried, ..drive(count, blocked) };
-    for tracks in drive.cycles.iter_mut().filter_map(|cycle| cycle.cycle.tracks.as_mut()) {
-        tracks.items[0].vx = 10.0;
-    }
-    drive
 }
 
 fn checked(drive: &Drive) -> Checked {
@@ -158,55 +147,6 @@ fn a_difference_of_the_requesters_is_a_disagreement() {
     checked.protocol = Some("the requesters differ: here".to_owned());
     assert_eq!(checked.disagreements(), 1);
     assert!(text(&checked).contains("DISAGREEMENT: the requesters differ: here"));
-}
-
-/// H-09: the last list that stage i passed in a safe cycle.
-#[test]
-fn the_list_of_the_last_safe_cycle_is_carried_over_unsafe_ones() {
-    let mut drive = carried(6, |index| [2, 3].contains(&index));
-    // What a cycle holds beforehand does not matter.
-    drive.cycles[0].cycle.previous_tracks = drive.cycles[5].cycle.tracks.clone();
-    let checked = checked(&drive);
-    assert_eq!(checked.tallies()[0].safe, 4);
-    let of = |index: usize| drive.cycles[index].cycle.tracks.clone();
-    let held = checked.drive.cycles.iter().map(|cycle| cycle.cycle.previous_tracks.clone());
-    assert_eq!(held.collect::<Vec<_>>(), [None, of(0), of(1), of(1), of(1), of(4)]);
-}
-
-/// In `PlanRemote` stage i is not scheduled, so a safe cycle gives no list.
-#[test]
-fn a_list_that_stage_i_did_not_see_is_not_carried() {
-    let mut drive = carried(3, |_| false);
-    for cycle in &mut drive.cycles {
-        cycle.cycle.configuration = Configuration::PlanRemote;
-    }
-    let checked = checked(&drive);
-    assert_eq!(checked.tallies()[0].safe, 3);
-    assert!(checked.drive.cycles.iter().all(|cycle| cycle.cycle.previous_tracks.is_none()));
-}
-
-#[test]
-fn a_list_that_is_given_stays() {
-    let mut drive = drive(3, |_| false);
-    drive.cycles[1].cycle.previous_tracks = drive.cycles[0].cycle.tracks.clone();
-    let checked = checked(&drive);
-    assert_eq!(checked.drive, drive);
-}
-
-/// Velocities that are made up fail stage i, and the list with them does not become the previous
-/// one: the cycle after it is compared with the list from before the attack.
-#[test]
-fn a_list_that_failed_is_compared_with_by_nobody() {
-    let mut drive = carried(4, |_| false);
-    for cycle in &mut drive.cycles[2..] {
-        cycle.cycle.tracks.as_mut().unwrap().items[0].vx += 10.0;
-    }
-    let checked = checked(&drive);
-    let failed = FailedStage::Stage(Stage::I);
-    let stages = checked.judged.iter().map(|it| it.model.as_ref().unwrap().failed_stage);
-    assert_eq!(stages.collect::<Vec<_>>(), [None, None, Some(failed), Some(failed)]);
-    let held = &checked.drive.cycles[3].cycle.previous_tracks;
-    assert_eq!(*held, drive.cycles[1].cycle.tracks);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use mufasa_model::report::{
 use mufasa_model::services::configuration::Configuration;
 use roxmltree::{Document, Node};
 
-/// A car on a bend to the left, with two tracks, three detections and a grid.
+/// A car on a bend to the left, with two tracks, four detections, two earlier lists and a grid.
 fn cycle() -> Cycle {
     let at = |s: f64, offset: f64| {
         let angle = 0.4 + s / 120.0;
@@ -74,7 +74,12 @@ fn cycle() -> Cycle {
         }),
         detections: Some(DetectionList {
             stamp_ns: 1_000_000_000,
-            items: vec![detection(22.1, 0.2), detection(30.0, 3.5), detection(44.0, -6.0)],
+            items: vec![
+                detection(22.1, 0.2),
+                detection(30.0, 3.5),
+                detection(44.0, -6.0),
+                detection(20.0, -3.0),
+            ],
         }),
         lead: Some(Lead { stamp_ns: 1_000_000_000, gap: 17.0, speed: 3.0 }),
         route: Route { closed: false, cross_sections: (-4..18).map(route).collect() },
@@ -90,7 +95,13 @@ fn cycle() -> Cycle {
             occupied,
             unknown: None,
         }),
-        previous_tracks: None,
+        detection_history: vec![
+            DetectionList { stamp_ns: 700_000_000, items: vec![detection(18.6, -5.2)] },
+            DetectionList {
+                stamp_ns: 500_000_000,
+                items: vec![detection(21.0, 0.2), detection(17.0, -8.0)],
+            },
+        ],
     }
 }
 
@@ -100,6 +111,8 @@ fn witness(rule: Rule) -> Witness {
         point: None,
         track: None,
         detection: None,
+        item: None,
+        age_ns: None,
         segment: None,
         disk: None,
         cell: None,
@@ -126,6 +139,13 @@ fn reports() -> Vec<(&'static str, Report)> {
     let track = Witness { point, track: Some(7), ..witness(Rule::Collision) };
     let standing = Witness { rule: Rule::CollisionStanding, ..track.clone() };
     let detection = Witness { point, detection: Some(0), ..witness(Rule::Collision) };
+    let moving = Witness {
+        rule: Rule::CollisionMoving,
+        detection: Some(3),
+        item: Some(1),
+        age_ns: Some(500_000_000),
+        ..detection.clone()
+    };
     let corridor = Witness { point: Some(20), segment: Some(12), ..witness(Rule::Corridor) };
     let occupied = Witness {
         point: Some(6),
@@ -134,15 +154,14 @@ fn reports() -> Vec<(&'static str, Report)> {
         compared: [0.9, 1.124],
         ..witness(Rule::Occupied)
     };
-    let velocity = Witness { track: Some(12), ..witness(Rule::Velocity) };
     let mut reports = vec![
         ("mean", failed(Stage::I, witness(Rule::MeanCost))),
-        ("velocity", failed(Stage::I, velocity)),
         ("corridor", failed(Stage::Ii, corridor)),
         ("start", failed(Stage::Ii, Witness { point: Some(0), ..witness(Rule::StartPosition) })),
         ("track", failed(Stage::Iii, track)),
         ("standing", failed(Stage::Iii, standing)),
         ("detection", failed(Stage::Iv, detection)),
+        ("moving", failed(Stage::Iv, moving)),
         ("gap", failed(Stage::Iv, witness(Rule::Gap))),
         ("grid", failed(Stage::V, occupied)),
     ];
@@ -218,6 +237,35 @@ fn the_marked_track_is_where_it_will_be_at_the_point() {
     assert_ne!(last_mark(&moving), track_now(&moving));
 }
 
+/// From the item to the detection in 0.5 s, and as fast on to the time of the point.
+#[test]
+fn the_arrows_of_what_moves_are_as_long_as_their_times() {
+    let reports = reports();
+    let (_, report) = reports.iter().find(|(name, _)| *name == "moving").unwrap();
+    let svg = drawn(&cycle(), report);
+    let document = Document::parse(&svg).unwrap();
+    let group = with_id(&document, "witness").unwrap();
+    let of = |class: &str| {
+        let nodes = group.children().filter(move |n| n.attribute("class") == Some(class));
+        nodes.filter_map(|n| n.attribute("points")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let lengths: Vec<f64> = of("witness-line")
+        .iter()
+        .map(|line| {
+            let n: Vec<f64> = line.split([',', ' ']).map(|it| it.parse().unwrap()).collect();
+            (n[2] - n[0]).hypot(n[3] - n[1])
+        })
+        .collect();
+    // Point 9 is 1.8 s ahead.
+    let [seen, expected] = lengths[..] else { panic!("{lengths:?}") };
+    assert!(seen > 20.0 && (expected / seen - 1.8 / 0.5).abs() < 0.02, "{lengths:?}");
+    let corners = |points: &str| points.split(' ').count();
+    let counts = ["disk", "witness-tip", "witness"].map(|class| of(class).len());
+    assert_eq!((counts, corners(&of("disk")[0])), ([2, 2, 2], 4));
+    let earlier = document.descendants().filter(|n| n.attribute("class") == Some("history"));
+    assert_eq!(earlier.filter(|n| n.has_tag_name("polygon")).count(), 3);
+}
+
 #[test]
 fn numbers_that_cannot_be_drawn_do_not_reach_the_document() {
     let mut broken = cycle();
@@ -241,11 +289,15 @@ fn witnesses_beyond_the_lists_are_no_error() {
         point: Some(999),
         track: Some(-1),
         detection: Some(999),
+        item: Some(999),
+        age_ns: Some(i64::MIN),
         segment: Some(999),
         disk: Some(999),
         cell: Some((i64::MAX, i64::MIN)),
         ..witness(Rule::Occupied)
     };
-    let svg = drawn(&cycle(), &failed(Stage::V, beyond));
-    assert!(with_id(&Document::parse(&svg).unwrap(), "witness").is_some());
+    for rule in [Rule::Occupied, Rule::CollisionMoving] {
+        let svg = drawn(&cycle(), &failed(Stage::V, Witness { rule, ..beyond.clone() }));
+        assert!(with_id(&Document::parse(&svg).unwrap(), "witness").is_some());
+    }
 }

@@ -2,8 +2,11 @@
 
 mod readers {
     pub mod broken;
+    pub mod crossing;
     pub mod files;
+    pub mod history;
     pub mod injected;
+    pub mod objects;
     pub mod shared;
     pub mod small;
 }

@@ -61,6 +61,8 @@ double assignment_cost(const Costs& costs) {
 bool mean_is_small(const Cycle& c, std::vector<Object> rows, std::vector<Object> columns) {
   if (rows.size() > columns.size()) std::swap(rows, columns);
   if (rows.empty()) return true;
+  double few = double(rows.size()), many = double(columns.size());
+  if (few * few * many > double(c.parameters.work_limit)) return false;
   Costs costs;
   for (auto& a : rows) {
     costs.emplace_back();

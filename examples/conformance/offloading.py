@@ -1,12 +1,18 @@
-"""Answers the record `offloading`: the requester of spec/2-offloading.md, paper profile."""
+"""Answers the record `offloading`: the requester of spec/2-offloading.md.
+
+In the paper profile the local services of a group stop at the confirmation, in the hardened profile
+(H-08, make before break) at the first safe verdict on data of the session: until then they compute
+as well, and leaving the session activates nothing.
+"""
+import bugs
 from record import I64_MAX, TIMES, Broken, choice, fields, integer, listed
 
 GROUPS = ("mot", "plan")
 
 
 class Requester:
-    def __init__(self, parameters, bug):
-        self.bug = bug
+    def __init__(self, parameters, hardened):
+        self.hardened = hardened
         self.parameters, self.hold_until_ns, self.sessions = parameters, None, 0
         self.group = {g: {"state": "local"} for g in GROUPS}
         self.offers, self.asked, self.area = {}, {}, set(GROUPS)
@@ -18,8 +24,12 @@ class Requester:
         old, self.group[g] = self.group[g], {"state": "local"}
         if old["state"] != "local" and release:
             self.release(g, old["station"], old["session"])
-        if old["state"] == "remote":
+        if old.get("stopped"):
             self.do(2, g, {"activate": g})
+
+    def stop_local(self, g):
+        self.group[g]["stopped"] = True
+        self.do(2, g, {"deactivate": g})
 
     def release(self, g, station, session):
         self.do(1, g, {"send": "release", "station": station, "group": g, "session": session})
@@ -28,7 +38,7 @@ class Requester:
         self.actions.append((order, GROUPS.index(g), action))
 
     def hold(self, now_ns):
-        if self.bug != "no-hold":
+        if bugs.ON != "no-hold":
             until_ns = self.later(now_ns, "t_wait_ns")
             old_ns = self.hold_until_ns
             self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)
@@ -75,7 +85,8 @@ class Requester:
         g, slot = event["group"], self.group[event["group"]]
         if named and slot["state"] == "requested" and now_ns < slot["deadline_ns"]:
             slot.update(state="remote", arrival_ns=now_ns, used_ns=None)
-            self.do(2, g, {"deactivate": g})
+            if not self.hardened:
+                self.stop_local(g)
         elif not (named and slot["state"] == "remote"):
             self.release(g, event["station"], event["session"])
 
@@ -92,6 +103,17 @@ class Requester:
         if slot["used_ns"] is not None and event["generated_ns"] <= slot["used_ns"]:
             return self.do(0, g, {"drop": g})
         slot["used_ns"] = event["generated_ns"]
+
+    def verdict(self, now_ns, event):
+        if event["verdict"] == "unsafe":
+            for g in GROUPS:
+                self.leave(g)
+            return self.hold(now_ns)
+        for g in GROUPS:
+            slot = self.group[g]
+            if slot["state"] == "remote" and not slot.get("stopped") and (
+                    slot["used_ns"] is not None and event["sessions"].get(g) == slot["session"]):
+                self.stop_local(g)
 
     def step(self, event):
         self.actions = []
@@ -116,10 +138,8 @@ class Requester:
                 self.leave(event["group"], False)
         elif kind == "data":
             self.data(now_ns, event, named)
-        elif event["verdict"] == "unsafe":
-            for g in GROUPS:
-                self.leave(g)
-            self.hold(now_ns)
+        else:
+            self.verdict(now_ns, event)
         states = {g: self.group[g]["state"] for g in GROUPS}
         for g in GROUPS:
             if states[g] != "local":
@@ -130,7 +150,7 @@ class Requester:
 
 EVENTS = {"offer": ("station", "groups"), "withdraw": ("station",), "lost": ("station",),
           "area": ("groups",), "tick": (), "confirm": ("station", "group", "session"),
-          "reject": ("station", "group", "session"), "verdict": ("verdict", "groups"),
+          "reject": ("station", "group", "session"), "verdict": ("verdict", "sessions"),
           "data": ("station", "group", "session", "generated_ns")}
 
 
@@ -145,19 +165,22 @@ def read_event(value):
     choice(value.get("group", "mot"), GROUPS)
     choice(value.get("verdict", "safe"), ("safe", "unsafe"))
     listed(value.get("groups", []), lambda group: choice(group, GROUPS))
+    for session in fields(value.get("sessions", {}), [], GROUPS).values():
+        integer(session)
     return value
 
 
-def answer_offloading(record, bug):
+def answer_offloading(record):
     fields(record, ["kind", "id", "events"], ["profile", "parameters"])
     given = record.get("parameters", {})
     fields(given, [], [*TIMES, "qos_hold"])
-    if record.get("profile") != "paper" or not isinstance(given.get("qos_hold", False), bool):
+    profile = choice(record.get("profile", "hardened"), ("paper", "hardened"))
+    if not isinstance(given.get("qos_hold", False), bool):
         raise Broken
     if any(integer(given[key]) < 0 for key in set(TIMES) & set(given)):
         raise Broken
     events = listed(record["events"], read_event)
     if len(events) > 10_000:
         raise Broken
-    requester = Requester({**TIMES, "qos_hold": False, **given}, bug)
+    requester = Requester({**TIMES, "qos_hold": False, **given}, profile == "hardened")
     return {"states": [requester.step(event) for event in events]}

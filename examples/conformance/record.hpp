@@ -29,8 +29,9 @@ struct Grid : Pose {
 struct Parameters {
   double theta_tr = 0.2, theta_map = 0.3, theta_obj = 5.0, a_b = 8.0, safety_time = 1.8;
   double theta_track_max = 1.0, tau = 0.1, a_max = 3.0, start_tolerance = 2.0, v_max = 150.0;
-  double theta_velocity = 2.0, delta = 1e-6;
-  std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 0, step_max_ns = 200000000,
+  double theta_velocity = 2.0, v_object = 70.0, tau_motion = 0.3, lateral_tolerance = 0.5;
+  double delta = 1e-6;
+  std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 4, step_max_ns = 200000000,
                work_limit = 10000000000;
 };
 struct Cycle {
@@ -39,7 +40,8 @@ struct Cycle {
   std::string configuration;
   Ego ego;
   std::optional<Stamped<TrajectoryPoint>> trajectory;
-  std::optional<Stamped<Object>> tracks, detections, previous_tracks;
+  std::optional<Stamped<Object>> tracks, detections;
+  std::vector<Stamped<Object>> detection_history;
   std::optional<Lead> lead;
   bool closed;
   std::vector<Station> stations;
@@ -112,6 +114,8 @@ inline std::string read_base64(const Value& v) {
     bits = bits << 6 | unsigned(digit);
     if (i % 4) bytes += char(bits >> (6 - 2 * (i % 4)) & 0xff);
   }
+  // Two digits hold 4 bits more than a byte, three hold 2 more than two: these are zero.
+  if (bits & (end % 4 == 2 ? 15u : end % 4 == 3 ? 3u : 0u)) throw Broken{};
   return bytes;
 }
 inline Grid read_grid(const Value& v) {
@@ -137,13 +141,15 @@ std::optional<Stamped<T>> read_list(const Value* v, const char* key, T (*read)(c
 inline void read_parameters(const Value& v, Parameters& p) {
   v.only({"theta_tr", "theta_map", "theta_obj", "a_b", "safety_time", "max_age_ns", "n",
           "theta_track_max", "miss_budget", "tau", "a_max", "start_tolerance", "v_max",
-          "step_max_ns", "theta_velocity", "work_limit", "delta", "t_wait_ns",
-          "request_timeout_ns", "l_max_ns", "dt_max_ns"});
+          "step_max_ns", "theta_velocity", "v_object", "tau_motion", "lateral_tolerance",
+          "work_limit", "delta", "t_wait_ns", "request_timeout_ns", "l_max_ns", "dt_max_ns"});
   const std::pair<const char*, double*> numbers[] = {
       {"theta_tr", &p.theta_tr}, {"theta_map", &p.theta_map}, {"theta_obj", &p.theta_obj},
       {"a_b", &p.a_b}, {"safety_time", &p.safety_time}, {"tau", &p.tau}, {"a_max", &p.a_max},
       {"theta_track_max", &p.theta_track_max}, {"start_tolerance", &p.start_tolerance},
-      {"v_max", &p.v_max}, {"theta_velocity", &p.theta_velocity}, {"delta", &p.delta}};
+      {"v_max", &p.v_max}, {"theta_velocity", &p.theta_velocity}, {"v_object", &p.v_object},
+      {"tau_motion", &p.tau_motion}, {"lateral_tolerance", &p.lateral_tolerance},
+      {"delta", &p.delta}};
   for (auto& [name, place] : numbers)
     if (const Value* value = v.find(name)) *place = value->as_double();
   std::int64_t time_ns = 0;
@@ -158,7 +164,7 @@ inline void read_parameters(const Value& v, Parameters& p) {
 }
 inline Cycle read_cycle(const Value& v) {
   v.only({"kind", "id", "profile", "parameters", "now_ns", "configuration", "ego", "trajectory",
-          "tracks", "detections", "lead", "route", "grid", "previous_tracks"});
+          "tracks", "detections", "lead", "route", "grid", "detection_history"});
   // This program knows the published method only.
   if (v.at("profile").as_string() != "paper") throw Broken{};
   Cycle c{};
@@ -180,7 +186,9 @@ inline Cycle read_cycle(const Value& v) {
   c.closed = route.at("closed").as_boolean();
   for (auto& item : route.at("stations").as_list()) c.stations.push_back(read_station(item));
   if (const Value* grid = v.given("grid")) c.grid = read_grid(*grid);
-  c.previous_tracks = read_list(v.given("previous_tracks"), "items", read_track);
+  if (const Value* history = v.given("detection_history"))
+    for (auto& list : history->as_list())
+      c.detection_history.push_back(*read_list(&list, "items", read_detection));
   return c;
 }
 
@@ -257,11 +265,12 @@ inline void check_trajectory(Cycle& c, bool remote) {
 }
 inline void check_parameters(const Parameters& p) {
   const double least = std::numeric_limits<double>::denorm_min();
-  for (double theta : {p.theta_tr, p.theta_map, p.theta_obj, p.theta_track_max, p.start_tolerance})
+  for (double theta : {p.theta_tr, p.theta_map, p.theta_obj, p.theta_track_max,
+                       p.start_tolerance, p.lateral_tolerance})
     within(theta, 1e-3, 1e3);
   for (double a : {p.a_b, p.a_max}) within(a, 0.1, 100.0);
-  for (double time : {p.safety_time, p.tau}) within(time, 0.0, 60.0);
-  for (double speed : {p.v_max, p.theta_velocity}) within(speed, least, 1e3);
+  for (double time : {p.safety_time, p.tau, p.tau_motion}) within(time, 0.0, 60.0);
+  for (double speed : {p.v_max, p.theta_velocity, p.v_object}) within(speed, least, 1e3);
   for (std::int64_t time_ns : {p.max_age_ns, p.step_max_ns}) within<std::int64_t>(time_ns, 0, kS60);
   within<std::int64_t>(p.n, 1, 64);
   within<std::int64_t>(p.miss_budget, 0, 64);
@@ -303,7 +312,12 @@ inline bool check_input(Cycle& c) {
   check_route(c.stations);
   if (c.grid) check_time(c.grid->stamp_ns, c.now_ns, false), check_grid(*c.grid);
   check_list(c.detections, c, false, false);
-  check_list(c.previous_tracks, c, false, true);
+  within<std::size_t>(c.detection_history.size(), 0, 4);
+  for (std::size_t i = 0; i < c.detection_history.size(); ++i) {
+    check_list(c.detection_history[i], c, false, false);
+    if (i && c.detection_history[i - 1].stamp_ns <= c.detection_history[i].stamp_ns)
+      throw Invalid{};
+  }
   if (!remote_tracks) check_list(c.tracks, c, false, true);
   if (!remote_trajectory) check_trajectory(c, false);
   try {

@@ -76,20 +76,24 @@ pub enum Outcome {
 /// trajectory point, then by list order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Rule {
+    /// Stage i: a comparison of what the CAV saw itself is too close to call.
+    Ambiguous,
     /// Stage i: mean assignment cost < `theta_tr`.
     MeanCost,
-    /// Stage i: the assignment would take more work than `work_limit`.
+    /// Stages i and iv: the assignment, or H-13, would take more work than `work_limit`.
     WorkLimit,
     /// H-01: fewer pairs closer than `theta_track_max` than tracks to be matched.
     NoAssignment,
-    /// H-09: displacement since the previous list does not fit the velocity.
-    Velocity,
     /// Stage ii: farther than `theta_map` from the reference path and outside the corridor.
     ThetaMap,
     /// H-07: time of the first point not within `max_age` of now.
     StartTime,
     /// H-07: first point too far from the CAV.
     StartPosition,
+    /// H-07: the first heading is not the CAV's.
+    StartHeading,
+    /// H-07: the trajectory starts too far aside.
+    StartOffset,
     /// H-07: a point outside the corridor.
     Corridor,
     /// H-07: heading against the nearest segments of the reference path.
@@ -104,8 +108,16 @@ pub enum Rule {
     StepForward,
     /// H-11: step sideways by more than W/2.
     StepLateral,
-    /// H-11: headings differ too much.
+    /// H-11: headings of a step differ too much.
     StepTurn,
+    /// H-11: the step does not lie along its headings.
+    StepSlide,
+    /// H-11: heading against that of the mark.
+    TurnReversed,
+    /// H-11: turned farther since the mark than the way and the time allow.
+    TurnOnTheSpot,
+    /// H-11: turned harder since the mark than tyres hold.
+    TurnHard,
     /// H-12: arc length below what braking from `v_lo` covers.
     ArcTooShort,
     /// H-12: arc length above what accelerating from `v_hi` covers.
@@ -118,6 +130,8 @@ pub enum Rule {
     Collision,
     /// Stage iii, H-09: the rectangles share a point when the track stands still.
     CollisionStanding,
+    /// Stage iv, H-13: the rectangles share a point when the detection moves on as it did.
+    CollisionMoving,
     /// Stage v: a disk on an occupied cell.
     Occupied,
     /// H-06: a disk on an unknown cell.
@@ -127,7 +141,7 @@ pub enum Rule {
 }
 
 /// Why a stage failed: the rule, where, and the two numbers that were compared, as the nearest
-/// doubles. `track` is an id; `point`, `detection`, `segment` (of the reference path) and `disk`
+/// doubles. `track` is an id; `point`, `detection`, `item`, `segment` (of the reference path) and `disk`
 /// are list indices; `cell` is (column, row). Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
@@ -140,6 +154,10 @@ pub struct Witness {
     pub track: Option<i64>,
     /// Index of the detection.
     pub detection: Option<usize>,
+    /// Index of the item in a list of the detection history (H-13).
+    pub item: Option<usize>,
+    /// Age of that list, ns.
+    pub age_ns: Option<i64>,
     /// Index of the segment of the reference path.
     pub segment: Option<usize>,
     /// Index of the disk.
@@ -158,6 +176,8 @@ impl Witness {
             point: None,
             track: None,
             detection: None,
+            item: None,
+            age_ns: None,
             segment: None,
             disk: None,
             cell: None,
@@ -188,6 +208,8 @@ pub enum Problem {
     EqualPoints,
     /// A time not later than that of the point before.
     TimeNotIncreasing,
+    /// A stamp not earlier than that of the list before.
+    StampNotDecreasing,
     /// Fewer items than the list has to have.
     TooFew,
     /// More items than the list may have.
@@ -209,6 +231,9 @@ impl Problem {
             Self::DuplicateId => "an earlier track has this id; give every track its own",
             Self::EqualPoints => "equal to the reference point before; drop one of the two",
             Self::TimeNotIncreasing => "not later than the point before; order the points by time",
+            Self::StampNotDecreasing => {
+                "not earlier than the list before; order the lists from the youngest on"
+            }
             Self::TooFew => "too few items; see spec/3-stages.md#invalid-input",
             Self::TooMany => "too many items; see spec/4-arithmetic.md#domain",
             Self::BitmapLength => "wrong length; give ceil(width * height / 8) bytes",

@@ -26,10 +26,13 @@
 //! | H-06 | [`hardened::h06_closed_cells`] |
 //! | H-07 | [`hardened::h07_start`] |
 //! | H-08 | [`offloading::requester`] |
-//! | H-09 | [`hardened::h09_velocity`] |
+//! | H-09 | [`hardened::h09_standing`] |
 //! | H-11 | [`hardened::h11_steps`] |
 //! | H-12 | [`hardened::h12_progress`] |
+//! | H-13 | [`hardened::h13_moving`] |
+//! | what the CAV saw itself | [`hardened::detection_history`] |
 //! | strict, exact and lax reading (`spec/4-arithmetic.md`) | [`numbers::reading`] |
+//! | how much the model computes | [`work`] |
 
 pub mod hardened;
 pub mod input;
@@ -38,3 +41,4 @@ pub mod offloading;
 pub mod report;
 pub mod services;
 pub mod stages;
+pub mod work;

@@ -64,7 +64,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
         Demo { folder, findings: Findings::default(), surprises: Vec::new(), problem: None };
     introduction(&drives[0], out)?;
     let [hardened, paper] = &drives;
-    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-12\n")?;
+    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-13\n")?;
     for case in &CASES {
         demo.case(case, hardened, out)?;
     }

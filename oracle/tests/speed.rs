@@ -1,5 +1,5 @@
-//! How long an urban cycle takes the oracle: 30 tracks, 40 detections, 50 points and a grid of
-//! 600 x 600 cells, from the line to the answer, in all three readings.
+//! How long an urban cycle takes the oracle: 30 tracks, 40 detections, three earlier lists of 40, 50
+//! points and a grid of 600 x 600 cells, from the line to the answer, in all three readings.
 
 use std::time::{Duration, Instant};
 
@@ -92,14 +92,20 @@ fn urban(profile: Profile, configuration: Configuration, degrees: f64) -> Cycle 
     };
     let objects: Vec<[f64; 3]> = (1..=30).map(object).collect();
     let noise = |i: u32| 0.1 * (spread(i, 0.236_068) - 0.5);
-    let seen =
-        (1..).zip(&objects).map(|(i, [u, w, _])| street.detection(u + noise(i), w + noise(i + 50)));
-    let clutter =
-        (31..=40).map(|i| street.detection(90.0 * spread(i, 0.618_034) - 10.0, 30.0 + noise(i)));
-    let tracks = |after_s: f64| -> Vec<Track> {
-        let moved = |[u, w, v]: [f64; 3]| [u + v * after_s, w, v];
-        (1..).zip(&objects).map(|(id, it)| street.track(id, moved(*it))).collect()
+    // What the CAV saw so many ms ago: the objects where they were, and clutter.
+    let seen = |millis: u32| {
+        let object = |(i, [u, w, v]): (u32, &[f64; 3])| {
+            let then = u - v * f64::from(millis) / 1000.0;
+            street.detection(then + noise(i + millis), w + noise(i + millis + 50))
+        };
+        let clutter = |i: u32| {
+            let u = 90.0 * spread(i + millis, 0.618_034) - 10.0;
+            street.detection(u, 30.0 + noise(i + millis))
+        };
+        let items = (1..).zip(&objects).map(object).chain((31..=40).map(clutter)).collect();
+        DetectionList { stamp_ns: NOW - i64::from(millis) * 1_000_000, items }
     };
+    let tracks: Vec<Track> = (1..).zip(&objects).map(|(id, it)| street.track(id, *it)).collect();
     let (x, y) = street.at(0.0, 0.0);
     Cycle {
         profile,
@@ -111,15 +117,15 @@ fn urban(profile: Profile, configuration: Configuration, degrees: f64) -> Cycle 
             stamp_ns: NOW,
             points: (0..50).map(|i| street.point(i)).collect(),
         }),
-        tracks: Some(TrackList { stamp_ns: NOW, items: tracks(0.0) }),
-        detections: Some(DetectionList { stamp_ns: NOW, items: seen.chain(clutter).collect() }),
+        tracks: Some(TrackList { stamp_ns: NOW, items: tracks }),
+        detections: Some(seen(0)),
         lead: None,
         route: Route {
             closed: false,
             cross_sections: (-10..=20).map(|i| street.cross_section(i)).collect(),
         },
         grid: Some(street.grid(&objects)),
-        previous_tracks: Some(TrackList { stamp_ns: NOW - 100_000_000, items: tracks(-0.1) }),
+        detection_history: [300, 500, 800].map(seen).into(),
     }
 }
 

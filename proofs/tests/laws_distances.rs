@@ -47,7 +47,7 @@ fn cycle(v_now: f64, v_lead: f64, gap: f64) -> Cycle<'static> {
         lead: Some(Lead { stamp_ns: 0, gap, speed: v_lead }),
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: None,
-        previous_tracks: None,
+        detection_history: &[],
     }
 }
 

@@ -62,7 +62,8 @@ use mufasa_model::report::{InvalidInput, Report};
 /// (`spec/4-arithmetic.md#conformance-of-an-implementation`). `Err` is invalid local input.
 pub fn check_impl(cycle: &Cycle) -> Result<Report, InvalidInput> {
     let owned = to_impl(cycle);
-    let borrowed = owned.borrow();
+    let history = owned.history();
+    let borrowed = owned.borrow(&history);
     let sizes = Sizes::for_cycle(&borrowed);
     let mut rows = vec![Row::default(); sizes.rows];
     let mut columns = vec![Column::default(); sizes.columns];

@@ -221,6 +221,8 @@ fn kind(outcome: &Outcome) -> Outcome {
             point: None,
             track: None,
             detection: None,
+            item: None,
+            age_ns: None,
             segment: None,
             disk: None,
             cell: None,
@@ -236,10 +238,11 @@ fn kind(outcome: &Outcome) -> Outcome {
 /// A witness without the numbers that were compared, and without the nearest segment where the
 /// distance to it decides: of two that are equally near up to rounding either may be named.
 fn place(witness: &Witness) -> impl PartialEq + use<> {
-    let Witness { rule, point, track, detection, segment, disk, cell, compared: _ } = *witness;
+    let Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared: _ } =
+        *witness;
     let by_distance = matches!(rule, Rule::ThetaMap | Rule::Corridor);
     let segment = if by_distance { None } else { segment };
-    (rule, point, track, detection, segment, disk, cell)
+    (rule, point, track, detection, item, age_ns, segment, disk, cell)
 }
 
 /// The numbers that were compared, the same but for rounding.

@@ -129,12 +129,14 @@ fn deciding(cycle: &Cycle) -> Option<Rule> {
     })
 }
 
-const RULES: [Rule; 22] = [
+const RULES: [Rule; 29] = [
+    Rule::Ambiguous,
     Rule::MeanCost,
     Rule::NoAssignment,
-    Rule::Velocity,
     Rule::StartTime,
     Rule::StartPosition,
+    Rule::StartHeading,
+    Rule::StartOffset,
     Rule::Corridor,
     Rule::Direction,
     Rule::StepTime,
@@ -143,12 +145,17 @@ const RULES: [Rule; 22] = [
     Rule::StepForward,
     Rule::StepLateral,
     Rule::StepTurn,
+    Rule::StepSlide,
+    Rule::TurnReversed,
+    Rule::TurnOnTheSpot,
+    Rule::TurnHard,
     Rule::ArcTooShort,
     Rule::ArcTooLong,
     Rule::EndsTooSoon,
     Rule::Gap,
     Rule::Collision,
     Rule::CollisionStanding,
+    Rule::CollisionMoving,
     Rule::Occupied,
     Rule::Unknown,
     Rule::Outside,

@@ -45,7 +45,8 @@ fn an_index_changes_no_answer() {
         let failed = std::cell::Cell::new(0);
         let result = runner().run(&cycles, |cycle| {
             let owned = to_impl(&cycle);
-            let cycle = owned.borrow();
+            let history = owned.history();
+            let cycle = owned.borrow(&history);
             let sizes = Sizes::for_cycle(&cycle);
             let mut rows = vec![Row::default(); sizes.rows];
             let mut columns = vec![Column::default(); sizes.columns];

@@ -21,7 +21,8 @@ use proptest::test_runner::TestCaseError;
 /// Judges the report of the implementation by every law of one report; none for invalid input.
 fn judged(cycle: &Cycle) -> Result<Option<Report>, String> {
     let owned = bridge::to_impl(cycle);
-    let cycle = owned.borrow();
+    let history = owned.history();
+    let cycle = owned.borrow(&history);
     let sizes = Sizes::for_cycle(&cycle);
     let (mut rows, mut columns) =
         (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);

@@ -110,6 +110,12 @@ pub struct WitnessAnswer {
     /// Index of the detection.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub detection: Option<usize>,
+    /// Index of the item in a list of the detection history.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub item: Option<usize>,
+    /// Age of that list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub age_ns: Option<i64>,
     /// Index of the segment of the reference path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub segment: Option<usize>,
@@ -201,6 +207,8 @@ impl WitnessAnswer {
             point: witness.point,
             track: witness.track,
             detection: witness.detection,
+            item: witness.item,
+            age_ns: witness.age_ns,
             segment: witness.segment,
             disk: witness.disk,
             cell: witness.cell.map(|(column, row)| [column, row]),

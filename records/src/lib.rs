@@ -10,6 +10,7 @@ pub mod record;
 pub mod schema;
 pub mod write;
 
+mod order;
 mod read;
 mod typed;
 

@@ -2,24 +2,52 @@
 
 use mufasa_model::report::InvalidInput;
 use serde::de::DeserializeOwned;
-use serde_path_to_error::{Path, Segment};
+use serde_path_to_error::Segment;
 
 use crate::error::text;
+use crate::order::{Cut, Step, ordered, place};
 
 /// How much of a user's text an error repeats.
 const EXCERPT_CHARS: usize = 40;
 
-/// Reads a part of a record. Errors name the field below `json`.
+/// Reads a part of a record. Errors name the field below `json`, of several in one object the first
+/// in the order of `spec/5-interfaces.md`.
 pub fn from_json<T: DeserializeOwned>(json: &str) -> Result<T, InvalidInput> {
-    serde_json::from_str(json).map_err(|error| {
-        // The path costs time and is only needed when there is an error.
-        let mut reader = serde_json::Deserializer::from_str(json);
-        match serde_path_to_error::deserialize::<_, T>(&mut reader) {
-            Err(error) => problem(error.path(), &text(error.inner())),
-            // What stands behind the record is wrong.
-            Ok(_) => InvalidInput { field: String::new(), index: None, message: text(&error) },
-        }
+    serde_json::from_str(json).map_err(|error| match first_error::<T>(json) {
+        Some((path, message)) => problem(&path, &message),
+        // What stands behind the record is wrong.
+        None => InvalidInput { field: String::new(), index: None, message: text(&error) },
     })
+}
+
+/// Where and why a part of a record cannot be read. It is found only when there is an error, because
+/// it costs time.
+fn first_error<T: DeserializeOwned>(json: &str) -> Option<(Vec<Step>, String)> {
+    let (path, message) = error::<T>(&ordered(json, None))?;
+    let missing = |depth: usize| {
+        let (path, Step::Key(key)) = (&path[..depth], &path[depth]) else { return None };
+        let found = error::<T>(&ordered(json, Some(Cut { path, key })))?;
+        let is_before = missing_key(&found.1).is_some_and(|it| place(it) < place(key));
+        (found.0 == path && is_before).then_some(found)
+    };
+    (0..path.len()).find_map(missing).or(Some((path, message)))
+}
+
+/// The first error of serde, as it reads.
+fn error<T: DeserializeOwned>(json: &str) -> Option<(Vec<Step>, String)> {
+    let mut reader = serde_json::Deserializer::from_str(json);
+    let error = serde_path_to_error::deserialize::<_, T>(&mut reader).err()?;
+    let step = |segment: &Segment| match segment {
+        Segment::Seq { index } => Some(Step::Index(*index)),
+        Segment::Map { key } => Some(Step::Key(key.clone())),
+        Segment::Enum { .. } | Segment::Unknown => None,
+    };
+    Some((error.path().iter().filter_map(step).collect(), text(error.inner())))
+}
+
+/// The key that an error says is missing.
+fn missing_key(error: &str) -> Option<&str> {
+    error.strip_prefix("missing field `")?.split('`').next()
 }
 
 /// A place in a record, with and without indices.
@@ -42,23 +70,22 @@ impl Place {
 
 /// The error of serde in our words. It begins with the full path, which has the indices that
 /// `field` and `index` have no room for.
-fn problem(path: &Path, error: &str) -> InvalidInput {
+fn problem(path: &[Step], error: &str) -> InvalidInput {
     let mut place = Place::default();
-    for segment in path {
-        match segment {
-            Segment::Seq { index } => {
+    for step in path {
+        match step {
+            Step::Index(index) => {
                 place.index = Some(*index);
                 place.path.extend(["[", &index.to_string(), "]"]);
             }
-            Segment::Map { key } => place.enter(key),
-            Segment::Enum { .. } | Segment::Unknown => {}
+            Step::Key(key) => place.enter(key),
         }
     }
-    // These three are errors of the object; which key is wrong stands in their text alone. A key
+    // Three kinds are errors of the object; which key is wrong stands in their text alone. A key
     // that no struct has ends the path already, one that another type of event has does not.
     let key_after = |start: &str| error.strip_prefix(start)?.split('`').next();
-    let is_at_key = matches!(path.iter().next_back(), Some(Segment::Map { .. }));
-    let what = if let Some(key) = key_after("missing field `") {
+    let is_at_key = matches!(path.last(), Some(Step::Key(_)));
+    let what = if let Some(key) = missing_key(error) {
         place.enter(key);
         String::from("is missing")
     } else if let Some(key) = key_after("duplicate field `") {

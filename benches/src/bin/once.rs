@@ -1,7 +1,8 @@
-//! `once TASK [1|2|3] [ghost|drift|fail] [CALLS]`: one call of one task on W1 (W2, W3), in a
+//! `once TASK [1|2|3] [ghost|drift|fail] [bare] [CALLS]`: one call of one task on W1 (W2, W3), in a
 //! function of its own, whose instructions `scripts/instruction-counts` counts; more calls for a
-//! profile by samples. Tasks: `validation`, a stage (`i` to `v`) or `all`, each with `-hardened`
-//! for that profile. `fail`: the variant of the stage that it fails.
+//! profile by samples. Tasks: `validation`, a stage (`i` to `v`), `all`, or a cycle as a vehicle
+//! asks for it (`mot`: `MotRemote`, `remote`: `AllRemote`), each with `-hardened` for that profile.
+//! `fail`: the variant of the stage that it fails; `bare`: without a detection history.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -21,6 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let stage = STAGES.into_iter().zip(Stage::ALL).find(|&(name, _)| name == task);
     let (mut size, mut variant, mut calls) = (&SIZES[0], Variant::Pass, 1_u64);
+    let mut bare = false;
     for option in std::env::args().skip(2) {
         match (option.as_str(), stage) {
             ("1", _) => {}
@@ -29,15 +31,22 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("ghost", _) => variant = Variant::Ghost,
             ("drift", _) => variant = Variant::Drift,
             ("fail", Some((_, stage))) => variant = Variant::Fail(stage),
+            ("bare", _) => bare = true,
             (number, _) => calls = number.parse()?,
         }
     }
     let workload = Workload::new(size, variant);
-    let cycle = workload.cycle(profile, Configuration::AllRemote);
+    let configuration =
+        if task == "mot" { Configuration::MotRemote } else { Configuration::AllRemote };
+    let mut cycle = workload.cycle(profile, configuration);
+    if bare {
+        cycle.detection_history = &[];
+    }
     let mut it = Contestant::new(&cycle);
     let mut run: Box<dyn FnMut() -> bool> = match (task, stage) {
         (_, Some((_, stage))) => Box::new(move || it.stage(stage)),
         ("validation", _) => Box::new(move || it.validate()),
+        ("mot" | "remote", _) => Box::new(move || it.check().failed_stage.is_none()),
         ("all", _) => Box::new(move || it.all_stages()),
         _ => return Err(format!("unknown task {task}").into()),
     };

@@ -174,7 +174,7 @@ fn base<'a>(cross_sections: &'a [CrossSection], grid: &'a [u8]) -> Cycle<'a> {
             occupied: grid,
             unknown: None,
         }),
-        previous_tracks: None,
+        detection_history: &[],
     }
 }
 

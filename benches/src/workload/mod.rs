@@ -1,6 +1,7 @@
 //! The workloads W1 (urban), W2 (dense) and W3 (stress) as cycles. The base case passes every
 //! stage, which costs most.
 
+mod draws;
 mod geometry;
 pub mod recipe;
 
@@ -10,14 +11,19 @@ use mufasa::input::cycle::{
 };
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::report::Stage;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
+use mufasa::stages::check;
 
 use self::geometry::Pose;
-use self::recipe::{LENGTH, Numbers, Object, SPEED, Size, WIDTH};
+use self::recipe::{HISTORY_AGES, LENGTH, Numbers, Object, SPEED, Size, WIDTH};
 
 /// Time of every cycle, ns.
 const NOW_NS: i64 = 1_000_000_000;
+
+/// Clutter is shorter than this, m.
+const CLUTTER: f64 = 2.5;
 
 /// W1, W2, W3.
 pub const SIZES: [Size; 3] = [
@@ -80,12 +86,14 @@ pub struct Workload {
     points: Vec<TrajectoryPoint>,
     tracks: Vec<Track>,
     detections: Vec<Detection>,
+    /// For the hardened profile: clutter that by chance seems to move into the way, by index.
+    left_out: Vec<usize>,
+    /// For the hardened profile: earlier detections.
+    history: [Vec<Detection>; 3],
     cross_sections: Vec<CrossSection>,
     resolution: f64,
     cells: i64,
     occupied: Vec<u8>,
-    /// For the hardened profile: where the tracks were 0.1 s ago.
-    previous: Vec<Track>,
     /// For the hardened profile: the cells behind the occupied ones.
     unknown: Vec<u8>,
 }
@@ -117,8 +125,6 @@ impl Workload {
         };
         let tracks: Vec<_> =
             received.iter().zip(1..).map(|(object, id)| track(object, id)).collect();
-        let before = |it: &Track| Track { x: it.x - 0.1 * it.vx, y: it.y - 0.1 * it.vy, ..*it };
-        let previous = tracks.iter().map(before).collect();
         let detections = numbers.detections.iter().map(detection).collect();
         let boundaries = numbers.left.iter().zip(&numbers.right);
         let cross_sections = numbers
@@ -132,18 +138,44 @@ impl Workload {
             points,
             tracks,
             detections,
+            left_out: Vec::new(),
+            history: numbers.history.each_ref().map(|list| list.iter().map(detection).collect()),
             cross_sections: cross_sections.collect(),
             resolution: size.resolution,
             cells: i64::try_from(size.cells).expect("a few thousand"),
             occupied: bitmap(&numbers.occupied),
-            previous,
             unknown: bitmap(&behind(&numbers.occupied, size.cells)),
             numbers,
         };
+        workload.clear_the_way();
         if let Variant::Fail(stage) = variant {
             workload.spoil(stage);
         }
         workload
+    }
+
+    /// Leaves out clutter until the base case passes H-13 in the hardened profile: among so many things
+    /// there is at times an earlier one, with support, from which it would come into the way.
+    fn clear_the_way(&mut self) {
+        loop {
+            let cycle = self.cycle(Profile::Hardened, Configuration::MotRemote);
+            let shown = cycle.detections.map_or(&[][..], |list| list.items);
+            let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
+            let (mut rows, mut columns) =
+                (vec![Row::default(); rows], vec![Column::default(); columns]);
+            let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
+            let stages = report.expect("the workloads are valid input").stages;
+            let found = stages.into_iter().find_map(|outcome| match outcome {
+                Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving => {
+                    shown.get(witness.detection?)
+                }
+                _ => None,
+            });
+            let clutter = found.filter(|detection| detection.length < CLUTTER).copied();
+            let index = self.detections.iter().position(|it| Some(*it) == clutter);
+            let Some(index) = index else { return };
+            self.left_out.push(index);
+        }
     }
 
     /// Puts something where the stage has to see it, at the last point that every profile examines.
@@ -217,13 +249,30 @@ impl Workload {
         self
     }
 
+    /// The detections but for those left out; never freed, as a part of a cycle: a bench ends soon.
+    fn without_left_out(&self) -> Vec<Detection> {
+        let detections = self.detections.iter().enumerate();
+        detections.filter(|(i, _)| !self.left_out.contains(i)).map(|(_, it)| *it).collect()
+    }
+
+    /// The lists of the history; never freed, as a part of a cycle: a bench ends soon.
+    fn detection_history(&self) -> Vec<DetectionList<'_>> {
+        let list = |(items, age): (_, f64)| {
+            #[expect(clippy::cast_possible_truncation, reason = "below 1 s")]
+            let age_ns = (age * 1e9).round() as i64;
+            DetectionList { stamp_ns: NOW_NS - age_ns, items }
+        };
+        self.history.iter().map(Vec::as_slice).zip(HISTORY_AGES).map(list).collect()
+    }
+
     /// The cycle. `MotRemote` runs stages i, ii, iv and v; `AllRemote` i, ii, iii (and iv in the
-    /// hardened profile); `PlanRemote` ii and iii (and iv). In the hardened profile it has previous
-    /// tracks and unknown cells.
+    /// hardened profile); `PlanRemote` ii and iii (and iv). In the hardened profile it has
+    /// unknown cells.
     pub fn cycle(&self, profile: Profile, configuration: Configuration) -> Cycle<'_> {
         let stamp_ns = NOW_NS;
         let hardened = profile == Profile::Hardened;
-        let previous = TrackList { stamp_ns: NOW_NS - 100_000_000, items: &self.previous };
+        let detections: &[_] =
+            if hardened { self.without_left_out().leak() } else { &self.detections };
         let [x, y] = self.numbers.origin;
         Cycle {
             profile,
@@ -233,7 +282,7 @@ impl Workload {
             ego: self.ego,
             trajectory: Some(Trajectory { stamp_ns, points: &self.points }),
             tracks: Some(TrackList { stamp_ns, items: &self.tracks }),
-            detections: Some(DetectionList { stamp_ns, items: &self.detections }),
+            detections: Some(DetectionList { stamp_ns, items: detections }),
             lead: None,
             route: Route { closed: false, cross_sections: &self.cross_sections },
             grid: Some(Grid {
@@ -248,7 +297,7 @@ impl Workload {
                 occupied: &self.occupied,
                 unknown: hardened.then_some(&self.unknown),
             }),
-            previous_tracks: hardened.then_some(previous),
+            detection_history: if hardened { self.detection_history().leak() } else { &[] },
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::draws::Draws;
 use super::geometry::{Pose, Road, overlap};
 
 /// How much there is of everything.
@@ -37,6 +38,10 @@ pub const WIDTH: f64 = 1.9;
 const DISKS: usize = 4;
 const SEED: u64 = 20_250_430;
 const DURATION: f64 = 5.0;
+/// How old the lists of the detection history are, s.
+pub const HISTORY_AGES: [f64; 3] = [0.3, 0.5, 0.8];
+/// The age of the reference list, s.
+const REFERENCE_AGE: f64 = HISTORY_AGES[1];
 
 /// A rectangle that stands or moves.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +75,8 @@ pub struct Numbers {
     pub drift: Vec<Object>,
     /// What the CAV sees, clutter among it.
     pub detections: Vec<Object>,
+    /// What it saw at these ages.
+    pub history: [Vec<Object>; 3],
     /// Origin of the grid, m.
     pub origin: [f64; 2],
     /// Radius of a disk, m.
@@ -86,6 +93,7 @@ impl Numbers {
         let tracks = scene.tracks();
         let detections = scene.detections(&tracks);
         let (ghost, drift) = (scene.ghost(&tracks), scene.drift(&tracks));
+        let history = scene.history(&tracks, &detections);
         let ego = scene.ego();
         let half = scene.side / 2.0;
         let origin = [ego.x - half, ego.y - half];
@@ -102,6 +110,7 @@ impl Numbers {
             ghost,
             drift,
             detections,
+            history,
             origin,
             radius,
             occupied,
@@ -148,8 +157,8 @@ impl<'a> Scene<'a> {
         self.trajectory[0].2
     }
 
-    fn random(&self, stream: u64) -> Random {
-        Random(SEED * 1000 + self.size.number * 10 + stream)
+    fn random(&self, stream: u64) -> Draws {
+        Draws(SEED * 1000 + self.size.number * 10 + stream)
     }
 
     /// Whether the CAV comes within 0.25 m of the object, standing or moving.
@@ -195,7 +204,7 @@ impl<'a> Scene<'a> {
     }
 
     /// A car on a lane beside the CAV's; the first two are forced to be near.
-    fn on_lane(&self, random: &mut Random, index: usize) -> (f64, Pose, f64, f64, f64) {
+    fn on_lane(&self, random: &mut Draws, index: usize) -> (f64, Pose, f64, f64, f64) {
         let mut s = self.start + (random.uniform() - 0.5) * 0.9 * self.side;
         let mut oncoming = random.uniform() < 0.5;
         let mut speed = 8.0 + 7.0 * random.uniform();
@@ -213,12 +222,12 @@ impl<'a> Scene<'a> {
     }
 
     /// A place around the CAV with a heading.
-    fn anywhere(&self, random: &mut Random) -> Pose {
+    fn anywhere(&self, random: &mut Draws) -> Pose {
         let [x, y] = self.around(random);
         Pose { x, y, heading: TAU * random.uniform() - PI }
     }
 
-    fn around(&self, random: &mut Random) -> [f64; 2] {
+    fn around(&self, random: &mut Draws) -> [f64; 2] {
         let ego = self.ego();
         let r = self.reach * random.uniform().sqrt();
         let a = TAU * random.uniform();
@@ -247,6 +256,47 @@ impl<'a> Scene<'a> {
             detections.swap(i, truncated(random.uniform() * count(i + 1)));
         }
         detections
+    }
+
+    /// The tracks where they were, seen with 5 cm of noise; of the clutter each second thing where it
+    /// is now, the others elsewhere; in any order.
+    fn history(&self, tracks: &[Object], detections: &[Object]) -> [Vec<Object>; 3] {
+        let mut random = self.random(5);
+        HISTORY_AGES.map(|age| {
+            let mut seen = tracks.to_vec();
+            for object in &mut seen {
+                let [vx, vy] = object.velocity;
+                object.pose.x += 0.05 * random.normal() - age * vx;
+                object.pose.y += 0.05 * random.normal() - age * vy;
+            }
+            if age.to_bits() == REFERENCE_AGE.to_bits() {
+                self.thin_out(&mut seen);
+            }
+            let is_clutter = |object: &&Object| object.length < 2.5;
+            for (index, &clutter) in detections.iter().filter(is_clutter).enumerate() {
+                let pose = if index % 2 == 0 { clutter.pose } else { self.anywhere(&mut random) };
+                seen.push(Object { pose, ..clutter });
+            }
+            for i in (1..seen.len()).rev() {
+                seen.swap(i, truncated(random.uniform() * count(i + 1)));
+            }
+            seen
+        })
+    }
+
+    /// Near the CAV no two things were so close together that one may have been the other (H-13 would
+    /// find a collision): the later one was missed in this scan.
+    fn thin_out(&self, seen: &mut Vec<Object>) {
+        let ego = self.ego();
+        let apart = |a: Pose, b: Pose| (a.x - b.x).hypot(a.y - b.y);
+        let mut kept: Vec<Object> = Vec::new();
+        for &object in seen.iter() {
+            let is_near = apart(object.pose, ego) < 200.0;
+            if !is_near || kept.iter().all(|other| apart(other.pose, object.pose) > 3.0) {
+                kept.push(object);
+            }
+        }
+        *seen = kept;
     }
 
     fn ghost(&self, tracks: &[Object]) -> Vec<Object> {
@@ -320,28 +370,6 @@ impl<'a> Scene<'a> {
             (0..DISKS).map(move |i| [x + along(i) * heading.cos(), y + along(i) * heading.sin()])
         });
         centres.collect()
-    }
-}
-
-/// `SplitMix64`, as the recipe prescribes it: the workloads have to be the same numbers, bit for bit
-/// (`checksums.txt`), in any language.
-struct Random(u64);
-
-impl Random {
-    /// A number in [0, 1).
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits are left")]
-        let whole = ((z ^ (z >> 31)) >> 11) as f64;
-        whole * (0.5_f64).powi(53)
-    }
-
-    /// Box and Muller, the cosine branch only.
-    fn normal(&mut self) -> f64 {
-        let (a, b) = (self.uniform(), self.uniform());
-        (-2.0 * (1.0 - a).ln()).sqrt() * (TAU * b).cos()
     }
 }
 

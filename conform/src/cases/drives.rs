@@ -1,23 +1,15 @@
 //! Cases from drives: their cycles in each configuration, and attacked.
 //!
-//! Every cycle is a case of its own. Where a drive does not say what the cycle before left, its
-//! `previous_tracks` are what they would be if the whole clean drive had been judged by the exact
-//! model in that configuration; what the program under test answered before has no part in it, so
-//! that a case can be asked again alone. Under an attack they stay those of the clean drive.
+//! Every cycle is a case of its own.
 
-use std::cell::OnceCell;
 use std::path::PathBuf;
 
-use mufasa_model::input::cycle::{Cycle, TrackList};
-use mufasa_model::report::{Outcome, Reading};
+use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 
 use crate::cases::generate::mix;
 use crate::error::ConformError;
-use mufasa_drives::{
-    self, Attack, Drive, DriveCycle, Injection, Options, PreviousTracks, ReadError, inject,
-};
+use mufasa_drives::{self, Attack, Drive, Injection, Options, ReadError, inject};
 
 /// Cycles before an attacked one that are attacked, too.
 const ATTACKED_BEFORE: usize = 10;
@@ -50,7 +42,7 @@ impl Pool {
         let (mut rides, mut errors) = (Vec::new(), Vec::new());
         for read in mufasa_drives::read(files, options) {
             match read {
-                Ok(drive) => rides.push(Ride::new(drive)),
+                Ok(drive) => rides.push(Ride { drive }),
                 Err(error) => errors.push(error),
             }
         }
@@ -91,19 +83,13 @@ impl Pool {
     }
 }
 
-/// A drive with the lists that its cycles carry on.
+/// A drive, of which each cycle has variants.
 #[derive(Clone, Debug)]
 struct Ride {
     drive: Drive,
-    /// For each of `CONFIGURATIONS` and each cycle: whose tracks are its `previous_tracks`.
-    held: [OnceCell<Vec<Option<usize>>>; CONFIGURATIONS.len()],
 }
 
 impl Ride {
-    fn new(drive: Drive) -> Self {
-        Self { drive, held: Default::default() }
-    }
-
     /// A variant of a cycle, with what it is called.
     fn variant(&self, index: usize, variant: usize) -> (String, Cycle) {
         let Drive { name, cycles, .. } = &self.drive;
@@ -118,7 +104,6 @@ impl Ride {
                     cycles: cycles[from..=index].to_vec(),
                     name: name.clone(),
                     source: String::new(),
-                    previous_tracks: self.drive.previous_tracks,
                     notes: Vec::new(),
                 };
                 let clean = self.clean(index, 0);
@@ -138,41 +123,10 @@ impl Ride {
 
     /// A cycle in one of `CONFIGURATIONS`.
     fn clean(&self, index: usize, configuration: usize) -> Cycle {
-        let mut cycle = taken_in(&self.drive.cycles[index].cycle, CONFIGURATIONS[configuration]);
-        if self.drive.previous_tracks == PreviousTracks::Carried {
-            let held = self.held[configuration]
-                .get_or_init(|| held(&self.drive.cycles, CONFIGURATIONS[configuration]));
-            cycle.previous_tracks = held[index].and_then(|at| self.tracks(at));
-        }
-        cycle
+        let cycle = &self.drive.cycles[index].cycle;
+        let configuration = CONFIGURATIONS[configuration].unwrap_or(cycle.configuration);
+        Cycle { configuration, ..cycle.clone() }
     }
-
-    fn tracks(&self, index: usize) -> Option<TrackList> {
-        self.drive.cycles[index].cycle.tracks.clone()
-    }
-}
-
-/// For each cycle the one whose tracks are the last list that stage i passed in a safe cycle
-/// (H-09), as the exact model judges the whole drive in this configuration.
-fn held(cycles: &[DriveCycle], configuration: Option<Configuration>) -> Vec<Option<usize>> {
-    let mut last: Option<usize> = None;
-    let each = |(index, DriveCycle { cycle, .. }): (usize, &DriveCycle)| {
-        let before = last;
-        let mut cycle = taken_in(cycle, configuration);
-        cycle.previous_tracks = before.and_then(|at| cycles[at].cycle.tracks.clone());
-        let is_held = check(&cycle, Reading::Exact)
-            .is_ok_and(|it| it.failed_stage.is_none() && it.stages[0] == Outcome::Passed);
-        if is_held {
-            last = Some(index);
-        }
-        before
-    };
-    cycles.iter().enumerate().map(each).collect()
-}
-
-fn taken_in(cycle: &Cycle, configuration: Option<Configuration>) -> Cycle {
-    let configuration = configuration.unwrap_or(cycle.configuration);
-    Cycle { configuration, ..cycle.clone() }
 }
 
 fn gcd(a: u64, b: u64) -> u64 {
@@ -184,7 +138,6 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use mufasa_drives::check::judge::judge_drive;
 
     fn demo() -> Drive {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../drives/data/demo");
@@ -194,43 +147,14 @@ mod tests {
     }
 
     #[test]
-    fn lists_are_carried_as_mufasa_check_carries_them() {
-        // Rejected lists are not carried.
-        let injection = Injection { attack: Attack::GhostTracks, from_s: 2.0, to_s: 3.0 };
-        let attacked = inject(&demo(), &injection).expect("tracks are remote");
-        for configuration in CONFIGURATIONS {
-            let mut drive = attacked.clone();
-            for it in &mut drive.cycles {
-                it.cycle = taken_in(&it.cycle, configuration);
-            }
-            let ride = Ride::new(drive.clone());
-            judge_drive(&mut drive, false, || ());
-            for (index, judged) in drive.cycles.iter().enumerate() {
-                assert_eq!(ride.clean(index, 0), judged.cycle, "{configuration:?} {index}");
-            }
-            let is_carried = |pair: &&[DriveCycle]| {
-                pair[1].cycle.previous_tracks.is_some()
-                    && pair[1].cycle.previous_tracks == pair[0].cycle.tracks
-            };
-            let carried = drive.cycles.windows(2).filter(is_carried).count();
-            let all = drive.cycles.len() - 1;
-            if configuration == Some(Configuration::PlanRemote) {
-                assert_eq!(carried, 0);
-            } else {
-                assert!((all - 15..all - 5).contains(&carried), "{carried} of {all}");
-            }
-        }
-    }
-
-    #[test]
-    fn an_attack_leaves_the_list_of_the_clean_drive() {
-        let ride = Ride::new(demo());
+    fn an_attack_leaves_the_history_of_the_clean_drive() {
+        let ride = Ride { drive: demo() };
         let ghosts = Attack::ALL.iter().position(|it| *it == Attack::GhostTracks);
         let variant = CONFIGURATIONS.len() + ghosts.expect("an attack");
         let (name, attacked) = ride.variant(40, variant);
         let clean = ride.clean(40, 0);
         assert!(name.ends_with("+ghost-tracks"), "{name}");
-        assert!(clean.previous_tracks.is_some() && attacked.tracks != clean.tracks);
-        assert_eq!(attacked.previous_tracks, clean.previous_tracks);
+        assert_ne!(attacked.tracks, clean.tracks);
+        assert_eq!(attacked.detection_history, clean.detection_history);
     }
 }

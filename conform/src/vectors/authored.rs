@@ -103,8 +103,19 @@ enum Shape {
     },
     /// So many tracks side by side, id and y counted on from those of the first.
     Row(u32, Facts),
+    /// Earlier lists of detections, by their age.
+    Lists(Vec<Earlier>),
     /// The bitmap of a grid of this width and height with these cells (column, row) set.
     Bitmap { cells: [usize; 2], set: Vec<[usize; 2]> },
+}
+
+/// A list of the detection history.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Earlier {
+    age_ns: i64,
+    #[serde(default)]
+    items: Vec<BTreeMap<String, Raw>>,
 }
 
 /// The double nearest to the number that is written, which `serde_json` does not promise.
@@ -316,6 +327,13 @@ fn written_out(pointer: &str, value: Raw) -> serde_json::Result<Raw> {
                 tracks.push(fields.clone());
             }
             return to_raw_value(&tracks);
+        }
+        Ok(Shape::Lists(lists)) => {
+            let list = |Earlier { age_ns, items }: Earlier| -> serde_json::Result<_> {
+                let items = written_out("detections/items", to_raw_value(&items)?)?;
+                Ok(BTreeMap::from([("stamp_ns", to_raw_value(&(NOW - age_ns))?), ("items", items)]))
+            };
+            return to_raw_value(&lists.into_iter().map(list).collect::<Result<Vec<_>, _>>()?);
         }
         Ok(Shape::Bitmap { cells: [width, height], set }) => {
             let mut bitmap = vec![0_u8; (width * height).div_ceil(8)];

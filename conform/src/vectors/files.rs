@@ -7,7 +7,7 @@ macro_rules! files {
 }
 
 /// The vectors, by the name of the file that they are published in.
-pub const FILES: [(&str, &str); 69] = files![
+pub const FILES: [(&str, &str); 81] = files![
     "findings/F-01",
     "findings/F-02",
     "findings/F-03",
@@ -36,6 +36,17 @@ pub const FILES: [(&str, &str); 69] = files![
     "findings/F-27",
     "findings/F-28",
     "findings/F-29",
+    "findings/F-30",
+    "findings/F-31",
+    "findings/F-32",
+    "findings/F-33",
+    "findings/F-34",
+    "findings/F-35",
+    "findings/F-36",
+    "findings/F-37",
+    "findings/F-38",
+    "findings/F-39",
+    "findings/F-40",
     "hardened/H-01",
     "hardened/H-02",
     "hardened/H-03",
@@ -48,6 +59,7 @@ pub const FILES: [(&str, &str); 69] = files![
     "hardened/H-10",
     "hardened/H-11",
     "hardened/H-12",
+    "hardened/H-13",
     "interfaces/composition-lines",
     "interfaces/cycle-lines",
     "interfaces/offloading-lines",

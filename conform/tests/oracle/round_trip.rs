@@ -93,7 +93,10 @@ fn cycle(random: &mut Random) -> Cycle {
             cross_sections: list(random, cross_section),
         },
         grid: maybe(random, grid),
-        previous_tracks: maybe(random, tracks),
+        detection_history: list(random, |random| DetectionList {
+            stamp_ns: integer(random),
+            items: list(random, detection),
+        }),
     }
 }
 

@@ -121,7 +121,7 @@ fn fields_of_another_type_of_event_are_unknown() {
             "generated_ns",
         ),
         (
-            r#"{"t_ns": 0, "type": "verdict", "verdict": "safe", "groups": [], "safe": true}"#,
+            r#"{"t_ns": 0, "type": "verdict", "verdict": "safe", "sessions": {}, "safe": true}"#,
             "safe",
         ),
     ] {
@@ -364,4 +364,21 @@ fn more_than_10_000_closed_choices_are_an_error() {
         services.join(", ")
     );
     refused(&line, "services", None);
+}
+
+/// `spec/5-interfaces.md#offloading-trace`: an absent group was not used, another key is an error.
+#[test]
+fn a_verdict_names_sessions_of_groups() {
+    let verdict = |sessions: &str| {
+        trace(&format!(
+            "{{\"t_ns\": 0, \"type\": \"verdict\", \"verdict\": \"safe\", \"sessions\": {sessions}}}"
+        ))
+    };
+    for fine in ["{}", r#"{"mot": 1}"#, r#"{"plan": -3, "mot": 9223372036854775807}"#] {
+        accepted(&verdict(fine));
+    }
+    refused(&verdict(r#"{"env": 1}"#), "events.sessions.env", Some(0));
+    refused(&verdict(r#"{"mot": null}"#), "events.sessions.mot", Some(0));
+    refused(&verdict(r#"{"mot": 1.5}"#), "events.sessions.mot", Some(0));
+    refused(&verdict("[1]"), "events.sessions", Some(0));
 }

@@ -148,14 +148,21 @@ fn a_cycle_checks_the_times_of_the_protocol_and_ignores_them() {
 #[test]
 fn missing_inputs_may_be_null_or_absent() {
     let value: Value = serde_json::from_str(CYCLE).unwrap();
-    for key in ["tracks", "detections", "lead", "grid", "trajectory", "previous_tracks"] {
+    for (key, none) in [
+        ("tracks", "None"),
+        ("detections", "None"),
+        ("lead", "None"),
+        ("grid", "None"),
+        ("trajectory", "None"),
+        ("detection_history", "[]"),
+    ] {
         let mut null = value.clone();
         null[key] = Value::Null;
         let mut absent = value.clone();
         absent.as_object_mut().unwrap().remove(key);
         assert_eq!(cycle(&null.to_string()), cycle(&absent.to_string()), "{key}");
         let one_less = format!("{:?}", cycle(&null.to_string()));
-        assert!(one_less.contains(&format!("{key}: None")), "{key}");
+        assert!(one_less.contains(&format!("{key}: {none}")), "{key}");
     }
 }
 
@@ -184,7 +191,7 @@ fn every_other_field_is_required_and_not_null() {
         "/lead",
         "/grid",
         "/trajectory",
-        "/previous_tracks",
+        "/detection_history",
         "/grid/unknown",
     ];
     let mut tried = 0;
@@ -314,4 +321,41 @@ fn a_drive_holds_cycles_only_and_each_wrong_line_is_an_error_of_its_own() {
     let trace = read[1].as_ref().unwrap_err();
     assert_eq!((trace.line, trace.field.as_str(), trace.id.as_deref()), (2, "kind", Some("o")));
     assert_eq!(read[2].as_ref().unwrap_err().line, 3);
+}
+
+/// `spec/5-interfaces.md#cycle`: of several problems in one object the first in the order of the keys.
+#[test]
+fn the_first_problem_in_the_order_of_the_keys_is_named() {
+    let last_first = |problems: &[(&str, Option<Value>)]| {
+        let mut value: Value = serde_json::from_str(CYCLE).unwrap();
+        let fields = value.as_object_mut().unwrap();
+        let mut line = String::from("{");
+        for (key, problem) in problems {
+            fields.remove(*key);
+            if let Some(problem) = problem {
+                line = line + "\"" + key + "\": " + &problem.to_string() + ", ";
+            }
+        }
+        line + value.to_string().trim_start_matches('{')
+    };
+    let wrong = || Some(Value::from("wrong"));
+    let ego = |text: &str| Some(serde_json::from_str(text).unwrap());
+    // A wrong value, a missing key, an unknown key: whichever stands first in the order.
+    refused(&last_first(&[("lead", wrong()), ("now_ns", wrong())]), "now_ns", None);
+    refused(&last_first(&[("lead", wrong()), ("now_ns", None)]), "now_ns", None);
+    refused(&last_first(&[("odd", wrong()), ("route", None)]), "route", None);
+    refused(&last_first(&[("route", None), ("lead", wrong())]), "lead", None);
+    // In an object of an object, and beside it.
+    let inner = r#"{"width": "a", "x": 0, "y": "a", "cos": 1, "sin": 0, "speed": 0, "length": 4}"#;
+    refused(&last_first(&[("lead", wrong()), ("ego", ego(inner))]), "ego.y", None);
+    let inner = inner.replace("\"x\": 0, ", "");
+    refused(&last_first(&[("lead", wrong()), ("ego", ego(&inner))]), "ego.x", None);
+    refused(&last_first(&[("configuration", None), ("ego", ego(&inner))]), "configuration", None);
+}
+
+/// `spec/5-interfaces.md#cycle`: pad bits of base64 that are not zero are refused.
+#[test]
+fn pad_bits_are_zero() {
+    accepted(CYCLE);
+    refused(&CYCLE.replace("AAAAAA==", "AAAAAB=="), "grid.occupied", None);
 }

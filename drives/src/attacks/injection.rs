@@ -30,11 +30,28 @@ pub enum Attack {
     Late,
     /// The points of the trajectory come three times too soon (F-22).
     TooFast,
+    /// The object nearest to the CAV's path is left out of the tracks (F-31).
+    MissingTrack,
+    /// Objects that cross the reference path are said to stand (F-30).
+    CrossingStands,
+    /// The object nearest to the CAV's path and the one nearest to it are given velocities as if
+    /// each had come from where the other was 0.5 s ago (F-30, F-38).
+    ExchangedPasts,
+    /// Objects that move are said to be 3 m/s faster, which their pasts allow (F-30).
+    VelocityBias,
+    /// An object more: it stands where the one nearest to the CAV's path of those that drive was
+    /// 0.5 s ago (F-01, F-38).
+    PastGhost,
+    /// Track lists are emptied, and the CAV's own detectors see nothing any more: the one attack
+    /// that needs a defect of the CAV (F-34).
+    BlindDetectors,
+    /// The trajectory slides to the left, half a width a point, headings as before (F-35).
+    Slide,
 }
 
 impl Attack {
     /// All attacks.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 16] = [
         Self::WrongMap,
         Self::EmptyTracks,
         Self::GhostTracks,
@@ -44,6 +61,13 @@ impl Attack {
         Self::Frozen,
         Self::Late,
         Self::TooFast,
+        Self::MissingTrack,
+        Self::CrossingStands,
+        Self::ExchangedPasts,
+        Self::VelocityBias,
+        Self::PastGhost,
+        Self::BlindDetectors,
+        Self::Slide,
     ];
 
     /// The name on the command line.
@@ -58,6 +82,13 @@ impl Attack {
             Self::Frozen => "frozen",
             Self::Late => "late",
             Self::TooFast => "too-fast",
+            Self::MissingTrack => "missing-track",
+            Self::CrossingStands => "crossing-stands",
+            Self::ExchangedPasts => "exchanged-pasts",
+            Self::VelocityBias => "velocity-bias",
+            Self::PastGhost => "past-ghost",
+            Self::BlindDetectors => "blind-detectors",
+            Self::Slide => "slide",
         }
     }
 
@@ -77,8 +108,14 @@ impl Attack {
             | Self::GhostTracks
             | Self::FalseVelocities
             | Self::FalseSizes
-            | Self::Late => true,
-            Self::WrongMap | Self::Backwards | Self::Frozen | Self::TooFast => false,
+            | Self::Late
+            | Self::MissingTrack
+            | Self::CrossingStands
+            | Self::ExchangedPasts
+            | Self::VelocityBias
+            | Self::PastGhost
+            | Self::BlindDetectors => true,
+            Self::WrongMap | Self::Backwards | Self::Frozen | Self::TooFast | Self::Slide => false,
         }
     }
 
@@ -103,13 +140,22 @@ impl Attack {
     /// Whether the CAV is shown driving what the attack makes of the trajectory.
     pub(super) fn is_driven(self) -> bool {
         match self {
-            Self::EmptyTracks | Self::FalseVelocities | Self::FalseSizes => true,
+            Self::EmptyTracks
+            | Self::FalseVelocities
+            | Self::FalseSizes
+            | Self::MissingTrack
+            | Self::CrossingStands
+            | Self::ExchangedPasts
+            | Self::VelocityBias
+            | Self::BlindDetectors => true,
             Self::WrongMap
             | Self::GhostTracks
             | Self::Backwards
             | Self::Frozen
             | Self::Late
-            | Self::TooFast => false,
+            | Self::TooFast
+            | Self::PastGhost
+            | Self::Slide => false,
         }
     }
 }

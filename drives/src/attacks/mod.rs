@@ -1,7 +1,8 @@
 //! Attacks on the remote services, injected into a drive (paper Sec. V-B, and the findings of
 //! `spec/3-stages.md#findings`). An attack changes what the CAV receives, never what it measures
-//! itself: detections, route and grid stay as they are, and so do ego and lead unless the CAV is
-//! shown driving what it is sent.
+//! itself: detections and their history, route and grid stay as they are (but for
+//! [`Attack::BlindDetectors`]), and so do ego and lead unless the CAV is shown driving what it is
+//! sent.
 //!
 //! Data are received where the configuration of the cycle says that their group is remote: tracks
 //! in `AllRemote` and `MotRemote`, the trajectory in `AllRemote` and `PlanRemote`. Local data of
@@ -11,6 +12,8 @@
 
 pub mod error;
 pub mod injection;
+mod meeting;
+mod objects;
 mod planner;
 
 use mufasa_model::input::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
@@ -22,11 +25,10 @@ use crate::drive::Drive;
 
 /// The same drive under attack.
 ///
-/// Attacks that hide objects (empty tracks, false velocities and sizes) are dangerous only when
-/// the CAV drives what it is sent, so in these it does: it leaves its recorded motion at the first
-/// attacked cycle, and the drive ends with the last one, because nobody recorded what comes then.
-/// `previous_tracks` stay as given, or are carried when the attacked drive is judged: an attacked
-/// list that is not found becomes the one that the next is compared with (H-09).
+/// Attacks that hide objects or their motion are dangerous only when the CAV drives what it is
+/// sent, so in these it does: it leaves its recorded motion at the first attacked cycle, and the
+/// drive ends with the last one, because nobody recorded what comes then. Its notes say what the
+/// CAV would drive into.
 ///
 /// Errors: no cycle is changed, because none is in the span, or the data of the attack are local,
 /// absent, or as it would make them. An attacked drive that is safe is so in spite of the attack.
@@ -37,33 +39,37 @@ pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError
     let since_s = |cycle: &Cycle| seconds(cycle.now_ns.saturating_sub(start_ns));
     let is_driven = injection.attack.is_driven();
     let mut onset: Option<Onset> = None;
-    let mut count = 0;
+    let mut changed: Vec<usize> = Vec::new();
     let mut end = attacked.cycles.len();
     for (i, cycle) in attacked.cycles.iter_mut().map(|c| &mut c.cycle).enumerate() {
         let in_span = (injection.from_s..=injection.to_s).contains(&since_s(cycle));
         if in_span && injection.attack.reaches(cycle) {
-            let onset = onset.get_or_insert_with(|| Onset {
-                now_ns: cycle.now_ns,
-                trajectory: cycle.trajectory.clone(),
-                planner: Planner::new(cycle),
-            });
+            if onset.is_none() {
+                onset = Onset::new(cycle, injection.attack);
+            }
+            let Some(onset) = &mut onset else { continue };
             attack(cycle, injection.attack, onset);
-            count += usize::from(*cycle != drive.cycles[i].cycle);
+            changed.extend((*cycle != drive.cycles[i].cycle).then_some(i));
         } else if is_driven && onset.is_some() {
             end = i;
             break;
         }
     }
-    if count == 0 {
+    let Some(first) = changed.first() else {
         return Err(unchanged(drive, injection, since_s));
-    }
-    attacked.notes.push(format!("attack {injection} s changes {count} cycles"));
+    };
+    attacked.notes.push(format!(
+        "attack {injection} s changes {} cycles, the first at {:.1} s",
+        changed.len(),
+        since_s(&drive.cycles[*first].cycle)
+    ));
     if is_driven {
         attacked.cycles.truncate(end);
         attacked.notes.push(String::from(
             "from its first attacked cycle on the CAV drives what it is sent; the drive ends with \
              the attack",
         ));
+        attacked.notes.extend(meeting::note(&attacked.cycles, &drive.cycles, since_s));
     }
     Ok(attacked)
 }
@@ -93,8 +99,31 @@ fn seconds(ns: i64) -> f64 {
 /// The first attacked cycle.
 struct Onset {
     now_ns: i64,
+    /// Of its scan.
+    scan_ns: i64,
     trajectory: Option<Trajectory>,
     planner: Planner,
+    /// The object that the attack is on, as long as it is received.
+    target: Option<i64>,
+}
+
+impl Onset {
+    /// The attack begins with this cycle; an attack that would have the CAV drive what it is sent
+    /// begins when there is something to hide.
+    fn new(cycle: &Cycle, attack: Attack) -> Option<Self> {
+        let onset = || Self {
+            now_ns: cycle.now_ns,
+            scan_ns: cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns),
+            trajectory: cycle.trajectory.clone(),
+            planner: Planner::new(cycle),
+            target: None,
+        };
+        let mut told = cycle.clone();
+        if attack.is_driven() {
+            change(&mut told, attack, &mut onset());
+        }
+        (!attack.is_driven() || told != *cycle).then(onset)
+    }
 }
 
 /// How late the data of `Late` are, ns.
@@ -103,14 +132,22 @@ const LATE_NS: i64 = 300_000_000;
 const FASTER: f64 = 10.0;
 /// Sides of the objects of `FalseSizes`, m.
 const TINY: f64 = 0.1;
+/// `Slide`: sideways from point to point, in widths of the CAV (the bound is 0.5); in all, m.
+const SLIDE_STEP: f64 = 0.45;
+const SLIDE: f64 = 1.4;
 
-fn attack(cycle: &mut Cycle, attack: Attack, onset: &Onset) {
+fn attack(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
     if attack.is_driven() {
         let time_s = seconds(cycle.now_ns.saturating_sub(onset.now_ns));
         let objects = cycle.tracks.as_ref().map_or_else(Vec::new, |t| t.items.clone());
         onset.planner.execute(cycle, time_s, &objects);
         Planner::new(cycle).replan(cycle, false, 0.0);
     }
+    change(cycle, attack, onset);
+}
+
+/// What is sent in place of the truth.
+fn change(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
     match attack {
         Attack::WrongMap => {
             let planner = Planner::new(cycle);
@@ -147,6 +184,41 @@ fn attack(cycle: &mut Cycle, attack: Attack, onset: &Onset) {
                 point.t_ns = now_ns.saturating_add(point.t_ns.saturating_sub(now_ns) / 3);
             }
         }
+        Attack::MissingTrack => on_target(cycle, onset, |_| true, objects::leave_out),
+        Attack::CrossingStands => objects::stop_crossing(cycle),
+        Attack::ExchangedPasts => on_target(cycle, onset, |_| true, objects::exchange_pasts),
+        Attack::VelocityBias => objects::bias_velocities(cycle),
+        Attack::PastGhost => on_target(cycle, onset, objects::leaves, objects::add_past_ghost),
+        Attack::BlindDetectors => {
+            each_track(cycle, |_| None);
+            objects::blind(cycle, onset.scan_ns);
+        }
+        Attack::Slide => slide(cycle),
+    }
+}
+
+/// Attacks one object, the same as in the cycles before, or else of those that are wanted the one
+/// nearest to the path.
+fn on_target(
+    cycle: &mut Cycle,
+    onset: &mut Onset,
+    wanted: impl Fn(&Track) -> bool,
+    change: impl Fn(&mut Cycle, &Track),
+) {
+    let target = objects::target(cycle, onset.target, wanted);
+    onset.target = target.as_ref().map(|it| it.id);
+    if let Some(target) = target {
+        change(cycle, &target);
+    }
+}
+
+/// Moves the points to the left, nearly half a width each, as far as most lanes are wide.
+fn slide(cycle: &mut Cycle) {
+    let step = SLIDE_STEP * cycle.ego.width;
+    let mut aside: f64 = 0.0;
+    for point in cycle.trajectory.iter_mut().flat_map(|t| &mut t.points).skip(1) {
+        aside = (aside + step).min(SLIDE);
+        (point.x, point.y) = (point.x - aside * point.sin, point.y + aside * point.cos);
     }
 }
 

@@ -14,7 +14,7 @@ use mufasa_records::names;
 
 /// A drive, judged.
 pub struct Checked {
-    /// The drive, its cycles as they were judged: with the `previous_tracks` that were carried.
+    /// The drive.
     pub drive: Drive,
     /// One judgement per cycle.
     pub judged: Vec<Judged>,
@@ -27,8 +27,8 @@ pub struct Checked {
 impl Checked {
     /// Judges every cycle in order, with `readings` by the strict and the lax model too, and runs
     /// both requesters over the verdicts. `done` is called after each cycle.
-    pub fn new(mut drive: Drive, requester: &Parameters, readings: bool, done: impl Fn()) -> Self {
-        let judged = judge_drive(&mut drive, readings, done);
+    pub fn new(drive: Drive, requester: &Parameters, readings: bool, done: impl Fn()) -> Self {
+        let judged = judge_drive(&drive, readings, done);
         let (requesters, protocol) = requesters(&drive, &judged, requester);
         Self { drive, judged, requesters, protocol }
     }
@@ -76,7 +76,7 @@ impl Checked {
 }
 
 #[expect(clippy::cast_precision_loss)] // to be read by people
-fn seconds(from_ns: i64, to_ns: i64) -> f64 {
+pub(super) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
     (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
 }
 

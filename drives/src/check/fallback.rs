@@ -6,7 +6,9 @@
 //! used.
 
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::offloading::requester::{Action, Event, EventKind, Group, GroupState, Groups};
+use mufasa_model::offloading::requester::{
+    Action, Event, EventKind, Group, GroupState, Groups, Sessions,
+};
 use mufasa_model::services::configuration::Configuration;
 
 use super::sides::Side;
@@ -80,14 +82,15 @@ pub fn follow<'a>(
                 run.step(side, index, cycle, confirm)?;
             }
         }
-        let used = run.data(side, index, cycle)?;
-        if used != Groups::NONE {
+        let sessions = run.data(side, index, cycle)?;
+        let used = sessions != Sessions::NONE;
+        if used {
             run.offloaded += 1;
-            run.step(side, index, cycle, EventKind::Verdict { safe: *safe, groups: used })?;
+            run.step(side, index, cycle, EventKind::Verdict { safe: *safe, sessions })?;
         }
         if !safe {
             let hold = match side.hold_until_ns() {
-                Some(until_ns) if used != Groups::NONE => Hold::Started { until_ns },
+                Some(until_ns) if used => Hold::Started { until_ns },
                 Some(until_ns) if until_ns > cycle.now_ns => Hold::Running,
                 Some(_) | None => Hold::Off,
             };
@@ -116,14 +119,14 @@ impl RequesterRun {
         Ok(actions)
     }
 
-    /// Hands the remote data of a cycle to the requester; returns the groups whose data are used.
+    /// Hands the remote data of a cycle to the requester; returns the sessions of the data that are used.
     fn data(
         &mut self,
         side: &mut impl Side,
         index: usize,
         cycle: &Cycle,
-    ) -> Result<Groups, String> {
-        let mut used = Groups::NONE;
+    ) -> Result<Sessions, String> {
+        let mut used = Sessions::NONE;
         for group in Group::ALL {
             let (Some(generated_ns), GroupState::Remote { station, session }) =
                 (generated(cycle, group), side.state(group))
@@ -135,7 +138,10 @@ impl RequesterRun {
             if side.state(group) == GroupState::Local {
                 self.late += 1;
             } else if !actions.contains(&Action::Drop(group)) {
-                used.insert(group);
+                match group {
+                    Group::Mot => used.mot = Some(session),
+                    Group::Plan => used.plan = Some(session),
+                }
             }
         }
         Ok(used)

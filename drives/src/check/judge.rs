@@ -5,13 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use mufasa_model::input::cycle::{Cycle, TrackList};
-use mufasa_model::report::{Outcome, Reading, Report};
+use mufasa_model::input::cycle::Cycle;
+use mufasa_model::report::{Reading, Report};
 use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
 
-use crate::drive::{Drive, DriveCycle, PreviousTracks};
+use crate::drive::{Drive, DriveCycle};
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,10 +46,6 @@ impl Judged {
     pub fn is_safe(&self) -> bool {
         is_safe(&self.model)
     }
-
-    fn passed_stage_i(&self) -> bool {
-        self.model.as_ref().is_ok_and(|report| report.stages[0] == Outcome::Passed)
-    }
 }
 
 /// Whether an answer is the verdict safe; an error is not (`spec/2-offloading.md#fallback`).
@@ -71,25 +67,14 @@ pub fn compare(
     }
 }
 
-/// Judges the cycles of a drive in their order, because each may change what the next is judged
-/// by: where `previous_tracks` are carried, the list of a cycle that the exact model finds safe and
-/// in which stage i passed becomes that of the cycles after it (H-09). The drive keeps the cycles
-/// as judged. `done` is called after each.
-pub fn judge_drive(drive: &mut Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
-    let carried = drive.previous_tracks == PreviousTracks::Carried;
-    let mut held: Option<TrackList> = None;
-    let each = |DriveCycle { cycle, .. }: &mut DriveCycle| {
-        if carried {
-            cycle.previous_tracks.clone_from(&held);
-        }
+/// Judges the cycles of a drive in their order. `done` is called after each.
+pub fn judge_drive(drive: &Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
+    let each = |DriveCycle { cycle, .. }: &DriveCycle| {
         let judged = Judged::new(cycle, readings);
-        if judged.is_safe() && judged.passed_stage_i() {
-            held.clone_from(&cycle.tracks);
-        }
         done();
         judged
     };
-    drive.cycles.iter_mut().map(each).collect()
+    drive.cycles.iter().map(each).collect()
 }
 
 /// Runs `job` for every index below `count` on all processors and hands the results to `take` in
@@ -132,7 +117,7 @@ pub fn in_order<T: Send, E>(
 
 #[cfg(test)]
 mod tests {
-    use mufasa_model::report::{FailedStage, Stage};
+    use mufasa_model::report::{FailedStage, Outcome, Stage};
 
     use super::*;
 

@@ -3,6 +3,8 @@
 use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa_props::conformance::{Answer, name};
 
+use super::checked::seconds;
+
 /// Number and subject of a stage, such as `iii tracks`.
 pub fn stage(stage: Stage) -> &'static str {
     match stage {
@@ -91,17 +93,19 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         None => "a cell".to_owned(),
     };
     match witness.rule {
+        Rule::Ambiguous => ("what the CAV saw itself is too close to call".to_owned(), "", "~"),
         Rule::MeanCost => ("mean distance of the assigned pairs".to_owned(), "m", ">="),
-        Rule::WorkLimit => ("work of the assignment".to_owned(), "", ">"),
+        Rule::WorkLimit => ("work of the stage".to_owned(), "", ">"),
         Rule::NoAssignment => {
             ("tracks that can be paired below theta_track_max".to_owned(), "", "<")
         }
-        Rule::Velocity => (format!("{object} did not move as its velocity says"), "m", ">"),
         Rule::ThetaMap => {
             (format!("{point} outside the corridor and off the reference path"), "m", ">")
         }
         Rule::StartTime => ("time of the first point is far from now".to_owned(), "s", ">"),
         Rule::StartPosition => ("first point is far from the CAV".to_owned(), "m", ">"),
+        Rule::StartHeading => ("first heading is not the CAV's".to_owned(), "", ">"),
+        Rule::StartOffset => ("trajectory starts aside of the CAV".to_owned(), "m", ">"),
         Rule::Corridor => {
             (format!("{point} outside the corridor, off the reference path"), "m", ">")
         }
@@ -112,12 +116,22 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         Rule::StepForward => (format!("step to {point} goes backwards"), "", "<"),
         Rule::StepLateral => (format!("step to {point} goes sideways"), "m", ">"),
         Rule::StepTurn => (format!("heading turns too much at {point}"), "", "<"),
+        Rule::StepSlide => (format!("step to {point} slides off its headings"), "m", ">"),
+        Rule::TurnReversed => (format!("heading at {point} against an earlier one"), "", "<"),
+        Rule::TurnOnTheSpot => (format!("turn to {point} is tighter than a vehicle's"), "", ">"),
+        Rule::TurnHard => (format!("turn to {point} is harder than tyres hold"), "m", ">"),
         Rule::ArcTooShort => (format!("{point} is nearer than braking allows"), "m", "<"),
         Rule::ArcTooLong => (format!("{point} is farther than the CAV can get"), "m", ">"),
         Rule::EndsTooSoon => ("trajectory ends before standstill".to_owned(), "s", "<"),
         Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
         Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
         Rule::CollisionStanding => (format!("{point} meets {object} if it stands still"), "m", "<"),
+        Rule::CollisionMoving => {
+            let since = witness.item.zip(witness.age_ns).map_or(String::new(), |(item, age_ns)| {
+                format!(" since item {item} of {:.1} s ago", seconds(0, age_ns))
+            });
+            (format!("{point} meets {object} if it goes on as seen{since}"), "m", "<")
+        }
         Rule::Occupied => (format!("{disk} of {point} touches occupied {cell}"), "m", "<="),
         Rule::Unknown => (format!("{disk} of {point} touches unknown {cell}"), "m", "<="),
         Rule::Outside => (format!("{disk} of {point} leaves the grid"), "m", "<="),
@@ -169,11 +183,23 @@ mod tests {
             point: Some(4),
             track: Some(7),
             detection: None,
+            item: None,
+            age_ns: None,
             segment: None,
             disk: None,
             cell: None,
             compared: [4.1, 5.0],
         };
         assert_eq!(witness(&found), "point 4 meets track 7 (4.1 m < 5 m)");
+        let moving = Witness {
+            rule: Rule::CollisionMoving,
+            track: None,
+            detection: Some(2),
+            item: Some(0),
+            age_ns: Some(500_000_000),
+            ..found
+        };
+        let words = "point 4 meets detection 2 if it goes on as seen since item 0 of 0.5 s ago";
+        assert_eq!(witness(&moving), format!("{words} (4.1 m < 5 m)"));
     }
 }

@@ -16,6 +16,8 @@ pub enum Layer {
     Occupied,
     /// Unknown cells.
     Unknown,
+    /// Detections of the history.
+    History,
     /// Detections.
     Detections,
     /// Tracks at their stamp.
@@ -55,6 +57,13 @@ pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) -> Vec<Layer> {
         }
         for item in &tracks.items {
             canvas.polygon(&frame.corners(&track(item, 0.0)), "track");
+        }
+    }
+    let past = || cycle.detection_history.iter().flat_map(|list| &list.items);
+    if past().next().is_some() {
+        drawn.push(Layer::History);
+        for item in past() {
+            canvas.polygon(&frame.corners(&detection(item)), "history");
         }
     }
     if let Some(detections) = cycle.detections.as_ref().filter(|it| !it.items.is_empty()) {

@@ -52,6 +52,7 @@ fn entry(layer: Layer) -> (&'static [&'static str], &'static str) {
         Layer::Route => (&["corridor", "reference"], "corridor, reference path"),
         Layer::Occupied => (&["occupied"], "occupied"),
         Layer::Unknown => (&["unknown"], "unknown"),
+        Layer::History => (&["history"], "detection, earlier"),
         Layer::Detections => (&["detection"], "detection"),
         Layer::Tracks => (&["track"], "track"),
         Layer::Predictions => (&["prediction"], "track, predicted"),

@@ -29,6 +29,7 @@ stroke-opacity:.75;paint-order:stroke}\
 .reference{fill:none;stroke:#8694a3;stroke-width:1.2;stroke-dasharray:8 5}\
 .occupied{fill:#5b4a3c;fill-opacity:.4}.unknown{fill:#c9bfae;fill-opacity:.45}\
 .detection{fill:none;stroke:#e08600;stroke-width:2;stroke-dasharray:5 3}\
+.history{fill:none;stroke:#e08600;stroke-opacity:.45;stroke-width:1;stroke-dasharray:2 3}\
 .track{fill:#3b6fb6;fill-opacity:.32;stroke:#2a4f85;stroke-width:1.5}\
 .prediction{fill:#3b6fb6;fill-opacity:.05;stroke:#2a4f85;stroke-opacity:.28;stroke-width:1}\
 .footprint{fill:#1b8a5a;fill-opacity:.05;stroke:#1b8a5a;stroke-opacity:.4;stroke-width:1}\
@@ -36,6 +37,7 @@ stroke-opacity:.75;paint-order:stroke}\
 .ego{fill:#1b8a5a;fill-opacity:.55;stroke:#0f5e3c;stroke-width:1.5}.nose{fill:#0f5e3c}\
 .witness{fill:#e4002b;fill-opacity:.22;stroke:#e4002b;stroke-width:2.5}\
 .witness-line{fill:none;stroke:#e4002b;stroke-width:2}\
+.witness-tip{fill:#e4002b}\
 .disk{fill:none;stroke:#e4002b;stroke-width:1.2;stroke-dasharray:4 3}\
 .leader{fill:none;stroke:#b3001f;stroke-width:1.2}\
 .label{fill:#fff;fill-opacity:.93;stroke:#b3001f;stroke-width:1.4}\

@@ -14,12 +14,19 @@ const CHARACTER: f64 = 7.1;
 /// Height of a label, px.
 const LABEL_HEIGHT: f64 = 24.0;
 
+/// Length of the head of an arrow, px.
+const HEAD: f64 = 11.0;
+
 /// What a witness points at.
 struct Marks {
     /// Rectangles to be filled.
     shapes: Vec<Rectangle>,
+    /// Where the objects of the shapes were: rectangles to be outlined.
+    outlines: Vec<Rectangle>,
     /// Lines, m on the map.
     lines: Vec<[[f64; 2]; 2]>,
+    /// The same with a head at the second end.
+    arrows: Vec<[[f64; 2]; 2]>,
     /// Circles: centre, radius, whether it is the witness itself; m.
     circles: Vec<([f64; 2], f64, bool)>,
     /// What the label points at, m.
@@ -29,9 +36,10 @@ struct Marks {
 /// Places of the map that a picture of this report has to show.
 pub fn places(cycle: &Cycle, report: &Report) -> Vec<[f64; 2]> {
     let marks = marks(cycle, report);
-    let mut places: Vec<_> = marks.shapes.iter().flat_map(Rectangle::corners).collect();
+    let shapes = marks.shapes.iter().chain(&marks.outlines);
+    let mut places: Vec<_> = shapes.flat_map(Rectangle::corners).collect();
     places.push(marks.anchor);
-    places.extend(marks.lines.into_iter().flatten());
+    places.extend(marks.lines.into_iter().chain(marks.arrows).flatten());
     places
 }
 
@@ -48,14 +56,32 @@ pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, report: &Report) 
         let class = if *strong { "witness" } else { "disk" };
         canvas.circle(frame.at(*centre), radius * frame.scale, class);
     }
-    for line in &marks.lines {
+    for outline in &marks.outlines {
+        canvas.polygon(&frame.corners(outline), "disk");
+    }
+    for line in marks.lines.iter().chain(&marks.arrows) {
         canvas.polyline(&line.map(|place| frame.at(place)), "witness-line");
+    }
+    for arrow in &marks.arrows {
+        head(canvas, arrow.map(|place| frame.at(place)));
     }
     if marks.shapes.is_empty() && marks.circles.is_empty() && marks.lines.is_empty() {
         canvas.circle(frame.at(marks.anchor), 16.0, "witness");
     }
     label(canvas, frame, cycle, &marks, &label_text(report));
     canvas.close();
+}
+
+/// The head of an arrow on the page; none when it is too short for one.
+fn head(canvas: &mut Canvas, arrow: [Option<[f64; 2]>; 2]) {
+    let [Some(from), Some(to)] = arrow else { return };
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let length = way[0].hypot(way[1]);
+    if length > HEAD {
+        let [x, y] = way.map(|it| it / length * HEAD);
+        let side = |k: f64| Some([to[0] - x - k * y, to[1] - y + k * x]);
+        canvas.polygon(&[Some(to), side(0.4), side(-0.4)], "witness-tip");
+    }
 }
 
 fn label_text(report: &Report) -> String {
@@ -74,8 +100,14 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
     let centre =
         Rectangle::of_ego(&cycle.ego, [cycle.ego.x, cycle.ego.y], [cycle.ego.cos, cycle.ego.sin])
             .centre;
-    let mut marks =
-        Marks { shapes: Vec::new(), lines: Vec::new(), circles: Vec::new(), anchor: centre };
+    let mut marks = Marks {
+        shapes: Vec::new(),
+        outlines: Vec::new(),
+        lines: Vec::new(),
+        arrows: Vec::new(),
+        circles: Vec::new(),
+        anchor: centre,
+    };
     let Some(witness) = words::failed_witness(report) else { return marks };
     let point = witness
         .point
@@ -89,7 +121,11 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
             disks(cycle, &footprint, witness, &mut marks);
         }
     }
-    objects(cycle, witness, point, &mut marks);
+    if witness.rule == Rule::CollisionMoving {
+        moving(cycle, witness, &mut marks);
+    } else {
+        objects(cycle, witness, point, &mut marks);
+    }
     if matches!(witness.rule, Rule::MeanCost | Rule::WorkLimit | Rule::NoAssignment) {
         assignment(cycle, &mut marks);
     } else if witness.rule == Rule::Gap {
@@ -113,9 +149,6 @@ fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, ma
             let path = track.map(|track| [0.0, later].map(|t| layers::track(track, t).centre));
             marks.lines.extend(path);
         }
-        if witness.rule == Rule::Velocity {
-            velocity(cycle, id, marks);
-        }
     }
     if let (Some(index), Some(list)) = (witness.detection, &cycle.detections) {
         objects.extend(list.items.get(index).map(layers::detection));
@@ -136,17 +169,26 @@ fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, ma
     marks.shapes.extend(objects);
 }
 
-/// H-09: where the track was, and where its velocity would have brought it.
-fn velocity(cycle: &Cycle, id: i64, marks: &mut Marks) {
-    let (Some(now), Some(before)) = (&cycle.tracks, &cycle.previous_tracks) else { return };
-    let find =
-        |items: &[mufasa_model::input::cycle::Track]| items.iter().find(|t| t.id == id).cloned();
-    if let (Some(track), Some(old)) = (find(&now.items), find(&before.items)) {
-        let dt = layers::seconds(before.stamp_ns, now.stamp_ns);
-        let said = [old.x + track.vx * dt, old.y + track.vy * dt];
-        marks.lines.push([[old.x, old.y], [track.x, track.y]]);
-        marks.circles.push((said, 0.4, true));
-    }
+/// H-13: the item of the history, the detection that it became, and where that is at the point if
+/// it goes on so. Points behind the last have its time.
+fn moving(cycle: &Cycle, witness: &Witness, marks: &mut Marks) {
+    let (Some(now), Some(age_ns)) = (&cycle.detections, witness.age_ns) else { return };
+    let then = cycle.detection_history.iter();
+    let then =
+        then.into_iter().find(|list| now.stamp_ns.checked_sub(list.stamp_ns) == Some(age_ns));
+    let item = witness.item.and_then(|index| then?.items.get(index));
+    let detection = witness.detection.and_then(|index| now.items.get(index));
+    let points = cycle.trajectory.as_ref().map_or(&[][..], |it| &it.points);
+    let point = witness.point.and_then(|index| points.get(index).or(points.last()));
+    let (Some(item), Some(detection), Some(point)) = (item, detection, point) else { return };
+    let [was, is] = [item, detection].map(layers::detection);
+    let share = layers::seconds(now.stamp_ns, point.t_ns) / layers::seconds(0, age_ns);
+    let at = |axis: usize| is.centre[axis] + share * (is.centre[axis] - was.centre[axis]);
+    let will = Rectangle { centre: [at(0), at(1)], ..is };
+    marks.arrows.extend([[was.centre, is.centre], [is.centre, will.centre]]);
+    marks.outlines.extend([was, is]);
+    marks.shapes.push(will);
+    marks.anchor = will.centre;
 }
 
 /// Stage v: the disks at the point, the one of the witness strong.

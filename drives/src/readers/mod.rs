@@ -15,7 +15,7 @@ mod xml;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::drive::{Drive, DriveCycle, PreviousTracks};
+use crate::drive::{Drive, DriveCycle};
 use crate::options::Options;
 use error::ReadError;
 use scenario::Scenario;
@@ -143,8 +143,7 @@ fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
         let notes = vec![format!("{} cycles as recorded", cycles.len())];
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let source = path.display().to_string();
-        let previous_tracks = PreviousTracks::AsGiven;
-        results.push(Ok(Drive { name, source, cycles, previous_tracks, notes }));
+        results.push(Ok(Drive { name, source, cycles, notes }));
     }
     results
 }

@@ -3,24 +3,26 @@
 //! Every cycle is one time step. Its data have the ages of a real system, and the values they
 //! had then: the scan, and the track list made from that scan, are 30 ms old; the trajectory was
 //! made 20 ms ago and starts now; lead and grid are 10 ms old. Tracks and detections belong to
-//! the same scan because stage i compares their positions as they are: 20 ms between them are
-//! 0.6 m at 30 m/s, three times `theta_tr`.
+//! the same scan because the paper's stage i compares their positions as they are: 20 ms between
+//! them are 0.6 m at 30 m/s, three times `theta_tr` (F-32; [`Options::track_age_ns`] changes it).
 //!
-//! `previous_tracks` stay `None`: they depend on verdicts (H-09), hence [`PreviousTracks::Carried`].
+//! There is one scan to a step, a function of step and seed, so that the detections of a cycle are
+//! those that later cycles find in their history.
 
+mod history;
 pub mod lead;
 pub mod object;
 pub mod sensor;
 
 use mufasa_model::input::cycle::{
-    Cycle, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint,
+    Cycle, DetectionList, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 
-use crate::drive::{Drive, DriveCycle, PreviousTracks};
-use crate::geometry::{Point, cross, direction, mix, mix_angle, sub};
+use crate::drive::{Drive, DriveCycle};
+use crate::geometry::{Point, add, cross, direction, mix, mix_angle, scale, sub};
 use crate::options::{Options, Sensor, Tail};
 use crate::recording::lead::{Cav, leading_vehicle};
-use crate::recording::object::{Object, Seen, State, state_before};
+use crate::recording::object::{Motion, Object, Seen, State, state_before};
 use crate::recording::sensor::{grid, scan};
 
 /// The first cycle's time, ns.
@@ -70,8 +72,16 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
     let Sensor { range_m, sigma_m, probability, clutter, seed } = &options.sensor;
     notes.push(format!(
         "detectors: range {range_m} m, deviation {sigma_m} m, probability {probability}, {clutter} \
-         clutter detections a scan, seed {seed}"
+         clutter detections a scan, seed {seed}; tracks exact, {} ms old",
+        options.track_age_ns / 1_000_000
     ));
+    if let Some(first) = recording.ego.first()
+        && maker.first_scan() < first.step
+    {
+        notes.push(String::from(
+            "the history begins before the first cycle: the recording has the other objects there",
+        ));
+    }
     let outside = recording.ego.iter().filter(|s| !in_corridor(&recording.route, s.position));
     let outside = outside.count();
     if outside > 0 {
@@ -81,7 +91,7 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
         ));
     }
     let Recording { name, source, .. } = recording;
-    Drive { name, source, cycles, previous_tracks: PreviousTracks::Carried, notes }
+    Drive { name, source, cycles, notes }
 }
 
 /// States of a recording that give a cycle: all, or those up to the last that is followed by as
@@ -119,7 +129,6 @@ impl Maker<'_> {
         let options = self.options;
         let [x, y] = state.position;
         let [cos, sin] = direction(state.heading);
-        let scanned = self.objects(state.step, SCAN_AGE_NS);
         let recent = self.objects(state.step, GRID_AGE_NS);
         let measured = state_before(ego, state.step, self.back(GRID_AGE_NS), self.dt_s());
         let cav = Cav {
@@ -127,8 +136,7 @@ impl Maker<'_> {
             length: size[0],
             width: size[1],
         };
-        let stream = u64::try_from(state.step).unwrap_or(0);
-        let scan_ns = now_ns - SCAN_AGE_NS;
+        let track_ns = now_ns - options.track_age_ns;
         let grid_ns = now_ns - GRID_AGE_NS;
         Cycle {
             profile: options.profile,
@@ -150,26 +158,67 @@ impl Maker<'_> {
                 points: self.plan(i, now_ns),
             }),
             tracks: Some(TrackList {
-                stamp_ns: scan_ns,
-                items: scanned.iter().map(track).collect(),
+                stamp_ns: track_ns,
+                items: self.objects(state.step, options.track_age_ns).iter().map(track).collect(),
             }),
-            detections: Some(scan(&options.sensor, stream, scan_ns, state.position, &scanned)),
+            detections: Some(self.scan(i, 0)),
             lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.range_m),
             route: route.clone(),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
-            previous_tracks: None,
+            detection_history: self.history(i),
         }
     }
 
-    /// An age in time steps; older data than the last step are taken from there.
+    /// The earlier scans that come with the cycle of state `i`, the youngest first.
+    fn history(&self, i: usize) -> Vec<DetectionList> {
+        let kept = self.recording.ego[i].step - self.first_scan();
+        let ago = history::steps_ago(self.recording.dt_ns, kept);
+        ago.into_iter().map(|ago| self.scan(i, ago)).collect()
+    }
+
+    /// The step of the first scan: that of the CAV's first state, or an earlier one where the
+    /// recording has objects that move. What only stands says nothing about when the CAV came.
+    fn first_scan(&self) -> i64 {
+        let first = self.recording.ego.first().map_or(0, |state| state.step);
+        let moves = |object: &Object| match &object.motion {
+            Motion::Standing(_) => None,
+            Motion::Moving(states) => states.first().map(|state| state.step),
+            Motion::Occupied { initial, .. } => Some(initial.step),
+        };
+        self.recording.objects.iter().filter_map(moves).fold(first, i64::min)
+    }
+
+    /// The scan `ago` steps before that of state `i`. Before its first state the CAV goes on
+    /// backwards as it came.
+    fn scan(&self, i: usize, ago: i64) -> DetectionList {
+        let Recording { ego, dt_ns, .. } = self.recording;
+        let before = i64::try_from(i).unwrap_or(i64::MAX).saturating_sub(ago);
+        let cav = if let Ok(before) = usize::try_from(before) {
+            ego[before].position
+        } else {
+            #[expect(clippy::cast_precision_loss, reason = "at most 1 s of steps")]
+            let way = ego[0].speed * self.dt_s() * before as f64;
+            add(ego[0].position, scale(direction(ego[0].heading + ego[0].slip), way))
+        };
+        let step = ego[i].step - ago;
+        let stream = u64::try_from(step).unwrap_or(0);
+        let stamp_ns = START_NS + before.saturating_mul(*dt_ns) - SCAN_AGE_NS;
+        scan(&self.options.sensor, stream, stamp_ns, cav, &self.objects(step, SCAN_AGE_NS))
+    }
+
+    /// An age in time steps, up to one.
     #[expect(clippy::cast_precision_loss, reason = "at most 10 s")]
     fn back(&self, age_ns: i64) -> f64 {
         (age_ns as f64 / self.recording.dt_ns as f64).min(1.0)
     }
 
+    /// What there is `age_ns` before a step.
     fn objects(&self, step: i64, age_ns: i64) -> Vec<Seen> {
-        let back = self.back(age_ns);
-        self.recording.objects.iter().flat_map(|o| o.seen(step, back, self.dt_s())).collect()
+        let Recording { objects, dt_ns, .. } = self.recording;
+        // The last of the steps that are needed lies up to one step after that time.
+        let whole = (age_ns - 1).div_euclid(*dt_ns).max(0);
+        let back = self.back(age_ns - whole * dt_ns);
+        objects.iter().flat_map(|o| o.seen(step - whole, back, self.dt_s())).collect()
     }
 
     /// The rest of the recording, up to the horizon, from now on.

@@ -62,6 +62,6 @@ pub fn cycle(index: u32, blocked: bool) -> Cycle {
             cross_sections: (-2..40).map(|k| cross_section(k * 10)).collect(),
         },
         grid: None,
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }

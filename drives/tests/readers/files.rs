@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use mufasa_drives::{Drive, Options, ReadError, read};
+use mufasa_model::input::cycle::Track;
 
 /// A file of the crate's `data`.
 pub fn own(name: &str) -> PathBuf {
@@ -70,4 +71,25 @@ pub fn small(version: &str, solution: Option<&str>, options: &Options) -> Drive 
 pub fn demo(options: &Options) -> Drive {
     let paths = [own("demo/urban.xml"), own("demo/urban.solution.xml")];
     one(&paths, options).expect("the demo is read")
+}
+
+/// The same drive with a car, number 50, that crosses 8 m ahead of the CAV, from 10 m to its left.
+pub fn crossed(mut drive: Drive) -> Drive {
+    for cycle in drive.cycles.iter_mut().map(|it| &mut it.cycle) {
+        let [forward, left] = [[cycle.ego.cos, cycle.ego.sin], [-cycle.ego.sin, cycle.ego.cos]];
+        let at = |axis: usize, ego: f64| ego + 8.0 * forward[axis] + 10.0 * left[axis];
+        let list = cycle.tracks.as_mut().expect("tracks");
+        list.items.push(Track {
+            id: 50,
+            x: at(0, cycle.ego.x),
+            y: at(1, cycle.ego.y),
+            cos: -left[0],
+            sin: -left[1],
+            vx: -7.0 * left[0],
+            vy: -7.0 * left[1],
+            length: 4.5,
+            width: 1.8,
+        });
+    }
+    drive
 }

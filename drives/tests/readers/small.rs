@@ -1,6 +1,6 @@
 //! What the cycles of small hand-made files are, number by number.
 
-use mufasa_drives::{Options, PreviousTracks, Sensor, Tail, read};
+use mufasa_drives::{Options, Sensor, Tail, read};
 use mufasa_model::input::cycle::{Profile, Route};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_records::cycle_to_line;
@@ -85,8 +85,6 @@ fn the_first_cycle_is_the_first_state_with_data_of_their_ages() {
         [bit(39.9, -1.75), bit(38.1, -1.0), bit(37.5, -1.75), bit(20.0, -1.75)],
         [1, 1, 0, 0]
     );
-    assert_eq!(drive.previous_tracks, PreviousTracks::Carried);
-    assert!(drive.cycles.iter().all(|c| c.cycle.previous_tracks.is_none()));
 }
 
 #[test]

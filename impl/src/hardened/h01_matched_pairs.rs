@@ -1,36 +1,47 @@
-//! Stage i: every gated track but a budget is paired, and closely (H-01 of
+//! Stage i: every gated track but a few backed ones is paired, and closely (H-01 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, DetectionList, TrackList};
-use crate::input::scratch::Scratch;
+use crate::input::cycle::{Cycle, DetectionList};
+use crate::input::scratch::{Row, Scratch};
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
 use crate::stages::i_track_validation::mean_cost::{
     columns_of, mean_cost_failure, no_assignment, over_work_limit,
 };
 use crate::stages::i_track_validation::pairing::PairLimits;
-use crate::stages::i_track_validation::pairs::Pairs;
+use crate::stages::i_track_validation::pairs::{PairRules, Pairs};
+use crate::stages::i_track_validation::places::Places;
 
 /// What the pairs have to keep: all but `miss_budget` closer than `theta_track_max`.
 pub(crate) fn pair_limits(cycle: &Cycle<'_>) -> PairLimits {
-    let spare = usize::try_from(cycle.parameters.miss_budget).unwrap_or(0);
     let (theta_tr, limit) = (cycle.parameters.theta_tr, cycle.parameters.theta_track_max);
-    PairLimits { limit, theta_tr, spare }
+    PairLimits { limit, theta_tr, spare: budget(cycle) }
 }
 
-/// k' = gated tracks less the budget. The budget is spare columns that cost nothing, so that
-/// a minimal assignment of all gated tracks is a minimal choice of k' pairs; pairs beyond k' are of
-/// coinciding points and add nothing to the sum.
+fn budget(cycle: &Cycle<'_>) -> usize {
+    usize::try_from(cycle.parameters.miss_budget).unwrap_or(0)
+}
+
+/// Units of a cost per m. Costs are at most 1000 m.
+const SCALE: f64 = 68_719_476_736.0;
+
+/// Leaving out a backed track costs `theta_tr`: the mean of what remains of g tracks after j are
+/// left out is below `theta_tr` exactly when its sum and j `theta_tr` are below g `theta_tr`. So one
+/// minimal assignment, with a spare column for each track that may be left out, decides for every
+/// choice. Costs are rounded up to units of 2^-36 m: what is found costs at most that and 1e-10 m
+/// for each of the tracks more than the least, of which at most 64 are not paired by both.
 pub(crate) fn matched_pairs(
     cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
+    places: Places<'_>,
     detections: &DetectionList<'_>,
     gated: usize,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let spare = usize::try_from(cycle.parameters.miss_budget).unwrap_or(0).min(gated);
-    let k = gated.saturating_sub(spare);
-    if k == 0 {
+    let tracks = scratch.rows.iter().take(gated).map(|row| usize::from(row.track));
+    let is_backed = |&track: &usize| scratch.rows.get(track).is_some_and(Row::is_backed);
+    let backed = tracks.filter(is_backed).count();
+    let spare = budget(cycle).min(backed);
+    if spare == gated {
         return None;
     }
     let count = detections.items.len().saturating_add(spare);
@@ -38,15 +49,15 @@ pub(crate) fn matched_pairs(
         return Some(witness);
     }
     let columns = columns_of(scratch.columns, count);
-    let lists = (tracks.items, detections.items);
-    let limit = cycle.parameters.theta_track_max;
-    let pairs = Pairs::new(lists, false, limit, scratch.rows, columns);
+    let (limit, left_out) = (cycle.parameters.theta_track_max, cycle.parameters.theta_tr);
+    let rules = PairRules { swapped: false, limit, left_out, scale: SCALE };
+    let pairs = Pairs::new((places, detections.items), rules, scratch.rows, columns);
     let assigned = assign(scratch.rows, gated, columns, &pairs);
-    if assigned == gated {
+    if let (true, Some(left)) = (assigned == gated, pairs.left_out(scratch.rows, columns)) {
+        let k = gated.saturating_sub(left);
         return mean_cost_failure(cycle, &pairs, scratch.rows, columns, k);
     }
-    // The first track that is near no detection; else several compete, and no one of them is it.
-    let lone = pairs.lone(scratch.rows, gated).and_then(|index| tracks.items.get(index));
-    let witness = no_assignment(assigned.saturating_sub(spare), k);
-    Some(Witness { track: lone.map(|track| track.id), ..witness })
+    // The first track that is near no detection and may not be left out; else several compete, and no one of them is it.
+    let lone = pairs.lone(scratch.rows, gated, spare).and_then(|index| places.tracks.get(index));
+    Some(Witness { track: lone.map(|track| track.id), ..no_assignment(assigned, gated) })
 }

@@ -11,9 +11,14 @@ pub(crate) fn has_stage_v_in_plan_remote(cycle: &Cycle<'_>) -> bool {
     cycle.profile == Profile::Hardened
 }
 
-/// H-10: in `AllRemote` what stage iii did keeps neither iv nor v from running.
-pub(crate) fn stage_iii_replaces_others(cycle: &Cycle<'_>) -> bool {
+/// H-10: in `AllRemote` what stage iii did does not keep stage iv from running.
+pub(crate) fn stage_iii_replaces_iv(cycle: &Cycle<'_>) -> bool {
     cycle.profile == Profile::Paper || cycle.configuration != Configuration::AllRemote
+}
+
+/// H-10: what stages iii and iv did does not keep stage v from running, where it is conditional.
+pub(crate) fn others_replace_stage_v(cycle: &Cycle<'_>) -> bool {
+    cycle.profile == Profile::Paper
 }
 
 /// What of a cycle that no stage failed H-05 asks for.

@@ -8,7 +8,11 @@ use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
-/// Time and place of the first point.
+/// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
+/// it turns faster than 1.7 rad/s.
+const MOST_TURNED: f64 = 0.17;
+
+/// Time, place and heading of the first point.
 pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let first = points.first()?;
     let age_ns = elapsed_ns(first.t_ns, cycle.now_ns);
@@ -21,8 +25,22 @@ pub(crate) fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Op
     let moved = Real::new(cycle.ego.speed) * Real::seconds(age_ns.max(0));
     let limit = Real::new(cycle.parameters.start_tolerance) + moved;
     let off = distance([cycle.ego.x, cycle.ego.y], [first.x, first.y]);
-    let witness = Witness::of(Rule::StartPosition, [off.value(), limit.value()]).at_point(0);
-    (!off.certainly_at_most(limit)).then_some(witness)
+    let [own, heading] = [(cycle.ego.cos, cycle.ego.sin), (first.cos, first.sin)]
+        .map(|(cos, sin)| Vector::new(cos, sin));
+    let (along, turned) = (own.dot(heading), own.cross(heading).abs());
+    let from_first = Vector::between([first.x, first.y], [cycle.ego.x, cycle.ego.y]);
+    let aside = from_first.cross(heading).abs();
+    let at_most = |value: Real, limit: Real| (value, limit, value.certainly_at_most(limit));
+    let rules = [
+        (Rule::StartPosition, at_most(off, limit)),
+        (Rule::StartHeading, (along, Real::ZERO, Real::ZERO.certainly_below(along))),
+        (Rule::StartHeading, at_most(turned, Real::new(MOST_TURNED))),
+        (Rule::StartOffset, at_most(aside, Real::new(cycle.parameters.lateral_tolerance))),
+    ];
+    let broken = rules.into_iter().find(|&(_, (.., is_kept))| !is_kept);
+    broken.map(|(rule, (value, limit, _))| {
+        Witness::of(rule, [value.value(), limit.value()]).at_point(0)
+    })
 }
 
 /// A point outside the corridor.

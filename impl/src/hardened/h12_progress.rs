@@ -4,6 +4,7 @@ use core::cmp::Ordering;
 
 use crate::hardened::h04_horizon::{exact_s_stop, plain_way, way};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
+use crate::input::parameters::Parameters;
 use crate::numbers::exact::{Product, compare};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -61,8 +62,9 @@ fn arcs_are_fine(
 ) -> bool {
     let (parameters, v_now) = (&cycle.parameters, cycle.ego.speed);
     let (a_b, a_max) = (parameters.a_b, parameters.a_max);
+    let (slower, faster) = rates(cycle, first);
     let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
-    let (v_lo, v_hi) = ((v_now - a_max * d).max(0.0), v_now + a_b * d);
+    let (v_lo, v_hi) = ((v_now - slower * d).max(0.0), v_now + faster * d);
     let tolerance = parameters.start_tolerance - 1e-6;
     let (mut arc, mut driven, mut error, mut before) = (0.0, 0.0, 0.0, first);
     let all = points.iter().all(|point| {
@@ -78,6 +80,13 @@ fn arcs_are_fine(
         least - tolerance <= driven - error && arc + error <= most + tolerance
     });
     all && end.value() + 1e-6 <= driven - error
+}
+
+/// How much less and how much more than `v_now` the speed at the first point may be for each second
+/// between now and then: before now the CAV accelerated or braked since, after now it still may.
+fn rates(cycle: &Cycle<'_>, first: &TrajectoryPoint) -> (f64, f64) {
+    let Parameters { a_b, a_max, .. } = cycle.parameters;
+    if first.t_ns <= cycle.now_ns { (a_max, a_b) } else { (a_b, a_max) }
 }
 
 /// How far the CAV gets at least and at most, with the tolerance.
@@ -96,8 +105,9 @@ impl Bounds {
         let (a_b, a_max) = (Real::new(parameters.a_b), Real::new(parameters.a_max));
         let d = Real::seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
         let v_now = Real::new(cycle.ego.speed);
-        let v_lo = (v_now - a_max * d).max(Real::ZERO);
-        let (v_hi, stopping) = (v_now + a_b * d, s_b(parameters, v_lo));
+        let (slower, faster) = rates(cycle, first);
+        let v_lo = (v_now - Real::new(slower) * d).max(Real::ZERO);
+        let (v_hi, stopping) = (v_now + Real::new(faster) * d, s_b(parameters, v_lo));
         let tolerance = Real::new(parameters.start_tolerance);
         Self { v_lo, v_hi, a_b, a_max, stopping, tolerance }
     }
@@ -116,13 +126,13 @@ impl Bounds {
 }
 
 /// Whether t >= `v_lo` / `a_b` at that time; exact, since no margin applies to times:
-/// `a_b` t + `a_max` d >= `v_now` in units of 1e-9 m/s. (When `v_lo` is 0, every t >= 0 is enough,
+/// `a_b` t + rate d >= `v_now` in units of 1e-9 m/s. (When `v_lo` is 0, every t >= 0 is enough,
 /// and the inequality holds.)
 fn stands_at(cycle: &Cycle<'_>, first: &TrajectoryPoint, t_ns: i64) -> bool {
     let parameters = &cycle.parameters;
     let d_ns = elapsed_ns(first.t_ns, cycle.now_ns).saturating_abs();
     let (t, d) = (Real::integer(t_ns).value(), Real::integer(d_ns).value());
-    let gained =
-        [Product([t, 0.0], [parameters.a_b, 0.0]), Product([d, 0.0], [parameters.a_max, 0.0])];
+    let (slower, _) = rates(cycle, first);
+    let gained = [Product([t, 0.0], [parameters.a_b, 0.0]), Product([d, 0.0], [slower, 0.0])];
     compare(&gained, &[Product([1e9, 0.0], [cycle.ego.speed, 0.0])]) != Ordering::Less
 }

@@ -1,6 +1,7 @@
 //! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`). Each stage calls
 //! them in one place; H-08 is about the requester (`offloading::requester`).
 
+pub(crate) mod detection_history;
 pub(crate) mod h01_matched_pairs;
 pub(crate) mod h02_h05_h10_schedule;
 pub(crate) mod h03_circumradii;
@@ -8,6 +9,8 @@ pub(crate) mod h04_gap;
 pub(crate) mod h04_horizon;
 pub(crate) mod h06_closed_cells;
 pub(crate) mod h07_start;
-pub(crate) mod h09_velocity;
+pub(crate) mod h09_standing;
+pub(crate) mod h10_explained;
 pub(crate) mod h11_steps;
 pub(crate) mod h12_progress;
+pub(crate) mod h13_moving;

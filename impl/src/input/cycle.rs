@@ -33,8 +33,9 @@ pub struct Cycle<'a> {
     pub route: Route<'a>,
     /// The occupancy grid map.
     pub grid: Option<Grid<'a>>,
-    /// H-09: the last list that stage i passed in a safe cycle.
-    pub previous_tracks: Option<TrackList<'a>>,
+    /// Earlier lists of the CAV's own detections, the youngest first: at most 4
+    /// (`spec/3-stages.md#what-the-cav-saw-itself`).
+    pub detection_history: &'a [DetectionList<'a>],
 }
 
 /// Pose, speed and size of the CAV. Source: `spec/5-interfaces.md#cycle`.

@@ -25,11 +25,10 @@ pub(crate) enum Fault {
     Remote(InvalidInput),
 }
 
-/// Which lists are young enough to be used at all; an older one counts as missing.
+/// Whether the trajectory is young enough to be used at all; an older one counts as missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Usable {
     pub(crate) trajectory: bool,
-    pub(crate) previous_tracks: bool,
 }
 
 /// Checks everything in the order of `spec/3-stages.md#invalid-input`; the first local problem
@@ -37,26 +36,22 @@ pub(crate) struct Usable {
 pub(crate) fn validate(cycle: &Cycle<'_>, route_is_valid: bool) -> Result<Usable, Fault> {
     let [remote_tracks, remote_trajectory] =
         Group::ALL.map(|group| cycle.configuration.is_remote(group));
-    let previous_tracks = local(cycle, remote_tracks, route_is_valid).map_err(Fault::Local)?;
+    local(cycle, remote_tracks, route_is_valid).map_err(Fault::Local)?;
     let mut trajectory = true;
     if !remote_trajectory {
         trajectory = check_trajectory(cycle, false).map_err(Fault::Local)?;
     }
     if remote_tracks {
-        check_tracks(cycle.tracks.as_ref(), TRACKS, cycle.now_ns, true).map_err(Fault::Remote)?;
+        check_tracks(cycle.tracks.as_ref(), cycle.now_ns, true).map_err(Fault::Remote)?;
     }
     if remote_trajectory {
         trajectory = check_trajectory(cycle, true).map_err(Fault::Remote)?;
     }
-    Ok(Usable { trajectory, previous_tracks })
+    Ok(Usable { trajectory })
 }
 
-/// All local input but the trajectory; whether `previous_tracks` can be used.
-fn local(
-    cycle: &Cycle<'_>,
-    remote_tracks: bool,
-    route_is_valid: bool,
-) -> Result<bool, InvalidInput> {
+/// All local input but the trajectory.
+fn local(cycle: &Cycle<'_>, remote_tracks: bool, route_is_valid: bool) -> Check {
     check_parameters(&cycle.parameters)?;
     check_ego(&cycle.ego)?;
     if let Some(lead) = &cycle.lead {
@@ -71,12 +66,11 @@ fn local(
     if let Some(list) = &cycle.detections {
         check_detections(list, cycle.now_ns)?;
     }
-    let previous_tracks =
-        check_tracks(cycle.previous_tracks.as_ref(), PREVIOUS, cycle.now_ns, false)?;
+    check_detection_history(cycle.detection_history, cycle.now_ns)?;
     if !remote_tracks {
-        check_tracks(cycle.tracks.as_ref(), TRACKS, cycle.now_ns, false)?;
+        check_tracks(cycle.tracks.as_ref(), cycle.now_ns, false)?;
     }
-    Ok(previous_tracks)
+    Ok(())
 }
 
 fn check_lead(lead: &Lead, now_ns: i64) -> Check {
@@ -112,102 +106,104 @@ fn check_grid(grid: &Grid<'_>, now_ns: i64) -> Check {
 fn check_detections(list: &DetectionList<'_>, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("detections.stamp_ns", list.stamp_ns, now_ns, false)?;
-    at.size("detections.items", list.items.len(), [0, 2048])?;
-    if detections_are_fine(list.items) {
-        return Ok(());
-    }
-    for (index, item) in list.items.iter().enumerate() {
-        let &Detection { x, y, cos, sin, length, width } = item;
+    check_items(list.items, at, &DETECTIONS)
+}
+
+fn check_detection_history(history: &[DetectionList<'_>], now_ns: i64) -> Check {
+    Place { index: None }.size("detection_history", history.len(), [0, 4])?;
+    let mut younger: Option<i64> = None;
+    for (index, list) in history.iter().enumerate() {
         let at = Place { index: Some(index) };
-        at.f64("detections.items.x", x, POSITION)?;
-        at.f64("detections.items.y", y, POSITION)?;
-        at.f64("detections.items.cos", cos, ANY)?;
-        at.f64("detections.items.sin", sin, ANY)?;
-        at.direction("detections.items.cos", cos, sin)?;
-        at.f64("detections.items.length", length, SIZE)?;
-        at.f64("detections.items.width", width, SIZE)?;
+        at.stamp("detection_history.stamp_ns", list.stamp_ns, now_ns, false)?;
+        if younger.is_some_and(|younger| younger <= list.stamp_ns) {
+            at.problem("detection_history.stamp_ns", Problem::StampNotDecreasing)?;
+        }
+        younger = Some(list.stamp_ns);
+        check_items(list.items, at, &HISTORY)?;
     }
     Ok(())
 }
 
-/// The dotted paths of a track list.
-struct TrackFields {
-    stamp_ns: &'static str,
+/// The dotted paths of a list of detections: itself, and x, y, cos, sin, length and width of its
+/// items.
+struct Paths {
     items: &'static str,
-    id: &'static str,
-    x: &'static str,
-    y: &'static str,
-    cos: &'static str,
-    sin: &'static str,
-    vx: &'static str,
-    vy: &'static str,
-    length: &'static str,
-    width: &'static str,
+    numbers: [&'static str; 6],
 }
 
-const TRACKS: &TrackFields = &TrackFields {
-    stamp_ns: "tracks.stamp_ns",
-    items: "tracks.items",
-    id: "tracks.items.id",
-    x: "tracks.items.x",
-    y: "tracks.items.y",
-    cos: "tracks.items.cos",
-    sin: "tracks.items.sin",
-    vx: "tracks.items.vx",
-    vy: "tracks.items.vy",
-    length: "tracks.items.length",
-    width: "tracks.items.width",
+const DETECTIONS: Paths = Paths {
+    items: "detections.items",
+    numbers: [
+        "detections.items.x",
+        "detections.items.y",
+        "detections.items.cos",
+        "detections.items.sin",
+        "detections.items.length",
+        "detections.items.width",
+    ],
 };
 
-const PREVIOUS: &TrackFields = &TrackFields {
-    stamp_ns: "previous_tracks.stamp_ns",
-    items: "previous_tracks.items",
-    id: "previous_tracks.items.id",
-    x: "previous_tracks.items.x",
-    y: "previous_tracks.items.y",
-    cos: "previous_tracks.items.cos",
-    sin: "previous_tracks.items.sin",
-    vx: "previous_tracks.items.vx",
-    vy: "previous_tracks.items.vy",
-    length: "previous_tracks.items.length",
-    width: "previous_tracks.items.width",
+const HISTORY: Paths = Paths {
+    items: "detection_history.items",
+    numbers: [
+        "detection_history.items.x",
+        "detection_history.items.y",
+        "detection_history.items.cos",
+        "detection_history.items.sin",
+        "detection_history.items.length",
+        "detection_history.items.width",
+    ],
 };
 
-/// Whether the list is within 60 s of now; an error for a value that breaks the rules.
-fn check_tracks(
-    list: Option<&TrackList<'_>>,
-    fields: &TrackFields,
-    now_ns: i64,
-    remote: bool,
-) -> Result<bool, InvalidInput> {
-    let Some(list) = list else { return Ok(false) };
+fn check_items(items: &[Detection], at: Place, paths: &Paths) -> Check {
+    at.size(paths.items, items.len(), [0, 2048])?;
+    if detections_are_fine(items) {
+        return Ok(());
+    }
+    let [path_x, path_y, path_cos, path_sin, path_length, path_width] = paths.numbers;
+    for (index, item) in items.iter().enumerate() {
+        let &Detection { x, y, cos, sin, length, width } = item;
+        let at = Place { index: Some(index) };
+        at.f64(path_x, x, POSITION)?;
+        at.f64(path_y, y, POSITION)?;
+        at.f64(path_cos, cos, ANY)?;
+        at.f64(path_sin, sin, ANY)?;
+        at.direction(path_cos, cos, sin)?;
+        at.f64(path_length, length, SIZE)?;
+        at.f64(path_width, width, SIZE)?;
+    }
+    Ok(())
+}
+
+fn check_tracks(list: Option<&TrackList<'_>>, now_ns: i64, remote: bool) -> Check {
+    let Some(list) = list else { return Ok(()) };
     let at = Place { index: None };
-    let usable = at.stamp(fields.stamp_ns, list.stamp_ns, now_ns, remote)?;
-    at.size(fields.items, list.items.len(), [0, 1024])?;
+    at.stamp("tracks.stamp_ns", list.stamp_ns, now_ns, remote)?;
+    at.size("tracks.items", list.items.len(), [0, 1024])?;
     if tracks_are_fine(list.items) {
-        return Ok(usable);
+        return Ok(());
     }
     let mut seen = Seen::default();
     for (index, track) in list.items.iter().enumerate() {
-        check_track(track, Place { index: Some(index) }, fields)?;
+        check_track(track, Place { index: Some(index) })?;
         let mut earlier = list.items.iter().take(index);
         if seen.perhaps(track.id) && earlier.any(|earlier| earlier.id == track.id) {
-            Place { index: Some(index) }.problem(fields.id, Problem::DuplicateId)?;
+            Place { index: Some(index) }.problem("tracks.items.id", Problem::DuplicateId)?;
         }
     }
-    Ok(usable)
+    Ok(())
 }
 
-fn check_track(track: &Track, at: Place, fields: &TrackFields) -> Check {
-    at.f64(fields.x, track.x, POSITION)?;
-    at.f64(fields.y, track.y, POSITION)?;
-    at.f64(fields.cos, track.cos, ANY)?;
-    at.f64(fields.sin, track.sin, ANY)?;
-    at.direction(fields.cos, track.cos, track.sin)?;
-    at.f64(fields.vx, track.vx, VELOCITY)?;
-    at.f64(fields.vy, track.vy, VELOCITY)?;
-    at.f64(fields.length, track.length, SIZE)?;
-    at.f64(fields.width, track.width, SIZE)
+fn check_track(track: &Track, at: Place) -> Check {
+    at.f64("tracks.items.x", track.x, POSITION)?;
+    at.f64("tracks.items.y", track.y, POSITION)?;
+    at.f64("tracks.items.cos", track.cos, ANY)?;
+    at.f64("tracks.items.sin", track.sin, ANY)?;
+    at.direction("tracks.items.cos", track.cos, track.sin)?;
+    at.f64("tracks.items.vx", track.vx, VELOCITY)?;
+    at.f64("tracks.items.vy", track.vy, VELOCITY)?;
+    at.f64("tracks.items.length", track.length, SIZE)?;
+    at.f64("tracks.items.width", track.width, SIZE)
 }
 
 /// Whether the stamp is not more than 60 s before now, or there is no trajectory. The points of a

@@ -26,7 +26,7 @@ macro_rules! parameters {
             /// H-01: every assigned pair has to be closer than this, m.
             theta_track_max: f64 = 1.0 in [1e-3, 1e3];
             /// H-01: gated tracks that may stay without a detection.
-            miss_budget: i64 = 0 in [0, 64];
+            miss_budget: i64 = 4 in [0, 64];
             /// H-04: time before the CAV brakes, s.
             tau: f64 = 0.1 in [0.0, 60.0];
             /// H-04, H-12: greatest acceleration of the CAV, m/s^2.
@@ -37,8 +37,14 @@ macro_rules! parameters {
             v_max: f64 = 150.0 in [f64::from_bits(1), 1e3];
             /// H-11: longest time between two trajectory points, ns.
             step_max_ns: i64 = 200_000_000 in [0, 60_000_000_000];
-            /// H-09: greatest error of the velocity of a track, m/s.
+            /// Greatest error of the velocity of a track, m/s.
             theta_velocity: f64 = 2.0 in [f64::from_bits(1), 1e3];
+            /// H-07: how far aside of its first heading a trajectory may start, m.
+            lateral_tolerance: f64 = 0.5 in [1e-3, 1e3];
+            /// H-13: the greatest speed of an object that is looked for, m/s.
+            v_object: f64 = 70.0 in [f64::from_bits(1), 1e3];
+            /// H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
+            tau_motion: f64 = 0.3 in [0.0, 60.0];
             /// Stage i fails rather than begin an assignment of more work than this.
             work_limit: i64 = 10_000_000_000 in [0, i64::MAX];
             /// Margin of the strict and the lax model, m; no verdict of this crate depends on it.

@@ -1,4 +1,4 @@
-//! Scratch memory that the caller lends to stage i (`spec/4-arithmetic.md#conformance-of-an-implementation`).
+//! Scratch memory that the caller lends to stage i, and to what rests on the detection history (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 
 use core::mem::size_of;
 
@@ -15,6 +15,10 @@ pub struct Row {
     pub(crate) track: u16,
     /// Column assigned to this row, or `NONE`.
     pub(crate) column: u16,
+    /// Of the track with the index of this row, see `detection_history`: an item of a list.
+    pub(crate) item: u16,
+    /// Of the track with the index of this row, see `detection_history`: what the CAV saw of it.
+    pub(crate) seen: u16,
 }
 
 /// Working memory for one column of the assignment; its content between cycles means nothing.
@@ -35,6 +39,8 @@ pub struct Column {
     pub(crate) next: u16,
     /// A column that a path reaches, see `assignment::Paths`.
     pub(crate) reached: u16,
+    /// For more lists of items than one, see `detection_history::squares`.
+    pub(crate) links: [u16; 3],
 }
 
 /// No row, column or detection: there are at most 2112.
@@ -69,13 +75,15 @@ impl Sizes {
         rows.saturating_add(self.columns.saturating_mul(size_of::<Column>()))
     }
 
-    /// What this cycle needs; O(tracks + detections). Source:
+    /// What this cycle needs; O(1). Source:
     /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub fn for_cycle(cycle: &Cycle<'_>) -> Self {
         let tracks = cycle.tracks.map_or(0, |list| list.items.len());
         let detections = cycle.detections.map_or(0, |list| list.items.len());
         let spare = usize::try_from(cycle.parameters.miss_budget).unwrap_or(0).min(tracks);
-        Self { rows: tracks, columns: detections.saturating_add(spare).max(tracks) }
+        let history = cycle.detection_history.iter().map(|list| list.items.len());
+        let columns = detections.saturating_add(spare).max(tracks);
+        Self { rows: tracks, columns: history.fold(columns, usize::max) }
     }
 }
 

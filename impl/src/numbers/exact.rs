@@ -65,6 +65,26 @@ pub(crate) fn compare_distances(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Orderi
     compare(&square(a), &square(b))
 }
 
+/// The same where `a` has moved for some time: a point, its velocity in m/s, and ns, below 2^38. In
+/// units of 1e-9 m, so that times are integers.
+pub(crate) fn compare_moved_distances(
+    [px, py]: [f64; 2],
+    ([ax, ay], [vx, vy], t_ns): ([f64; 2], [f64; 2], i64),
+    [bx, by]: [f64; 2],
+) -> Ordering {
+    let mut total = Wide::default();
+    for (moved, still) in [
+        (combination([(ax, px, GIGA), (vx, 0.0, t_ns)]), combination([(bx, px, GIGA)])),
+        (combination([(ay, py, GIGA), (vy, 0.0, t_ns)]), combination([(by, py, GIGA)])),
+    ] {
+        total.add_product(&moved, &moved, false);
+        total.add_product(&still, &still, true);
+    }
+    total.sign()
+}
+
+const GIGA: i64 = 1_000_000_000;
+
 fn sum(products: &[Product]) -> Real {
     let factor = |[a, b]: [f64; 2]| Real::difference(a, b);
     products.iter().fold(Real::ZERO, |total, &Product(x, y)| total + factor(x) * factor(y))
@@ -127,13 +147,38 @@ fn difference(a: f64, b: f64) -> Narrow {
     let (size_a, size_b) = (fixed(a), fixed(b));
     add(&mut limbs, &size_a, a < 0.0);
     add(&mut limbs, &size_b, b > 0.0);
-    let negative = limbs.last().is_some_and(|&top| top >> 63 == 1);
-    if negative {
-        let complement = limbs;
-        limbs = [0; NARROW];
-        add(&mut limbs, &complement, true);
+    Narrow::of(limbs)
+}
+
+/// The sum of (a - b) times an integer for each of the terms; below 2^77 in size.
+fn combination<const N: usize>(terms: [(f64, f64, i64); N]) -> Narrow {
+    let mut total = [0; NARROW];
+    for (a, b, factor) in terms {
+        let Narrow { negative, limbs } = difference(a, b);
+        let mut carry = 0_u64;
+        let product = limbs.map(|limb| {
+            // x y + carry <= (2^64 - 1)^2 + 2^64 - 1 < 2^128
+            let full = u128::from(limb).wrapping_mul(u128::from(factor.unsigned_abs()));
+            let low;
+            (low, carry) = halves(full.wrapping_add(u128::from(carry)));
+            low
+        });
+        add(&mut total, &product, negative != (factor < 0));
     }
-    Narrow { negative, limbs }
+    Narrow::of(total)
+}
+
+impl Narrow {
+    /// From two's complement.
+    fn of(mut limbs: [u64; NARROW]) -> Self {
+        let negative = limbs.last().is_some_and(|&top| top >> 63 == 1);
+        if negative {
+            let complement = limbs;
+            limbs = [0; NARROW];
+            add(&mut limbs, &complement, true);
+        }
+        Self { negative, limbs }
+    }
 }
 
 /// The size of a double below 2^40 in units of 2^-1074.

@@ -21,7 +21,7 @@ mod steps;
 #[cfg(test)]
 mod tests;
 
-pub use self::event::{Action, Actions, Event, EventKind};
+pub use self::event::{Action, Actions, Event, EventKind, Sessions};
 pub use self::inspect::{Running, Suspended};
 pub use self::parameters::Parameters;
 pub use self::restore::{GroupRecord, Parts};

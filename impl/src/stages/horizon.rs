@@ -5,7 +5,6 @@ use crate::hardened::h04_horizon::{PlacesBeyond, exact_s_stop, plain_s_stop, pla
 use crate::input::cycle::{Cycle, Lead, TrajectoryPoint};
 use crate::input::profile::Profile;
 use crate::numbers::plane::distance;
-use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::report::Witness;
 use crate::stages::distances::{Number, s_b, s_cav, s_valid};
@@ -19,6 +18,10 @@ pub(crate) enum Horizon<'c> {
     Valid(Option<&'c Lead>),
     /// `s_b(v_now)`
     Braking,
+    /// H-10: `s_stop` alone.
+    Stop,
+    /// H-13: `s_stop` + `tau_motion` `v_now`.
+    Motion,
 }
 
 impl Horizon<'_> {
@@ -29,36 +32,47 @@ impl Horizon<'_> {
             Self::Cav => s_cav(parameters, v_now),
             Self::Valid(lead) => s_valid(parameters, v_now, lead.map(|lead| lead.speed)),
             Self::Braking => s_b(parameters, N::from_double(v_now)),
+            Self::Stop => N::from_double(0.0),
+            Self::Motion => N::from_double(parameters.tau_motion).times(N::from_double(v_now)),
         }
     }
 
-    /// The distance; H-04: max(s, `s_stop`).
+    /// H-04: (1 + 1e-6) max(s, `s_stop`); H-13 adds `s_stop`.
+    fn hardened<N: Number>(self, cycle: &Cycle<'_>, s_stop: N) -> N {
+        let s = self.distance::<N>(cycle);
+        let farther =
+            if matches!(self, Self::Motion) { s.plus(s_stop) } else { s.or_larger(s_stop) };
+        N::from_double(1.0).plus(N::from_double(1e-6)).times(farther)
+    }
+
+    /// How far the profile looks.
     fn exactly(self, cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Real {
-        let s = self.distance::<Real>(cycle);
         match cycle.profile {
-            Profile::Paper => s,
-            Profile::Hardened => s.or_larger(exact_s_stop(cycle, points)),
+            Profile::Paper => self.distance(cycle),
+            Profile::Hardened => self.hardened(cycle, exact_s_stop(cycle, points)),
         }
     }
 
     /// Doubles on either side of it: of at most twenty roundings all but those of one difference
     /// are of summands >= 0; its summands are `s_b(v_now)` and, unless 0 is larger, less.
     fn plainly(self, cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> [f64; 2] {
-        let mut s = self.distance::<f64>(cycle);
-        if let (Profile::Hardened, Some(first)) = (cycle.profile, points.first()) {
-            s = larger(s, plain_s_stop(cycle, first));
-        }
-        let error = 1e-13 * (s + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
-        [s - error, s + error]
+        let [least, most] = match (cycle.profile, points.first()) {
+            (Profile::Hardened, Some(first)) => {
+                plain_s_stop(cycle, first).map(|s_stop| self.hardened(cycle, s_stop))
+            }
+            _ => [self.distance(cycle); 2],
+        };
+        let error = 1e-13 * (most + s_b(&cycle.parameters, cycle.ego.speed)) + 1e-140;
+        [least - error, most + error]
     }
 }
 
 /// The points that a stage examines.
 pub(crate) struct PointsExamined<'c, 'a> {
-    cycle: &'c Cycle<'a>,
+    pub(crate) cycle: &'c Cycle<'a>,
     /// Points of the trajectory, from the first on.
     pub(crate) points: &'a [TrajectoryPoint],
-    beyond: PlacesBeyond,
+    pub(crate) beyond: PlacesBeyond,
 }
 
 impl<'c, 'a> PointsExamined<'c, 'a> {

@@ -1,17 +1,17 @@
 //! Stage i: track validation (`spec/3-stages.md#stage-i-track-validation`).
 
 pub(crate) mod assignment;
-mod gate;
+pub(crate) mod gate;
 pub(crate) mod mean_cost;
 pub(crate) mod pairing;
 pub(crate) mod pairs;
+pub(crate) mod places;
 pub(crate) mod spatial_hash;
 
 use crate::hardened::h01_matched_pairs::{matched_pairs, pair_limits};
-use crate::hardened::h09_velocity::velocity_failure;
 use crate::input::cycle::{Cycle, DetectionList, TrackList};
 use crate::input::profile::Profile;
-use crate::input::scratch::Scratch;
+use crate::input::scratch::{Row, Scratch};
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
 use crate::stages::i_track_validation::gate::gated_tracks;
@@ -19,32 +19,32 @@ use crate::stages::i_track_validation::mean_cost::{
     columns_of, mean_cost_failure, no_assignment, over_work_limit,
 };
 use crate::stages::i_track_validation::pairing::{PairLimits, certainly_pass};
-use crate::stages::i_track_validation::pairs::Pairs;
+use crate::stages::i_track_validation::pairs::{PairRules, Pairs};
+use crate::stages::i_track_validation::places::Places;
 
-/// Why stage i fails, if it does. `previous`: the list for H-09, if it is in use.
+/// Why stage i fails, if it does. Which tracks are backed stands in the scratch.
 pub(crate) fn track_validation(
     cycle: &Cycle<'_>,
     tracks: &TrackList<'_>,
     detections: &DetectionList<'_>,
-    previous: Option<&TrackList<'_>>,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let mut paired = None;
-    if !pairs_found(cycle, tracks, detections, scratch) {
-        let p = [cycle.ego.x, cycle.ego.y];
-        let gated = gated_tracks(p, tracks.items, detections.items, scratch.rows);
-        paired = match cycle.profile {
-            Profile::Paper => mean_cost(cycle, tracks, detections, gated, scratch),
-            Profile::Hardened => matched_pairs(cycle, tracks, detections, gated, scratch),
-        };
+    let places = Places::new(cycle, tracks, detections);
+    if pairs_found(cycle, &places, detections, scratch) {
+        return None;
     }
-    paired.or_else(|| previous.and_then(|previous| velocity_failure(cycle, tracks, previous)))
+    let p = [cycle.ego.x, cycle.ego.y];
+    let gated = gated_tracks(p, &places, detections.items, scratch.rows);
+    match cycle.profile {
+        Profile::Paper => mean_cost(cycle, places, detections, gated, scratch),
+        Profile::Hardened => matched_pairs(cycle, places, detections, gated, scratch),
+    }
 }
 
 /// Whether a quick search finds pairs that keep the rules of the profile.
 fn pairs_found(
     cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
+    places: &Places<'_>,
     detections: &DetectionList<'_>,
     scratch: &mut Scratch<'_>,
 ) -> bool {
@@ -56,13 +56,18 @@ fn pairs_found(
     };
     let columns = columns_of(scratch.columns, detections.items.len());
     let p = [cycle.ego.x, cycle.ego.y];
-    certainly_pass(p, tracks.items, detections.items, limits, columns)
+    let rows = &*scratch.rows;
+    let is_backed = |track: usize| rows.get(track).is_some_and(Row::is_backed);
+    certainly_pass(p, places, detections.items, limits, is_backed, columns)
 }
+
+/// Units of a cost per m: costs are at most 2^20 m.
+const SCALE: f64 = 4_294_967_296.0;
 
 /// The stage of the paper: k = min(gated tracks, detections) pairs, the fewer of the two as rows.
 fn mean_cost(
     cycle: &Cycle<'_>,
-    tracks: &TrackList<'_>,
+    places: Places<'_>,
     detections: &DetectionList<'_>,
     gated: usize,
     scratch: &mut Scratch<'_>,
@@ -76,8 +81,9 @@ fn mean_cost(
         return Some(witness);
     }
     let columns = columns_of(scratch.columns, gated.max(detected));
-    let lists = (tracks.items, detections.items);
-    let pairs = Pairs::new(lists, gated > detected, f64::MAX, scratch.rows, columns);
+    let swapped = gated > detected;
+    let rules = PairRules { swapped, limit: f64::MAX, left_out: f64::MAX, scale: SCALE };
+    let pairs = Pairs::new((places, detections.items), rules, scratch.rows, columns);
     let assigned = assign(scratch.rows, k, columns, &pairs);
     if assigned < k {
         // Every row may be paired with every column: never, but if so, nothing has been shown.

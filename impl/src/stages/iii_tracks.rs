@@ -1,39 +1,41 @@
 //! Stage iii: trajectory with tracks (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use crate::hardened::h09_velocity::{collision_standing, examines_standing};
-use crate::input::cycle::{Cycle, TrackList, Trajectory};
+use crate::hardened::h09_standing::{collision_standing, examines_standing};
+use crate::input::cycle::{Cycle, DetectionList, TrackList, Trajectory, TrajectoryPoint};
+use crate::input::scratch::Row;
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::llcc::{CavMotion, Collision};
 
-/// Why stage iii fails, if it does. `held` is the list whose ids H-09 counts as held: the previous
-/// tracks that stage i used in this cycle, if any.
+/// Why stage iii fails, if it does. `detections`: the current ones; `rows`: which tracks are
+/// backed.
 pub(crate) fn trajectory_with_tracks(
     cycle: &Cycle<'_>,
     trajectory: &Trajectory<'_>,
     tracks: &TrackList<'_>,
-    held: Option<&TrackList<'_>>,
+    detections: Option<&DetectionList<'_>>,
+    rows: &[Row],
 ) -> Option<Witness> {
     let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Cav);
-    let motion = CavMotion::new(cycle, examined.points, tracks.stamp_ns);
     let witness = |rule, Collision { point, object, compared }| {
         let track = tracks.items.get(object).map(|track| track.id);
         Witness { track, ..Witness::of(rule, compared) }.at_point(point)
     };
-    let predicted = |motion: &CavMotion<'_, '_>| {
+    let predicted = |cycle: &Cycle<'_>, points: &[TrajectoryPoint]| {
+        let motion = CavMotion::new(cycle, points, tracks.stamp_ns);
         let objects = tracks.items.iter().map(MovingRectangle::track);
-        motion.first_collision(objects, |_| true).map(|it| witness(Rule::Collision, it))
+        motion.first_collision(objects, |_| usize::MAX).map(|it| witness(Rule::Collision, it))
     };
-    let beyond = |find: &dyn Fn(&CavMotion<'_, '_>) -> Option<Witness>| {
-        examined.first_beyond(|cycle, points| find(&CavMotion::new(cycle, points, tracks.stamp_ns)))
-    };
-    let found = predicted(&motion).or_else(|| beyond(&predicted));
+    let found = predicted(cycle, examined.points).or_else(|| examined.first_beyond(predicted));
     if !examines_standing(cycle) {
         return found;
     }
-    let standing = |motion: &CavMotion<'_, '_>| {
-        collision_standing(motion, tracks, held).map(|it| witness(Rule::CollisionStanding, it))
+    let standing = |cycle: &Cycle<'_>, points: &[TrajectoryPoint]| {
+        let found = collision_standing(cycle, points, tracks, detections, rows);
+        found.map(|it| witness(Rule::CollisionStanding, it))
     };
-    found.or_else(|| standing(&motion)).or_else(|| beyond(&standing))
+    let standing_anywhere =
+        || standing(cycle, examined.points).or_else(|| examined.first_beyond(standing));
+    found.or_else(standing_anywhere)
 }

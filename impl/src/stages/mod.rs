@@ -9,18 +9,20 @@ pub(crate) mod iv_detections;
 pub(crate) mod llcc;
 pub(crate) mod v_grid_map;
 
+use crate::hardened::detection_history::{DetectionHistory, Seen};
 use crate::hardened::h02_h05_h10_schedule::{
-    ObstacleChecks, has_stage_v_in_plan_remote, no_obstacle_check, stage_iii_replaces_others,
+    ObstacleChecks, has_stage_v_in_plan_remote, no_obstacle_check, others_replace_stage_v,
+    stage_iii_replaces_iv,
 };
 use crate::hardened::h04_gap::failure_without_stage_iv;
-use crate::hardened::h09_velocity::previous_in_use;
+use crate::hardened::h13_moving::MovingDetections;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable, validate};
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
-use crate::services::configuration::Configuration;
+use crate::services::configuration::{Configuration, Group};
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
@@ -34,7 +36,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// each stage is linear in its lists. At most:
 ///
 /// * input: T + D + P + S, and T^2/2 comparisons of ids that do not increase and share their low
-///   twelve bits; H-09: T ids looked for in the previous list;
+///   twelve bits;
 /// * i: a few times T D distances, which `work_limit` does not limit, and an assignment of
 ///   min(T, c)^2 max(T, c) steps, c = D + `miss_budget`, never more than `work_limit`;
 /// * ii: P S segments and triangles, with an index only those beside each point, which on a folded
@@ -95,7 +97,7 @@ fn decide<'a>(
 pub struct ValidCycle<'c, 'a> {
     cycle: &'c Cycle<'a>,
     current: Current<'c, 'a>,
-    previous: Option<&'c TrackList<'a>>,
+    history: DetectionHistory<'c, 'a>,
     index: Option<&'c RouteIndex<'a>>,
 }
 
@@ -120,48 +122,72 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     fn of(cycle: &'c Cycle<'a>, usable: Usable, index: Option<&'c RouteIndex<'a>>) -> Self {
-        let received = cycle.tracks.as_ref();
-        let previous =
-            received.and_then(|list| previous_in_use(cycle, list, usable.previous_tracks));
-        Self { cycle, current: Current::new(cycle, usable), previous, index }
+        let current = Current::new(cycle, usable);
+        let history = DetectionHistory::new(cycle, current.detections);
+        Self { cycle, current, history, index }
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
-    /// an input of it is not current. Stages iii and v take stages i and iv as run. Source:
-    /// `spec/3-stages.md`.
+    /// an input of it is not current. Stages iii and v take stages i and iv as run, and stage iv
+    /// in `AllRemote` stages i and iii. Source: `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
         let found = match stage {
             Stage::I => self.i(scratch),
             Stage::Ii => self.ii(),
-            Stage::Iii => self.iii(true),
-            Stage::Iv => self.iv(),
+            Stage::Iii | Stage::Iv => match (self.look_back(scratch), stage) {
+                (Seen::Unclear(witness), _) => Ok(Some(witness)),
+                (_, Stage::Iii) => self.iii(scratch),
+                (_, _) => self.iv(scratch),
+            },
             Stage::V => self.v(true),
         };
         found.map_or_else(Outcome::NotApplicable, outcome)
     }
 
+    /// What the CAV saw of the received tracks, into the scratch.
+    fn look_back(&self, scratch: &mut Scratch<'_>) -> Seen {
+        let look = |received| self.history.look_back(self.cycle, received, scratch);
+        self.received().map_or(Seen::Open, look)
+    }
+
+    /// The tracks of the remote MOT, whatever their age.
+    fn received(&self) -> Option<&'c TrackList<'a>> {
+        let tracks = self.cycle.tracks.as_ref();
+        tracks.filter(|_| self.cycle.configuration.is_remote(Group::Mot))
+    }
+
     /// Tracks go to stage i whatever their age.
     fn i(&self, scratch: &mut Scratch<'_>) -> Found {
+        let seen = self.look_back(scratch);
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
-        Ok(track_validation(self.cycle, tracks, detections, self.previous, scratch))
+        Ok(match seen {
+            Seen::Unclear(witness) => Some(witness),
+            Seen::Paired => None,
+            Seen::Open => track_validation(self.cycle, tracks, detections, scratch),
+        })
     }
 
     fn ii(&self) -> Found {
         Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.index))
     }
 
-    fn iii(&self, ran_i: bool) -> Found {
+    /// After `look_back`, and so after stage i.
+    fn iii(&self, scratch: &Scratch<'_>) -> Found {
         let trajectory = self.current.trajectory()?;
         let tracks = self.current.tracks.ok_or(Input::Tracks)?;
-        let held = self.previous.filter(|_| ran_i);
-        Ok(trajectory_with_tracks(self.cycle, trajectory, tracks, held))
+        let detections = self.current.detections;
+        Ok(trajectory_with_tracks(self.cycle, trajectory, tracks, detections, scratch.rows))
     }
 
-    fn iv(&self) -> Found {
+    /// After `look_back`, and so after stage i.
+    fn iv(&self, scratch: &mut Scratch<'_>) -> Found {
         let trajectory = self.current.trajectory()?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
-        Ok(trajectory_with_detections(self.cycle, trajectory, detections, self.current.lead))
+        let tracks = self.current.tracks.filter(|_| self.received().is_some());
+        let moving = MovingDetections { history: self.history, tracks };
+        let lead = self.current.lead;
+        Ok(trajectory_with_detections(self.cycle, trajectory, detections, lead, &moving, scratch))
     }
 
     fn v(&self, ran_iv: bool) -> Found {
@@ -270,19 +296,20 @@ impl Decision<'_, '_> {
 fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     let ValidCycle { cycle, ref current, .. } = *valid;
     let mut decision = Decision { cycle, failed: None, stages: [Outcome::NotScheduled; 5] };
-    let ran_i = decision.settle(Stage::I, false, || valid.i(scratch));
+    decision.settle(Stage::I, false, || valid.i(scratch));
     decision.settle(Stage::Ii, false, || valid.ii());
-    let ran_iii = decision.settle(Stage::Iii, false, || valid.iii(ran_i));
+    let ran_iii = decision.settle(Stage::Iii, false, || valid.iii(scratch));
 
-    let replaced = ran_iii && stage_iii_replaces_others(cycle);
-    let ran_iv = decision.settle(Stage::Iv, replaced, || valid.iv());
+    let replaced = ran_iii && stage_iii_replaces_iv(cycle);
+    let ran_iv = decision.settle(Stage::Iv, replaced, || valid.iv(scratch));
     if !ran_iv && decision.failed.is_none() {
         let found = failure_without_stage_iv(cycle, current.trajectory, current.lead);
         if let Some(witness) = found {
             decision.report(Stage::Iv, Outcome::Failed(witness));
         }
     }
-    let ran_v = decision.settle(Stage::V, replaced || ran_iv, || valid.v(ran_iv));
+    let replaced = (ran_iii || ran_iv) && others_replace_stage_v(cycle);
+    let ran_v = decision.settle(Stage::V, replaced, || valid.v(ran_iv));
 
     let checks = ObstacleChecks {
         trajectory: current.trajectory.is_some(),

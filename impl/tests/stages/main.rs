@@ -1,5 +1,14 @@
 //! The stages and their input, through `stages::check` alone.
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "small numbers of tests"
+)]
 
+mod explained;
+mod history;
 mod input;
+mod moving;
 mod scene;
+mod steps;
 mod thresholds;

@@ -24,6 +24,10 @@ pub struct Scene {
     pub points: Vec<TrajectoryPoint>,
     pub tracks: Option<Vec<Track>>,
     pub detections: Option<Vec<Detection>>,
+    /// Earlier lists of detections: age in ns, and items.
+    pub history: Vec<(i64, Vec<Detection>)>,
+    /// By how much the track list is older than the detections, ns.
+    pub track_age_ns: i64,
     pub cross_sections: Vec<CrossSection>,
     pub occupied: Option<Vec<u8>>,
     pub change: fn(&mut Cycle<'_>),
@@ -54,6 +58,8 @@ pub fn scene(profile: Profile, configuration: Configuration, origin: [f64; 2]) -
         points: (0..30).map(point).collect(),
         tracks: Some(vec![track(1, x + 3.0, y + 50.0)]),
         detections: Some(vec![detection(x + 3.0, y + 50.1)]),
+        history: Vec::new(),
+        track_age_ns: 0,
         cross_sections: (0..10).map(cross_section).collect(),
         occupied: Some(vec![0; 5000]),
         change: |_| (),
@@ -74,7 +80,11 @@ impl Scene {
     /// Checks the scene with scratch of exactly the size asked for.
     pub fn check(&self) -> Result<Report, InvalidInput> {
         let stamp_ns = NOW_NS - 10_000_000;
-        let list = |items| TrackList { stamp_ns, items };
+        let list = |items| TrackList { stamp_ns: stamp_ns - self.track_age_ns, items };
+        let earlier = self.history.iter();
+        let history: Vec<_> = earlier
+            .map(|(age_ns, items)| DetectionList { stamp_ns: stamp_ns - age_ns, items })
+            .collect();
         let mut cycle = Cycle {
             profile: self.profile,
             parameters: self.parameters,
@@ -98,7 +108,7 @@ impl Scene {
                 occupied,
                 unknown: None,
             }),
-            previous_tracks: None,
+            detection_history: &history,
         };
         (self.change)(&mut cycle);
         let sizes = Sizes::for_cycle(&cycle);

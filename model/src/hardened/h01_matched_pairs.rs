@@ -1,29 +1,54 @@
-//! H-01: all gated tracks but miss_budget are matched, each with a detection closer than
-//! theta_track_max.
+//! H-01: all gated tracks are matched, each with a detection closer than theta_track_max, but for at
+//! most miss_budget backed ones, which may be left out.
 
+use crate::hardened::detection_history::Seen;
 use crate::input::scene::{Scene, Track};
-use crate::numbers::assignment::{Costs, count};
+use crate::numbers::assignment::{Costs, costs_less, count};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 
-/// What stage i assigns: the pairs closer than theta_track_max, k' = max(gated tracks - miss_budget, 0),
-/// and the columns that its work counts: the detections and min(miss_budget, gated tracks) misses.
-pub fn to_assign(scene: &Scene, costs: Costs, detections: usize) -> (Costs, usize, usize) {
-    let gated = costs.len();
-    let budget = usize::try_from(scene.parameters.miss_budget).unwrap_or(0);
-    let k = gated.saturating_sub(budget);
-    let theta_track_max = &scene.parameters.theta_track_max;
-    let close = |cost: &Real| scene.reads.less(cost, theta_track_max);
-    let costs =
-        costs.into_iter().map(|row| row.into_iter().map(|c| c.filter(close)).collect()).collect();
-    (costs, k, detections + budget.min(gated))
+/// How many tracks may be left out: min(miss_budget, backed gated tracks).
+pub fn may_be_left_out(scene: &Scene, gated: &[(&Track, &Seen)]) -> usize {
+    let backed = gated.iter().filter(|(_, seen)| seen.is_backed).count();
+    usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(backed)
 }
 
-/// Fewer pairs than k': the witness names the first gated track without a detection close to it.
-pub fn no_assignment(gated: &[&Track], costs: &Costs, pairs: usize, k: usize) -> Witness {
+/// Why no choice of the left-out tracks leaves a mean < theta_tr of what remains; at least one gated
+/// track remains. `costs` of gated tracks and detections.
+///
+/// Each track that may be left out is given a column of cost theta_tr to be left out by. Let g be the
+/// number of gated tracks, m of these left out, and C the cost of the pairs of the others. The whole
+/// assignment costs C + m theta_tr, and that is < g theta_tr exactly when C < (g - m) theta_tr: then
+/// m < g, because C >= 0, and the mean C / (g - m) is < theta_tr. So some choice of the left-out
+/// tracks has such a mean exactly when the cheapest assignment of all g tracks costs < g theta_tr.
+pub fn mean_failure(scene: &Scene, gated: &[(&Track, &Seen)], costs: Costs) -> Option<Witness> {
+    let theta_track_max = &scene.parameters.theta_track_max;
+    // As the reading lowers it; where that is below 0 no mean is less.
+    let theta_tr = scene.reads.lowered(&scene.parameters.theta_tr).max(Real::zero());
+    let close = |cost: &Real| scene.reads.less(cost, theta_track_max);
+    let left_out = may_be_left_out(scene, gated);
+    let row = |(row, (_, seen)): (Vec<Option<Real>>, &(&Track, &Seen))| {
+        let leaving = seen.is_backed.then(|| theta_tr.clone());
+        let pairs = row.into_iter().map(|cost| cost.filter(close));
+        pairs.chain(vec![leaving; left_out]).collect()
+    };
+    let costs: Costs = costs.into_iter().zip(gated).map(row).collect();
+    let tracks = gated.len();
+    match costs_less(&costs, tracks, &(count(tracks) * &theta_tr)) {
+        Ok(found) => {
+            let mean = found.cost / count(tracks);
+            Witness::unless(found.less, Rule::MeanCost, &mean, &scene.parameters.theta_tr)
+        }
+        Err(most) => Some(no_assignment(gated, &costs, most)),
+    }
+}
+
+/// Fewer pairs than tracks: the witness names the first gated track with no detection close to it
+/// that may not be left out.
+fn no_assignment(gated: &[(&Track, &Seen)], costs: &Costs, pairs: usize) -> Witness {
     let unmatched = costs.iter().position(|row| row.iter().all(Option::is_none));
     Witness {
-        track: unmatched.map(|row| gated[row].id),
-        ..Witness::new(Rule::NoAssignment, &count(pairs), &count(k))
+        track: unmatched.map(|row| gated[row].0.id),
+        ..Witness::new(Rule::NoAssignment, &count(pairs), &count(gated.len()))
     }
 }

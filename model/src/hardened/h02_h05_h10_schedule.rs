@@ -1,5 +1,5 @@
 //! H-02, H-05, H-10: no trajectory passes without a comparison with obstacles, and none is called off
-//! by a list of tracks that the remote side made.
+//! by a list of tracks that the remote side made, or by detections that show nothing.
 
 use crate::input::profile::Profile;
 use crate::input::scene::Scene;
@@ -11,9 +11,16 @@ pub fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
     profile == Profile::Hardened
 }
 
-/// H-10: in `AllRemote` a stage iii that ran makes no other stage unnecessary.
-pub fn stage_iii_replaces_others(scene: &Scene) -> bool {
-    scene.profile == Profile::Paper || scene.configuration != Configuration::AllRemote
+/// H-10: in `AllRemote` stage iv, in `AllRemote` and `PlanRemote` stage v runs whatever else ran.
+pub fn runs_whatever_else_ran(scene: &Scene, stage: Stage) -> bool {
+    let always = match stage {
+        Stage::I | Stage::Ii | Stage::Iii => false,
+        Stage::Iv => scene.configuration == Configuration::AllRemote,
+        Stage::V => {
+            matches!(scene.configuration, Configuration::AllRemote | Configuration::PlanRemote)
+        }
+    };
+    scene.profile == Profile::Hardened && always
 }
 
 /// H-05: a current trajectory that no stage compared with obstacles. H-02: in `AllRemote` a stage iii

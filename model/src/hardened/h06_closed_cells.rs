@@ -1,37 +1,64 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
-//! grid counts as occupied, unless stage iv ran in this cycle.
+//! grid counts as occupied, unless stage iv ran in this cycle. Where it ran, it examined the rectangles of the
+//! detections, and the occupied cells that one of them touches are left to it.
 
-use crate::input::scene::{Grid, Scene};
-use crate::numbers::cells::{Cell, Hit, around, distance_to_cell};
+use crate::input::scene::{Detections, Grid, Scene};
+use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
-use crate::numbers::vector::Vector;
+use crate::numbers::rectangle::{Rectangle, surely_share_a_point};
+use crate::numbers::vector::{Frame, Vector};
 use crate::report::Rule;
 
 /// What a disk with its centre (in the frame of the grid) and the radius r must not reach.
-pub type Test = fn(&Scene, &Grid, &Vector, &Real) -> Option<Hit>;
+pub type Test<'a> = Box<dyn Fn(&Vector, &Real) -> Option<Hit> + 'a>;
 
-/// The rules in the order in which they are asked of all disks.
-pub fn rules(stage_iv_ran: bool) -> Vec<(Rule, Test)> {
-    let occupied: (Rule, Test) = (Rule::Occupied, |scene, grid, centre, r| {
-        touched_cell(scene, grid, centre, r, Grid::is_occupied)
-    });
-    let unknown: (Rule, Test) = (Rule::Unknown, |scene, grid, centre, r| {
-        touched_cell(scene, grid, centre, r, Grid::is_unknown)
-    });
-    let outside: (Rule, Test) = (Rule::Outside, touched_border);
-    if stage_iv_ran { vec![occupied] } else { vec![occupied, unknown, outside] }
+/// The rules in the order in which they are asked of all disks. `examined`: the detections, when stage iv
+/// ran in this cycle.
+pub fn rules<'a>(
+    scene: &'a Scene,
+    grid: &'a Grid,
+    examined: Option<&'a Detections>,
+) -> Vec<(Rule, Test<'a>)> {
+    let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
+        Box::new(move |centre, r| {
+            touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
+                let left = |them| is_left(scene, grid, hit.cell, them);
+                !examined.is_some_and(left)
+            })
+        })
+    };
+    if examined.is_some() {
+        return vec![(Rule::Occupied, touched(Grid::is_occupied))];
+    }
+    let outside: Test = Box::new(|centre, r| touched_border(scene, grid, centre, r));
+    vec![
+        (Rule::Occupied, touched(Grid::is_occupied)),
+        (Rule::Unknown, touched(Grid::is_unknown)),
+        (Rule::Outside, outside),
+    ]
 }
 
-/// The first cell of a kind whose closed square is at distance <= r from the centre.
-fn touched_cell(
+/// The closed square of the cell shares a point with the rectangle of a detection.
+fn is_left(scene: &Scene, grid: &Grid, cell: Option<Cell>, detections: &Detections) -> bool {
+    let Some(cell) = cell else { return false };
+    let middle = centre(cell, &grid.resolution);
+    let direction = grid.frame.direction.clone();
+    let frame = Frame { origin: grid.frame.point(&middle.x, &middle.y), direction };
+    let square = Rectangle::new(frame, &grid.resolution, &grid.resolution);
+    let touches = |d: &Rectangle| surely_share_a_point(&scene.reads, d, &square);
+    detections.items.iter().any(|d| touches(&d.rectangle()))
+}
+
+/// The cells of a kind whose closed square is at distance <= r from the centre, by row and column.
+fn touched_cells(
     scene: &Scene,
     grid: &Grid,
     centre: &Vector,
     r: &Real,
     is_kind: fn(&Grid, Cell) -> bool,
-) -> Option<Hit> {
+) -> impl Iterator<Item = Hit> {
     let near = around(centre, &scene.reads.raised(r), &grid.resolution);
-    grid.cells(near).filter(|cell| is_kind(grid, *cell)).find_map(|(i, k)| {
+    grid.cells(near).filter(move |cell| is_kind(grid, *cell)).filter_map(move |(i, k)| {
         let cell = [i, k].map(|number| Real::from_integer(number.into()));
         let distance = distance_to_cell(centre, cell.each_ref(), &grid.resolution);
         scene.reads.may_be_at_most(&distance, r).then_some(Hit { cell: Some((i, k)), distance })

@@ -1,4 +1,4 @@
-//! H-07: the trajectory starts now and here, stays in the corridor and heads along the route.
+//! H-07: the trajectory starts now and here, as the CAV is, stays in the corridor and heads along the route.
 
 use crate::input::scene::{Point, Scene};
 use crate::numbers::polyline::{Beside, Segment};
@@ -70,5 +70,27 @@ fn start_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let limit = &scene.parameters.start_tolerance + driven;
     let distance = start.pose.origin.distance(&scene.ego.position);
     let passes = scene.reads.at_most(&distance, &limit);
-    Witness::unless(passes, Rule::StartPosition, &distance, &limit).map(|w| w.at_point(0))
+    Witness::unless(passes, Rule::StartPosition, &distance, &limit)
+        .or_else(|| start_heading_failure(scene, start))
+        .or_else(|| start_offset_failure(scene, start))
+        .map(|witness| witness.at_point(0))
+}
+
+/// The first heading and the CAV's have a positive dot product and abs(heading x heading) <= 0.17.
+fn start_heading_failure(scene: &Scene, start: &Point) -> Option<Witness> {
+    let (first, own) = (&start.pose.direction, &scene.ego.heading);
+    let (along, zero) = (first.dot(own), Real::zero());
+    let (turned, limit) = (first.cross(own).abs(), Real::from_double(0.17));
+    let rule = Rule::StartHeading;
+    Witness::unless(scene.reads.greater(&along, &zero), rule, &along, &zero)
+        .or_else(|| Witness::unless(scene.reads.at_most(&turned, &limit), rule, &turned, &limit))
+}
+
+/// The part of p - first point across the first heading is at most lateral_tolerance.
+fn start_offset_failure(scene: &Scene, start: &Point) -> Option<Witness> {
+    let limit = &scene.parameters.lateral_tolerance;
+    let driven = &scene.ego.position - &start.pose.origin;
+    let across = driven.cross(&start.pose.direction).abs();
+    let passes = scene.reads.at_most(&across, limit);
+    Witness::unless(passes, Rule::StartOffset, &across, limit)
 }

@@ -1,25 +1,37 @@
-//! H-11: every step of the trajectory is one that a vehicle of this size can drive.
+//! H-11: every step of the trajectory, and every turn over half a second, is one that a vehicle of
+//! this size can drive.
 
+use crate::hardened::h04_horizon::ways;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// Every step is one that a vehicle of this size can drive: the first rule of which some step fails.
+/// From a mark to the next one at least, ns.
+const MARK_NS: i128 = 500_000_000;
+
+/// Every step and every turn is one that a vehicle of this size can drive: the first rule that some
+/// step or some point breaks.
 pub fn step_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    const RULES: [fn(&Scene, &Step) -> Option<Witness>; 6] =
-        [step_time, step_length, step_speed, step_forward, step_lateral, step_turn];
+    const OF_STEPS: [fn(&Scene, &Step) -> Option<Witness>; 7] =
+        [step_time, step_length, step_speed, step_forward, step_lateral, step_turn, step_slide];
+    const OF_TURNS: [fn(&Scene, &Turn) -> Option<Witness>; 3] =
+        [turn_reversed, turn_on_the_spot, turn_hard];
     let steps: Vec<Step> =
         trajectory.windows(2).map(|pair| Step::new(&pair[0], &pair[1])).collect();
-    RULES.iter().find_map(|rule| {
-        steps
-            .iter()
-            .enumerate()
-            .find_map(|(i, step)| rule(scene, step).map(|witness| witness.at_point(i + 1)))
+    let turns = turns(trajectory);
+    let at = |i: usize, failure: Option<Witness>| failure.map(|witness| witness.at_point(i + 1));
+    let of_steps = OF_STEPS
+        .iter()
+        .find_map(|rule| steps.iter().enumerate().find_map(|(i, step)| at(i, rule(scene, step))));
+    of_steps.or_else(|| {
+        OF_TURNS.iter().find_map(|rule| {
+            turns.iter().enumerate().find_map(|(i, turn)| at(i, rule(scene, turn)))
+        })
     })
 }
 
-/// A step between consecutive points: duration, displacement u and both headings.
+/// A step between consecutive points: duration, displacement u and headings h1 and h2.
 struct Step<'a> {
     dt_ns: i128,
     u: Vector,
@@ -33,6 +45,11 @@ impl<'a> Step<'a> {
             u: &to.pose.origin - &from.pose.origin,
             headings: [&from.pose.direction, &to.pose.direction],
         }
+    }
+
+    /// Its length is 0.
+    fn stands(&self) -> bool {
+        self.u.squared() == Real::zero()
     }
 }
 
@@ -56,52 +73,97 @@ fn step_speed(scene: &Scene, step: &Step) -> Option<Witness> {
     Witness::unless(scene.reads.at_most(&length, &limit), Rule::StepSpeed, &length, &limit)
 }
 
-/// u . heading >= 0 for both headings; a step of length 0 passes in every reading.
+/// u . h >= -0.1 dt for both headings; a step of length 0 passes in every reading.
 fn step_forward(scene: &Scene, step: &Step) -> Option<Witness> {
-    let stands = step.u.squared() == Real::zero();
+    let limit = -(Real::from_double(0.1) * Real::seconds(step.dt_ns));
     step.headings.iter().find_map(|heading| {
         let along = step.u.dot(heading);
-        let passes = stands || scene.reads.at_least(&along, &Real::zero());
-        Witness::unless(passes, Rule::StepForward, &along, &Real::zero())
+        let passes = step.stands() || scene.reads.at_least(&along, &limit);
+        Witness::unless(passes, Rule::StepForward, &along, &limit)
     })
 }
 
-/// abs(u x heading) <= W/2 for both headings
+/// abs(u x h) <= W/2 for both headings
 fn step_lateral(scene: &Scene, step: &Step) -> Option<Witness> {
     let limit = &scene.ego.width / Real::from_integer(2);
     step.headings.iter().find_map(|heading| {
         let sideways = step.u.cross(heading).abs();
-        Witness::unless(
-            scene.reads.at_most(&sideways, &limit),
-            Rule::StepLateral,
-            &sideways,
-            &limit,
-        )
+        let passes = scene.reads.at_most(&sideways, &limit);
+        Witness::unless(passes, Rule::StepLateral, &sideways, &limit)
     })
 }
 
-/// heading . heading >= 0.866, and the bounds of `turn_failure`
+/// h1 . h2 >= 0.866
 fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
     let limit = Real::from_double(0.866);
     let product = step.headings[0].dot(step.headings[1]);
     Witness::unless(scene.reads.at_least(&product, &limit), Rule::StepTurn, &product, &limit)
-        .or_else(|| turn_failure(scene, step))
 }
 
-/// abs(heading x heading) <= 0.5 abs(u) + 0.1 dt, and times abs(u) <= a_b dt^2; equal headings
-/// pass in every reading.
-fn turn_failure(scene: &Scene, step: &Step) -> Option<Witness> {
-    if step.headings[0] == step.headings[1] {
+/// abs(u x (h1 + h2) + L (h1 x h2)/2) <= L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.2 dt: the step lies
+/// along its headings; one of length 0 passes in every reading.
+fn step_slide(scene: &Scene, step: &Step) -> Option<Witness> {
+    let ([h1, h2], u) = (step.headings, &step.u);
+    let (sum, [share, drift]) = (h1 + h2, [0.1, 0.2].map(Real::from_double));
+    let turned = &scene.ego.length * h1.cross(h2) / Real::from_integer(2);
+    let sideways = (u.cross(&sum) + &turned).abs();
+    let along = share * u.dot(&sum) + drift * Real::seconds(step.dt_ns);
+    let limit = turned.abs() + along;
+    let passes = step.stands() || scene.reads.at_most(&sideways, &limit);
+    Witness::unless(passes, Rule::StepSlide, &sideways, &limit)
+}
+
+/// From its mark to a point: time t and way w, headings hm and h.
+struct Turn<'a> {
+    t: Real,
+    w: Real,
+    headings: [&'a Vector; 2],
+}
+
+/// Every point after the first against its mark, the last mark before it: the marks are the first
+/// point and each first point at least 0.5 s after the mark before it.
+fn turns(trajectory: &[Point]) -> Vec<Turn<'_>> {
+    let ways = ways(trajectory);
+    let t_ns = |i: usize| i128::from(trajectory[i].t_ns);
+    let mut mark = 0;
+    let mut turns = Vec::new();
+    for i in 1..trajectory.len() {
+        turns.push(Turn {
+            t: Real::seconds(t_ns(i) - t_ns(mark)),
+            w: &ways[i] - &ways[mark],
+            headings: [&trajectory[mark].pose.direction, &trajectory[i].pose.direction],
+        });
+        if t_ns(i) - t_ns(mark) >= MARK_NS {
+            mark = i;
+        }
+    }
+    turns
+}
+
+/// hm . h >= 0
+fn turn_reversed(scene: &Scene, turn: &Turn) -> Option<Witness> {
+    let product = turn.headings[0].dot(turn.headings[1]);
+    let passes = scene.reads.at_least(&product, &Real::zero());
+    Witness::unless(passes, Rule::TurnReversed, &product, &Real::zero())
+}
+
+/// abs(hm x h) <= 0.05 + 0.1 t + 0.5 w: no vehicle turns on the spot.
+fn turn_on_the_spot(scene: &Scene, turn: &Turn) -> Option<Witness> {
+    let turned = turn.headings[0].cross(turn.headings[1]).abs();
+    let [a, b, c] = [0.05, 0.1, 0.5].map(Real::from_double);
+    let limit = a + b * &turn.t + c * &turn.w;
+    let passes = scene.reads.at_most(&turned, &limit);
+    Witness::unless(passes, Rule::TurnOnTheSpot, &turned, &limit)
+}
+
+/// Where abs(hm x h) > 0.1: abs(hm x h) w <= 0.1 w + 11.5 t^2, no harder than tyres hold.
+fn turn_hard(scene: &Scene, turn: &Turn) -> Option<Witness> {
+    let turned = turn.headings[0].cross(turn.headings[1]).abs();
+    let [noise, grip] = [0.1, 11.5].map(Real::from_double);
+    if !scene.reads.may_be_greater(&turned, &noise) {
         return None;
     }
-    let turned = step.headings[0].cross(step.headings[1]).abs();
-    let (length, dt) = (step.u.length(), Real::seconds(step.dt_ns));
-    let curve = Real::from_double(0.5) * &length + Real::from_double(0.1) * &dt;
-    let swerve = &scene.parameters.a_b * dt.square();
-    Witness::unless(scene.reads.at_most(&turned, &curve), Rule::StepTurn, &turned, &curve).or_else(
-        || {
-            let aside = &turned * &length;
-            Witness::unless(scene.reads.at_most(&aside, &swerve), Rule::StepTurn, &aside, &swerve)
-        },
-    )
+    let (aside, limit) = (&turned * &turn.w, noise * &turn.w + grip * turn.t.square());
+    let passes = scene.reads.at_most(&aside, &limit);
+    Witness::unless(passes, Rule::TurnHard, &aside, &limit)
 }

@@ -12,15 +12,12 @@ use crate::stages::horizon::arc_lengths;
 const LONGEST_NEEDED: i128 = 50;
 
 /// b(t) - start_tolerance <= way, s_stop - L <= last way,
-/// arc length <= v_hi t + a_max t^2 / 2 + start_tolerance, and last t >= min(v_lo / a_b, 50 s), where
-/// d = abs(now - t0), v_lo = max(v_now - a_max d, 0), v_hi = v_now + a_b d.
+/// arc length <= v_hi t + a_max t^2 / 2 + start_tolerance, and last t >= min(v_lo / a_b, 50 s).
 pub fn progress_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let p = &scene.parameters;
     let two = Real::from_integer(2);
     let t0 = i128::from(trajectory[0].t_ns);
-    let d = Real::seconds((i128::from(scene.now_ns) - t0).abs());
-    let v_lo = (&scene.ego.v_now - &p.a_max * &d).max(Real::zero());
-    let v_hi = &scene.ego.v_now + &p.a_b * &d;
+    let (v_lo, v_hi) = speeds_at_start(scene, t0);
     let times: Vec<Real> =
         trajectory.iter().map(|point| Real::seconds(i128::from(point.t_ns) - t0)).collect();
     let last = times.len() - 1;
@@ -44,6 +41,17 @@ pub fn progress_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> 
         Witness::unless(passes, Rule::EndsTooSoon, &times[last], &needed).map(|w| w.at_point(last))
     };
     too_short.or_else(too_long).or_else(ends_too_soon)
+}
+
+/// Speeds v_lo and v_hi between which the CAV can be at the time t0 of the first point, m/s: with
+/// d = abs(now - t0), max(v_now - a_max d, 0) and v_now + a_b d up to now, max(v_now - a_b d, 0) and
+/// v_now + a_max d after it.
+pub fn speeds_at_start(scene: &Scene, t0_ns: i128) -> (Real, Real) {
+    let (v_now, p) = (&scene.ego.v_now, &scene.parameters);
+    let after_ns = t0_ns - i128::from(scene.now_ns);
+    let d = Real::seconds(after_ns.abs());
+    let (slower, faster) = if after_ns <= 0 { (&p.a_max, &p.a_b) } else { (&p.a_b, &p.a_max) };
+    ((v_now - slower * &d).max(Real::zero()), v_now + faster * &d)
 }
 
 /// b(t) = v t - a_b t^2 / 2 until standstill, then s_b(v): the distance covered when braking, m.

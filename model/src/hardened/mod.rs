@@ -1,6 +1,7 @@
 //! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`), a file for each rule
 //! or group of rules. H-08 is a rule of the requester ([`crate::offloading::requester`]).
 
+pub mod detection_history;
 pub mod h01_matched_pairs;
 pub mod h02_h05_h10_schedule;
 pub mod h03_circumradii;
@@ -8,6 +9,8 @@ pub mod h04_gap;
 pub mod h04_horizon;
 pub mod h06_closed_cells;
 pub mod h07_start;
-pub mod h09_velocity;
+pub mod h09_standing;
+pub mod h10_explained;
 pub mod h11_steps;
 pub mod h12_progress;
+pub mod h13_moving;

@@ -33,8 +33,9 @@ pub struct Cycle {
     pub route: Route,
     /// The occupancy grid map.
     pub grid: Option<Grid>,
-    /// H-09: the last list that stage i passed in a safe cycle.
-    pub previous_tracks: Option<TrackList>,
+    /// Earlier lists of the CAV's own detections, the youngest first: at most 4
+    /// (`spec/3-stages.md#what-the-cav-saw-itself`).
+    pub detection_history: Vec<DetectionList>,
 }
 
 /// Pose, speed and size of the CAV.

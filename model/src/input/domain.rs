@@ -35,6 +35,8 @@ const CELLS: i64 = 1 << 24;
 const NEAR_NOW: i128 = 60_000_000_000;
 const TRACKS: usize = 1024;
 const DETECTIONS: usize = 2048;
+/// Lists of the history.
+const HISTORY: usize = 4;
 const POINTS: usize = 1024;
 const CROSS_SECTIONS: usize = 8192;
 
@@ -47,7 +49,7 @@ pub fn first_problem(cycle: &Cycle) -> Option<Problem> {
         Configuration::AllRemote => (true, true),
         Configuration::PlanRemote => (false, true),
     };
-    let tracks = || check_tracks("tracks", cycle.tracks.as_ref(), now, tracks_are_remote);
+    let tracks = || check_tracks(cycle.tracks.as_ref(), now, tracks_are_remote);
     let trajectory = || check_trajectory(cycle.trajectory.as_ref(), now, trajectory_is_remote);
     let local = || {
         check_parameters(&cycle.parameters)?;
@@ -56,7 +58,7 @@ pub fn first_problem(cycle: &Cycle) -> Option<Problem> {
         check_route(&cycle.route)?;
         check_grid(cycle.grid.as_ref(), now)?;
         check_detections(cycle.detections.as_ref(), now)?;
-        check_tracks("previous_tracks", cycle.previous_tracks.as_ref(), now, false)?;
+        check_detection_history(&cycle.detection_history, now)?;
         if !tracks_are_remote {
             tracks()?;
         }
@@ -238,9 +240,31 @@ fn check_grid(grid: Option<&Grid>, now: i64) -> Result<(), InvalidInput> {
 fn check_detections(list: Option<&DetectionList>, now: i64) -> Result<(), InvalidInput> {
     let Some(list) = list else { return Ok(()) };
     at("detections", None).stamp("stamp_ns", list.stamp_ns, now, false)?;
-    at("detections.items", None).size(list.items.len(), 0, DETECTIONS)?;
+    check_items("detections.items", None, list)
+}
+
+fn check_detection_history(history: &[DetectionList], now: i64) -> Result<(), InvalidInput> {
+    const NAME: &str = "detection_history";
+    at(NAME, None).size(history.len(), 0, HISTORY)?;
+    let mut younger: Option<i64> = None;
+    for (k, list) in history.iter().enumerate() {
+        let it = at(NAME, Some(k));
+        it.stamp("stamp_ns", list.stamp_ns, now, false)?;
+        if let Some(before) = younger.filter(|&before| before <= list.stamp_ns) {
+            let message = format!("{} is not earlier than the {before} before it", list.stamp_ns);
+            return Err(it.problem("stamp_ns", message));
+        }
+        younger = Some(list.stamp_ns);
+        check_items("detection_history.items", Some(k), list)?;
+    }
+    Ok(())
+}
+
+/// The items of a list of detections; `index`: of the list, if it is one of several.
+fn check_items(name: &str, index: Option<usize>, list: &DetectionList) -> Result<(), InvalidInput> {
+    at(name, index).size(list.items.len(), 0, DETECTIONS)?;
     for (i, detection) in list.items.iter().enumerate() {
-        let d = at("detections.items", Some(i));
+        let d = at(name, Some(i));
         d.position(detection.x, detection.y)?;
         d.direction(detection.cos, detection.sin)?;
         d.number("length", detection.length, &SIZE)?;
@@ -249,19 +273,14 @@ fn check_detections(list: Option<&DetectionList>, now: i64) -> Result<(), Invali
     Ok(())
 }
 
-fn check_tracks(
-    name: &str,
-    list: Option<&TrackList>,
-    now: i64,
-    is_remote: bool,
-) -> Result<(), InvalidInput> {
+fn check_tracks(list: Option<&TrackList>, now: i64, is_remote: bool) -> Result<(), InvalidInput> {
+    const ITEMS: &str = "tracks.items";
     let Some(list) = list else { return Ok(()) };
-    at(name, None).stamp("stamp_ns", list.stamp_ns, now, is_remote)?;
-    let items = format!("{name}.items");
-    at(&items, None).size(list.items.len(), 0, TRACKS)?;
+    at("tracks", None).stamp("stamp_ns", list.stamp_ns, now, is_remote)?;
+    at(ITEMS, None).size(list.items.len(), 0, TRACKS)?;
     let mut ids = HashSet::new();
     for (i, track) in list.items.iter().enumerate() {
-        let t = at(&items, Some(i));
+        let t = at(ITEMS, Some(i));
         t.position(track.x, track.y)?;
         t.direction(track.cos, track.sin)?;
         t.number("vx", track.vx, &VELOCITY)?;

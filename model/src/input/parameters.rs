@@ -25,7 +25,7 @@ macro_rules! parameters {
             /// H-01: largest distance of a matched pair, m.
             theta_track_max: f64 = 1.0 in 1e-3..=1e3;
             /// H-01: gated tracks that may stay unmatched.
-            miss_budget: i64 = 0 in 0..=64;
+            miss_budget: i64 = 4 in 0..=64;
             /// H-04: reaction time, s.
             tau: f64 = 0.1 in 0.0..=60.0;
             /// H-04, H-12: largest acceleration of the CAV, m/s^2.
@@ -36,8 +36,14 @@ macro_rules! parameters {
             v_max: f64 = 150.0 in f64::from_bits(1)..=1000.0;
             /// H-11: longest time between trajectory points, ns.
             step_max_ns: i64 = 200_000_000 in 0..=60_000_000_000;
-            /// H-09: largest error of a track's velocity, m/s.
+            /// Largest error of a track's velocity, m/s.
             theta_velocity: f64 = 2.0 in f64::from_bits(1)..=1000.0;
+            /// H-07: how far aside of its first heading a trajectory may start, m.
+            lateral_tolerance: f64 = 0.5 in 1e-3..=1e3;
+            /// H-13: the greatest speed of an object that is looked for, m/s.
+            v_object: f64 = 70.0 in f64::from_bits(1)..=1000.0;
+            /// H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
+            tau_motion: f64 = 0.3 in 0.0..=60.0;
             /// Stage i: the strict reading fails when the assignment takes more work.
             work_limit: i64 = 10_000_000_000 in 0..=i64::MAX;
             /// Margin of the strict and the lax reading, m (`spec/4-arithmetic.md#strict-and-lax`).

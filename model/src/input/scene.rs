@@ -1,6 +1,6 @@
 //! A valid cycle in exact numbers, and the reading in which it is decided.
 
-use crate::input::cycle::{self, Cycle, TrackList};
+use crate::input::cycle::{self, Cycle, DetectionList, TrackList};
 use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
 use crate::numbers::cells::{self, Cell, Cells};
@@ -33,15 +33,15 @@ pub struct Scene {
     /// The track list is current.
     pub tracks_current: bool,
     /// Current detections.
-    pub detections: Option<Vec<Object>>,
+    pub detections: Option<Detections>,
     /// The current leading vehicle: gap in m, v_lead in m/s.
     pub lead: Option<Lead>,
     /// The route.
     pub route: Route,
     /// The current grid map.
     pub grid: Option<Grid>,
-    /// H-09: the last list that stage i passed in a safe cycle, not older than 60 s.
-    pub previous_tracks: Option<Tracks>,
+    /// Earlier lists of the CAV's own detections, none older than 60 s.
+    pub detection_history: Vec<Detections>,
 }
 
 macro_rules! exact_parameters {
@@ -83,6 +83,8 @@ crate::parameters!(exact_parameters);
 pub struct Ego {
     /// Position p.
     pub position: Vector,
+    /// Direction.
+    pub heading: Vector,
     /// v_now, m/s.
     pub v_now: Real,
     /// L, m.
@@ -131,6 +133,15 @@ pub struct Track {
     pub object: Object,
     /// v, m/s.
     pub velocity: Vector,
+}
+
+/// A list of the CAV's own detections.
+#[derive(Debug)]
+pub struct Detections {
+    /// Time of measurement, ns.
+    pub stamp_ns: i64,
+    /// In list order.
+    pub items: Vec<Object>,
 }
 
 /// The leading vehicle.
@@ -224,23 +235,19 @@ impl Scene {
             trajectory: trajectory.map(|list| list.points.iter().map(point).collect()),
             tracks: cycle.tracks.as_ref().map(tracks),
             tracks_current: cycle.tracks.as_ref().is_some_and(|list| is_current(list.stamp_ns)),
-            detections: cycle.detections.as_ref().filter(|list| is_current(list.stamp_ns)).map(
-                |list| {
-                    let object = |d: &cycle::Detection| {
-                        object([d.x, d.y], [d.cos, d.sin], [d.length, d.width])
-                    };
-                    list.items.iter().map(object).collect()
-                },
-            ),
+            detections: (cycle.detections.as_ref())
+                .filter(|list| is_current(list.stamp_ns))
+                .map(detections),
             lead: cycle.lead.as_ref().filter(|lead| is_current(lead.stamp_ns)).map(|lead| Lead {
                 gap: Real::from_double(lead.gap),
                 speed: Real::from_double(lead.speed),
             }),
             route: route(&cycle.route),
             grid: cycle.grid.as_ref().filter(|grid| is_current(grid.stamp_ns)).map(grid),
-            previous_tracks: (cycle.previous_tracks.as_ref())
+            detection_history: (cycle.detection_history.iter())
                 .filter(|list| !is_stale(cycle.now_ns, list.stamp_ns))
-                .map(tracks),
+                .map(detections)
+                .collect(),
         }
     }
 }
@@ -254,6 +261,7 @@ fn is_stale(now_ns: i64, stamp_ns: i64) -> bool {
 fn ego(cycle: &Cycle) -> Ego {
     Ego {
         position: Vector::from_doubles(cycle.ego.x, cycle.ego.y),
+        heading: Vector::from_doubles(cycle.ego.cos, cycle.ego.sin),
         v_now: Real::from_double(cycle.ego.speed),
         length: Real::from_double(cycle.ego.length),
         width: Real::from_double(cycle.ego.width),
@@ -275,6 +283,11 @@ fn object(centre: [f64; 2], direction: [f64; 2], [length, width]: [f64; 2]) -> O
         length: Real::from_double(length),
         width: Real::from_double(width),
     }
+}
+
+fn detections(list: &DetectionList) -> Detections {
+    let object = |d: &cycle::Detection| object([d.x, d.y], [d.cos, d.sin], [d.length, d.width]);
+    Detections { stamp_ns: list.stamp_ns, items: list.items.iter().map(object).collect() }
 }
 
 fn tracks(list: &TrackList) -> Tracks {

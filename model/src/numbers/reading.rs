@@ -1,8 +1,8 @@
 //! The three readings of a comparison (`spec/4-arithmetic.md#strict-and-lax`).
 //!
 //! A stage compares as the paper does, by one of the functions of [`Comparisons`]. What `less`,
-//! `at_most`, `greater` and `at_least` say lets something pass; what `may_be_less` and
-//! `may_be_at_most` say lets something be examined or fail. The strict reading makes the former
+//! `at_most`, `greater` and `at_least` say lets something pass; what `may_be_less`,
+//! `may_be_at_most` and `may_be_greater` say lets something be examined or fail. The strict reading makes the former
 //! harder and the latter easier by the margin delta, the lax reading the other way round, and the
 //! exact reading takes both as written.
 
@@ -74,6 +74,16 @@ impl Comparisons {
         *a <= self.raised(b)
     }
 
+    /// a > b, or nearly so
+    pub fn may_be_greater(&self, a: &Real, b: &Real) -> bool {
+        *a > self.lowered(b)
+    }
+
+    /// The reading is the strict one.
+    pub fn is_strict(&self) -> bool {
+        self.reading == Reading::Strict
+    }
+
     /// b - m: what is less than this is less than b in this reading.
     pub fn lowered(&self, b: &Real) -> Real {
         b - &self.m
@@ -103,7 +113,7 @@ impl Comparisons {
     /// Whether the work that an assignment takes makes the stage fail: an implementation may answer
     /// so, and only the strict reading counts on it.
     pub fn refuses(&self, work: i128, limit: i128) -> bool {
-        self.reading == Reading::Strict && work > limit
+        self.is_strict() && work > limit
     }
 
     /// What `judge` finds wrong with the items whose `distance` is <= `r`. In the strict and the lax

@@ -11,7 +11,7 @@ mod steps;
 use std::collections::{BTreeMap, BTreeSet};
 
 pub use crate::services::configuration::{Group, Groups};
-pub use messages::{Action, Event, EventKind, GroupState};
+pub use messages::{Action, Event, EventKind, GroupState, Sessions};
 pub use parameters::Parameters;
 pub use state::Session;
 
@@ -74,8 +74,8 @@ impl Requester {
             EventKind::Data { station, group, session, generated_ns } => {
                 self.data(now_ns, station, group, session, generated_ns)
             }
-            EventKind::Verdict { safe: true, groups } => self.safe(groups),
-            EventKind::Verdict { safe: false, groups: _ } => self.fall_back(now_ns),
+            EventKind::Verdict { safe: true, sessions } => self.safe(sessions),
+            EventKind::Verdict { safe: false, sessions: _ } => self.fall_back(now_ns),
         };
         actions.sort_by_key(|action| action.place());
         actions
@@ -92,6 +92,16 @@ impl Requester {
                 GroupState::Remote { station, session }
             }
         }
+    }
+
+    /// The running sessions of those of the groups that are remote: what a cycle names that used
+    /// their data. `spec/5-interfaces.md#offloading-trace`.
+    pub fn sessions(&self, groups: Groups) -> Sessions {
+        let session = |group: Group| match self.state(group) {
+            GroupState::Remote { session, .. } if groups.contains(group) => Some(session),
+            GroupState::Local | GroupState::Requested { .. } | GroupState::Remote { .. } => None,
+        };
+        Sessions { mot: session(Group::Mot), plan: session(Group::Plan) }
     }
 
     /// Whose results of the group may reach control: the local services while they compute, else

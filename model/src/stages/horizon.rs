@@ -1,21 +1,21 @@
 //! The trajectory points within a distance s: paper Sec. IV-D, "each trajectory point that is within a
 //! safety distance" (`spec/3-stages.md#distances`, H-04).
 
-use crate::hardened::h04_horizon;
+use crate::hardened::h04_horizon::{Places, places_to_s_stop};
 use crate::input::profile::Profile;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 
-/// The points that a stage with the horizon `s` examines: those whose arc length is <= s, and always
-/// the first.
-pub fn points_examined(scene: &Scene, trajectory: &[Point], s: &Real) -> Vec<Point> {
+/// The places that a stage with the horizon `s` examines: the points whose arc length is <= s, and
+/// always the first.
+pub fn places_examined<'a>(scene: &'a Scene, trajectory: &'a [Point], s: &Real) -> Places<'a> {
     match scene.profile {
         Profile::Paper => {
             let within = |length: &&Real| scene.reads.may_be_at_most(length, s);
             let count = arc_lengths(trajectory).iter().filter(within).count();
-            trajectory[..count.max(1)].to_vec()
+            Places::of(&trajectory[..count.max(1)])
         }
-        Profile::Hardened => h04_horizon::points_to_s_stop(scene, trajectory, s),
+        Profile::Hardened => places_to_s_stop(scene, trajectory, s),
     }
 }
 

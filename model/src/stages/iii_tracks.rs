@@ -3,35 +3,34 @@
 //!
 //! no collision with a predicted track within s_CAV = v_now safety_time
 
-use crate::hardened::h09_velocity;
+use crate::hardened::h09_standing;
 use crate::input::profile::Profile;
 use crate::input::scene::{Object, Point, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_cav;
-use crate::stages::horizon::points_examined;
+use crate::stages::horizon::places_examined;
 use crate::stages::llcc::first_collision;
 
-/// Compares the trajectory within s_CAV with the predicted tracks; `None` passes. `list_was_checked`:
-/// stage i ran on this list in this cycle.
+/// Compares the trajectory within s_CAV with the predicted tracks; `None` passes.
 pub fn trajectory_with_tracks(
     scene: &Scene,
     trajectory: &[Point],
     tracks: &Tracks,
-    list_was_checked: bool,
 ) -> Option<Witness> {
     let s_cav = s_cav(&scene.parameters.safety_time, &scene.ego.v_now);
-    let points = points_examined(scene, trajectory, &s_cav);
+    let places = places_examined(scene, trajectory, &s_cav);
     let predicted = |point: &Point, track: &Track| {
         let t_ns = i128::from(point.t_ns) - i128::from(tracks.stamp_ns);
         predicted(track, &Real::seconds(t_ns))
     };
-    let failure = first_collision(scene, Rule::Collision, &points, &tracks.items, predicted)
+    let failure = first_collision(scene, Rule::Collision, places.iter(), &tracks.items, predicted)
         .map(|(j, witness)| Witness { track: Some(tracks.items[j].id), ..witness });
     match scene.profile {
         Profile::Paper => failure,
-        Profile::Hardened => failure
-            .or_else(|| h09_velocity::collision_standing(scene, &points, tracks, list_was_checked)),
+        Profile::Hardened => {
+            failure.or_else(|| h09_standing::collision_standing(scene, places.iter(), tracks))
+        }
     }
 }
 

@@ -38,13 +38,13 @@ pub fn llcc(scene: &Scene, point: &Point, object: &Object) -> Option<Collision> 
 pub fn first_collision<T>(
     scene: &Scene,
     rule: Rule,
-    points: &[Point],
+    points: impl Iterator<Item = Point>,
     items: &[T],
     object: impl Fn(&Point, &T) -> Object,
 ) -> Option<(usize, Witness)> {
-    points.iter().enumerate().find_map(|(i, point)| {
+    points.enumerate().find_map(|(i, point)| {
         items.iter().enumerate().find_map(|(j, item)| {
-            let Collision { distance, limit } = llcc(scene, point, &object(point, item))?;
+            let Collision { distance, limit } = llcc(scene, &point, &object(&point, item))?;
             Some((j, Witness::new(rule, &distance, &limit).at_point(i)))
         })
     })

@@ -11,7 +11,7 @@ pub mod llcc;
 pub mod v_grid_map;
 
 use crate::hardened::h02_h05_h10_schedule::{
-    has_stage_v_in_plan_remote, no_obstacle_check, stage_iii_replaces_others,
+    has_stage_v_in_plan_remote, no_obstacle_check, runs_whatever_else_ran,
 };
 use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::input::cycle::Cycle;
@@ -27,6 +27,7 @@ use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
 use crate::stages::iv_detections::trajectory_with_detections;
 use crate::stages::v_grid_map::trajectory_with_grid_map;
+use crate::work::Work;
 
 /// How a configuration applies a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,19 +60,20 @@ pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -
     }
 }
 
-/// Decides one cycle in the given reading. `Err` is invalid local input, an error to the caller.
+/// Decides one cycle in the given reading. `Err` is an error to the caller: invalid local input, or
+/// more work than the model does (field `work`).
 pub fn check(cycle: &Cycle, reading: Reading) -> Result<Report, InvalidInput> {
     match first_problem(cycle) {
         Some(Problem::Local(problem)) => Err(problem),
         Some(Problem::Remote(problem)) => Ok(invalid_remote_data(cycle, problem)),
-        None => Ok(decide(&Scene::new(cycle, reading))),
+        None => decide(&Scene::new(cycle, reading)),
     }
 }
 
 /// The reports of the strict, the exact and the lax reading. Every margin moves towards rejection in
 /// the one and towards acceptance in the other, so what strict accepts exact accepts, and what exact
 /// accepts lax accepts, with the same outcome of every stage: a reading is computed only where the one
-/// before rejects (`props/tests/readings.rs` compares). `Err` is invalid local input.
+/// before rejects (`props/tests/readings.rs` compares). `Err` as of [`check`].
 pub fn readings(cycle: &Cycle) -> Result<[Report; 3], InvalidInput> {
     let strict = check(cycle, Reading::Strict)?;
     let next = |before: &Report, reading| match before.failed_stage {
@@ -83,15 +85,17 @@ pub fn readings(cycle: &Cycle) -> Result<[Report; 3], InvalidInput> {
     Ok([strict, exact, lax])
 }
 
-/// Decides a valid cycle in exact numbers.
-pub fn decide(scene: &Scene) -> Report {
-    let mut run = Run { scene, ran: Vec::new(), failed: None };
-    let stages = Stage::ALL.map(|stage| run.outcome(stage));
+/// Decides a valid cycle in exact numbers. `Err` is more work than the model does.
+pub fn decide(scene: &Scene) -> Result<Report, InvalidInput> {
+    let mut run = Run { scene, ran: Vec::new(), failed: None, work: Work::default() };
+    let [i, ii, iii, iv, v] = Stage::ALL;
+    let stages =
+        [run.outcome(i)?, run.outcome(ii)?, run.outcome(iii)?, run.outcome(iv)?, run.outcome(v)?];
     let failed_stage = match run.failed {
         Some(stage) => Some(FailedStage::Stage(stage)),
         None => no_obstacle_check(scene, &run.ran).then_some(FailedStage::NoObstacleCheck),
     };
-    Report { failed_stage, stages, input: None }
+    Ok(Report { failed_stage, stages, input: None })
 }
 
 fn invalid_remote_data(cycle: &Cycle, problem: InvalidInput) -> Report {
@@ -111,16 +115,17 @@ struct Run<'a> {
     scene: &'a Scene,
     ran: Vec<Stage>,
     failed: Option<Stage>,
+    work: Work,
 }
 
 impl Run<'_> {
-    fn outcome(&mut self, stage: Stage) -> Outcome {
+    fn outcome(&mut self, stage: Stage) -> Result<Outcome, InvalidInput> {
         let scheduled = scheduled(self.scene.profile, self.scene.configuration, stage);
         if scheduled == Scheduled::Never {
-            return Outcome::NotScheduled;
+            return Ok(Outcome::NotScheduled);
         }
         if self.failed.is_some() {
-            return Outcome::Skipped(Reason::AfterFailure);
+            return Ok(Outcome::Skipped(Reason::AfterFailure));
         }
         let other_ran = scheduled == Scheduled::Conditional && self.other_stage_ran(stage);
         let outcome = match self.missing(stage) {
@@ -128,6 +133,7 @@ impl Run<'_> {
             Some(input) if scheduled == Scheduled::Always => Outcome::NotApplicable(input),
             Some(input) => Outcome::Skipped(Reason::NoCurrent(input)),
             None => {
+                self.work.add(self.scene, stage)?;
                 let failure = self.run(stage);
                 self.ran.push(stage);
                 failure.map_or(Outcome::Passed, Outcome::Failed)
@@ -140,7 +146,7 @@ impl Run<'_> {
         if let Outcome::Failed(_) = outcome {
             self.failed = Some(stage);
         }
-        outcome
+        Ok(outcome)
     }
 
     fn has_run(&self, stage: Stage) -> bool {
@@ -149,11 +155,13 @@ impl Run<'_> {
 
     /// A stage that makes this conditional one unnecessary ran.
     fn other_stage_ran(&self, stage: Stage) -> bool {
-        let iii_ran = self.has_run(Stage::Iii) && stage_iii_replaces_others(self.scene);
+        if runs_whatever_else_ran(self.scene, stage) {
+            return false;
+        }
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
-            Stage::Iv => iii_ran,
-            Stage::V => iii_ran || self.has_run(Stage::Iv),
+            Stage::Iv => self.has_run(Stage::Iii),
+            Stage::V => self.has_run(Stage::Iii) || self.has_run(Stage::Iv),
         }
     }
 
@@ -187,17 +195,19 @@ impl Run<'_> {
     fn run(&self, stage: Stage) -> Option<Witness> {
         let scene = self.scene;
         let trajectory = scene.trajectory.as_deref();
-        let (tracks, detections) = (scene.tracks.as_ref(), scene.detections.as_deref());
+        let tracks = scene.tracks.as_ref();
+        let detections = scene.detections.as_ref();
         match stage {
-            Stage::I => track_validation(scene, tracks?, detections?),
+            Stage::I => track_validation(scene, tracks?, &detections?.items),
             Stage::Ii => trajectory_to_map(scene, trajectory?),
-            Stage::Iii => {
-                trajectory_with_tracks(scene, trajectory?, tracks?, self.has_run(Stage::I))
+            Stage::Iii => trajectory_with_tracks(scene, trajectory?, tracks?),
+            Stage::Iv => {
+                let beside_tracks = self.has_run(Stage::Iii);
+                trajectory_with_detections(scene, trajectory?, detections?, beside_tracks)
             }
-            Stage::Iv => trajectory_with_detections(scene, trajectory?, detections?),
             Stage::V => {
-                let grid = scene.grid.as_ref()?;
-                trajectory_with_grid_map(scene, trajectory?, grid, self.has_run(Stage::Iv))
+                let examined = detections.filter(|_| self.has_run(Stage::Iv));
+                trajectory_with_grid_map(scene, trajectory?, scene.grid.as_ref()?, examined)
             }
         }
     }

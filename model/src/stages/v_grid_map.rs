@@ -6,30 +6,30 @@
 
 use crate::hardened::h06_closed_cells;
 use crate::input::profile::Profile;
-use crate::input::scene::{Grid, Point, Scene};
+use crate::input::scene::{Detections, Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
-use crate::stages::horizon::points_examined;
+use crate::stages::horizon::places_examined;
 use crate::stages::llcc::centre;
 
-/// Checks the trajectory in the dilated grid; `None` passes. `stage_iv_ran`: in this cycle (H-06).
+/// Checks the trajectory in the dilated grid; `None` passes. `examined`: the detections, when stage iv ran
+/// in this cycle (H-06).
 pub fn trajectory_with_grid_map(
     scene: &Scene,
     trajectory: &[Point],
     grid: &Grid,
-    stage_iv_ran: bool,
+    examined: Option<&Detections>,
 ) -> Option<Witness> {
     let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
     let r = disk_radius(&ego.length, &ego.width, &n);
-    let points = points_examined(scene, trajectory, &s_b);
-    let disks: Vec<Vec<Vector>> = points.iter().map(|p| disk_centres(scene, grid, p)).collect();
+    let places = places_examined(scene, trajectory, &s_b);
     let first = |rule: Rule, collides: &dyn Fn(&Vector) -> Option<Hit>| {
-        disks.iter().enumerate().find_map(|(i, disks)| {
-            disks.iter().enumerate().find_map(|(d, centre)| {
+        places.iter().enumerate().find_map(|(i, place)| {
+            disk_centres(scene, grid, &place).iter().enumerate().find_map(|(d, centre)| {
                 let Hit { cell, distance } = collides(centre)?;
                 let witness = Witness::new(rule, &distance, &r).at_point(i);
                 Some(Witness { disk: Some(d), cell, ..witness })
@@ -40,8 +40,8 @@ pub fn trajectory_with_grid_map(
         Profile::Paper => first(Rule::Occupied, &|centre| {
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
-        Profile::Hardened => (h06_closed_cells::rules(stage_iv_ran).into_iter())
-            .find_map(|(rule, reaches)| first(rule, &|centre| reaches(scene, grid, centre, &r))),
+        Profile::Hardened => (h06_closed_cells::rules(scene, grid, examined).into_iter())
+            .find_map(|(rule, reaches)| first(rule, &|centre| reaches(centre, &r))),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{
-    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Sessions,
 };
 use mufasa_model::services::configuration::{Configuration, Offloadable, Source};
 use mufasa_model::services::orchestrator::compose;
@@ -119,7 +119,7 @@ const CONFIRM: EventKind = EventKind::Confirm { station: 1, group: Group::Mot, s
 const DATA: EventKind =
     EventKind::Data { station: 1, group: Group::Mot, session: 1, generated_ns: 2 };
 const SAFE: EventKind =
-    EventKind::Verdict { safe: true, groups: Groups { mot: true, plan: false } };
+    EventKind::Verdict { safe: true, sessions: Sessions { mot: Some(1), plan: None } };
 
 /// `spec/1-services.md#configuration.1`
 #[test]
@@ -159,8 +159,15 @@ fn local_services_stop_at_the_first_safe_verdict_after_a_used_result_in_the_hard
     assert_eq!(requester.step(&Event { t_ns: 1, kind: CONFIRM }), []);
     assert_eq!(requester.step(&Event { t_ns: 1, kind: SAFE }), [], "no result yet");
     assert_eq!(requester.step(&Event { t_ns: 2, kind: DATA }), []);
-    let other = EventKind::Verdict { safe: true, groups: Groups { mot: false, plan: true } };
+    let other = EventKind::Verdict { safe: true, sessions: Sessions { mot: None, plan: Some(1) } };
     assert_eq!(requester.step(&Event { t_ns: 3, kind: other }), [], "MOT is not named");
+    for session in [0, 2] {
+        let other = EventKind::Verdict {
+            safe: true,
+            sessions: Sessions { mot: Some(session), plan: None },
+        };
+        assert_eq!(requester.step(&Event { t_ns: 3, kind: other }), [], "another session");
+    }
     let stop = [Action::Deactivate(Group::Mot)];
     assert_eq!(requester.step(&Event { t_ns: 4, kind: SAFE }), stop);
     assert_eq!(requester.step(&Event { t_ns: 5, kind: SAFE }), [], "only the first");

@@ -41,7 +41,7 @@ pub fn base(profile: Profile, configuration: Configuration) -> Cycle {
         lead: None,
         route: straight_route(-100.0, 200.0),
         grid: Some(free_grid()),
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }
 
@@ -76,6 +76,17 @@ pub fn tracks(items: Vec<Track>) -> Option<TrackList> {
 
 pub fn detections(items: Vec<Detection>) -> Option<DetectionList> {
     Some(DetectionList { stamp_ns: NOW, items })
+}
+
+/// What the CAV saw 300, 500 and 800 ms ago of objects that are now at (x, y) and drive at (vx, vy).
+pub fn history(objects: &[[f64; 4]]) -> Vec<DetectionList> {
+    let list = |millis: i32| {
+        let dt = f64::from(millis) / 1000.0;
+        let then = |[x, y, vx, vy]: &[f64; 4]| detection(x - vx * dt, y - vy * dt);
+        let stamp_ns = NOW - i64::from(millis) * 1_000_000;
+        DetectionList { stamp_ns, items: objects.iter().map(then).collect() }
+    };
+    [300, 500, 800].map(list).into()
 }
 
 pub fn lead(gap: f64, speed: f64) -> Option<Lead> {

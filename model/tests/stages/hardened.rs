@@ -1,6 +1,15 @@
 //! `spec/3-stages.md#hardened-profile`: what the vectors of the rules leave out.
 
-use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};
+mod history;
+mod left_out;
+mod lost_way;
+mod moving;
+mod places;
+mod records;
+mod start;
+mod steps;
+
+use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Input, Outcome, Reason, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{self, MotRemote, PlanRemote};
 
@@ -31,6 +40,28 @@ fn h_04_a_larger_gap_is_no_run_of_stage_iv() {
     );
 }
 
+/// H-06: the cells that a detection touches are left to stage iv, where it ran, and no others.
+#[test]
+fn h_06_cells_of_a_detection_are_left_to_stage_iv() {
+    let with = |occupied: [f64; 2], is_current: bool| {
+        let mut cycle = base(Profile::Hardened, MotRemote);
+        let grid = cycle.grid.as_mut().expect("there is a grid");
+        mark(&mut grid.occupied, occupied[0], occupied[1]);
+        cycle.tracks = tracks(vec![track(1, 3.5, 2.5)]);
+        cycle.detections = detections(vec![detection(3.5, 2.5)]);
+        if !is_current {
+            cycle.detections.as_mut().expect("just given").stamp_ns -= 200_000_000;
+        }
+        rule(&cycle, Stage::V)
+    };
+    // The detection covers x from 1.5 to 5.5, y from 1.5 to 3.5.
+    assert_eq!(with([3.5, 1.5], true), None);
+    assert_eq!(with([1.5, 1.5], true), None);
+    assert_eq!(with([6.5, 1.5], true), Some(Rule::Occupied));
+    assert_eq!(with([3.5, -1.5], true), Some(Rule::Occupied));
+    assert_eq!(with([3.5, 1.5], false), Some(Rule::Occupied));
+}
+
 /// H-06: a cell both occupied and unknown is occupied.
 #[test]
 fn h_06_occupied_comes_before_unknown() {
@@ -43,17 +74,4 @@ fn h_06_occupied_comes_before_unknown() {
     assert_eq!(rule(&cycle, Stage::V), Some(Rule::Unknown));
     mark(&mut cycle.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
     assert_eq!(rule(&cycle, Stage::V), Some(Rule::Occupied));
-}
-
-/// H-11: equal headings need no time to turn, others do, however little they differ.
-#[test]
-fn h_11_no_turn_on_the_spot_is_small_enough() {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
-    cycle.ego.speed = 0.0;
-    cycle.tracks = tracks(vec![]);
-    let points = vec![at_time(0, 0.0, 0.0), at_time(1, 0.0, 0.0)];
-    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
-    assert_eq!(rule(&cycle, Stage::Ii), None);
-    cycle.trajectory.as_mut().expect("there is one").points[1].sin = 1e-9;
-    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StepTurn), "0.1 * 1 ns = 1e-10");
 }

@@ -1,6 +1,6 @@
 //! `spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`
 
-use mufasa_model::input::cycle::{Cycle, Profile, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
 use mufasa_model::report::{InvalidInput, Reading};
 use mufasa_model::services::configuration::Configuration::{
     self, AllRemote, MotRemote, PlanRemote,
@@ -15,7 +15,8 @@ type Change = fn(&mut Cycle);
 fn problem(configuration: Configuration, change: Change) -> Option<(bool, String, Option<usize>)> {
     let mut cycle = base(Profile::Hardened, configuration);
     cycle.lead = lead(90.0, 10.0);
-    cycle.previous_tracks = Some(TrackList { stamp_ns: NOW - 1, items: vec![track(1, 60.0, 0.0)] });
+    cycle.detection_history =
+        vec![DetectionList { stamp_ns: NOW - 1, items: vec![detection(60.0, 0.0)] }];
     change(&mut cycle);
     let local = |local: bool, p: InvalidInput| Some((local, p.field, p.index));
     match check(&cycle, Reading::Exact) {
@@ -82,7 +83,7 @@ fn old_local_data_are_missing_old_remote_data_invalid() {
         list!(c.detections).stamp_ns = i64::MIN;
         list!(c.grid).stamp_ns = NOW - 60_000_000_001;
         list!(c.lead).stamp_ns = i64::MIN;
-        list!(c.previous_tracks).stamp_ns = i64::MIN;
+        c.detection_history[0].stamp_ns = i64::MIN;
     };
     assert_eq!(problem(MotRemote, old), None);
     let old_and_wrong: Change = |c| {

@@ -7,4 +7,6 @@ mod distances;
 mod exact;
 mod hardened;
 mod input;
+mod near;
 mod schedule;
+mod work;

@@ -36,7 +36,8 @@ pub(super) struct CheckArguments {
     /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
     /// It must change some cycle of every drive.
     /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
-    /// frozen, late, too-fast.
+    /// frozen, late, too-fast, missing-track, crossing-stands, exchanged-pasts, velocity-bias,
+    /// past-ghost, blind-detectors, slide.
     #[arg(long, value_name = "ATTACK")]
     pub(super) inject: Vec<Injection>,
     /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
@@ -77,7 +78,10 @@ pub(super) struct RecordingArguments {
     /// Mean number of clutter detections in a scan.
     #[arg(long, value_name = "N", default_value = "0.5", value_parser = number(0.0, 100.0))]
     pub(super) sensor_clutter: f64,
-    /// Seed of noise and clutter.
+    /// Age of the track lists, ms; they are exact, and that old. The detections are 30 ms old.
+    #[arg(long, value_name = "MS", default_value = "30", value_parser = clap::value_parser!(u16).range(0..=1000))]
+    pub(super) track_age: u16,
+    /// Seed of misses, noise and clutter, now and in the history.
     #[arg(long, value_name = "N", default_value = "1")]
     pub(super) seed: u64,
     /// Side of a cell of the grid map, m.
@@ -262,6 +266,7 @@ impl CheckArguments {
                 clutter: recording.sensor_clutter,
                 seed: recording.seed,
             },
+            track_age_ns: i64::from(recording.track_age) * 1_000_000,
             grid: GridSize {
                 resolution_m: recording.grid_resolution,
                 width: recording.grid_width,

@@ -147,9 +147,14 @@ impl Teller {
                 return self.note(cav, row, format!("area of {}", set(groups)));
             }
             EventKind::Tick => return self.note(cav, row, String::from("tick")),
-            EventKind::Verdict { safe, groups } => {
+            EventKind::Verdict { safe, sessions } => {
                 let verdict = if safe { "safe" } else { "unsafe" };
-                return self.note(cav, row, format!("{verdict} cycle with {}", set(groups)));
+                let used = Group::ALL.into_iter().filter(|it| sessions.of(*it).is_some());
+                return self.note(
+                    cav,
+                    row,
+                    format!("{verdict} cycle with {}", set(used.collect())),
+                );
             }
         };
         let forged = matches!(kind, EventKind::Confirm { .. } | EventKind::Reject { .. });

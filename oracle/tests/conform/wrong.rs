@@ -152,7 +152,7 @@ fn who_names_another_place_of_invalid_input_is_found() {
         r#""{MUFASA}" oracle | while IFS= read -r line; do
         printf '%s\n' "$line" | sed 's/"field":"[a-z]*/"field":"elsewhere/'; done"#
     );
-    let options = ["--kinds", "cycle,composition", "--cases", "500"];
+    let options = ["--kinds", "cycle,composition", "--cases", "1500"];
     let Some((summary, told)) = script("elsewhere", &options, &program) else { return };
     for found in &summary.classes {
         assert!([Breach::Input, Breach::Compositions].contains(&found.class.breach), "{told}");

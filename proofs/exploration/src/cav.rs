@@ -1,4 +1,4 @@
-//! A requester as a part of the system: what can happen to it, and when two are alike.
+//! A requester as a part of the system, and when two are alike.
 //!
 //! Two requesters with the same [`CavLikeness`] do the same for every event, because a step
 //! depends on the absolute numbers in its state only through these:
@@ -14,12 +14,13 @@
 //!   only in which order the stations' turns come: (last request, id), never asked first.
 
 use mufasa_model::input::cycle::Profile;
-use mufasa_model::offloading::requester::{Action, Event, EventKind, Group, GroupState, Groups};
+use mufasa_model::offloading::requester::{Action, Event, Group, GroupState, Groups};
 use mufasa_model::services::configuration::{Offloadable, Source};
 
 use super::automaton::Part;
 use super::bounds::{STATIONS, Ticks, World};
 use super::fit::fitted;
+use super::stimulus::{Named, Stimulus};
 use mufasa_props::refine::{Difference, Pair};
 
 /// A requester of a world at a time.
@@ -105,77 +106,6 @@ impl CavLikeness {
     }
 }
 
-/// What can happen to a requester.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stimulus {
-    /// A tick of the clock, of which the requester hears nothing.
-    TimePasses,
-    /// The event `tick`.
-    Tick,
-    /// The event `offer`.
-    Offer(u8, Groups),
-    /// The event `withdraw`.
-    Withdraw(u8),
-    /// The event `lost`.
-    Lost(u8),
-    /// The event `area`.
-    Area(Groups),
-    /// The event `verdict`.
-    Verdict {
-        /// How the cycle was judged.
-        safe: bool,
-        /// The groups whose remote data it used.
-        groups: Groups,
-    },
-    /// The event `confirm`.
-    Confirm(Named),
-    /// The event `reject`.
-    Reject(Named),
-    /// The event `data`, with an element generated this many ticks ago (-1: in the future).
-    Data(Named, i8),
-}
-
-impl Stimulus {
-    /// The event at a time in ns. `number`: of the session that a message names, if there is such
-    /// a one. `None`: it is no event, or cannot come now.
-    pub fn event(self, now: i64, number: impl Fn(Named) -> Option<i64>) -> Option<EventKind> {
-        let names = |named: Named| Some((i64::from(named.station), named.group, number(named)?));
-        Some(match self {
-            Self::TimePasses => return None,
-            Self::Tick => EventKind::Tick,
-            Self::Offer(station, groups) => EventKind::Offer { station: station.into(), groups },
-            Self::Withdraw(station) => EventKind::Withdraw { station: station.into() },
-            Self::Lost(station) => EventKind::Lost { station: station.into() },
-            Self::Area(groups) => EventKind::Area { groups },
-            Self::Verdict { safe, groups } => EventKind::Verdict { safe, groups },
-            Self::Confirm(named) => {
-                let (station, group, session) = names(named)?;
-                EventKind::Confirm { station, group, session }
-            }
-            Self::Reject(named) => {
-                let (station, group, session) = names(named)?;
-                EventKind::Reject { station, group, session }
-            }
-            Self::Data(named, age) => {
-                let (station, group, session) = names(named)?;
-                let generated_ns = now - i64::from(age);
-                EventKind::Data { station, group, session, generated_ns }
-            }
-        })
-    }
-}
-
-/// The session that a message names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Named {
-    /// The station from which it comes.
-    pub station: u8,
-    /// Of which group.
-    pub group: Group,
-    /// Whether the number is that of the group's requested or running session.
-    pub current: bool,
-}
-
 /// An action of the requester.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Deed {
@@ -227,7 +157,7 @@ impl CavPart {
         }
         stimuli.extend(world.areas.iter().map(|groups| Stimulus::Area(*groups)));
         let used: Groups = world.groups().collect();
-        stimuli.push(Stimulus::Verdict { safe: false, groups: used });
+        stimuli.push(Stimulus::Verdict { safe: false, groups: used, current: true });
         for groups in [
             Groups::NONE,
             Groups { mot: true, plan: false },
@@ -235,7 +165,10 @@ impl CavPart {
             Groups::ALL,
         ] {
             if (used.mot || !groups.mot) && (used.plan || !groups.plan) {
-                stimuli.push(Stimulus::Verdict { safe: true, groups });
+                stimuli.push(Stimulus::Verdict { safe: true, groups, current: true });
+                if groups != Groups::NONE {
+                    stimuli.push(Stimulus::Verdict { safe: true, groups, current: false });
+                }
             }
         }
         let stranger = u8::from(world.attacker);
@@ -383,6 +316,7 @@ impl Part for CavPart {
             Stimulus::Confirm(named) | Stimulus::Reject(named) | Stimulus::Data(named, _) => {
                 self.other_numbers(named.group)[0]
             }
+            // No request has this number.
             _ => 0,
         };
         self.react_to(stimulus, other)

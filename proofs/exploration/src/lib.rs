@@ -28,5 +28,6 @@ pub mod search;
 pub mod second;
 pub mod state;
 pub mod station;
+pub mod stimulus;
 pub mod system;
 pub mod words;

@@ -2,9 +2,9 @@
 
 use mufasa_model::offloading::requester::Group;
 
-use super::cav::Named;
 use super::fit::fitted;
 use super::state::{Letter, Message};
+use super::stimulus::Named;
 
 /// Something that happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,9 +5,10 @@ use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{Group, Groups};
 use mufasa_model::services::configuration::Offloadable;
 
-use super::cav::{CavLikeness, Deed, Named, Stimulus, Use};
+use super::cav::{CavLikeness, Deed, Use};
 use super::properties::{Property, Set, Sight};
 use super::state::{Cav, Proof};
+use super::stimulus::{Named, Stimulus};
 
 /// What a step shows.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,7 +81,7 @@ impl CavStep<'_> {
                 Stimulus::Data(named, _) if named.group == group && self.is_used(named) => {
                     cav.proof[place] = cav.proof[place].max(Proof::Used);
                 }
-                Stimulus::Verdict { safe: true, groups }
+                Stimulus::Verdict { safe: true, groups, current: true }
                     if groups.contains(group) && cav.proof[place] == Proof::Used =>
                 {
                     cav.proof[place] = Proof::Safe;

@@ -2,10 +2,10 @@
 
 use mufasa_model::offloading::requester::Group;
 
-use super::cav::{Named, Stimulus};
 use super::fit::fitted;
 use super::moves::Move;
 use super::state::{Kind, State};
+use super::stimulus::{Named, Stimulus};
 use super::system::System;
 
 impl System {

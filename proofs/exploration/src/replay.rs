@@ -10,11 +10,12 @@ use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventK
 use mufasa_model::offloading::requester::{Action, Event, EventKind, Group, GroupState};
 
 use super::automaton::Part;
-use super::cav::{CavPart, Named};
+use super::cav::CavPart;
 use super::fit::fitted;
 use super::moves::Move;
 use super::state::{Kind, Letter, Message, State};
 use super::station::StationPart;
+use super::stimulus::Named;
 use super::system::System;
 use mufasa_props::refine::{Difference, Pair};
 

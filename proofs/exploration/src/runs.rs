@@ -9,11 +9,11 @@
 
 use mufasa_model::offloading::requester::Group;
 
-use super::cav::{Named, Stimulus};
 use super::fit::fitted;
 use super::lasso::{Aim, Leap};
 use super::moves::Move;
 use super::state::{Kind, Message, State};
+use super::stimulus::{Named, Stimulus};
 use super::system::System;
 
 /// What a station does with requests, for ever.

@@ -8,7 +8,7 @@ use mufasa_model::offloading::requester::Group;
 
 use super::automaton::Automaton;
 use super::bounds::World;
-use super::cav::{CavLikeness, CavPart, Deed, Stimulus};
+use super::cav::{CavLikeness, CavPart, Deed};
 use super::fit::fitted;
 use super::flight::{end_session, take, tidy};
 use super::moves::Move;
@@ -18,6 +18,7 @@ use super::state::{Kind, Layout, Letter, Message, State};
 use super::station::{
     Order, StationEffect, StationLikeness, StationPart, StationStimulus, ToStation,
 };
+use super::stimulus::Stimulus;
 use mufasa_props::refine::Difference;
 
 /// The system of a world in a profile.

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use mufasa_model::offloading::requester::{Group, Groups};
 
-use super::cav::{Named, Stimulus, Use};
+use super::cav::Use;
 use super::moves::Move;
 use super::state::{Kind, Letter, State};
+use super::stimulus::{Named, Stimulus};
 use super::system::System;
 
 impl System {
@@ -143,7 +144,12 @@ fn words_of(stimulus: Stimulus) -> String {
         Stimulus::Withdraw(station) => format!("station {station} withdraws"),
         Stimulus::Lost(station) => format!("station {station} is lost"),
         Stimulus::Area(groups) => format!("area of {}", set(groups)),
-        Stimulus::Verdict { safe: true, groups } => format!("safe cycle with {}", set(groups)),
+        Stimulus::Verdict { safe: true, groups, current: true } => {
+            format!("safe cycle with {}", set(groups))
+        }
+        Stimulus::Verdict { safe: true, groups, current: false } => {
+            format!("safe cycle with {} of other sessions", set(groups))
+        }
         Stimulus::Verdict { safe: false, .. } => String::from("unsafe cycle"),
         Stimulus::Confirm(it) => format!("forged confirmation {}", named(it)),
         Stimulus::Reject(it) => format!("forged rejection {}", named(it)),

@@ -6,10 +6,11 @@
 
 use mufasa_exploration::automaton::{Automaton, Part};
 use mufasa_exploration::bounds::{Bounds, World};
-use mufasa_exploration::cav::{CavPart, Named, Stimulus};
+use mufasa_exploration::cav::CavPart;
 use mufasa_exploration::moves::Move;
 use mufasa_exploration::replay::Replay;
 use mufasa_exploration::station::StationPart;
+use mufasa_exploration::stimulus::{Named, Stimulus};
 use mufasa_exploration::system::System;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventKind};

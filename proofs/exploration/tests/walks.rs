@@ -4,7 +4,7 @@
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{
-    Action, Event, EventKind, Group, GroupState, Groups, Parameters,
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Sessions,
 };
 use mufasa_props::refine::Pair;
 use proptest::prelude::*;
@@ -155,17 +155,22 @@ impl Walk {
         let partner = current.map_or(station, |(partner, _)| partner);
         let station = if what % 4 == 0 { station } else { partner };
         let generated_ns = self.now_ns.saturating_sub(stride.age);
+        // The running sessions, or at times those beside them.
+        let running = self.pair.model().sessions(groups);
+        let beside = |session: i64| session.saturating_add(stride.session);
+        let others = Sessions { mot: running.mot.map(beside), plan: running.plan.map(beside) };
+        let sessions = if what == 18 { others } else { running };
         match what {
             0 => EventKind::Withdraw { station },
             1 => EventKind::Lost { station },
             2 => EventKind::Area { groups },
             3 => EventKind::Area { groups: Groups::ALL },
-            4 => EventKind::Verdict { safe: false, groups },
+            4 => EventKind::Verdict { safe: false, sessions: self.pair.model().sessions(groups) },
             5..=7 => EventKind::Offer { station: stride.station, groups },
             8..=10 => EventKind::Offer { station: stride.station, groups: Groups::ALL },
             11 => EventKind::Reject { station, group, session },
             12..=17 => EventKind::Confirm { station, group, session },
-            18..=21 => EventKind::Verdict { safe: true, groups },
+            18..=21 => EventKind::Verdict { safe: true, sessions },
             22..=30 => EventKind::Data { station, group, session, generated_ns },
             _ => EventKind::Tick,
         }
@@ -190,8 +195,10 @@ impl Walk {
                     assert!(!barred || self.set_back, "a result was used before hold_until");
                     self.used[place] = true;
                 }
-                EventKind::Verdict { safe: true, groups } if groups.contains(group) => {
-                    self.proven[place] |= self.used[place];
+                EventKind::Verdict { safe: true, sessions } => {
+                    let names = sessions.of(group).is_some()
+                        && sessions.of(group) == current(before, group).map(|it| it.1);
+                    self.proven[place] |= names && self.used[place];
                 }
                 _ => {}
             }
@@ -295,13 +302,10 @@ fn walks_offload() {
     assert!(stopped > 200, "local services stood still in {stopped} states only");
 }
 
-/// The bound that the exploration has in its verdicts: each is about the cycle that has just used
-/// the data of the running sessions. A verdict names no session; one that comes so late that its
-/// session has ended and a result of the next was used stops the local services for a session of
-/// which no result was in a safe cycle (H-08). So it is for the validator on the CAV to hand over
-/// its verdict before the next message.
+/// F-25: a verdict that comes so late that its session has ended, and a result of the next was used,
+/// stops no local services: it names the session that its data came from.
 #[test]
-fn a_verdict_that_comes_after_its_session_counts_for_the_next() {
+fn a_verdict_that_comes_after_its_session_stops_nothing() {
     let parameters = Parameters { request_timeout_ns: 9, ..Parameters::default() };
     let mut pair = Pair::new(Profile::Hardened, parameters).expect("no difference");
     let groups = Groups { mot: true, plan: false };
@@ -317,6 +321,10 @@ fn a_verdict_that_comes_after_its_session_counts_for_the_next() {
     at(4, EventKind::Tick);
     at(5, EventKind::Confirm { station, group, session: 2 });
     assert_eq!(at(6, EventKind::Data { station, group, session: 2, generated_ns: 6 }), []);
-    let late = at(7, EventKind::Verdict { safe: true, groups });
-    assert_eq!(late, [Action::Deactivate(group)], "no result of session 2 was judged");
+    let safe = |session| EventKind::Verdict {
+        safe: true,
+        sessions: Sessions { mot: Some(session), plan: None },
+    };
+    assert_eq!(at(7, safe(1)), [], "no result of session 2 was judged");
+    assert_eq!(at(8, safe(2)), [Action::Deactivate(group)]);
 }

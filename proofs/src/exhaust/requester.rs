@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Source,
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Sessions, Source,
     StationRecord, Suspended,
 };
 
@@ -43,10 +43,11 @@ enum Letter {
     Data(Group, i64),
     Safe,
     SafeWithoutMot,
+    SafeTooLate,
     Unsafe,
 }
 
-const ALPHABET: [Letter; 16] = [
+const ALPHABET: [Letter; 17] = [
     Letter::OfferAll,
     Letter::OfferPlanElsewhere,
     Letter::Withdraw,
@@ -62,6 +63,7 @@ const ALPHABET: [Letter; 16] = [
     Letter::Data(Group::Mot, 0),
     Letter::Safe,
     Letter::SafeWithoutMot,
+    Letter::SafeTooLate,
     Letter::Unsafe,
 ];
 
@@ -146,6 +148,11 @@ fn event(before: &Seen, now_ns: i64, letter: Letter) -> Event {
         GroupState::Requested { station, session, .. }
         | GroupState::Remote { station, session } => (station, session),
     };
+    let remote = |place: usize| match before.states[place] {
+        GroupState::Remote { session, .. } => Some(session),
+        GroupState::Local | GroupState::Requested { .. } => None,
+    };
+    let running = Sessions { mot: remote(0), plan: remote(1) };
     let (dt, kind) = match letter {
         Letter::OfferAll => (0, EventKind::Offer { station: 1, groups: Groups::ALL }),
         Letter::OfferPlanElsewhere => {
@@ -169,11 +176,16 @@ fn event(before: &Seen, now_ns: i64, letter: Letter) -> Event {
             let generated_ns = now_ns + 1 - age_ns;
             (1, EventKind::Data { station, group, session, generated_ns })
         }
-        Letter::Safe => (0, EventKind::Verdict { safe: true, groups: Groups::ALL }),
+        Letter::Safe => (0, EventKind::Verdict { safe: true, sessions: running }),
         Letter::SafeWithoutMot => {
-            (0, EventKind::Verdict { safe: true, groups: Groups::from(Group::Plan) })
+            (0, EventKind::Verdict { safe: true, sessions: Sessions { mot: None, ..running } })
         }
-        Letter::Unsafe => (0, EventKind::Verdict { safe: false, groups: Groups::ALL }),
+        Letter::SafeTooLate => {
+            let late = |session: Option<i64>| session.map(|it| it - 1);
+            let sessions = Sessions { mot: late(running.mot), plan: late(running.plan) };
+            (0, EventKind::Verdict { safe: true, sessions })
+        }
+        Letter::Unsafe => (0, EventKind::Verdict { safe: false, sessions: running }),
     };
     Event { t_ns: now_ns + dt, kind }
 }

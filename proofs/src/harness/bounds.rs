@@ -5,8 +5,8 @@
 /// of more than two stations at once.
 pub const CROSS_SECTIONS: usize = 2;
 
-/// Tracks and previous tracks: two are the fewest that can share an id, compete for a detection,
-/// and be one with and one without a predecessor.
+/// Tracks: two are the fewest that can share an id, compete for a detection, and be one backed and
+/// one not.
 pub const TRACKS: usize = 2;
 
 /// Detections, where numbers are arbitrary: as many as tracks, so that neither side is always the
@@ -32,6 +32,10 @@ pub const PLACES: u8 = 4;
 
 /// Detections in the assignment: one more than tracks, so that some stays without a track.
 pub const COLUMNS: usize = 3;
+
+/// Items of an earlier list of detections: as many as tracks, so that each may have its own origin,
+/// or both the same one.
+pub const ITEMS: usize = 2;
 
 /// Largest number of disks: two have different centres; more change nothing but their places.
 pub const DISKS: i64 = 2;

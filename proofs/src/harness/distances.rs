@@ -162,7 +162,7 @@ fn behind(parameters: Parameters, v_now: f64, lead: Lead) -> Cycle<'static> {
         lead: Some(lead),
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: None,
-        previous_tracks: None,
+        detection_history: &[],
     }
 }
 

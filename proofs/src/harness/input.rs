@@ -19,7 +19,7 @@ use crate::kani;
 /// A number that is NaN, infinite or outside every domain makes local input an error to the caller
 /// and remote data an unsafe cycle in which no stage ran.
 ///
-/// Domain: each of the 53 numbers of a valid cycle, 5 bad values, all configurations, both
+/// Domain: each of the 56 numbers of a valid cycle, 5 bad values, all configurations, both
 /// profiles. Not covered: two bad values at once (`stages` has any).
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(37))]
@@ -57,7 +57,8 @@ enum Owner {
 
 fn refused(lists: &Lists, single: &Single, owner: Owner) {
     let configuration = configuration();
-    let cycle = single.cycle(lists, configuration);
+    let history = [DetectionList { stamp_ns: single.stamps_ns[2], items: &lists.seen_before }];
+    let cycle = single.cycle(lists, &history, configuration);
     let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 4]);
     let answer = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
     let remote = match owner {
@@ -85,7 +86,7 @@ fn refused(lists: &Lists, single: &Single, owner: Owner) {
 struct Lists {
     points: [TrajectoryPoint; 4],
     tracks: [Track; 2],
-    previous: [Track; 1],
+    seen_before: [Detection; 1],
     detections: [Detection; 2],
     cross_sections: [CrossSection; 3],
 }
@@ -97,7 +98,7 @@ impl Lists {
         Self {
             points: STRAIGHT,
             tracks: [track, other],
-            previous: [Track { id: 3, ..track }],
+            seen_before: [SEEN_BESIDE[0]],
             detections: SEEN_BESIDE,
             cross_sections: CROSS_SECTIONS,
         }
@@ -110,7 +111,7 @@ struct Single {
     ego: Ego,
     lead: Lead,
     grid: Grid<'static>,
-    /// Stamps of trajectory, tracks, previous tracks and detections.
+    /// Stamps of trajectory, tracks, the list of the history and detections.
     stamps_ns: [i64; 4],
     /// Points and cross sections that are given.
     counts: [usize; 2],
@@ -139,8 +140,13 @@ impl Single {
         }
     }
 
-    fn cycle<'a>(&self, lists: &'a Lists, configuration: Configuration) -> Cycle<'a> {
-        let [trajectory, tracks, previous, detections] = self.stamps_ns;
+    fn cycle<'a>(
+        &self,
+        lists: &'a Lists,
+        detection_history: &'a [DetectionList<'a>],
+        configuration: Configuration,
+    ) -> Cycle<'a> {
+        let [trajectory, tracks, _, detections] = self.stamps_ns;
         let [points, cross_sections] = self.counts;
         Cycle {
             profile: profile(),
@@ -154,20 +160,20 @@ impl Single {
             lead: Some(self.lead),
             route: Route { closed: false, cross_sections: &lists.cross_sections[..cross_sections] },
             grid: Some(self.grid),
-            previous_tracks: Some(TrackList { stamp_ns: previous, items: &lists.previous }),
+            detection_history,
         }
     }
 }
 
 /// Places of `number`.
-const NUMBERS: u8 = 53;
+const NUMBERS: u8 = 56;
 
 /// The number at a place, and whose it is.
 fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a mut f64, Owner) {
     let Single { parameters: p, ego, lead, grid, .. } = single;
     let [_, point, ..] = &mut lists.points;
     let [_, track] = &mut lists.tracks;
-    let [previous] = &mut lists.previous;
+    let [before] = &mut lists.seen_before;
     let [_, detection] = &mut lists.detections;
     let [_, cross_section, _] = &mut lists.cross_sections;
     let value = match place {
@@ -208,9 +214,9 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
         34 => &mut detection.sin,
         35 => &mut detection.length,
         36 => &mut detection.width,
-        37 => &mut previous.x,
-        38 => &mut previous.vy,
-        39 => &mut previous.width,
+        37 => &mut before.x,
+        38 => &mut before.sin,
+        39 => &mut before.width,
         40 => &mut track.x,
         41 => &mut track.y,
         42 => &mut track.cos,
@@ -223,7 +229,10 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
         49 => &mut point.y,
         50 => &mut point.cos,
         51 => &mut point.sin,
-        _ => &mut previous.cos,
+        52 => &mut before.cos,
+        53 => &mut p.lateral_tolerance,
+        54 => &mut p.v_object,
+        _ => &mut p.tau_motion,
     };
     let owner = match place {
         40..=47 => Owner::Group(Group::Mot),

@@ -4,7 +4,7 @@
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester,
-    RequesterError, Running, StationRecord, Suspended,
+    RequesterError, Running, Sessions, StationRecord, Suspended,
 };
 use mufasa::services::configuration::{Group, Source};
 
@@ -184,7 +184,10 @@ pub fn verify_a_safety_issue_ends_every_remote_service() {
     let mut requester = Requester::resume(aside, &mut table);
     let before = Group::ALL.map(|group| requester.state(group));
     let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());
-    let kind = EventKind::Verdict { safe: false, groups: groups() };
+    let kind = EventKind::Verdict {
+        safe: false,
+        sessions: Sessions { mot: option(session), plan: option(session) },
+    };
     let Ok(actions) = requester.step(&Event { t_ns, kind }) else {
         unreachable!("a verdict names no station")
     };
@@ -362,7 +365,13 @@ fn any_event(before: &Seen, about: About) -> Event {
         About::Answer if kind == 0 => EventKind::Confirm { station, group, session },
         About::Answer => EventKind::Reject { station, group, session },
         About::Data => EventKind::Data { station, group, session, generated_ns },
-        About::Verdict => EventKind::Verdict { safe: kind == 0, groups },
+        About::Verdict => EventKind::Verdict {
+            safe: kind == 0,
+            sessions: Sessions {
+                mot: groups.mot.then_some(session),
+                plan: groups.plan.then_some(free.1),
+            },
+        },
     };
     Event { t_ns, kind }
 }

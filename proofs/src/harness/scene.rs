@@ -125,6 +125,6 @@ pub fn cycle(profile: Profile, configuration: Configuration, given: [Given; 5]) 
             occupied: if harmful { &FULL } else { &FREE },
             unknown: None,
         }),
-        previous_tracks: None,
+        detection_history: &[],
     }
 }

@@ -24,7 +24,7 @@ use crate::law::schedule as law;
 pub fn verify_schedule_is_the_table() {
     let given = [(); 5].map(|()| Given::ALL[index(4)]);
     let cycle = cycle(profile(), configuration(), given);
-    let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 2]);
+    let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 4]);
     let Ok(report) = check(&cycle, &mut Scratch::new(&mut rows, &mut columns)) else {
         unreachable!("every input is valid")
     };
@@ -119,9 +119,12 @@ fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
     let mut failed = None;
     for (at, stage) in Stage::ALL.into_iter().enumerate() {
         let outcome = report.stages[at];
-        // H-10: in AllRemote stage iii blocks nothing.
-        let iii_blocks = ran[2] && !(hardened && all_remote);
-        let blocked = (at >= 3 && iii_blocks) || (at == 4 && ran[3]);
+        // H-10: in AllRemote stage iii does not block iv, and nothing blocks v.
+        let blocked = match at {
+            3 => ran[2] && !(hardened && all_remote),
+            4 => (ran[2] || ran[3]) && !hardened,
+            _ => false,
+        };
         let is_there = |input: &Input| match (at, input) {
             // A received list goes to stage i whatever its age.
             (0, Input::Tracks) => cycle.tracks.is_some(),

@@ -111,8 +111,14 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
     let point = TrajectoryPoint { t_ns: NOW_NS, x, y, cos: 1.0, sin: 0.0 };
     // The CAV is where its trajectory starts, or H-12 would ask for a way to there.
     let ego = Ego { x, y, speed: 0.0, length: SIDE, width: SIDE, ..EGO };
-    let parameters =
-        Parameters { n: 1, start_tolerance: 1e3, theta_map: 1e3, ..Parameters::default() };
+    // At standstill and without a reaction nothing is examined beyond the end (H-04).
+    let parameters = Parameters {
+        n: 1,
+        tau: 0.0,
+        start_tolerance: 1e3,
+        theta_map: 1e3,
+        ..Parameters::default()
+    };
     let points = [point];
     let cycle = Cycle {
         profile,
@@ -137,7 +143,7 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
             occupied: &occupied,
             unknown: None,
         }),
-        previous_tracks: None,
+        detection_history: &[],
     };
     let Ok(report) = check(&cycle, &mut Scratch::new(&mut [], &mut [])) else {
         unreachable!("the input is valid")

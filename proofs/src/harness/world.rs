@@ -21,7 +21,6 @@ const FAR: f64 = 8.0;
 #[derive(Debug)]
 pub struct World {
     tracks: [Track; TRACKS],
-    previous: [Track; TRACKS],
     detections: [Detection; DETECTIONS],
     points: [TrajectoryPoint; POINTS],
     cross_sections: [CrossSection; ROUTE],
@@ -34,7 +33,6 @@ impl World {
     pub fn any() -> Self {
         Self {
             tracks: [(); TRACKS].map(|()| track()),
-            previous: [(); TRACKS].map(|()| track()),
             detections: [(); DETECTIONS].map(|()| detection()),
             points: core::array::from_fn(point),
             cross_sections: core::array::from_fn(cross_section),
@@ -43,8 +41,8 @@ impl World {
         }
     }
 
-    /// Any cycle with these items that holds nothing but these inputs (previous tracks with tracks,
-    /// a lead with detections), each present or not: any parameters, ego and stamps, lists of any length up to the
+    /// Any cycle with these items that holds nothing but these inputs (a lead
+    /// with detections), each present or not: any parameters, ego and stamps, lists of any length up to the
     /// bounds, any grid that fits the bitmap or not.
     pub fn cycle(
         &self,
@@ -77,7 +75,7 @@ impl World {
                 cross_sections: &self.cross_sections[..index(ROUTE + 1)],
             },
             grid: given(holds, Input::Grid, || self.grid()),
-            previous_tracks: given(holds, Input::Tracks, || list(&self.previous)),
+            detection_history: &[],
         }
     }
 
@@ -194,6 +192,9 @@ fn parameters() -> Parameters {
         v_max: near(1.0, 1e3),
         step_max_ns: near_integer(0, 60_000_000_000),
         theta_velocity: near(0.1, 1e3),
+        lateral_tolerance: near(0.1, 10.0),
+        v_object: near(1.0, 1e3),
+        tau_motion: near(0.0, 2.0),
         work_limit: near_integer(0, 10_000_000_000),
         delta: near(1e-8, 1e-2),
     }

@@ -127,14 +127,17 @@ pub fn actions_come_in_their_order(step: &Step<'_>) -> bool {
 }
 
 /// Local services stop at the confirmation in the paper profile, at a safe verdict that names the
-/// group in the hardened one (H-08).
+/// running session of the group in the hardened one (H-08).
 pub fn local_services_stop_when_the_profile_says(step: &Step<'_>) -> bool {
     step.actions.iter().all(|action| {
         let Action::Deactivate(stopped) = *action else { return true };
         match (step.profile, step.event.kind) {
             (Profile::Paper, EventKind::Confirm { group, .. }) => group == stopped,
-            (Profile::Hardened, EventKind::Verdict { safe: true, groups }) => {
-                groups.contains(stopped)
+            (Profile::Hardened, EventKind::Verdict { safe: true, sessions }) => {
+                let state = step.before.states[usize::from(stopped == Group::Plan)];
+                let running = matches!(state, GroupState::Remote { session, .. }
+                    if sessions.of(stopped) == Some(session));
+                running
             }
             (
                 Profile::Paper | Profile::Hardened,

@@ -13,6 +13,7 @@ pub mod numbers;
 pub mod prove;
 pub mod theorem;
 pub mod witness;
+pub mod work;
 
 pub use mufasa_model::{parameters, services};
 

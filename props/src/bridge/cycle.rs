@@ -23,7 +23,7 @@ pub struct Owned {
     closed: bool,
     cross_sections: Vec<twin::CrossSection>,
     grid: Option<Grid>,
-    previous_tracks: Option<(i64, Vec<twin::Track>)>,
+    detection_history: Vec<(i64, Vec<twin::Detection>)>,
 }
 
 /// A cycle in the implementation's types.
@@ -40,7 +40,7 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
         lead,
         route,
         grid,
-        previous_tracks,
+        detection_history,
     } = cycle;
     let Route { closed, cross_sections } = route;
     Owned {
@@ -53,20 +53,23 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
             (*stamp_ns, points.iter().map(point_to_impl).collect())
         }),
         tracks: tracks.as_ref().map(tracks_to_impl),
-        detections: detections.as_ref().map(|DetectionList { stamp_ns, items }| {
-            (*stamp_ns, items.iter().map(detection_to_impl).collect())
-        }),
+        detections: detections.as_ref().map(detections_to_impl),
         lead: lead.as_ref().map(lead_to_impl),
         closed: *closed,
         cross_sections: cross_sections.iter().map(cross_section_to_impl).collect(),
         grid: grid.clone(),
-        previous_tracks: previous_tracks.as_ref().map(tracks_to_impl),
+        detection_history: detection_history.iter().map(detections_to_impl).collect(),
     }
 }
 
 impl Owned {
-    /// The cycle that the implementation takes.
-    pub fn borrow(&self) -> twin::Cycle<'_> {
+    /// The detection history that the cycle borrows.
+    pub fn history(&self) -> Vec<twin::DetectionList<'_>> {
+        self.detection_history.iter().map(borrow_detections).collect()
+    }
+
+    /// The cycle that the implementation takes. `history`: that of `self`.
+    pub fn borrow<'a>(&'a self, history: &'a [twin::DetectionList<'a>]) -> twin::Cycle<'a> {
         twin::Cycle {
             profile: self.profile,
             parameters: self.parameters,
@@ -78,14 +81,11 @@ impl Owned {
                 .as_ref()
                 .map(|(stamp_ns, points)| twin::Trajectory { stamp_ns: *stamp_ns, points }),
             tracks: self.tracks.as_ref().map(borrow_tracks),
-            detections: self
-                .detections
-                .as_ref()
-                .map(|(stamp_ns, items)| twin::DetectionList { stamp_ns: *stamp_ns, items }),
+            detections: self.detections.as_ref().map(borrow_detections),
             lead: self.lead,
             route: twin::Route { closed: self.closed, cross_sections: &self.cross_sections },
             grid: self.grid.as_ref().map(borrow_grid),
-            previous_tracks: self.previous_tracks.as_ref().map(borrow_tracks),
+            detection_history: history,
         }
     }
 }
@@ -129,6 +129,15 @@ same_fields! {
 fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
     let TrackList { stamp_ns, items } = list;
     (*stamp_ns, items.iter().map(track_to_impl).collect())
+}
+
+fn detections_to_impl(list: &DetectionList) -> (i64, Vec<twin::Detection>) {
+    let DetectionList { stamp_ns, items } = list;
+    (*stamp_ns, items.iter().map(detection_to_impl).collect())
+}
+
+fn borrow_detections((stamp_ns, items): &(i64, Vec<twin::Detection>)) -> twin::DetectionList<'_> {
+    twin::DetectionList { stamp_ns: *stamp_ns, items }
 }
 
 fn borrow_tracks((stamp_ns, items): &(i64, Vec<twin::Track>)) -> twin::TrackList<'_> {

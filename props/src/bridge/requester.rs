@@ -2,7 +2,7 @@
 
 use mufasa::offloading::requester as twin;
 use mufasa_model::offloading::requester::{
-    Action, Event, EventKind, Group, GroupState, Groups, Parameters,
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Sessions,
 };
 use mufasa_model::services::configuration::{Configuration, Source};
 
@@ -34,7 +34,7 @@ same_variants! {
         Confirm { station, group: group_to_impl, session },
         Reject { station, group: group_to_impl, session },
         Data { station, group: group_to_impl, session, generated_ns },
-        Verdict { safe, groups: groups_to_impl },
+        Verdict { safe, sessions: sessions_to_impl },
     }
 
     /// An action in the model's type.
@@ -66,6 +66,11 @@ same_variants! {
 pub fn groups_to_impl(groups: Groups) -> twin::Groups {
     let Groups { mot, plan } = groups;
     twin::Groups { mot, plan }
+}
+
+fn sessions_to_impl(sessions: Sessions) -> twin::Sessions {
+    let Sessions { mot, plan } = sessions;
+    twin::Sessions { mot, plan }
 }
 
 /// An event in the implementation's type.

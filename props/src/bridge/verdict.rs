@@ -22,8 +22,20 @@ pub fn invalid_input_from_impl(problem: &twin::InvalidInput) -> InvalidInput {
 }
 
 fn witness_from_impl(witness: twin::Witness) -> Witness {
-    let twin::Witness { rule, point, track, detection, segment, disk, cell, compared } = witness;
-    Witness { rule: rule_from_impl(rule), point, track, detection, segment, disk, cell, compared }
+    let twin::Witness {
+        rule,
+        point,
+        track,
+        detection,
+        item,
+        age_ns,
+        segment,
+        disk,
+        cell,
+        compared,
+    } = witness;
+    let rule = rule_from_impl(rule);
+    Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared }
 }
 
 same_variants! {
@@ -52,11 +64,12 @@ same_variants! {
     fn input_from_impl(twin::Input) -> Input { Trajectory, Tracks, Detections, Grid, }
 
     fn rule_from_impl(twin::Rule) -> Rule {
-        MeanCost, WorkLimit, NoAssignment, Velocity,
-        ThetaMap, StartTime, StartPosition, Corridor, Direction,
-        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn,
+        Ambiguous, MeanCost, WorkLimit, NoAssignment,
+        ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
+        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, StepSlide,
+        TurnReversed, TurnOnTheSpot, TurnHard,
         ArcTooShort, ArcTooLong, EndsTooSoon,
-        Gap, Collision, CollisionStanding,
+        Gap, Collision, CollisionStanding, CollisionMoving,
         Occupied, Unknown, Outside,
     }
 }

@@ -68,16 +68,10 @@ pub fn false_velocities(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let place = (draw.range(6.0, 14.0), 0.0);
     let mut car = track(frame, place, 7);
     (car.vx, car.vy) = (20.0 * frame.cos, 20.0 * frame.sin);
-    let dt = 0.1;
-    let mut before = car.clone();
-    let error = draw.near(cycle.parameters.theta_velocity * dt);
-    before.x -= car.vx * dt + error * frame.cos;
-    before.y -= car.vy * dt + error * frame.sin;
     let now_ns = cycle.now_ns;
     cycle.tracks = Some(TrackList { stamp_ns: now_ns, items: vec![car] });
     let items = vec![detection(frame, place)];
     cycle.detections = Some(DetectionList { stamp_ns: now_ns, items });
-    cycle.previous_tracks = Some(TrackList { stamp_ns: now_ns - 100_000_000, items: vec![before] });
 }
 
 /// A lorry that overlaps although its centre is `theta_obj` away (F-03).

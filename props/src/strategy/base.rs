@@ -83,7 +83,7 @@ pub fn cycle(
         lead: None,
         route: road(frame, 3.0),
         grid: None,
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }
 
@@ -100,7 +100,10 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
         parameters.a_max = draw.pick(&[2.0, 1.0, 4.0]);
         parameters.theta_track_max = draw.pick(&[0.5, 2.0, 0.3]);
         parameters.start_tolerance = draw.pick(&[1.0, 0.5, 3.0]);
-        parameters.miss_budget = draw.pick(&[1, 2, 64]);
+        parameters.miss_budget = draw.pick(&[0, 1, 2, 64]);
+        parameters.theta_velocity = draw.pick(&[1.0, 0.5, 4.0]);
+        parameters.tau_motion = draw.pick(&[0.0, 0.25, 1.0]);
+        parameters.lateral_tolerance = draw.pick(&[0.25, 1.0, 4.0]);
         parameters.work_limit = draw.pick(&[0, 1, 7, 8, 9, 30, i64::MAX]);
     }
     // The smallest margin asks the most of an implementation: half of the cases have it.

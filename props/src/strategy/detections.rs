@@ -6,8 +6,8 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Obstacle};
 use super::draw::Draw;
-use super::obstacle;
 use super::track_validation::detection;
+use super::{moving, obstacle};
 
 /// A cycle that stage iv decides.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -23,6 +23,13 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         if draw.below(3) == 0 {
             return at_gap(draw, cycle);
         }
+    }
+    if profile == Profile::Hardened && draw.one_in(2) {
+        return if draw.one_in(4) {
+            moving::explained(draw, cycle)
+        } else {
+            moving::cycle(draw, cycle)
+        };
     }
     let horizon = obstacle::horizon_of_detections(&cycle);
     let found = obstacle::decisive(draw, &mut cycle, horizon);

@@ -1,4 +1,4 @@
-//! Remote trajectories that end before `s_stop`, and what stands beyond their end (H-04, H-12 of
+//! Trajectories that end before `s_stop`, and what stands beyond their end (H-04, H-12 of
 //! `spec/3-stages.md#hardened-profile`).
 
 use mufasa_model::input::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
@@ -9,8 +9,7 @@ use super::draw::Draw;
 
 /// Whether the cycle's trajectory is examined beyond its end.
 pub fn is_examined(cycle: &Cycle) -> bool {
-    let remote = [Configuration::AllRemote, Configuration::PlanRemote];
-    cycle.profile == Profile::Hardened && remote.contains(&cycle.configuration)
+    cycle.profile == Profile::Hardened && cycle.configuration != Configuration::Local
 }
 
 /// The CAV stands at the end of a new trajectory, `missing` before `s_stop`.

@@ -135,8 +135,9 @@ fn directions(cycle: &mut Cycle) -> Vec<(&mut f64, &mut f64)> {
     fields.extend(cycle.grid.iter_mut().map(|grid| (&mut grid.cos, &mut grid.sin)));
     let items = cycle.detections.iter_mut().flat_map(|list| &mut list.items);
     fields.extend(items.map(|item| (&mut item.cos, &mut item.sin)));
-    let lists = [&mut cycle.previous_tracks, &mut cycle.tracks];
-    let items = lists.into_iter().flatten().flat_map(|list| &mut list.items);
+    let items = cycle.detection_history.iter_mut().flat_map(|list| &mut list.items);
+    fields.extend(items.map(|item| (&mut item.cos, &mut item.sin)));
+    let items = cycle.tracks.iter_mut().flat_map(|list| &mut list.items);
     fields.extend(items.map(|item| (&mut item.cos, &mut item.sin)));
     let points = cycle.trajectory.iter_mut().flat_map(|list| &mut list.points);
     fields.extend(points.map(|point| (&mut point.cos, &mut point.sin)));
@@ -151,8 +152,8 @@ fn integers(cycle: &mut Cycle) -> Vec<&mut i64> {
     fields.extend(cycle.lead.iter_mut().map(|lead| &mut lead.stamp_ns));
     fields.extend(cycle.grid.iter_mut().map(|grid| &mut grid.stamp_ns));
     fields.extend(cycle.detections.iter_mut().map(|list| &mut list.stamp_ns));
-    let lists = [&mut cycle.previous_tracks, &mut cycle.tracks];
-    fields.extend(lists.into_iter().flatten().map(|list| &mut list.stamp_ns));
+    fields.extend(cycle.detection_history.iter_mut().map(|list| &mut list.stamp_ns));
+    fields.extend(cycle.tracks.iter_mut().map(|list| &mut list.stamp_ns));
     if let Some(list) = &mut cycle.trajectory {
         fields.push(&mut list.stamp_ns);
         fields.extend(list.points.iter_mut().map(|point| &mut point.t_ns));
@@ -175,6 +176,9 @@ fn numbers(cycle: &mut Cycle) -> Vec<(&mut f64, Limits)> {
         (&mut p.tau, DURATION),
         (&mut p.v_max, ABOVE_ZERO),
         (&mut p.theta_velocity, ABOVE_ZERO),
+        (&mut p.lateral_tolerance, THRESHOLD),
+        (&mut p.v_object, ABOVE_ZERO),
+        (&mut p.tau_motion, DURATION),
         (&mut p.delta, DELTA),
         (&mut ego.x, POSITION),
         (&mut ego.y, POSITION),
@@ -198,13 +202,13 @@ fn numbers(cycle: &mut Cycle) -> Vec<(&mut f64, Limits)> {
         fields.extend([(&mut grid.cos, DIRECTION), (&mut grid.sin, DIRECTION)]);
         fields.push((&mut grid.resolution, RESOLUTION));
     }
-    for item in cycle.detections.iter_mut().flat_map(|list| &mut list.items) {
+    let lists = cycle.detections.iter_mut().chain(&mut cycle.detection_history);
+    for item in lists.flat_map(|list| &mut list.items) {
         fields.extend([(&mut item.x, POSITION), (&mut item.y, POSITION)]);
         fields.extend([(&mut item.cos, DIRECTION), (&mut item.sin, DIRECTION)]);
         fields.extend([(&mut item.length, SIZE), (&mut item.width, SIZE)]);
     }
-    let lists = [&mut cycle.previous_tracks, &mut cycle.tracks];
-    for item in lists.into_iter().flatten().flat_map(|list| &mut list.items) {
+    for item in cycle.tracks.iter_mut().flat_map(|list| &mut list.items) {
         fields.extend([(&mut item.x, POSITION), (&mut item.y, POSITION)]);
         fields.extend([(&mut item.cos, DIRECTION), (&mut item.sin, DIRECTION)]);
         fields.extend([(&mut item.vx, VELOCITY), (&mut item.vy, VELOCITY)]);
@@ -262,7 +266,7 @@ fn time(draw: &mut Draw<'_>, cycle: &mut Cycle, now_ns: i64) {
         2 => cycle.detections.iter_mut().for_each(|list| list.stamp_ns = at),
         3 => cycle.lead.iter_mut().for_each(|lead| lead.stamp_ns = at),
         4 => cycle.grid.iter_mut().for_each(|grid| grid.stamp_ns = at),
-        5 => cycle.previous_tracks.iter_mut().for_each(|list| list.stamp_ns = at),
+        5 => cycle.detection_history.iter_mut().for_each(|list| list.stamp_ns = at),
         6 => {
             let Some(trajectory) = &mut cycle.trajectory else { return };
             let index = draw.below(trajectory.points.len().max(1));
@@ -276,7 +280,7 @@ fn time(draw: &mut Draw<'_>, cycle: &mut Cycle, now_ns: i64) {
 
 /// A list that is too short, too long, out of order, or names an id twice.
 fn list(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    match draw.below(12) {
+    match draw.below(13) {
         0 => cycle.trajectory.iter_mut().for_each(|list| list.points.clear()),
         1 => {
             let Some(trajectory) = &mut cycle.trajectory else { return };
@@ -296,20 +300,20 @@ fn list(draw: &mut Draw<'_>, cycle: &mut Cycle) {
             }
             cycle.route.closed = draw.one_in(2);
         }
-        5 | 6 => duplicate(draw, cycle),
-        _ if !draw.one_in(16) => duplicate(draw, cycle),
+        5 | 6 => duplicate(cycle),
+        _ if !draw.one_in(16) => duplicate(cycle),
         7 => cycle.tracks.iter_mut().for_each(|list| oversize(&mut list.items, 1024)),
         8 => cycle.detections.iter_mut().for_each(|list| oversize(&mut list.items, 2048)),
         9 => cycle.trajectory.iter_mut().for_each(|list| oversize(&mut list.points, 1024)),
         10 => oversize(&mut cycle.route.cross_sections, 8192),
-        _ => cycle.previous_tracks.iter_mut().for_each(|list| oversize(&mut list.items, 1024)),
+        11 => cycle.detection_history.iter_mut().for_each(|list| oversize(&mut list.items, 2048)),
+        _ => oversize(&mut cycle.detection_history, 4),
     }
 }
 
 /// Names the first track twice.
-fn duplicate(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    let list = if draw.one_in(3) { &mut cycle.previous_tracks } else { &mut cycle.tracks };
-    if let Some(list) = list
+fn duplicate(cycle: &mut Cycle) {
+    if let Some(list) = &mut cycle.tracks
         && let Some(mut track) = list.items.first().cloned()
     {
         track.x += 1.0;

@@ -8,7 +8,7 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
-use super::end;
+use super::{end, steps};
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -27,7 +27,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (Profile::Paper, _) => anywhere(draw, frame, &mut cycle),
         (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
-        (Profile::Hardened, 1 | 7 | 8) => step(draw, frame, &mut cycle),
+        (Profile::Hardened, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
         (Profile::Hardened, 9) => arc_length(draw, frame, &mut cycle),
         (Profile::Hardened, _) if draw.one_in(3) => {
             let missing = draw.near(cycle.ego.length);
@@ -94,7 +94,22 @@ fn corridor_edge(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     }
     follow(cycle);
     if diagonal {
+        head_along(cycle);
         cut_corridor(cycle);
+    }
+}
+
+/// Turns the headings of the trajectory, and the CAV's, along its steps.
+fn head_along(cycle: &mut Cycle) {
+    let Some(trajectory) = &mut cycle.trajectory else { return };
+    let [first, .., last] = trajectory.points.as_slice() else { return };
+    let way = (last.x - first.x, last.y - first.y);
+    if way.0.hypot(way.1) > 1e-3 {
+        let (cos, sin) = unit(way);
+        (cycle.ego.cos, cycle.ego.sin) = (cos, sin);
+        for point in &mut trajectory.points {
+            (point.cos, point.sin) = (cos, sin);
+        }
     }
 }
 
@@ -179,7 +194,8 @@ fn anywhere(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     }
 }
 
-/// H-07: the first point late or early by about `max_age`, or too far from the CAV.
+/// H-07: the first point late or early by about `max_age`, too far from the CAV, too far aside, or
+/// turned too far.
 fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let parameters = cycle.parameters.clone();
     let late = match draw.below(4) {
@@ -190,8 +206,20 @@ fn start(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let limit = parameters.start_tolerance + cycle.ego.speed * seconds(late).max(0.0);
     let distance = if draw.one_in(4) { 0.0 } else { draw.near(limit) };
     let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.0, 1.0), (0.8, -0.6), (-1.0, 0.0), (0.6, 0.8)]);
-    let (x, y) = frame.at(distance * cos, distance * sin);
+    // Beside the start as far as at the end of the tolerance, or at the limit to the side.
+    let (along, aside) = if draw.one_in(2) {
+        (distance.min(0.5) * cos, draw.pick(&[1.0, -1.0]) * draw.near(parameters.lateral_tolerance))
+    } else {
+        cycle.parameters.lateral_tolerance = 10.0;
+        (distance * cos, distance * sin)
+    };
+    let (x, y) = frame.at(along, aside);
     (cycle.ego.x, cycle.ego.y) = (x, y);
+    if draw.one_in(3) {
+        let sin = draw.pick(&[1.0, -1.0]) * draw.near(0.17);
+        let (cos, sin) = frame.turn(((1.0 - sin * sin).sqrt(), sin));
+        (cycle.ego.cos, cycle.ego.sin) = (cos, sin);
+    }
     if let Some(trajectory) = &mut cycle.trajectory {
         for point in &mut trajectory.points {
             point.t_ns -= late;
@@ -221,78 +249,10 @@ fn direction(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     };
     let (cos, sin) = frame.turn(unit(heading));
     (cycle.ego.x, cycle.ego.y) = (x, y);
+    (cycle.ego.cos, cycle.ego.sin) = (cos, sin);
     let t_ns = cycle.now_ns;
     let point = TrajectoryPoint { t_ns, x, y, cos, sin };
     cycle.trajectory = Some(Trajectory { stamp_ns: t_ns, points: vec![point] });
-}
-
-/// H-11: one step at a limit of time, length, speed, direction, width or turn.
-fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    cycle.ego.speed = draw.pick(&[8.0, 2.0, 5.0]);
-    cycle.parameters.start_tolerance = 20.0;
-    let (length, width) = (cycle.ego.length, cycle.ego.width);
-    let mut dt_ns = 200_000_000;
-    let (mut along, mut aside) = (0.1, 0.0);
-    let (mut first, mut second) = ((1.0, 0.0), (1.0, 0.0));
-    match draw.below(6) {
-        0 => dt_ns = draw.near_ns(cycle.parameters.step_max_ns),
-        1 => {
-            let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.96, 0.28)]);
-            let u = draw.near(length);
-            let lateral_fits = u * sin <= 0.5 * width;
-            (along, aside) = if lateral_fits { (u * cos, u * sin) } else { (u, 0.0) };
-        }
-        2 => {
-            cycle.parameters.v_max = draw.pick(&[4.0, 2.5, 5.0]);
-            along = draw.near(cycle.parameters.v_max * 0.2);
-        }
-        3 => {
-            along = draw.pick(&[1.0, -1.0]) * draw.near(0.0);
-            aside = draw.pick(&[0.0, 0.25, -0.25]);
-            (first, second) = one_towards(draw, aside);
-        }
-        4 => {
-            along = 1.0;
-            aside = draw.pick(&[1.0, -1.0]) * draw.near(0.5 * width);
-            (first, second) = one_towards(draw, aside);
-        }
-        _ => {
-            // The step leads along the middle of both headings; 0.2 s.
-            let u = draw.pick(&[1.5_f64, 1.0, 0.5]).min(0.9 * length);
-            let side = draw.pick(&[1.0, -1.0]);
-            cycle.parameters.a_b = draw.pick(&[100.0, 100.0, 8.0]);
-            let curve = 0.5 * u + 0.02;
-            let swerve = cycle.parameters.a_b * 0.04 / u;
-            let most = curve.min(swerve).min(0.49);
-            let turn = draw.near(most).asin();
-            let (u, turn) =
-                if draw.one_in(3) { (1.95, draw.near(0.866).acos()) } else { (u, turn) };
-            (along, aside) = (u * (0.5 * turn).cos(), side * u * (0.5 * turn).sin());
-            (first, second) = ((1.0, 0.0), (turn.cos(), side * turn.sin()));
-        }
-    }
-    let (first, second) = (frame.turn(first), frame.turn(second));
-    let (t_ns, at) = (cycle.now_ns, frame.at(along, aside));
-    let stop = stop_time_ns(cycle);
-    let mut points =
-        vec![TrajectoryPoint { t_ns, x: frame.x, y: frame.y, cos: first.0, sin: first.1 }];
-    let mut t_ns = t_ns + dt_ns;
-    loop {
-        points.push(TrajectoryPoint { t_ns, x: at.0, y: at.1, cos: second.0, sin: second.1 });
-        if t_ns - cycle.now_ns >= stop {
-            break;
-        }
-        t_ns += 200_000_000;
-    }
-    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
-}
-
-/// Headings of the two points of a step, of which only one has the step at its limit: the other
-/// is turned towards the step.
-fn one_towards(draw: &mut Draw<'_>, aside: f64) -> ((f64, f64), (f64, f64)) {
-    let turn = draw.pick(&[0.0, 0.05, 0.08]) * aside.signum();
-    let (limit, slack) = ((1.0, 0.0), (turn.cos(), turn.sin()));
-    if draw.below(2) == 0 { (limit, slack) } else { (slack, limit) }
 }
 
 /// H-12: the arc length of the last points near what braking or accelerating covers, or a last
@@ -301,7 +261,8 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let p = cycle.parameters.clone();
     let late_ns = draw.pick(&[0, 20_000_000, -20_000_000]);
     let (d, v) = (seconds(late_ns).abs(), cycle.ego.speed);
-    let (v_lo, v_hi) = ((v - p.a_max * d).max(0.0), v + p.a_b * d);
+    let (slower, faster) = if late_ns < 0 { (p.a_b, p.a_max) } else { (p.a_max, p.a_b) };
+    let (v_lo, v_hi) = ((v - slower * d).max(0.0), v + faster * d);
     let (stop, length) = (base::s_stop(cycle), cycle.ego.length);
     let aim = draw.below(3);
     let wobble = draw.near(0.0);
@@ -365,11 +326,6 @@ fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         (point.x, point.y) = frame.at(along, 0.0);
     }
     cycle.trajectory = Some(trajectory);
-}
-
-/// Time from now until the CAV could stand, ns, rounded up.
-fn stop_time_ns(cycle: &Cycle) -> i64 {
-    base::to_ns(cycle.ego.speed / cycle.parameters.a_b) + 1
 }
 
 /// The trajectory point of this index, if there is one.

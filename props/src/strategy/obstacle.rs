@@ -155,6 +155,16 @@ pub fn horizon_of_grid(cycle: &Cycle) -> f64 {
     with_stop(cycle, cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b))
 }
 
+/// The horizon of what is explained (H-10), rounded, m.
+pub fn horizon_of_explained(cycle: &Cycle) -> f64 {
+    (1.0 + 1e-6) * s_stop(cycle)
+}
+
+/// The horizon of H-13, rounded, m.
+pub fn horizon_of_moving(cycle: &Cycle) -> f64 {
+    (1.0 + 1e-6) * (s_stop(cycle) + cycle.parameters.tau_motion * cycle.ego.speed)
+}
+
 /// `s_follow`, rounded, m; the lead counts as standing when there is none.
 pub fn s_follow(cycle: &Cycle) -> f64 {
     let (p, v) = (&cycle.parameters, cycle.ego.speed);
@@ -166,7 +176,7 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
 fn with_stop(cycle: &Cycle, s: f64) -> f64 {
     match cycle.profile {
         Profile::Paper => s,
-        Profile::Hardened => s.max(s_stop(cycle)),
+        Profile::Hardened => (1.0 + 1e-6) * s.max(s_stop(cycle)),
     }
 }
 

@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{
-    Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+    Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Sessions,
 };
 
 use super::draw::Draw;
@@ -124,10 +124,24 @@ impl Guide {
                 let station = station_in_use;
                 return (EventKind::Data { station, group, session, generated_ns }, near);
             }
-            18 => EventKind::Verdict { safe: true, groups },
-            _ => EventKind::Verdict { safe: false, groups },
+            18 => EventKind::Verdict { safe: true, sessions: self.sessions(draw, groups) },
+            _ => EventKind::Verdict { safe: false, sessions: self.sessions(draw, groups) },
         };
         (kind, false)
+    }
+
+    /// The running sessions of the groups, or at times another of one.
+    fn sessions(&self, draw: &mut Draw<'_>, groups: Groups) -> Sessions {
+        let mut sessions = self.requester.sessions(groups);
+        if draw.below(3) == 0 {
+            let other = draw.pick(&[-1, 1, 0, i64::MAX]);
+            let beside = |it: i64| it.saturating_add(other);
+            match draw.below(2) {
+                0 => sessions.mot = sessions.mot.map(beside),
+                _ => sessions.plan = Some(sessions.plan.map_or(other, beside)),
+            }
+        }
+        sessions
     }
 
     /// What leads on to remote services: an offer, a tick, a confirmation, data, a safe verdict.
@@ -141,7 +155,10 @@ impl Guide {
                 EventKind::Confirm { station, group, session }
             }
             GroupState::Remote { station, session } => match draw.below(3) {
-                0 => EventKind::Verdict { safe: true, groups: Groups::ALL },
+                0 => {
+                    let sessions = self.sessions(draw, Groups::ALL);
+                    EventKind::Verdict { safe: true, sessions }
+                }
                 _ => EventKind::Data {
                     station,
                     group,

@@ -65,11 +65,10 @@ fn objects(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         }
         cycle.detections = Some(DetectionList { stamp_ns, items });
     }
-    if draw.one_in(3) {
-        cycle.previous_tracks = cycle.tracks.clone();
-        if let Some(list) = &mut cycle.previous_tracks {
-            list.stamp_ns -= draw.pick(&[100_000_000, 0, 1_000_000_000, 1_000_000_001, -1]);
-        }
+    if let Some(list) = cycle.detections.clone().filter(|_| draw.one_in(3)) {
+        let dt_ns = draw.pick(&[200_000_000, 199_999_999, 1_000_000_000, 1_000_000_001, -1]);
+        let stamp_ns = list.stamp_ns - dt_ns;
+        cycle.detection_history = vec![DetectionList { stamp_ns, ..list }];
     }
 }
 

@@ -1,11 +1,12 @@
-//! Stage i at its thresholds: mean cost, `theta_track_max`, field-of-view radius, velocities
-//! (`spec/3-stages.md#stage-i-track-validation`, H-01, H-09).
+//! Stage i at its thresholds: mean cost, `theta_track_max`, field-of-view radius, left-out tracks
+//! (`spec/3-stages.md#stage-i-track-validation`, H-01).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, seconds};
 use super::draw::Draw;
+use super::history;
 
 /// Where an object is in the CAV's frame, m.
 type Place = (f64, f64);
@@ -21,7 +22,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (2, _) | (3 | 4, Profile::Paper) => threshold_to_mean(draw, frame, &mut cycle),
         (3 | 4, Profile::Hardened) => pair_limit(draw, frame, &mut cycle),
         (5, _) | (6, Profile::Paper) => radius(draw, frame, &mut cycle),
-        (6, Profile::Hardened) => velocity(draw, frame, &mut cycle),
+        (6, Profile::Hardened) => left_out(draw, frame, &mut cycle),
         (_, _) => anything(draw, frame, &mut cycle),
     }
     cycle
@@ -100,30 +101,33 @@ fn radius(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     fill(draw, frame, cycle, &tracks, &detections);
 }
 
-/// Tracks that stage i would pass, and displacements since the previous list near the limit.
-fn velocity(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    let places = cluster(draw, 3);
-    fill(draw, frame, cycle, &places, &places);
-    let Some(list) = &mut cycle.tracks else { return };
-    let dt_ns = match draw.below(4) {
-        0 | 1 => draw.pick(&[100_000_000, 500_000_000, 125_000_000]),
-        2 => draw.near_ns(1_000_000_000),
-        _ => draw.near_ns(0),
-    };
-    let (dt, mut previous) = (seconds(dt_ns), list.items.clone());
-    for (was, track) in previous.iter_mut().zip(&mut list.items) {
-        (track.vx, track.vy) = (draw.range(-20.0, 20.0), draw.range(-20.0, 20.0));
-        let (u, limit) = (draw.direction(), cycle.parameters.theta_velocity * dt);
-        let error = draw.near(limit);
-        was.x = track.x - track.vx * dt - error * u.0;
-        was.y = track.y - track.vy * dt - error * u.1;
-        if draw.one_in(6) {
-            was.id += 100;
+/// Moving tracks far apart, some without a detection: of these only backed ones may be left out, and
+/// not more than the budget; the mean of the others is near `theta_tr`.
+fn left_out(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let n = draw.between(1, 4);
+    cycle.parameters.miss_budget = draw.pick(&[4, 1, 2, 0]);
+    let ages = [draw.pick(&[0, 50_000_000]), draw.pick(&[0, 30_000_000])];
+    let [tracks_ns, seen_ns] = ages.map(|age| cycle.now_ns - age);
+    let t = seconds(seen_ns - tracks_ns);
+    let (mut tracks, mut seen) = (Vec::new(), vec![detection(frame, (95.0, 0.0))]);
+    for index in 0..n {
+        let place = (12.0 * index as f64 - 20.0, 6.0);
+        let mut track = track(frame, place, 1 + i64::try_from(index).unwrap_or(0));
+        (track.vx, track.vy) = draw.pick(&[(0.0, 0.0), (8.0, -6.0), (0.5, 12.0), (-70.0, 0.0)]);
+        if draw.one_in(8) {
+            cycle.parameters.v_object = draw.near(track.vx.hypot(track.vy)).max(1.0);
+        }
+        (track.x, track.y) = (track.x - track.vx * t, track.y - track.vy * t);
+        tracks.push(track);
+        if !draw.one_in(3) {
+            let error = draw.near(cycle.parameters.theta_tr);
+            let (cos, sin) = draw.pick(&[(1.0, 0.0), (0.6, 0.8), (0.0, -1.0)]);
+            seen.push(detection(frame, (place.0 + error * cos, place.1 + error * sin)));
         }
     }
-    list.stamp_ns = cycle.now_ns - draw.pick(&[0, 50_000_000]);
-    let stamp_ns = list.stamp_ns - dt_ns;
-    cycle.previous_tracks = Some(TrackList { stamp_ns, items: previous });
+    cycle.tracks = Some(TrackList { stamp_ns: tracks_ns, items: tracks });
+    cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items: seen });
+    history::back(draw, cycle);
 }
 
 /// Few objects anywhere, at times none.
@@ -213,7 +217,8 @@ impl Costs {
             tracks.iter().copied().filter(|(a, b)| a.hypot(*b) <= radius).collect();
         let spared = match cycle.profile {
             Profile::Paper => gated.len().saturating_sub(detections.len()),
-            Profile::Hardened => usize::try_from(cycle.parameters.miss_budget).unwrap_or(0),
+            // Without a history no track is backed.
+            Profile::Hardened => 0,
         };
         let pairs = gated.len().saturating_sub(spared);
         if pairs == 0 || pairs > detections.len() {

@@ -1,12 +1,12 @@
 //! Stage iii at its thresholds (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Obstacle, seconds};
 use super::draw::Draw;
-use super::obstacle;
 use super::track_validation::track;
+use super::{history, obstacle};
 
 /// A cycle that stage iii decides.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -34,9 +34,15 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.tracks = Some(TrackList { stamp_ns, items });
     if configuration == Configuration::AllRemote && profile == Profile::Hardened {
         if draw.one_in(2) {
-            hold(draw, &mut cycle);
-        }
-        if draw.one_in(4) {
+            // A detection at every place: stage i runs and, when none is far off, passes.
+            let seen_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
+            cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items: Vec::new() });
+            let tracks = cycle.tracks.iter().flat_map(|list| &list.items);
+            let seen = |track| history::item(track, history::place(&cycle, track).0);
+            let items = tracks.map(seen).collect();
+            cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items });
+            history::back(draw, &mut cycle);
+        } else if draw.one_in(4) {
             // Stage i cannot pass without a detection at every track; without any it does not
             // run (H-02).
             let empty = DetectionList { stamp_ns: cycle.now_ns - 200_000_000, items: Vec::new() };
@@ -75,30 +81,4 @@ fn fleeing(found: Obstacle) -> Track {
     let (length, width) = found.size;
     let (vx, vy) = (60.0 * found.away.0, 60.0 * found.away.1);
     Track { id: 7, x, y, cos, sin, vx, vy, length, width }
-}
-
-/// The track as a detector sees it.
-fn seen(track: &Track) -> Detection {
-    let Track { x, y, cos, sin, length, width, .. } = *track;
-    Detection { x, y, cos, sin, length, width }
-}
-
-/// H-09: a previous list that holds the track, or one that does not.
-fn hold(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    let Some(list) = &cycle.tracks else { return };
-    let mut previous = list.clone();
-    previous.stamp_ns -= 100_000_000;
-    for track in &mut previous.items {
-        track.x -= 0.1 * track.vx;
-        track.y -= 0.1 * track.vy;
-    }
-    if draw.one_in(3) {
-        previous.items.pop();
-    }
-    cycle.previous_tracks = Some(previous);
-    if draw.one_in(3) {
-        // With a detection at every track stage i runs and passes, and ids count as held.
-        let items = list.items.iter().map(seen).collect();
-        cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items });
-    }
 }

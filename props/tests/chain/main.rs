@@ -73,7 +73,11 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         Cell::Vector,
         "every expected answer has both verdicts",
     ),
-    ("spec/4-arithmetic.md#conformance-of-an-implementation", Cell::Model, "binds implementations"),
+    (
+        "spec/3-stages.md#what-the-cav-saw-itself",
+        Cell::Vector,
+        "terms: the vectors of H-01, H-09, H-10 and H-13 are about them",
+    ),
     ("spec/5-interfaces.md#cycle", Cell::Vector, "every vector is a record"),
     (
         "spec/5-interfaces.md#programs-under-test",
@@ -92,7 +96,7 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("theta_map", Cell::Proof, TESTED),
     ("v_max", Cell::Proof, TESTED),
     ("step_max", Cell::Proof, TESTED),
-    ("theta_velocity", Cell::Proof, TESTED),
+    ("lateral_tolerance", Cell::Proof, TESTED),
     ("work_limit", Cell::Proof, TESTED),
     ("request_timeout", Cell::Proof, TESTED),
     ("I-01", Cell::Impl, "a number: nothing is computed with it"),

@@ -198,7 +198,12 @@ pub fn cycle(tape: &[u32]) -> Cycle {
             cross_sections: any.list(1, 7, Any::cross_section, s),
         },
         grid: any.maybe(|any| any.grid(now_ns, s)),
-        previous_tracks: any.maybe(tracks),
+        detection_history: (0..any.draw.below(6))
+            .map(|_| DetectionList {
+                stamp_ns: any.stamp(now_ns),
+                items: any.list(0, 5, Any::detection, s),
+            })
+            .collect(),
     }
 }
 

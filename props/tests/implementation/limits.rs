@@ -91,12 +91,12 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
             center_offset: 1.5,
         },
         trajectory: Some(Trajectory { stamp_ns: 0, points: points.collect() }),
-        tracks: Some(TrackList { stamp_ns: 0, items: items.clone() }),
+        tracks: Some(TrackList { stamp_ns: 0, items }),
         detections: Some(DetectionList { stamp_ns: 0, items: detections.collect() }),
         lead: Some(Lead { stamp_ns: 0, gap: 500.0, speed: 5.0 }),
         route: Route { closed: false, cross_sections: cross_sections.collect() },
         grid: Some(grid),
-        previous_tracks: Some(TrackList { stamp_ns: -50_000_000, items }),
+        detection_history: Vec::new(),
     }
 }
 
@@ -124,7 +124,7 @@ fn passed(cycles: &[Owned]) -> [u32; 5] {
     let reports: Vec<_> = on_small_stack(|| {
         let check = |cycle: &Owned| {
             let mut scratch = Scratch::new(&mut rows, &mut columns);
-            mufasa::stages::check(&cycle.borrow(), &mut scratch)
+            mufasa::stages::check(&cycle.borrow(&cycle.history()), &mut scratch)
         };
         cycles.iter().map(check).collect()
     });
@@ -162,7 +162,8 @@ fn the_largest_cycles_need_no_more_stack_than_small_ones() {
 #[test]
 fn scratch_that_is_one_too_small_is_invalid_input() {
     for cycle in cycles(SMALL) {
-        let cycle = cycle.borrow();
+        let history = cycle.history();
+        let cycle = cycle.borrow(&history);
         let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
         let check = |rows: usize, columns: usize| {
             let (mut rows, mut columns) =

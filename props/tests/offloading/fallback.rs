@@ -8,8 +8,8 @@ use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Stage};
 use mufasa_model::services::configuration::Source;
 
 use crate::{
-    Cav, MOT, PLAN, PROFILES, Profile, TICK, UNSAFE, confirm, data, offer, on, release, request,
-    safe,
+    Cav, MOT, PLAN, PROFILES, Profile, SESSION_1, TICK, UNSAFE, confirm, data, offer, on, release,
+    request, safe,
 };
 
 const T_WAIT_NS: i64 = 10_000_000_000;
@@ -43,7 +43,8 @@ fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used
     for groups in [Groups::NONE, MOT, PLAN, Groups::ALL] {
         for profile in PROFILES {
             let mut cav = Cav::remote(profile, Groups::ALL);
-            cav.at(1, EventKind::Verdict { safe: false, groups });
+            let sessions = cav.model().sessions(groups);
+            cav.at(1, EventKind::Verdict { safe: false, sessions });
             assert_eq!(cav.states(), (Local, Local));
             assert_eq!([Mot, Plan].map(|group| cav.model().source(group)), [Source::Local; 2]);
             assert_eq!(cav.model().hold_until_ns(), Some(1 + T_WAIT_NS));
@@ -165,8 +166,8 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
         (Ok(report(Some(FailedStage::NoObstacleCheck))), false),
         (Err(problem), false),
     ] {
-        let kind = EventKind::of_cycle(&result, MOT);
-        assert_eq!(kind, EventKind::Verdict { safe, groups: MOT });
+        let kind = EventKind::of_cycle(&result, SESSION_1);
+        assert_eq!(kind, EventKind::Verdict { safe, sessions: SESSION_1 });
     }
 }
 
@@ -181,7 +182,7 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
     let mut cav = Cav::remote(Profile::Hardened, Groups::ALL);
     cav.at(1, data(1, Plan, 2, 1));
     cav.at(1, data(1, Mot, 1, 1));
-    assert_eq!(cav.at(2, safe(Groups::ALL)), [Deactivate(Mot), Deactivate(Plan)]);
+    assert_eq!(cav.at(2, safe(Some(1), Some(2))), [Deactivate(Mot), Deactivate(Plan)]);
     let early = [Drop(Plan), release(1, Plan, 2), Activate(Plan)];
     assert_eq!(cav.at(3, data(1, Plan, 2, 4)), early);
 
@@ -199,19 +200,21 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
     let mut cav = Cav::remote(Profile::Hardened, MOT);
-    assert_eq!(cav.at(1, safe(MOT)), [], "no result");
+    assert_eq!(cav.at(1, safe(Some(1), None)), [], "no result");
     cav.at(2, data(1, Mot, 9, 2));
-    assert_eq!(cav.at(2, safe(MOT)), [], "no result of the running session");
+    assert_eq!(cav.at(2, safe(Some(1), None)), [], "no result of the running session");
     cav.at(3, data(1, Mot, 1, 3));
-    assert_eq!(cav.at(3, safe(PLAN)), [], "the cycle did not use it");
+    assert_eq!(cav.at(3, safe(None, Some(1))), [], "the cycle did not use it");
+    assert_eq!(cav.at(3, safe(Some(2), None)), [], "another session");
     cav.at(4, offer(1, Groups::NONE));
     cav.at(4, offer(1, MOT));
     cav.at(4, TICK);
     cav.at(4, confirm(1, Mot, 2));
     assert_eq!(cav.model().state(Mot), on(1, 2));
-    assert_eq!(cav.at(5, safe(MOT)), [], "the used result was of an earlier session");
+    assert_eq!(cav.at(5, safe(Some(2), None)), [], "the used result was of an earlier session");
     cav.at(6, data(1, Mot, 2, 6));
-    assert_eq!(cav.at(6, safe(MOT)), [Deactivate(Mot)]);
+    assert_eq!(cav.at(6, safe(Some(1), None)), [], "a verdict on an earlier session (F-25)");
+    assert_eq!(cav.at(6, safe(Some(2), None)), [Deactivate(Mot)]);
 }
 
 /// `spec/5-interfaces.md#offloading-trace`: `safe` matters only for H-08.
@@ -219,5 +222,5 @@ fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_
 fn a_safe_verdict_changes_nothing_in_the_paper_profile() {
     let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
     cav.at(1, data(1, Mot, 1, 1));
-    cav.ignores(2, safe(Groups::ALL));
+    cav.ignores(2, safe(Some(1), Some(2)));
 }

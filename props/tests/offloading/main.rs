@@ -13,14 +13,16 @@ mod stations;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Group::{Mot, Plan};
 use mufasa_model::offloading::requester::{
-    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester,
+    Action, Event, EventKind, Group, GroupState, Groups, Parameters, Requester, Sessions,
 };
 use mufasa_props::refine::Pair;
 
 const MOT: Groups = Groups { mot: true, plan: false };
 const PLAN: Groups = Groups { mot: false, plan: true };
 const TICK: EventKind = EventKind::Tick;
-const UNSAFE: EventKind = EventKind::Verdict { safe: false, groups: Groups::NONE };
+const UNSAFE: EventKind = EventKind::Verdict { safe: false, sessions: Sessions::NONE };
+/// Session 1 runs MOT.
+const SESSION_1: Sessions = Sessions { mot: Some(1), plan: None };
 const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
 
 /// Both requesters, checked after every step.
@@ -107,8 +109,8 @@ fn data(station: i64, group: Group, session: i64, generated_ns: i64) -> EventKin
     EventKind::Data { station, group, session, generated_ns }
 }
 
-fn safe(groups: Groups) -> EventKind {
-    EventKind::Verdict { safe: true, groups }
+fn safe(mot: Option<i64>, plan: Option<i64>) -> EventKind {
+    EventKind::Verdict { safe: true, sessions: Sessions { mot, plan } }
 }
 
 fn request(station: i64, group: Group, session: i64) -> Action {

@@ -106,14 +106,20 @@ impl World {
             1 => self.cav_event(EventKind::Lost { station: 1 + numbers.below(2) }),
             2 => self.cav_event(EventKind::Area { groups: numbers.groups() }),
             3 => self.cav_event(EventKind::Area { groups: Groups::ALL }),
-            4 => self.cav_event(EventKind::Verdict { safe: false, groups: numbers.groups() }),
+            4 => self.cav_event(EventKind::Verdict {
+                safe: false,
+                sessions: self.cav.sessions(numbers.groups()),
+            }),
             5 => self.providers[usize::from(numbers.below(2) == 0)] = Provider::new(1, LEASE_NS),
             6..=8 => self.attack(numbers),
             9..=11 => self.cav_event(EventKind::Offer {
                 station: 1 + numbers.below(2),
                 groups: if numbers.below(4) == 0 { numbers.groups() } else { Groups::ALL },
             }),
-            12..=14 => self.cav_event(EventKind::Verdict { safe: true, groups: numbers.groups() }),
+            12..=14 => self.cav_event(EventKind::Verdict {
+                safe: true,
+                sessions: self.cav.sessions(numbers.groups()),
+            }),
             15..=19 => self.cav_event(TICK),
             20..=24 => self.providers_work(),
             _ => self.deliver(numbers),

@@ -152,7 +152,7 @@ fn differences_are_exact() {
 fn a_violation_activates_the_local_services_exactly_when_they_stopped() {
     let mut cav = Cav::remote(Profile::Hardened, MOT);
     cav.at(1, data(1, Mot, 1, 1));
-    assert_eq!(cav.at(2, safe(MOT)), [Deactivate(Mot)]);
+    assert_eq!(cav.at(2, safe(Some(1), None)), [Deactivate(Mot)]);
     assert_eq!(cav.at(3, data(1, Mot, 1, 4)), LEFT);
     let mut cav = Cav::remote(Profile::Hardened, MOT);
     cav.at(1, data(1, Mot, 1, 1));

@@ -103,7 +103,7 @@ fn requests_are_decided_at_ticks_only() {
         confirm(1, Mot, 7),
         reject(1, Mot, 7),
         data(1, Mot, 7, 0),
-        crate::safe(Groups::ALL),
+        crate::safe(Some(1), Some(2)),
     ] {
         let mut cav = Cav::paper();
         cav.at(0, offer(1, Groups::ALL));

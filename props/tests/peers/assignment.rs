@@ -132,6 +132,6 @@ fn cycle(position: (f64, f64), tracks: &[(f64, f64)], detections: &[(f64, f64)])
             cross_sections: vec![cross_section(0.0), cross_section(10.0)],
         },
         grid: None,
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }

@@ -128,6 +128,6 @@ fn cycle(occupied: &Table, radius_in_cells: f64) -> Cycle {
             occupied: bitmap,
             unknown: None,
         }),
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }

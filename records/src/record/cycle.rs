@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::parameters::StageParameters;
-use super::value::{Bitmap, Integer, Number, Pair, Word};
+use super::value::{Bitmap, Integer, MaybeNone, Number, Pair, Word};
 use super::{Recorded, record};
 
 /// The domain of a grid (`spec/4-arithmetic.md#domain`): outside of it the model says what is
@@ -51,8 +51,9 @@ record! {
         route: Route,
         /// The occupancy grid map.
         grid: Option<Grid>,
-        /// H-09: the last list that stage i passed in a safe cycle.
-        previous_tracks: Option<TrackList>,
+        /// Earlier lists of the CAV's own detections, the youngest first; null or absent is none.
+        #[serde(default)]
+        detection_history: MaybeNone<DetectionList>,
     } + {
         /// The kind of the record.
         kind: CycleKind,

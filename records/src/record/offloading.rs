@@ -56,6 +56,18 @@ record! {
     }
 }
 
+record! {
+    /// For each group whose data a cycle used, the session they came from.
+    Sessions = model::Sessions {
+        /// That of MOT; absent when no remote tracks were used.
+        #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
+        mot: Option<Integer>,
+        /// That of PLAN; absent when no remote trajectory was used.
+        #[serde(default, deserialize_with = "given", skip_serializing_if = "Option::is_none")]
+        plan: Option<Integer>,
+    }
+}
+
 impl Offloading {
     /// The record of a trace with all its parameters, those at their default too: it stays what it
     /// is when defaults change.
@@ -200,6 +212,7 @@ events! {
         generated_ns: Integer,
         verdict: Word<bool>,
         groups: GroupList,
+        sessions: Sessions,
     }
     Offer = "offer" { station: Integer<1>, groups: GroupList }
     Withdraw = "withdraw" { station: Integer<1> }
@@ -209,7 +222,7 @@ events! {
     Confirm = "confirm" { station: Integer<1>, group: Word<Group>, session: Integer }
     Reject = "reject" { station: Integer<1>, group: Word<Group>, session: Integer }
     Data = "data" { station: Integer<1>, group: Word<Group>, session: Integer, generated_ns: Integer }
-    Verdict = "verdict" (verdict: Word<bool> as safe) { groups: GroupList }
+    Verdict = "verdict" (verdict: Word<bool> as safe) { sessions: Sessions }
 }
 
 /// A field that is there is not null.

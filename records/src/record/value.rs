@@ -32,6 +32,11 @@ pub struct Pair(pub [Number; 2]);
 #[derive(Clone, Debug)]
 pub struct Bitmap(pub Vec<u8>);
 
+/// A list, or null for none of its items.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct MaybeNone<T>(pub Vec<T>);
+
 /// One of the words of an enum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Word<T>(pub T);
@@ -158,6 +163,44 @@ impl Recorded for Pair {
 
     fn of_model(model: &[f64; 2]) -> Self {
         Self(model.map(Number))
+    }
+}
+
+impl<T> Default for MaybeNone<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for MaybeNone<T> {
+    fn deserialize<D: Deserializer<'de>>(json: D) -> Result<Self, D::Error> {
+        Option::deserialize(json).map(|list| Self(list.unwrap_or_default()))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for MaybeNone<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        Option::<Vec<T>>::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Option::<Vec<T>>::json_schema(generator)
+    }
+}
+
+impl<T: Recorded> Recorded for MaybeNone<T> {
+    type Model = Vec<T::Model>;
+
+    fn into_model(self) -> Vec<T::Model> {
+        self.0.into_model()
+    }
+
+    fn of_model(model: &Vec<T::Model>) -> Self {
+        Self(Vec::of_model(model))
     }
 }
 

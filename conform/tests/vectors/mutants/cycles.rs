@@ -51,12 +51,11 @@ fn zero_for_nan(cycle: &mut Cycle) {
     mend(&mut cycle.ego.y);
     mend(&mut cycle.ego.x);
     mend(&mut cycle.ego.speed);
-    for list in [&mut cycle.tracks, &mut cycle.previous_tracks].into_iter().flatten() {
-        for track in &mut list.items {
-            [&mut track.x, &mut track.vx, &mut track.vy].into_iter().for_each(mend);
-        }
+    for track in cycle.tracks.iter_mut().flat_map(|list| &mut list.items) {
+        [&mut track.x, &mut track.vx, &mut track.vy].into_iter().for_each(mend);
     }
-    for detection in cycle.detections.iter_mut().flat_map(|list| &mut list.items) {
+    let lists = cycle.detections.iter_mut().chain(&mut cycle.detection_history);
+    for detection in lists.flat_map(|list| &mut list.items) {
         mend(&mut detection.x);
     }
     for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
@@ -111,7 +110,6 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
     sees!("stage i off", |c| {
         (c.parameters.theta_tr, c.parameters.theta_track_max) = (1e3, 1e3);
         c.parameters.miss_budget = 64;
-        c.previous_tracks = None;
     }),
     sees!("stage ii near the path only", |c| c.parameters.theta_map = 1e3),
     sees!("track list emptied", |c| c.tracks.iter_mut().for_each(|list| list.items.clear())),
@@ -131,7 +129,7 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
     sees!("lead ignored", |c| c.lead = None),
     sees!("lead stands", |c| c.lead.iter_mut().for_each(|lead| lead.speed = 0.0)),
     sees!("gap half a metre shorter", |c| c.lead.iter_mut().for_each(|lead| lead.gap -= 0.5)),
-    sees!("previous list ignored", |c| c.previous_tracks = None),
+    sees!("history ignored", |c| c.detection_history.clear()),
     sees!("trajectory missing", |c| c.trajectory = None),
     sees!("last point forgotten", |c| c.trajectory.iter_mut().for_each(|it| {
         it.points.pop();

@@ -2,7 +2,7 @@
 
 use mufasa_conform::vectors::flag;
 use mufasa_model::input::cycle::Profile;
-use mufasa_model::offloading::requester::{Event, EventKind, Groups};
+use mufasa_model::offloading::requester::{Event, EventKind, Groups, Sessions};
 use mufasa_model::services::orchestrator::Task;
 use mufasa_records::{self as json, Trace};
 use serde_json::Value;
@@ -46,24 +46,25 @@ const EARS: &[(&str, Ear)] = &[
     }),
     ("everything is safe", |event| {
         Some(match event.kind {
-            EventKind::Verdict { groups, .. } => {
-                kind(event, EventKind::Verdict { safe: true, groups })
+            EventKind::Verdict { sessions, .. } => {
+                kind(event, EventKind::Verdict { safe: true, sessions })
             }
             _ => *event,
         })
     }),
     ("everything is unsafe", |event| {
         Some(match event.kind {
-            EventKind::Verdict { groups, .. } => {
-                kind(event, EventKind::Verdict { safe: false, groups })
+            EventKind::Verdict { sessions, .. } => {
+                kind(event, EventKind::Verdict { safe: false, sessions })
             }
             _ => *event,
         })
     }),
-    ("every cycle used everything", |event| {
+    ("every cycle used the first two sessions", |event| {
         Some(match event.kind {
             EventKind::Verdict { safe, .. } => {
-                kind(event, EventKind::Verdict { safe, groups: Groups::ALL })
+                let sessions = Sessions { mot: Some(1), plan: Some(2) };
+                kind(event, EventKind::Verdict { safe, sessions })
             }
             _ => *event,
         })

@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 use std::vec::Vec;
 
-use super::{Product, Wide, compare, difference, orientation};
+use super::{Product, Wide, compare, compare_moved_distances, difference, orientation};
 use crate::random::Random;
 use dashu_ratio::RBig;
 
@@ -47,6 +47,37 @@ fn signs_are_exact() {
         seen[(expected as i8 + 1) as usize] += 1;
     }
     assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
+}
+
+/// Places that have moved on circles about p, in binary fractions so that many are exactly as far.
+#[test]
+fn distances_of_what_has_moved_are_exact() {
+    let mut random = Random::new(6);
+    let mut seen = [0; 3];
+    for case in 0..20_000 {
+        let mut number = |range: u64| (random.below(range) as f64 - range as f64 / 2.0) / 4.0;
+        let [p, a, v] = [16, 16, 8].map(|range| [number(range), number(range)]);
+        let t_ns = [0, 250_000_000, -500_000_000, 7, -59_999_999_999][case % 5];
+        let t = RBig::from(t_ns) / RBig::from(1_000_000_000_i64);
+        let moved = |axis: usize| exact(a[axis]) + exact(v[axis]) * t.clone() - exact(p[axis]);
+        // As far, turned by a right angle, when the doubles hold it.
+        let turned = [
+            p[0] - (a[1] + v[1] * t_ns as f64 * 1e-9 - p[1]),
+            p[1] + (a[0] + v[0] * t_ns as f64 * 1e-9 - p[0]),
+        ];
+        let bit = random.below(3);
+        let b = turned.map(|value| f64::from_bits(value.to_bits() ^ bit));
+        let still = |axis: usize| exact(b[axis]) - exact(p[axis]);
+        let squared = |of: &dyn Fn(usize) -> RBig| of(0) * of(0) + of(1) * of(1);
+        let expected = squared(&moved).cmp(&squared(&still));
+        assert_eq!(
+            compare_moved_distances(p, (a, v, t_ns), b),
+            expected,
+            "{p:?} {a:?} {v:?} {b:?}"
+        );
+        seen[(expected as i8 + 1) as usize] += 1;
+    }
+    assert!(seen.iter().all(|&count| count > 1_000), "{seen:?}");
 }
 
 #[test]

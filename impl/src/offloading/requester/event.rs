@@ -77,20 +77,43 @@ pub enum EventKind {
     Verdict {
         /// Whether the cycle was safe; one that ended in `error` is not.
         safe: bool,
-        /// The groups whose data the cycle used.
-        groups: Groups,
+        /// The sessions that the data of the cycle came from.
+        sessions: Sessions,
     },
+}
+
+/// For each group whose data a cycle used, the session they came from. Source:
+/// `spec/5-interfaces.md#offloading-trace`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sessions {
+    /// That of MOT.
+    pub mot: Option<i64>,
+    /// That of PLAN.
+    pub plan: Option<i64>,
+}
+
+impl Sessions {
+    /// No group's data were used.
+    pub const NONE: Self = Self { mot: None, plan: None };
+
+    /// That of `group`. Source: `spec/5-interfaces.md#offloading-trace`.
+    pub const fn of(self, group: Group) -> Option<i64> {
+        match group {
+            Group::Mot => self.mot,
+            Group::Plan => self.plan,
+        }
+    }
 }
 
 impl EventKind {
     /// The end of a cycle as an event. `answer`: what `stages::check` said; an error counts as
-    /// unsafe. `groups`: those whose data the cycle used. Source: `spec/2-offloading.md#fallback`.
-    pub const fn of_cycle(answer: &Result<Report, InvalidInput>, groups: Groups) -> Self {
+    /// unsafe. `sessions`: those that the data of the cycle came from. Source: `spec/2-offloading.md#fallback`.
+    pub const fn of_cycle(answer: &Result<Report, InvalidInput>, sessions: Sessions) -> Self {
         let safe = match answer {
             Ok(report) => report.failed_stage.is_none(),
             Err(_) => false,
         };
-        Self::Verdict { safe, groups }
+        Self::Verdict { safe, sessions }
     }
 
     /// The station that the event names, if it is of a kind that names one. Source:

@@ -90,7 +90,8 @@ impl<'a> Requester<'a> {
 mod tests {
     use crate::input::profile::Profile;
     use crate::offloading::requester::{
-        Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
+        Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, Sessions,
+        StationRecord,
     };
 
     #[test]
@@ -100,9 +101,9 @@ mod tests {
             EventKind::Tick,
             EventKind::Confirm { station: 2, group: Group::Plan, session: 2 },
             EventKind::Data { station: 2, group: Group::Plan, session: 2, generated_ns: 0 },
-            EventKind::Verdict { safe: true, groups: Groups::ALL },
+            EventKind::Verdict { safe: true, sessions: Sessions { mot: None, plan: Some(2) } },
             EventKind::Area { groups: Groups::from(Group::Mot) },
-            EventKind::Verdict { safe: false, groups: Groups::ALL },
+            EventKind::Verdict { safe: false, sessions: Sessions::NONE },
             EventKind::Tick,
         ];
         for profile in [Profile::Paper, Profile::Hardened] {

@@ -134,8 +134,8 @@ const fn record(slot: &Slot) -> GroupRecord {
 mod tests {
     use crate::input::profile::Profile;
     use crate::offloading::requester::{
-        Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
-        Suspended,
+        Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, Sessions,
+        StationRecord, Suspended,
     };
 
     #[test]
@@ -146,7 +146,7 @@ mod tests {
             EventKind::Confirm { station: 2, group: Group::Plan, session: 2 },
             EventKind::Data { station: 2, group: Group::Plan, session: 2, generated_ns: 0 },
             EventKind::Data { station: 2, group: Group::Mot, session: 9, generated_ns: 0 },
-            EventKind::Verdict { safe: false, groups: Groups::ALL },
+            EventKind::Verdict { safe: false, sessions: Sessions::NONE },
         ];
         for profile in [Profile::Paper, Profile::Hardened] {
             let (mut table, mut copy) = ([StationRecord::FREE; 2], [StationRecord::FREE; 2]);

@@ -1,6 +1,6 @@
 //! What each event does (`spec/2-offloading.md`).
 
-use super::event::{Action, Actions, Event, EventKind, Outbox};
+use super::event::{Action, Actions, Event, EventKind, Outbox, Sessions};
 use super::slot::Slot;
 use super::{Requester, RequesterError};
 use crate::offloading::quality_of_service::{Arrivals, Element};
@@ -43,7 +43,7 @@ impl Requester<'_> {
             EventKind::Data { station, group, session, generated_ns } => {
                 self.data(now_ns, (station, group, session), generated_ns, &mut out);
             }
-            EventKind::Verdict { safe: true, groups } => self.safe(groups, &mut out),
+            EventKind::Verdict { safe: true, sessions } => self.safe(sessions, &mut out),
             EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
         }
         Ok(out.into_actions())
@@ -154,12 +154,15 @@ impl Requester<'_> {
         }
     }
 
-    /// H-08: the first safe verdict that names a group after a used result stops its local
-    /// services. In the paper profile they were stopped at the confirmation.
-    fn safe(&mut self, groups: Groups, out: &mut Outbox) {
+    /// H-08: the first safe verdict that names the running session of a group after a used result
+    /// stops its local services. In the paper profile they were stopped at the confirmation.
+    fn safe(&mut self, sessions: Sessions, out: &mut Outbox) {
         for group in Group::ALL {
-            if let Slot::Remote { arrivals, local_computes, .. } = self.slots.get_mut(group) {
-                if groups.contains(group) && *local_computes && arrivals.has_used() {
+            if let Slot::Remote { session, arrivals, local_computes, .. } =
+                self.slots.get_mut(group)
+            {
+                let is_named = sessions.of(group) == Some(*session);
+                if is_named && *local_computes && arrivals.has_used() {
                     *local_computes = false;
                     *out.services.get_mut(group) = Some(Action::Deactivate(group));
                 }

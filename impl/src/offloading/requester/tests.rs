@@ -3,7 +3,8 @@
 //! `props/tests/offloading`.
 
 use super::{
-    Action, Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, StationRecord,
+    Action, Event, EventKind, Group, Groups, Parameters, Requester, RequesterError, Sessions,
+    StationRecord,
 };
 use crate::input::profile::Profile;
 use crate::services::configuration::Configuration;
@@ -100,5 +101,26 @@ fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult 
         let refused = Requester::new(Profile::Paper, parameters, &mut []).err();
         assert_eq!(refused, Some(RequesterError::NegativeParameter { field }));
     }
+    Ok(())
+}
+
+/// `spec/3-stages.md#hardened-profile`, H-08: a verdict stops local services only when it names the
+/// running session of the group, and only after a result of that session was used.
+#[test]
+fn a_verdict_of_another_session_stops_nothing() -> TestResult {
+    let mut table = [StationRecord::FREE; 2];
+    let mut requester = Requester::new(Profile::Hardened, Parameters::default(), &mut table)?;
+    let mut step = |kind| requester.step(&Event { t_ns: 0, kind }).map(|actions| actions.to_vec());
+    let safe = |mot| EventKind::Verdict { safe: true, sessions: Sessions { mot, plan: None } };
+    step(offer(1, Groups::from(MOT)))?;
+    step(EventKind::Tick)?;
+    step(EventKind::Confirm { station: 1, group: MOT, session: 1 })?;
+    assert_eq!(step(safe(Some(1)))?, [], "no result was used");
+    step(EventKind::Data { station: 1, group: MOT, session: 1, generated_ns: 0 })?;
+    for other in [None, Some(0), Some(2)] {
+        assert_eq!(step(safe(other))?, [], "{other:?}");
+    }
+    assert_eq!(step(safe(Some(1)))?, [Action::Deactivate(MOT)]);
+    assert_eq!(step(safe(Some(1)))?, []);
     Ok(())
 }

@@ -4,8 +4,9 @@
 //!
 //! Costs are integers, so that potentials never round: the assignment is minimal for the costs as
 //! given. With at most 1024 rows and costs of at most 2^52 + 1 no path or potential reaches 2^63: a
-//! column that no row has taken has potential 0, so that a path is at most as long as one edge to
-//! it (or, where edges are missing, as 1024 edges of at most 2^42), and potentials add up paths.
+//! path, and a potential, which is that of a path to a column that no row has taken and whose
+//! potential is 0, costs what its edges cost, every second one taken off (where edges are missing,
+//! in the hardened profile, at most 1024 edges of 2^46 + 1; else one edge would do).
 
 use core::ops::Range;
 

@@ -40,7 +40,7 @@ pub(crate) fn over_work_limit(cycle: &Cycle<'_>, rows: usize, columns: usize) ->
     (work > limit).then(|| Witness::of(Rule::WorkLimit, compared))
 }
 
-/// Fewer rows got a column than have to.
+/// Fewer rows got a column than have to; H-01: fewer tracks are paired or left out than gated.
 pub(crate) fn no_assignment(assigned: usize, k: usize) -> Witness {
     Witness::of(Rule::NoAssignment, [count(assigned), count(k)])
 }

@@ -6,9 +6,10 @@
 //! detection of its square that is within reach, else of the squares next to it: linear time
 //! unless many detections share a square.
 
-use crate::input::cycle::{Detection, Track};
+use crate::input::cycle::Detection;
 use crate::input::scratch::{Column, NONE, short};
 use crate::stages::i_track_validation::gate::{Gate, apart_squared};
+use crate::stages::i_track_validation::places::Places;
 
 /// What the pairs have to keep.
 #[derive(Clone, Copy, Debug)]
@@ -17,47 +18,83 @@ pub(crate) struct PairLimits {
     pub(crate) limit: f64,
     /// The mean has to be below, m.
     pub(crate) theta_tr: f64,
-    /// So many gated tracks may stay without a detection.
+    /// So many gated tracks may be left out.
     pub(crate) spare: usize,
 }
 
-/// Whether there certainly are pairs of all gated tracks but `spare` that keep the limits. `p`: the
-/// CAV's position. Plain doubles: a distance, or the square of one, errs by less than 2^-50 of
-/// itself and 2^-400 m, a sum of at most 1024 by less than 2^-42 of itself more.
+/// More than the distance of a track to a detection errs in plain doubles, m: twice the error of a
+/// place.
+const PLACE_ERROR: f64 = 2e-8;
+
+/// Whether there certainly are pairs of all gated tracks but some that keep the limits; all of those
+/// `may_be_left`, by their index. `p`: the CAV's position. Plain doubles: a distance, or the square
+/// of one, errs by less than 2^-50 of itself, 2^-400 m and twice the error of a place, a sum of at
+/// most 1024 by less than 2^-42 of itself more.
 pub(crate) fn certainly_pass(
     p: [f64; 2],
-    tracks: &[Track],
+    places: &Places<'_>,
     detections: &[Detection],
     limits: PairLimits,
+    may_be_left: impl Fn(usize) -> bool,
     columns: &mut [Column],
 ) -> bool {
+    let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
     // Farther pairs would hardly keep the mean below the threshold.
-    let reach = (5.0 * limits.theta_tr).min(limits.limit * (1.0 - 1e-12));
+    let reach = (5.0 * limits.theta_tr).min(limits.limit * (1.0 - 1e-12) - error);
     let mut squares = Squares::new(detections, reach, columns);
-    let (mut gate, mut sum, mut gated, mut paired) = (Gate::new(p), 0.0, 0_usize, 0_usize);
+    let (mut gate, mut sum) = (Gate::new(p, places), PairSum::default());
     for (index, detection) in detections.iter().enumerate() {
         let place = [detection.x, detection.y];
         gate.include(place);
         squares.insert(index, place);
     }
-    for track in tracks {
-        let place = [track.x, track.y];
+    for (index, track) in places.tracks.iter().enumerate() {
+        let place = places.of(track);
         match gate.admits(place) {
             Some(true) => {}
             Some(false) => continue,
             None => return false,
         }
-        gated = gated.saturating_add(1);
-        if let Some(squared) = squares.take(place) {
-            sum += libm::sqrt(squared);
-            paired = paired.saturating_add(1);
-        } else if gated.saturating_sub(paired) > limits.spare {
+        let fits = match squares.take(place) {
+            Some(squared) => sum.pair(libm::sqrt(squared)),
+            None => sum.leave_out(may_be_left(index), &limits),
+        };
+        if !fits {
             return false;
         }
     }
-    let k = gated.saturating_sub(limits.spare);
-    let k = u32::try_from(k).map_or(f64::INFINITY, f64::from);
-    k <= 0.0 || sum * (1.0 + 1e-12) + 1e-100 < k * limits.theta_tr
+    sum.passes(&limits, places)
+}
+
+/// Pairs so far, and tracks that are left out.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PairSum {
+    /// m
+    sum: f64,
+    paired: u32,
+    left: usize,
+}
+
+impl PairSum {
+    /// One more pair, which fits.
+    pub(crate) fn pair(&mut self, metres: f64) -> bool {
+        self.sum += metres;
+        self.paired = self.paired.saturating_add(1);
+        true
+    }
+
+    /// Whether one more track fits that is left out.
+    pub(crate) const fn leave_out(&mut self, may_be_left: bool, limits: &PairLimits) -> bool {
+        self.left = self.left.saturating_add(1);
+        may_be_left && self.left <= limits.spare
+    }
+
+    /// Whether the mean certainly is below the limit.
+    pub(crate) fn passes(&self, limits: &PairLimits, places: &Places<'_>) -> bool {
+        let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
+        let k = f64::from(self.paired);
+        self.paired == 0 || self.sum * (1.0 + 1e-12) + 1e-100 + k * error < k * limits.theta_tr
+    }
 }
 
 /// Detections by the square that they are in.

@@ -108,15 +108,18 @@ pub(crate) struct Sweep {
 
 impl Sweep {
     /// `seconds`: the first and the last time.
-    pub(crate) fn new(ego: &Ego, points: &[TrajectoryPoint], seconds: [f64; 2]) -> Self {
-        let place = |point: &TrajectoryPoint| MovingRectangle::footprint(ego, point).centre;
-        let origin = points.first().map_or([0.0; 2], place);
-        let [x, y] = minus(points.last().map_or(origin, place), origin);
+    pub(crate) fn new<'p>(
+        poses: impl Iterator<Item = (Ego, &'p TrajectoryPoint)> + Clone,
+        seconds: [f64; 2],
+    ) -> Self {
+        let footprints = poses.map(|(ego, point)| MovingRectangle::footprint(&ego, point));
+        let place = |footprint: MovingRectangle| footprint.centre;
+        let origin = footprints.clone().next().map_or([0.0; 2], place);
+        let [x, y] = minus(footprints.clone().last().map_or(origin, place), origin);
         let length = libm::sqrt(x * x + y * y);
         let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
         let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
-        for point in points {
-            let footprint = MovingRectangle::footprint(ego, point);
+        for footprint in footprints {
             let place = split(along, minus(footprint.centre, origin));
             extend(&mut turned, place, footprint.extents(along));
             extend(&mut upright, footprint.centre, [footprint.reach(); 2]);
@@ -143,12 +146,58 @@ impl Sweep {
     /// of the time of stages iii and iv.
     #[inline]
     fn misses_upright(&self, object: &MovingRectangle) -> bool {
+        self.gap_upright(object) > object.reach() + MARGIN
+    }
+
+    /// How far the centre of an object stays away from the upright box along one of its axes, m.
+    #[inline]
+    fn gap_upright(&self, object: &MovingRectangle) -> f64 {
         let [middle, spread] = self.seconds;
         let [[cx, cy], [hx, hy]] = self.upright;
         let ([x, y], [vx, vy]) = (object.after(middle), object.velocity);
         let gap_x = (x - cx).abs() - vx.abs() * spread - hx;
         let gap_y = (y - cy).abs() - vy.abs() * spread - hy;
-        larger(gap_x, gap_y) > object.reach() + MARGIN
+        larger(gap_x, gap_y)
+    }
+
+    /// As `misses`, when the velocity may also be up to `off` m/s another one.
+    pub(crate) fn misses_all_near(&self, object: &MovingRectangle, off: f64) -> bool {
+        let [middle, spread] = self.seconds;
+        let reach = off * (middle.abs() + spread) * (1.0 + 1e-6);
+        if self.gap_upright(object) > object.reach() + reach + MARGIN {
+            return true;
+        }
+        let [length, width] = object.size;
+        let size = [length + reach + reach, width + reach + reach];
+        self.misses_turned(&MovingRectangle { size, ..*object })
+    }
+
+    /// The box in which an item of an earlier list has to be, of that age in s, so that an object
+    /// that comes from there, no faster than `speed` in m/s, may touch the CAV at one of the
+    /// points. `object`: where it is at the time 0. Along each axis: what is before the CAV's
+    /// places, `gap` m away, comes from at least `gap` age / t farther behind, t being the last
+    /// time.
+    pub(crate) fn comes_from(
+        &self,
+        object: &MovingRectangle,
+        speed: f64,
+        age: f64,
+    ) -> [[f64; 2]; 2] {
+        let [middle, spread] = self.seconds;
+        let (first, last) = (middle - spread, middle + spread);
+        // Before the time 0 an object moves back, but not far.
+        let reach = object.reach() + MARGIN + speed * larger(-first, 0.0);
+        let rate = if last > 0.0 { age / last } else { 0.0 };
+        let most = speed * age + MARGIN;
+        let ([cx, cy], [hx, hy]) = (self.upright[0], self.upright[1]);
+        let range = |at: f64, centre: f64, half: f64| {
+            let (below, above) = (centre - half - reach - at, at - centre - half - reach);
+            let least = at - most + if above > 0.0 { most + above * rate - MARGIN } else { 0.0 };
+            let greatest = at + most - if below > 0.0 { most + below * rate - MARGIN } else { 0.0 };
+            [least, greatest]
+        };
+        let [x, y] = object.centre;
+        [range(x, cx, hx), range(y, cy, hy)]
     }
 
     #[inline(never)]

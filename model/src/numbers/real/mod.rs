@@ -132,6 +132,14 @@ impl Real {
         if lo == f64::NEG_INFINITY || hi == f64::INFINITY { self.to_f64() } else { lo.midpoint(hi) }
     }
 
+    /// Doubles that the number is not below and not above.
+    pub fn bounds(&self) -> [f64; 2] {
+        if !FILTER.get() {
+            return [f64::NEG_INFINITY, f64::INFINITY];
+        }
+        [self.interval.lo, self.interval.hi]
+    }
+
     fn new(interval: Interval, term: Term) -> Self {
         if FILTER.get() && interval.is_point() {
             return Self { interval, node: None };

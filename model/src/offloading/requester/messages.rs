@@ -73,17 +73,40 @@ pub enum EventKind {
     Verdict {
         /// How.
         safe: bool,
-        /// The groups whose remote data it used.
-        groups: Groups,
+        /// The sessions that its remote data came from.
+        sessions: Sessions,
     },
 }
 
 impl EventKind {
-    /// The verdict of a cycle that used remote data of these groups; a cycle that ended in error
+    /// The verdict of a cycle that used remote data of these sessions; a cycle that ended in error
     /// counts as unsafe. `spec/2-offloading.md#fallback`.
-    pub fn of_cycle(result: &Result<Report, InvalidInput>, groups: Groups) -> Self {
+    pub fn of_cycle(result: &Result<Report, InvalidInput>, sessions: Sessions) -> Self {
         let safe = result.as_ref().is_ok_and(|report| report.failed_stage.is_none());
-        Self::Verdict { safe, groups }
+        Self::Verdict { safe, sessions }
+    }
+}
+
+/// The sessions that the remote data of a cycle came from; `None` where it used no remote data of the
+/// group. `spec/5-interfaces.md#offloading-trace`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sessions {
+    /// That of MOT.
+    pub mot: Option<i64>,
+    /// That of PLAN.
+    pub plan: Option<i64>,
+}
+
+impl Sessions {
+    /// A cycle that used no remote data.
+    pub const NONE: Self = Self { mot: None, plan: None };
+
+    /// The session of a group.
+    pub fn of(self, group: Group) -> Option<i64> {
+        match group {
+            Group::Mot => self.mot,
+            Group::Plan => self.plan,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //! `spec/2-offloading.md#fallback`).
 
 use super::Requester;
-use super::messages::Action;
+use super::messages::{Action, Sessions};
 use super::state::{Farewell, Session, Use};
 use crate::input::profile::Profile;
 use crate::offloading::quality_of_service;
@@ -120,11 +120,12 @@ impl Requester {
         actions
     }
 
-    /// H-08: the local services stop only now.
-    pub(super) fn safe(&mut self, groups: Groups) -> Vec<Action> {
+    /// H-08: the local services of a group stop only now, when the verdict names its running session.
+    pub(super) fn safe(&mut self, sessions: Sessions) -> Vec<Action> {
         let mut actions = Vec::new();
-        for group in Group::ALL.into_iter().filter(|group| groups.contains(*group)) {
+        for group in Group::ALL {
             if let Use::Remote(running) = self.group_mut(group)
+                && sessions.of(group) == Some(running.number)
                 && running.local_computes
                 && running.last_used_generated_ns.is_some()
             {

@@ -40,7 +40,7 @@ pub fn cycle(profile: Profile, configuration: Configuration) -> Cycle {
             cross_sections: vec![cross_section(-50.0), cross_section(150.0)],
         },
         grid: None,
-        previous_tracks: None,
+        detection_history: Vec::new(),
     }
 }
 

@@ -142,6 +142,42 @@ pub const THEOREMS: &[Theorem] = &[
         "y from 0 to 1",
         None
     ),
+    closure!(
+        "F-30",
+        "a car at (10, -8), said to stand, that crosses before a CAV at 10 m/s: rejected by H-13",
+        "seen at (10, -12) to (10, -11) 500 ms ago; a list of one item",
+        Some(Stage::Iv)
+    ),
+    closure!(
+        "F-31",
+        "a car at (10, -8), left out, that crosses before a CAV at 10 m/s: rejected by H-13",
+        "seen at (10, -12) to (10, -11) 500 ms ago; a list of one item",
+        Some(Stage::Iv)
+    ),
+    closure!(
+        "F-34",
+        "empty tracks, empty detections, and an occupied cell where the CAV stands: rejected by H-10",
+        "0 < y < 1/2",
+        Some(Stage::V)
+    ),
+    closure!(
+        "F-35",
+        "a step of 0.3 m ahead and more than 0.1 m aside: rejected by H-11",
+        "y above 0.1 to 1 m",
+        Some(Stage::Ii)
+    ),
+    closure!(
+        "F-36",
+        "a first heading along x of a CAV with another one: rejected by H-07",
+        "cos = 1, sin above 0.18 to 1",
+        Some(Stage::Ii)
+    ),
+    closure!(
+        "F-37",
+        "a trajectory that starts beside the CAV: rejected by H-07",
+        "y from -2 to below -1/2",
+        Some(Stage::Ii)
+    ),
 ];
 
 fn is_rejected(finding: &str, profile: Profile, by: Option<Stage>) -> Formula {
@@ -151,7 +187,7 @@ fn is_rejected(finding: &str, profile: Profile, by: Option<Stage>) -> Formula {
     let [bounds, wrong] = (search.conditions)(&scene);
     given(bounds);
     given(wrong);
-    let report = decide(&scene);
+    let report = decide(&scene).expect("theorems count no work");
     Formula::from(match by {
         Some(stage) => matches!(report.stages[stage as usize], Outcome::Failed(_)),
         None => report.failed_stage.is_some(),

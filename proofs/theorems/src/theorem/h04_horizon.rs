@@ -2,13 +2,16 @@
 //! the latest tau after the last accepted cycle and until then accelerates by at most a_max. How the
 //! theorems make an induction over cycles is written in `findings/F-04.md`.
 
-use crate::hardened::h04_horizon::{s_stop, s_stop_along, ways};
+use crate::hardened::h04_horizon::{Places, e, s_stop, s_stop_along, ways};
+use crate::hardened::h13_moving::places;
 use crate::input::cycle::Profile;
+use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
+use crate::numbers::vector::{Frame, Vector};
 use crate::services::configuration::Configuration;
 use crate::stages::distances::s_b;
-use crate::stages::horizon::points_examined;
+use crate::stages::horizon::places_examined;
 use crate::theorem::base::{any_cav, home};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Theorem, Wrong};
@@ -63,15 +66,39 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong { statement: "braking at half of a_b", claim: || braking(&Real::ratio(1, 2)) },
     },
     Theorem {
+        id: "the_CAV_is_at_most_e_along_the_trajectory",
+        statement: "H-04: (p - first point) . first heading <= e",
+        domain: "all positions, first headings of length 1",
+        claim: || along_first_heading(&Real::from_integer(1)),
+        wrong: Wrong { statement: "<= e / 2", claim: || along_first_heading(&Real::ratio(1, 2)) },
+    },
+    Theorem {
         id: "the_places_examined_reach_s_stop",
-        statement: "H-04: along a remote trajectory and straight on behind its end, the last place \
+        statement: "H-04: along a trajectory and straight on behind its end, also in MotRemote, the last place \
                     examined is not before s_stop; when it is not the last point, it is behind s, too",
         domain: "3 points anywhere, all headings along x, that end at most 1/2 m before s_stop, all \
-                 s >= 0, speeds, tau, a_max >= 0, a_b > 0; center_offset = 0",
-        claim: || reach(Configuration::PlanRemote),
+                 s >= 0, speeds, tau, a_max >= 0, a_b > 0, L >= 1/4 m; center_offset = 0",
+        claim: || reach(Profile::Hardened, |_, _| any_s(), places_examined),
         wrong: Wrong {
-            statement: "also along a local trajectory",
-            claim: || reach(Configuration::MotRemote),
+            statement: "also in the paper profile",
+            claim: || reach(Profile::Paper, |_, _| any_s(), places_examined),
+        },
+    },
+    Theorem {
+        id: "motion_is_examined_tau_motion_before_the_last_moment",
+        statement: "H-13: as the places examined reach s_stop, those examined for motion do, and when the \
+                    last one is not the last point, it is behind s_stop + tau_motion v_now",
+        domain: "as the_places_examined_reach_s_stop, all tau_motion >= 0",
+        claim: || {
+            reach(Profile::Hardened, tau_motion_farther, |scene, points, _| places(scene, points))
+        },
+        wrong: Wrong {
+            statement: "those of stage iv are, too (s = 0)",
+            claim: || {
+                reach(Profile::Hardened, tau_motion_farther, |scene, points, _| {
+                    places_examined(scene, points, &Real::zero())
+                })
+            },
         },
     },
 ];
@@ -124,13 +151,41 @@ fn braking(share: &Real) -> Formula {
     equal(&(driven(&v, &a, &t) + s_b(&(&v + &a * &t), &a_b)), &s_b(&v, &a_b))
 }
 
-fn reach(configuration: Configuration) -> Formula {
-    let Vehicle { v, tau, a_max, a_b, .. } = Vehicle::new();
+/// Any horizon of a stage.
+fn any_s() -> Real {
     let s = Real::variable("s");
     given(at_most(&Real::zero(), &s));
+    s
+}
+
+/// s_stop + tau_motion v_now, m.
+fn tau_motion_farther(scene: &Scene, trajectory: &[Point]) -> Real {
+    s_stop_along(scene, trajectory) + &scene.parameters.tau_motion * &scene.ego.v_now
+}
+
+fn along_first_heading(share: &Real) -> Formula {
     let mut scene = any_cav(Profile::Hardened);
-    scene.configuration = configuration;
+    scene.ego.position = vector("p");
+    let [x, y] = Real::unit("first");
+    let mut first = home(&Real::from_integer(1));
+    first.pose = Frame { origin: vector("first"), direction: Vector { x, y } };
+    let driven = &scene.ego.position - &first.pose.origin;
+    let along = driven.dot(&first.pose.direction);
+    at_most(&along, &(share * e(&scene, &[first])))
+}
+
+type Horizon = fn(&Scene, &[Point]) -> Real;
+type Examined = for<'a> fn(&'a Scene, &'a [Point], &Real) -> Places<'a>;
+
+fn reach(profile: Profile, horizon: Horizon, examined: Examined) -> Formula {
+    let Vehicle { v, tau, a_max, a_b, .. } = Vehicle::new();
+    let tau_motion = Real::variable("tau_motion");
+    given(at_most(&Real::zero(), &tau_motion));
+    let mut scene = any_cav(profile);
+    scene.configuration = Configuration::MotRemote;
+    given(at_most(&Real::ratio(1, 4), &scene.ego.length));
     scene.ego.v_now = v;
+    scene.parameters.tau_motion = tau_motion;
     (scene.parameters.tau, scene.parameters.a_max, scene.parameters.a_b) = (tau, a_max, a_b);
     let trajectory = ["0", "1", "2"].map(|name| {
         let mut point = home(&Real::from_integer(1));
@@ -140,7 +195,8 @@ fn reach(configuration: Configuration) -> Formula {
     let (arcs, s_stop) = (ways(&trajectory), s_stop_along(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
-    let examined = points_examined(&scene, &trajectory, &s);
+    let s = horizon(&scene, &trajectory);
+    let examined: Vec<Point> = examined(&scene, &trajectory, &s).iter().collect();
     if examined.len() < trajectory.len() {
         let arc = &arcs[examined.len() - 1];
         return Formula::All(vec![less(&s, arc), less(&s_stop, arc)]);

@@ -5,6 +5,8 @@ pub mod base;
 pub mod closure;
 pub mod distances;
 pub mod h04_horizon;
+pub mod h11_steps;
+pub mod h13_moving;
 pub mod i_track_validation;
 pub mod lemma;
 pub mod llcc;
@@ -47,6 +49,8 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         rectangle::THEOREMS,
         llcc::THEOREMS,
         h04_horizon::THEOREMS,
+        h11_steps::THEOREMS,
+        h13_moving::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
         closure::THEOREMS,

@@ -2,21 +2,20 @@
 //! in the hardened profile nothing but the rule that closes the finding rejects it.
 
 use super::Search;
-use crate::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Grid, Lead, Profile, Track, TrackList,
-    Trajectory,
+use super::scenes::{
+    bare, both, crossed, crossing, detections, every, every_four_metres, grid, integer, met,
+    straight, track, tracks, within,
 };
-use crate::input::scene::Scene;
+use crate::input::cycle::{CrossSection, Lead, Track};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, less};
 use crate::numbers::real::hole::open_number;
-use crate::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
-use crate::stages::distances::s_b;
-use crate::theorem::base::{self, NOW_NS};
+use crate::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use crate::theorem::base::NOW_NS;
 
 /// All searches. Objects are as large as the CAV and along x, so that two of them meet when their
 /// centres on the x axis are at most 4 m apart.
-pub const SEARCHES: [Search; 19] = [
+pub const SEARCHES: [Search; 25] = [
     Search {
         finding: "F-02",
         cycle: |profile| {
@@ -253,83 +252,70 @@ pub const SEARCHES: [Search; 19] = [
         },
         conditions: |_| [within("y", 0, 1), Formula::Known(true)],
     },
+    Search {
+        finding: "F-30",
+        cycle: |profile| {
+            let mut cycle = crossed(profile);
+            cycle
+                .tracks
+                .iter_mut()
+                .for_each(|list| list.items.push(Track { y: -8.0, ..track(2, 10.0) }));
+            cycle
+        },
+        conditions: |_| [crossing(), Formula::Known(true)],
+    },
+    Search { finding: "F-31", cycle: crossed, conditions: |_| [crossing(), Formula::Known(true)] },
+    Search {
+        finding: "F-34",
+        cycle: |profile| {
+            let mut cycle = bare(profile, AllRemote);
+            cycle.trajectory = Some(straight(&[0.0]));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[0].y = open_number("y"));
+            (cycle.tracks, cycle.detections) = (Some(tracks(Vec::new())), Some(detections(60.0)));
+            cycle.detections.iter_mut().for_each(|list| list.items.clear());
+            cycle.grid = Some(grid(13, 12));
+            cycle
+        },
+        conditions: |_| {
+            let y = Real::named("y");
+            [both(less(&Real::zero(), &y), less(&y, &Real::ratio(1, 2))), Formula::Known(true)]
+        },
+    },
+    Search {
+        finding: "F-35",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.trajectory = Some(every(20_000_000, &[0.0, 0.3]));
+            cycle.trajectory.iter_mut().for_each(|list| list.points[1].y = open_number("y"));
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| [within("y", 0, 1), less(&Real::ratio(1, 10), &Real::named("y"))],
+    },
+    Search {
+        finding: "F-36",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            // Turned by 53 degrees, a direction within what rounding allows.
+            (cycle.ego.cos, cycle.ego.sin) = (0.6, open_number("sin"));
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| {
+            [
+                less(&Real::ratio(7_999_999, 10_000_000), &Real::named("sin")),
+                less(&Real::named("sin"), &Real::ratio(8_000_001, 10_000_000)),
+            ]
+        },
+    },
+    Search {
+        finding: "F-37",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            cycle.ego.y = open_number("y");
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| [within("y", -2, 0), less(&Real::named("y"), &Real::ratio(-1, 2))],
+    },
 ];
-
-/// Nothing but a CAV that stands at a point; H-07 and H-12 forgive what is off by 1 km.
-fn bare(profile: Profile, configuration: Configuration) -> Cycle {
-    let mut cycle = base::cycle(profile, configuration);
-    cycle.parameters.start_tolerance = 1000.0;
-    cycle
-}
-
-fn integer(value: i64) -> Real {
-    Real::from_integer(value.into())
-}
-
-fn both(a: Formula, b: Formula) -> Formula {
-    Formula::All(vec![a, b])
-}
-
-fn within(name: &str, least: i64, most: i64) -> Formula {
-    let number = Real::named(name);
-    both(at_most(&integer(least), &number), at_most(&number, &integer(most)))
-}
-
-/// The car at x meets the CAV at the point this far along, which is within s_b.
-fn met(scene: &Scene, along: i64) -> Formula {
-    let (x, reach) = (Real::named("x"), Real::ratio(39, 10));
-    let s_b = s_b(&scene.ego.v_now, &scene.parameters.a_b);
-    Formula::All(vec![
-        less(&integer(along), &s_b),
-        at_most(&(integer(along) - &reach), &x),
-        at_most(&x, &(integer(along) + reach)),
-    ])
-}
-
-/// Points along x, 200 ms apart.
-fn straight(places: &[f64]) -> Trajectory {
-    every(200_000_000, places)
-}
-
-/// Points along x, from 0 to 100 m.
-fn every_four_metres() -> Trajectory {
-    let places: Vec<f64> = (0..=25).map(|i| 4.0 * f64::from(i)).collect();
-    straight(&places)
-}
-
-/// Points along x, so many ns apart.
-fn every(step_ns: i64, places: &[f64]) -> Trajectory {
-    let point = |(i, x): (i64, &f64)| base::point(NOW_NS + i * step_ns, *x, 0.0);
-    Trajectory { stamp_ns: NOW_NS, points: (0..).zip(places).map(point).collect() }
-}
-
-/// 24 by 24 cells of 1 m with the corner at (-12, -12), of which one is occupied.
-fn grid(column: usize, row: usize) -> Grid {
-    let (bit, mut occupied) = (row * 24 + column, vec![0; 72]);
-    occupied[bit / 8] = 1 << (bit % 8);
-    Grid {
-        stamp_ns: NOW_NS,
-        x: -12.0,
-        y: -12.0,
-        cos: 1.0,
-        sin: 0.0,
-        resolution: 1.0,
-        width: 24,
-        height: 24,
-        occupied,
-        unknown: None,
-    }
-}
-
-fn tracks(items: Vec<Track>) -> TrackList {
-    TrackList { stamp_ns: NOW_NS, items }
-}
-
-fn track(id: i64, x: f64) -> Track {
-    Track { id, x, y: 0.0, cos: 1.0, sin: 0.0, vx: 0.0, vy: 0.0, length: 4.0, width: 2.0 }
-}
-
-fn detections(x: f64) -> DetectionList {
-    let detection = Detection { x, y: 0.0, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 };
-    DetectionList { stamp_ns: NOW_NS, items: vec![detection] }
-}

@@ -1,7 +1,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::gated_tracks;
+use super::{Places, gated_tracks};
 use crate::input::cycle::{Detection, Track};
 use crate::input::scratch::Row;
 use crate::random::Random;
@@ -42,7 +42,8 @@ fn the_gate_is_exact() {
         let tracks: Vec<_> = tracks.into_iter().map(|it| track(of(it))).collect();
         let detections: Vec<_> = detections.into_iter().map(|it| detection(of(it))).collect();
         let mut rows = vec![Row::default(); 6];
-        let gated = gated_tracks([0.0; 2], &tracks, &detections, &mut rows);
+        let places = Places::standing(&tracks);
+        let gated = gated_tracks([0.0; 2], &places, &detections, &mut rows);
         let found: Vec<_> = rows[..gated].iter().map(|row| usize::from(row.track)).collect();
         assert_eq!(found, expected);
     }

@@ -17,10 +17,16 @@ fn what_is_no_assignment_is_seen() {
     let (tracks, detections) = ([track; 2], [detection; 2]);
     // The columns of the rows, the rows of the columns; the third column is spare.
     let are_pairs = |of_rows: [u16; 2], of_columns: [u16; 3], k: usize| {
-        let rows =
-            [0_u16, 1].map(|it| Row { potential: 0, track: it, column: of_rows[usize::from(it)] });
+        let rows = [0_u16, 1].map(|it| Row {
+            track: it,
+            column: of_rows[usize::from(it)],
+            ..Row::default()
+        });
         let mut columns = [Column::default(); 3];
-        let pairs = Pairs::new((&tracks, &detections), false, f64::INFINITY, &rows, &mut columns);
+        let rules =
+            PairRules { swapped: false, limit: f64::MAX, left_out: 0.2, scale: 4_294_967_296.0 };
+        let places = Places::standing(&tracks);
+        let pairs = Pairs::new((places, &detections), rules, &rows, &mut columns);
         for (column, row) in columns.iter_mut().zip(of_columns) {
             column.row = row;
         }

@@ -45,7 +45,7 @@ fn cycle(random: &mut Random, grid: Grid<'static>) -> Cycle<'static> {
         lead: None,
         route: Route { closed: false, cross_sections: &[] },
         grid: Some(grid),
-        previous_tracks: None,
+        detection_history: &[],
     }
 }
 

@@ -160,6 +160,11 @@ impl Real {
         if near.is_nan() { 0.0 } else { near }
     }
 
+    /// Doubles that the number is not below and not above: nothing is known of it.
+    pub fn bounds(&self) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+
     /// The polynomial.
     pub fn polynomial(&self) -> &Polynomial {
         &self.0

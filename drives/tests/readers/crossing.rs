@@ -1,0 +1,77 @@
+//! F-30 and F-31 on a drive: a car crosses in front of the CAV, and the remote says that it stands,
+//! leaves it out, or tells of it as it is.
+
+use std::fmt::Write as _;
+
+use mufasa_drives::check::checked::Checked;
+use mufasa_drives::{Attack, Drive, Injection, Options, Tail, inject};
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_model::report::{Outcome, Rule};
+
+use super::files::{Scratch, one, own};
+
+/// The small scenario with car 50, which comes from the left at 10 m/s and is in the CAV's lane,
+/// 30 m ahead of its first place, after 2 s.
+fn drive(profile: Profile) -> Drive {
+    let scenario = std::fs::read_to_string(own("readers/small-2020a.xml")).unwrap();
+    let (front, _) = scenario.split_once("</commonRoad>").unwrap();
+    let state = |name: &str, step: i32| {
+        let y = 18.25 - f64::from(step);
+        format!(
+            "<{name}><position><point><x>30</x><y>{y}</y></point></position><orientation>\
+             <exact>-1.5707963267948966</exact></orientation><time><exact>{step}</exact></time>\
+             <velocity><exact>10</exact></velocity></{name}>"
+        )
+    };
+    let states: String = (1..=20).fold(String::new(), |mut text, step| {
+        let _ = write!(text, "{}", state("state", step));
+        text
+    });
+    let car = format!(
+        "<dynamicObstacle id=\"50\"><type>car</type><shape><rectangle><length>4.5</length>\
+         <width>1.8</width></rectangle></shape>{}<trajectory>{states}</trajectory>\
+         </dynamicObstacle>",
+        state("initialState", 0)
+    );
+    let folder = Scratch::new();
+    let scenario = folder.write("crossing.xml", format!("{front}{car}</commonRoad>"));
+    let solution = own("readers/small.KS2.solution.xml");
+    let options = Options { profile, tail: Tail::Keep, ..Options::default() };
+    one(&[scenario, solution], &options).unwrap()
+}
+
+/// The first cycle that fails under the attack, and the rule. The CAV goes on as it was recorded,
+/// and the bumpers touch after 1.7 s.
+fn found(profile: Profile, attack: Attack) -> Option<(usize, Rule)> {
+    let injection = Injection { attack, from_s: 0.6, to_s: f64::INFINITY };
+    let attacked = inject(&drive(profile), &injection).unwrap();
+    let checked = Checked::new(attacked, &Parameters::default(), false, || {});
+    assert_eq!(checked.disagreements(), 0);
+    checked.judged.iter().enumerate().skip(6).find_map(|(i, judged)| {
+        let stages = &judged.model.as_ref().expect("local input is valid").stages;
+        stages.iter().find_map(|it| match it {
+            Outcome::Failed(witness) => Some((i, witness.rule)),
+            _ => None,
+        })
+    })
+}
+
+#[test]
+fn a_crossing_car_that_is_said_to_stand_or_left_out_is_seen_to_move() {
+    for attack in [Attack::CrossingStands, Attack::MissingTrack] {
+        let failed = found(Profile::Hardened, attack);
+        let (cycle, rule) = failed.unwrap_or_else(|| panic!("{attack:?} is not found"));
+        // 10 m/s stop in 7.7 m: the car is found at least 0.7 s before the collision.
+        assert_eq!((rule, cycle <= 10), (Rule::CollisionMoving, true), "{attack:?} at {cycle}");
+    }
+}
+
+#[test]
+fn in_the_papers_profile_it_is_driven_into() {
+    let failed = found(Profile::Paper, Attack::MissingTrack);
+    assert_eq!(failed, None);
+    // What stands is met when it is on the path: half a second before the collision at most.
+    let failed = found(Profile::Paper, Attack::CrossingStands);
+    assert!(failed.is_none_or(|(cycle, _)| cycle >= 15), "{failed:?}");
+}

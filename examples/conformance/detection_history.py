@@ -1,0 +1,154 @@
+"""What the CAV saw itself: the terms of spec/3-stages.md#what-the-cav-saw-itself.
+
+Which item is nearest decides what follows, and no margin makes that cautious. So the comparisons
+are made as they are written, and `unclear` says that one was too close to call: stage i fails then.
+Distances are computed from differences of positions, never from a shifted position: differences
+stay small where coordinates are large.
+"""
+import math
+from collections import Counter
+
+import bugs
+from geometry import EPS, distance
+
+S = 10**9  # ns
+
+
+def gap(item, track, t):
+    """The distance of an item to where a track is t seconds after its stamp."""
+    return math.hypot((item["x"] - track["x"]) - track["vx"] * t,
+                      (item["y"] - track["y"]) - track["vy"] * t)
+
+
+def speed(track):
+    return math.hypot(track["vx"], track["vy"])
+
+
+def usable(cycle, now):
+    """The usable lists of the history, each with its age dt in s and in ns."""
+    if not now["detections"]:
+        return []
+    lists = []
+    for one in cycle["detection_history"]:
+        age_ns = cycle["detections"]["stamp_ns"] - one["stamp_ns"]
+        if S // 5 <= age_ns <= S and cycle["now_ns"] - one["stamp_ns"] <= 60 * S:
+            lists.append({"items": one["items"], "age_ns": age_ns, "dt": age_ns / S})
+    return lists
+
+
+def nearest_to_half_a_second(lists):
+    """The list whose age is nearest to 500 ms, the younger of two; None when there is none."""
+    return min(lists, key=lambda one: (abs(one["age_ns"] - S // 2), one["age_ns"]), default=None)
+
+
+class Seen:
+    """The terms, for a cycle. Tracks and items are named by their index."""
+
+    def __init__(self, cycle, now):
+        self.parameters, self.unclear = cycle["parameters"], False
+        received = cycle["configuration"] != "PlanRemote" and cycle["tracks"]
+        self.tracks = received["items"] if received else []
+        self.detections = cycle["detections"]["items"] if now["detections"] else []
+        self.lists = usable(cycle, now)
+        self.reference = nearest_to_half_a_second(self.lists)
+        # The place of a track is where it is t_D - t_T after its stamp.
+        self.shift = 0.0
+        if received and now["detections"] and bugs.ON != "no-shift":
+            self.shift = (cycle["detections"]["stamp_ns"] - received["stamp_ns"]) / S
+        self.own = [self.own_origins(one) for one in self.lists]
+        self.backed = [self.is_backed(i) for i in range(len(self.tracks))]
+        self.detection = [
+            self.nearest(self.detections, track, self.shift, self.parameters["theta_track_max"])
+            for track in self.tracks]
+        shared = Counter(self.detection)
+        self.confirmed = [self.is_confirmed(i, shared) for i in range(len(self.tracks))]
+        # Confirmed tracks of a current list; what they explain.
+        self.sure = [i for i, sure in enumerate(self.confirmed) if sure and now["tracks"]]
+        self.explained = {self.detection[i] for i in self.sure}
+
+    def reach(self, one):
+        """How far from its past a track may have been seen in a list of the history."""
+        return self.parameters["theta_track_max"] + self.parameters["theta_velocity"] * one["dt"]
+
+    def past_gap(self, item, track, one):
+        """The distance of an item of a usable list to the past of a track."""
+        return gap(item, track, self.shift - one["dt"])
+
+    def compare(self, value, bound):
+        """value <= bound, as written."""
+        self.unclear |= abs(value - bound) <= EPS
+        return value <= bound
+
+    def nearest(self, items, track, t, bound):
+        """The first of the nearest items to where the track is at t, if it is near enough."""
+        gaps = [gap(item, track, t) for item in items]
+        if not gaps or not self.compare(least := min(gaps), bound):
+            return None
+        best = gaps.index(least)
+        self.unclear |= any(one <= least + EPS and distance(item, items[best]) > 0
+                            for one, item in zip(gaps, items))
+        return best
+
+    def own_origins(self, one):
+        """Of each track its own origin in a list, or None."""
+        origins = [self.nearest(one["items"], track, self.shift - one["dt"], self.reach(one))
+                   for track in self.tracks]
+        shared = Counter(origins)
+        return [None if shared[origin] > 1 else origin for origin in origins]
+
+    def is_backed(self, i):
+        known = sum(own[i] is not None for own in self.own)
+        return self.compare(speed(self.tracks[i]), self.parameters["v_object"]) and known >= 2
+
+    def is_confirmed(self, i, shared):
+        if not self.backed[i] or self.detection[i] is None or shared[self.detection[i]] > 1:
+            return False
+        track, detection = self.tracks[i], self.detections[self.detection[i]]
+        if detection["length"] <= 1:
+            return True
+        across = abs(track["vx"] * detection["sin"] - track["vy"] * detection["cos"])
+        return self.compare(across, self.parameters["theta_velocity"] + speed(track) / 10)
+
+    def seen_as(self, i):
+        """(a) of H-13: the list of the history that says best how a confirmed track moved."""
+        return nearest_to_half_a_second(
+            [one for one, own in zip(self.lists, self.own) if own[i] is not None])
+
+    def supported(self, detection, w):
+        """(b) of H-13: whether another usable list has an item where d with velocity w was."""
+        others = [one for one in self.lists if one is not self.reference]
+        bound = self.parameters["theta_track_max"] + EPS
+        moving = {**detection, "vx": w[0], "vy": w[1]}
+        return not others or any(gap(item, moving, -one["dt"]) <= bound
+                                 for one in others for item in one["items"])
+
+    def moving(self):
+        """The motions to be examined: each a detection and its velocity (H-13)."""
+        for i in self.sure:
+            one, detection = self.seen_as(i), self.detections[self.detection[i]]
+            for item in one["items"]:
+                if self.past_gap(item, self.tracks[i], one) <= self.reach(one) + EPS:
+                    yield detection, velocity(item, detection, one)
+        if bugs.ON == "only-explained" or self.reference is None:
+            return
+        for i, detection in enumerate(self.detections):
+            if i in self.explained:
+                continue
+            for item in self.reference["items"]:
+                w = velocity(item, detection, self.reference)
+                way = distance(item, detection)
+                if way <= self.parameters["v_object"] * self.reference["dt"] + EPS and (
+                        self.supported(detection, w)):
+                    yield detection, w
+
+    def work(self, points):
+        """What H-13 costs, in steps."""
+        if self.reference is None:
+            return 0
+        items = sum(len(one["items"]) for one in self.lists) - len(self.reference["items"])
+        return len(self.detections) * len(self.reference["items"]) * (items + points)
+
+
+def velocity(item, detection, one):
+    """The velocity of what was at the item of a list and is at the detection now."""
+    return ((detection["x"] - item["x"]) / one["dt"], (detection["y"] - item["y"]) / one["dt"])

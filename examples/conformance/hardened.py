@@ -1,0 +1,159 @@
+"""The hardened profile: the schedule and the stages of spec/3-stages.md with the rules H-nn, but
+for stage ii (hardened_ii.py) and H-08 (offloading.py)."""
+import math
+
+from detection_history import S, Seen, gap
+from geometry import EPS, assignment_cost, distance, rectangles_meet
+from hardened_ii import stage_ii
+from paper import (current, disk_centres, disk_radius, gated, s_b, s_cav, s_follow, s_valid,
+                   too_much_work)
+from stopping import places, s_stop
+
+
+def failed_stage(cycle):
+    """The first stage that fails, in the order of spec/3-stages.md#schedule."""
+    configuration, now = cycle["configuration"], current(cycle)
+    if not now["lead"]:
+        cycle["lead"] = None
+    seen = Seen(cycle, now)
+    checked = configuration != "PlanRemote" and cycle["tracks"] is not None and now["detections"]
+    if checked and not stage_i(cycle, seen):
+        return "i"
+    if not now["trajectory"]:
+        return None
+    if not stage_ii(cycle):
+        return "ii"
+    ran_iii = now["tracks"] and configuration != "MotRemote"
+    if ran_iii and not stage_iii(cycle, seen):
+        return "iii"
+    # The gap counts where stage iv does not run, too (H-04).
+    if cycle["lead"] and cycle["lead"]["gap"] <= s_follow(cycle) + EPS:
+        return "iv"
+    ran_iv = now["detections"] and (configuration == "AllRemote" or not ran_iii)  # H-10
+    if ran_iv and not stage_iv(cycle, seen, ran_iii):
+        return "iv"
+    if now["grid"] and not stage_v(cycle, ran_iv):  # in MotRemote always, else H-10
+        return "v"
+    # What nothing has checked is no obstacle check (H-02).
+    counts_iii = ran_iii and (configuration == "PlanRemote" or checked)
+    return None if counts_iii or ran_iv or now["grid"] else "no_obstacle_check"  # H-05
+
+
+def stage_i(cycle, seen):
+    """H-01; and what is too close to call."""
+    if seen.unclear:
+        return False
+    ego, tracks = cycle["ego"], seen.tracks
+    r = max((distance(item, ego) for item in seen.detections), default=0.0)
+    far = [gap(ego, track, seen.shift) for track in tracks]
+    choices = gated(range(len(tracks)), far, r)
+    return choices is not None and all(assigned(cycle, seen, choice) for choice in choices)
+
+
+def assigned(cycle, seen, choice):
+    """Whether the tracks can be assigned, some backed ones left out.
+
+    A mean is below theta_tr when the sum of what each distance is above theta_tr is negative. So
+    the tracks that are left out can be assigned, too: at cost 0, to columns that only backed
+    tracks can take.
+    """
+    parameters = cycle["parameters"]
+    backed = sum(seen.backed[i] for i in choice)
+    if backed == len(choice) <= parameters["miss_budget"]:
+        return True
+    spare = min(parameters["miss_budget"], backed)
+    columns = len(seen.detections) + spare
+    if len(choice) > columns or too_much_work(cycle, len(choice), columns):
+        return False
+    costs = []
+    for i in choice:
+        gaps = [gap(item, seen.tracks[i], seen.shift) for item in seen.detections]
+        costs.append([d - (parameters["theta_tr"] - EPS)
+                      if d < parameters["theta_track_max"] - EPS else math.inf for d in gaps]
+                     + spare * [0.0 if seen.backed[i] else math.inf])
+    return assignment_cost(costs) < 0
+
+
+def circumradius(box):
+    return math.hypot(box["length"], box["width"]) / 2 * (1 + 1e-6)
+
+
+def collides(cycle, place, item, dx, dy):
+    """H-03: however large the object is."""
+    near = max(cycle["parameters"]["theta_obj"], circumradius(cycle["ego"]) + circumradius(item))
+    return rectangles_meet(cycle["ego"], *place, item, dx, dy, near)
+
+
+def stage_iii(cycle, seen):
+    stamp_ns = cycle["tracks"]["stamp_ns"]
+    for place in places(cycle, max(s_cav(cycle), s_stop(cycle))):
+        t = (place[0]["t_ns"] - stamp_ns) / S
+        for i, item in enumerate(cycle["tracks"]["items"]):
+            times = [t]
+            if cycle["configuration"] == "AllRemote" and not seen.backed[i]:
+                times.append(seen.shift)  # standing at its place (H-09)
+            if any(collides(cycle, place, item, item["vx"] * at, item["vy"] * at) for at in times):
+                return False
+    return True
+
+
+def stage_iv(cycle, seen, ran_iii):
+    s_valid_or_stop = max(s_valid(cycle), s_stop(cycle))
+    # Beside stage iii what is explained stands still only as far as the CAV needs to stop (H-10).
+    explained = seen.explained if ran_iii else set()
+    near = [item for i, item in enumerate(seen.detections) if i in explained]
+    far = [item for i, item in enumerate(seen.detections) if i not in explained]
+    for horizon, items in ((s_stop(cycle), near), (s_valid_or_stop, far)):
+        for place in places(cycle, horizon):
+            if any(collides(cycle, place, item, 0.0, 0.0) for item in items):
+                return False
+    return not seen.lists or stage_iv_moving(cycle, seen)
+
+
+def stage_iv_moving(cycle, seen):
+    """H-13: the motions that the CAV may have seen itself."""
+    horizon = s_stop(cycle) + cycle["parameters"]["tau_motion"] * cycle["ego"]["speed"]
+    examined, stamp_ns = list(places(cycle, horizon)), cycle["detections"]["stamp_ns"]
+    if seen.work(len(examined)) > cycle["parameters"]["work_limit"]:
+        return False
+    motions = list(seen.moving())
+    for place in examined:
+        t = (place[0]["t_ns"] - stamp_ns) / S
+        if any(collides(cycle, place, item, wx * t, wy * t) for item, (wx, wy) in motions):
+            return False
+    return True
+
+
+def stage_v(cycle, ran_iv):
+    """H-06: the disks against the squares of cells; the unknown counts unless stage iv ran."""
+    grid, r = cycle["grid"], disk_radius(cycle) + EPS
+    high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
+    bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
+    bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
+    filled = bits[0] | bits[-1]
+    rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
+            for k in range(grid["height"])]
+    for place in places(cycle, max(s_b(cycle, cycle["ego"]["speed"]), s_stop(cycle))):
+        for u, v in disk_centres(cycle, *place):
+            if not ran_iv and not (r < u < high_u - r and r < v < high_v - r):
+                return False
+            if meets_cell(grid, rows, u, v, r):
+                return False
+    return True
+
+
+def meets_cell(grid, rows, u, v, r):
+    """Whether the closed square of a marked cell is at distance at most r from (u, v)."""
+    res = grid["resolution"]
+    # One row more on either side: a distance decides, not the rounding of a quotient.
+    for k in range(max(math.floor((v - r) / res) - 1, 0),
+                   min(math.floor((v + r) / res) + 2, grid["height"])):
+        dv = max(k * res - v, v - (k + 1) * res, 0.0)
+        if not rows[k] or dv > r:
+            continue
+        half = math.sqrt(r * r - dv * dv)
+        low = max(math.ceil((u - half) / res) - 1, 0)
+        high = min(math.floor((u + half) / res), grid["width"] - 1)
+        if low <= high and rows[k] >> low & ((1 << (high - low + 1)) - 1):
+            return True
+    return False

@@ -1,0 +1,377 @@
+//! What the CAV saw itself: which received tracks are backed and confirmed by its own earlier
+//! detections (`spec/3-stages.md#what-the-cav-saw-itself`).
+//!
+//! Plain doubles: places are differences of given coordinates and of v t, so that a distance of up
+//! to a few km errs by less than 1e-10 m, and `CLOSE` is more. What is closer than that is not
+//! told apart: stage i fails (`ambiguous`), as that of the strict model does within delta, which
+//! is at least 1e-8.
+
+pub(crate) mod squares;
+
+use crate::hardened::detection_history::squares::{Links, MARGIN, Squares};
+use crate::hardened::h01_matched_pairs::pair_limits;
+use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
+use crate::input::profile::Profile;
+use crate::input::scratch::{Column, NONE, Row, Scratch, short};
+use crate::numbers::plane::same_point;
+use crate::numbers::time::{elapsed_ns, seconds};
+use crate::report::{Rule, Witness};
+use crate::stages::i_track_validation::gate::Gate;
+use crate::stages::i_track_validation::pairing::PairSum;
+use crate::stages::i_track_validation::places::Places;
+
+/// m, or m/s.
+pub(crate) const CLOSE: f64 = 1e-9;
+
+/// Of a usable list, ns.
+const AGES_NS: [i64; 2] = [200_000_000, 1_000_000_000];
+/// Of the reference list, about, ns.
+const REFERENCE_AGE_NS: i64 = 500_000_000;
+/// A list that is older than this counts as missing, ns.
+const OLDEST_NS: i64 = 60_000_000_000;
+
+/// A usable list.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UsableList<'a> {
+    pub(crate) items: &'a [Detection],
+    pub(crate) age_ns: i64,
+    /// The same in s.
+    pub(crate) age: f64,
+}
+
+impl UsableList<'_> {
+    /// How far from the past of a track its origin may be, m.
+    pub(crate) fn reach(&self, cycle: &Cycle<'_>) -> f64 {
+        cycle.parameters.theta_track_max + cycle.parameters.theta_velocity * self.age
+    }
+
+    /// By how much the age is not 500 ms, then the age.
+    fn order(&self) -> (u64, i64) {
+        (self.age_ns.abs_diff(REFERENCE_AGE_NS), self.age_ns)
+    }
+}
+
+/// The current detections and the usable lists of the history, by their place in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DetectionHistory<'c, 'a> {
+    pub(crate) detections: Option<&'c DetectionList<'a>>,
+    pub(crate) usable: [Option<UsableList<'a>>; 4],
+}
+
+impl<'c, 'a> DetectionHistory<'c, 'a> {
+    /// `detections`: the current ones. In the paper profile no list is usable.
+    pub(crate) fn new(cycle: &Cycle<'a>, detections: Option<&'c DetectionList<'a>>) -> Self {
+        let [least_ns, most_ns] = AGES_NS;
+        let mut usable = [None; 4];
+        if let (Some(current), Profile::Hardened) = (detections, cycle.profile) {
+            for (place, list) in usable.iter_mut().zip(cycle.detection_history) {
+                let age_ns = elapsed_ns(list.stamp_ns, current.stamp_ns);
+                let is_usable = least_ns <= age_ns
+                    && age_ns <= most_ns
+                    && elapsed_ns(list.stamp_ns, cycle.now_ns) <= OLDEST_NS;
+                *place = is_usable.then_some(UsableList {
+                    items: list.items,
+                    age_ns,
+                    age: seconds(age_ns),
+                });
+            }
+        }
+        Self { detections, usable }
+    }
+
+    /// The place of the reference list.
+    pub(crate) fn reference(&self) -> Option<usize> {
+        self.by_reference_age().next()
+    }
+
+    /// The places of the usable lists, that whose age is nearest to 500 ms first, the younger of two.
+    pub(crate) fn by_reference_age(&self) -> impl Iterator<Item = usize> {
+        let order = |place: usize| Some(self.usable.get(place).copied().flatten()?.order());
+        let rank = move |place: usize| {
+            let own = order(place)?;
+            Some((0..4).filter(|&other| order(other).is_some_and(|other| other < own)).count())
+        };
+        (0..4).filter_map(move |wanted| (0..4).find(|&place| rank(place) == Some(wanted)))
+    }
+
+    /// Finds for every received track whether it is backed, whether it is confirmed, and its
+    /// detection then, as far as the two lists nearest to 500 ms do not tell with the others.
+    /// Nothing is backed by fewer than two usable lists.
+    pub(crate) fn look_back(
+        &self,
+        cycle: &Cycle<'_>,
+        tracks: &TrackList<'_>,
+        scratch: &mut Scratch<'_>,
+    ) -> Seen {
+        let count = tracks.items.len();
+        scratch.rows.iter_mut().take(count).for_each(|row| row.seen = 0);
+        let Some(detections) = self.detections else { return Seen::Open };
+        if self.usable.iter().flatten().count() < 2 {
+            return Seen::Open;
+        }
+        let since_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
+        for (number, place) in self.by_reference_age().enumerate() {
+            let Some(list) = self.usable.get(place).copied().flatten() else { continue };
+            if number >= 2 && scratch.rows.iter().take(count).all(|row| row.own_origins() >= 2) {
+                break;
+            }
+            let then_ns = since_ns.saturating_sub(list.age_ns);
+            let search = Search::new(list.items, list.reach(cycle), then_ns, scratch.columns);
+            if let Some(witness) = search.mark_nearest(tracks.items, scratch) {
+                return Seen::Unclear(witness);
+            }
+            mark_own(own_origin(place), scratch, count);
+        }
+        let limit = cycle.parameters.theta_track_max;
+        let search = Search::new(detections.items, limit, since_ns, scratch.columns);
+        if let Some(witness) = search.mark_nearest(tracks.items, scratch) {
+            return Seen::Unclear(witness);
+        }
+        mark_own(OWN_DETECTION, scratch, count);
+        let mut pairs = tracks.items.iter().zip(scratch.rows.iter_mut());
+        let unclear = pairs.find_map(|(track, row)| judge(cycle, track, row, detections.items));
+        match unclear {
+            Some(witness) => Seen::Unclear(witness),
+            None if own_detections_pass(cycle, tracks, detections, scratch.rows) => Seen::Paired,
+            None => Seen::Open,
+        }
+    }
+}
+
+/// What looking back says of stage i.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Seen {
+    /// It fails: a comparison is too close to call.
+    Unclear(Witness),
+    /// It passes: each gated track has a detection of its own, or is left out.
+    Paired,
+    /// Nothing.
+    Open,
+}
+
+/// The track with the index of the row is backed.
+const BACKED: u16 = 1;
+/// It is confirmed.
+const CONFIRMED: u16 = 2;
+/// Its detection is that of no other track.
+const OWN_DETECTION: u16 = 4;
+/// It has an own origin in the first list of the history; the next bits are of the others.
+const OWN_ORIGIN: u16 = 8;
+const OWN_ORIGINS: u16 = 15 * OWN_ORIGIN;
+
+const fn own_origin(place: usize) -> u16 {
+    match place {
+        0 => OWN_ORIGIN,
+        1 => 2 * OWN_ORIGIN,
+        2 => 4 * OWN_ORIGIN,
+        _ => 8 * OWN_ORIGIN,
+    }
+}
+
+impl Row {
+    /// In how many lists the track with the index of this row has an own origin.
+    const fn own_origins(&self) -> u32 {
+        (self.seen & OWN_ORIGINS).count_ones()
+    }
+
+    /// The lists in which it has one, a bit for each place of the history.
+    pub(crate) fn origins(&self) -> usize {
+        usize::from((self.seen & OWN_ORIGINS) >> OWN_ORIGIN.trailing_zeros())
+    }
+
+    /// Its detection, when that is the detection of no other track.
+    const fn own_detection(&self) -> Option<u16> {
+        if self.seen & OWN_DETECTION != 0 { Some(self.item) } else { None }
+    }
+
+    /// Whether the track with the index of this row is backed.
+    pub(crate) const fn is_backed(&self) -> bool {
+        self.seen & BACKED != 0
+    }
+
+    /// The detection of the track with the index of this row, if it is confirmed.
+    pub(crate) const fn confirmed_by(&self) -> Option<u16> {
+        if self.seen & CONFIRMED != 0 { Some(self.item) } else { None }
+    }
+}
+
+/// Marks the tracks of which the item is that of no other one.
+fn mark_own(mark: u16, scratch: &mut Scratch<'_>, tracks: usize) {
+    for (row, index) in scratch.rows.iter_mut().take(tracks).zip(0_u16..) {
+        let owner = scratch.columns.get(usize::from(row.item)).map(|column| column.row);
+        if owner == Some(index) {
+            row.seen |= mark;
+        }
+    }
+}
+
+/// Whether a track is backed and confirmed; the witness when that is too close to call.
+fn judge(
+    cycle: &Cycle<'_>,
+    track: &Track,
+    row: &mut Row,
+    detections: &[Detection],
+) -> Option<Witness> {
+    let speed = libm::sqrt(track.vx * track.vx + track.vy * track.vy);
+    let v_object = cycle.parameters.v_object;
+    if (speed - v_object).abs() <= CLOSE {
+        return Some(too_close(track, [speed, v_object]));
+    }
+    if speed > v_object || row.own_origins() < 2 {
+        return None;
+    }
+    row.seen |= BACKED;
+    let detection = detections.get(usize::from(row.own_detection()?))?;
+    if detection.length > 1.0 {
+        let across = (track.vx * detection.sin - track.vy * detection.cos).abs();
+        let most = cycle.parameters.theta_velocity + speed * 0.1;
+        if (across - most).abs() <= CLOSE {
+            return Some(too_close(track, [across, most]));
+        }
+        if across > most {
+            return None;
+        }
+    }
+    row.seen |= CONFIRMED;
+    None
+}
+
+/// Whether stage i certainly passes with the pairs of tracks and their own detections: as
+/// `certainly_pass`, but the pairs are known.
+fn own_detections_pass(
+    cycle: &Cycle<'_>,
+    tracks: &TrackList<'_>,
+    detections: &DetectionList<'_>,
+    rows: &[Row],
+) -> bool {
+    let places = Places::new(cycle, tracks, detections);
+    let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
+    detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
+    let limits = pair_limits(cycle);
+    let mut sum = PairSum::default();
+    tracks.items.iter().zip(rows).all(|(track, row)| {
+        let own = row.own_detection().and_then(|own| detections.items.get(usize::from(own)));
+        match gate.admits(places.of(track)) {
+            Some(true) => match own {
+                Some(own) => sum.pair(places.metres(track, own)),
+                None => sum.leave_out(row.is_backed(), &limits),
+            },
+            Some(false) => true,
+            None => false,
+        }
+    }) && sum.passes(&limits, &places)
+}
+
+fn too_close(track: &Track, compared: [f64; 2]) -> Witness {
+    Witness { track: Some(track.id), ..Witness::of(Rule::Ambiguous, compared) }
+}
+
+/// The item of a list that is nearest to where tracks were at its time.
+struct Search<'a> {
+    squares: Squares<'a>,
+    /// An item that is farther is none, m.
+    reach: f64,
+    /// From the stamp of the tracks to that of the list, s.
+    since: f64,
+}
+
+/// An item, and how far it and the next one at another place are, m^2.
+#[derive(Clone, Copy)]
+struct Nearest {
+    item: usize,
+    squared: f64,
+    next: f64,
+}
+
+impl Nearest {
+    const NONE: Self = Self { item: 0, squared: f64::MAX, next: f64::MAX };
+
+    /// Another item, at this distance. At the same place as the nearest it is as far; the first of
+    /// several is it then.
+    #[inline]
+    fn compare(&mut self, item: usize, squared: f64, items: &[Detection]) {
+        if squared < self.squared {
+            *self = Self { item, squared, next: self.squared };
+        } else if squared < self.next {
+            if squared > self.squared || !self.is_at_the_place_of(item, items) {
+                self.next = squared;
+            } else {
+                self.item = self.item.min(item);
+            }
+        }
+    }
+
+    #[cold]
+    fn is_at_the_place_of(&self, item: usize, items: &[Detection]) -> bool {
+        let [one, other] = [self.item, item].map(|item| items.get(item).map(|it| [it.x, it.y]));
+        one.zip(other).is_some_and(|(one, other)| same_point(one, other))
+    }
+}
+
+/// An item that more than one track has.
+const SHARED: u16 = NONE - 1;
+
+impl<'a> Search<'a> {
+    fn new(items: &'a [Detection], reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
+        let squares = Squares::new(items, 4.0 * (reach + MARGIN), Links::First, columns);
+        Self { squares, reach, since: seconds(since_ns) }
+    }
+
+    /// Writes the item of every track into the row with its index, and into the column with the
+    /// index of the item whose it is; fails when it is too close to call.
+    fn mark_nearest(&self, tracks: &[Track], scratch: &mut Scratch<'_>) -> Option<Witness> {
+        let items = self.squares.items().len();
+        scratch.columns.iter_mut().take(items).for_each(|column| column.row = NONE);
+        for (index, track) in tracks.iter().enumerate() {
+            let nearest = self.nearest(track, scratch.columns);
+            let item = match nearest.map(|nearest| (nearest, self.is_near(&nearest))) {
+                Some((nearest, None)) => {
+                    return Some(too_close(track, [libm::sqrt(nearest.squared), self.reach]));
+                }
+                Some((nearest, Some(true))) => nearest.item,
+                Some((_, Some(false))) | None => usize::from(NONE),
+            };
+            if let Some(column) = scratch.columns.get_mut(item) {
+                column.row = if column.row == NONE { short(index) } else { SHARED };
+            }
+            if let Some(row) = scratch.rows.get_mut(index) {
+                row.item = short(item);
+            }
+        }
+        None
+    }
+
+    fn nearest(&self, track: &Track, columns: &[Column]) -> Option<Nearest> {
+        let (dx, dy) = (track.vx * self.since, track.vy * self.since);
+        let place = [track.x + dx, track.y + dy];
+        let items = self.squares.items();
+        let mut nearest = Nearest::NONE;
+        let mut look = |item: usize, &Detection { x, y, .. }: &Detection| {
+            let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
+            nearest.compare(item, to_x * to_x + to_y * to_y, items);
+        };
+        let away = self.squares.for_each_beside(columns, place, &mut look);
+        // Whatever is in another square is farther.
+        if !(away > 0.0 && nearest.squared < away * away) {
+            let reach = self.reach + MARGIN;
+            let near = place.map(|at| [at - reach, at + reach]);
+            nearest = Nearest::NONE;
+            let mut look = |item: usize, &Detection { x, y, .. }: &Detection| {
+                let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
+                nearest.compare(item, to_x * to_x + to_y * to_y, items);
+            };
+            self.squares.for_each_in(columns, near, &mut look);
+        }
+        (nearest.squared < f64::MAX).then_some(nearest)
+    }
+
+    /// Whether the item is within reach; `None` when that is too close to call, or which item is.
+    fn is_near(&self, nearest: &Nearest) -> Option<bool> {
+        let away = libm::sqrt(nearest.squared);
+        if away > self.reach + CLOSE {
+            return Some(false);
+        }
+        let is_clear = away < self.reach - CLOSE && libm::sqrt(nearest.next) - away > CLOSE;
+        is_clear.then_some(true)
+    }
+}

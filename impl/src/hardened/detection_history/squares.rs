@@ -1,0 +1,190 @@
+//! The items of a list by the squares of a uniform grid, so that what is near a place is found
+//! without a look at every item (`spec/3-stages.md#what-the-cav-saw-itself`).
+//!
+//! Plain doubles: coordinates are below 2^25 m, so that a place and its square err by less than
+//! 1e-7 m; whoever searches makes what is searched larger by `MARGIN`.
+
+use crate::input::cycle::Detection;
+use crate::input::scratch::{Column, NONE, short};
+use crate::numbers::range::smaller;
+
+/// m
+pub(crate) const MARGIN: f64 = 1e-6;
+
+/// Which fields of the columns hold the lists: four can be there at once while stage i does not
+/// use the columns; while it does, or items are marked in `Column::row`, only the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Links {
+    First,
+    Second,
+    Third,
+    Fourth,
+}
+
+impl Links {
+    pub(crate) const ALL: [Self; 4] = [Self::First, Self::Second, Self::Third, Self::Fourth];
+
+    /// The last item of all squares with this hash.
+    const fn head(self, column: &Column) -> u16 {
+        let [third, fourth, _] = column.links;
+        match self {
+            Self::First => column.head,
+            Self::Second => column.row,
+            Self::Third => third,
+            Self::Fourth => fourth,
+        }
+    }
+
+    /// The item before the one with this index.
+    const fn next(self, column: &Column) -> u16 {
+        let [.., fourth] = column.links;
+        match self {
+            Self::First => column.next,
+            Self::Second => column.before,
+            Self::Third => column.reached,
+            Self::Fourth => fourth,
+        }
+    }
+
+    const fn set_head(self, column: &mut Column, item: u16) {
+        let [third, fourth, _] = &mut column.links;
+        match self {
+            Self::First => column.head = item,
+            Self::Second => column.row = item,
+            Self::Third => *third = item,
+            Self::Fourth => *fourth = item,
+        }
+    }
+
+    const fn set_next(self, column: &mut Column, item: u16) {
+        let [.., fourth] = &mut column.links;
+        match self {
+            Self::First => column.next = item,
+            Self::Second => column.before = item,
+            Self::Third => column.reached = item,
+            Self::Fourth => *fourth = item,
+        }
+    }
+}
+
+/// Added to a number below 2^51, this leaves the nearest integer in its low bits.
+const INTEGER: f64 = 6_755_399_441_055_744.0;
+
+/// A square: column and row of the grid.
+type Square = [u64; 2];
+
+/// The grid, and where the lists are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Squares<'a> {
+    items: &'a [Detection],
+    links: Links,
+    mask: u64,
+    /// Of a square, m, and squares per m.
+    side: f64,
+    scale: f64,
+}
+
+impl<'a> Squares<'a> {
+    /// Lists the items. `side`: of a square, m, at least 1e-3; there have to be as many columns as
+    /// items.
+    pub(crate) fn new(
+        items: &'a [Detection],
+        side: f64,
+        links: Links,
+        columns: &mut [Column],
+    ) -> Self {
+        let mask = match items.len().checked_ilog2() {
+            Some(log) => (1_u64 << log).wrapping_sub(1),
+            None => 0,
+        };
+        let squares = Self { items, links, mask, side, scale: 1.0 / side };
+        columns.iter_mut().take(items.len()).for_each(|column| links.set_head(column, NONE));
+        for (index, item) in items.iter().enumerate() {
+            let hash = squares.hash(squares.square([item.x, item.y]));
+            let Some(column) = columns.get_mut(hash) else { continue };
+            let before = links.head(column);
+            links.set_head(column, short(index));
+            if let Some(column) = columns.get_mut(index) {
+                links.set_next(column, before);
+            }
+        }
+        squares
+    }
+
+    pub(crate) const fn items(&self) -> &'a [Detection] {
+        self.items
+    }
+
+    /// Column and row, both counted from far off. Never decreases with a coordinate.
+    fn square(&self, place: [f64; 2]) -> Square {
+        place.map(|value| (value * self.scale + INTEGER).to_bits())
+    }
+
+    fn hash(&self, [i, k]: Square) -> usize {
+        let mixed = i.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ k.wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
+        usize::try_from((mixed >> 32) & self.mask).unwrap_or(0)
+    }
+
+    /// Calls `look` for some items, at least those within `away` of the place, when these are
+    /// all in the square of the place; returns `away`, 0 at the border.
+    #[inline]
+    pub(crate) fn for_each_beside(
+        &self,
+        columns: &[Column],
+        place: [f64; 2],
+        mut look: impl FnMut(usize, &'a Detection),
+    ) -> f64 {
+        let [left, up] = place.map(|value| {
+            let scaled = value * self.scale;
+            0.5 - (scaled - ((scaled + INTEGER) - INTEGER)).abs()
+        });
+        let head = columns.get(self.hash(self.square(place)));
+        let mut next = head.map_or(NONE, |column| self.links.head(column));
+        while let (Some(item), Some(column)) =
+            (self.items.get(usize::from(next)), columns.get(usize::from(next)))
+        {
+            look(usize::from(next), item);
+            next = self.links.next(column);
+        }
+        smaller(left, up) * self.side - MARGIN
+    }
+
+    /// Calls `look` for every item of the squares that the box touches, and for no item twice.
+    #[inline]
+    pub(crate) fn for_each_in(
+        &self,
+        columns: &[Column],
+        [[left, right], [bottom, top]]: [[f64; 2]; 2],
+        mut look: impl FnMut(usize, &'a Detection),
+    ) {
+        let ([i0, k0], [i1, k1]) = (self.square([left, bottom]), self.square([right, top]));
+        if i1 < i0 || k1 < k0 {
+            return;
+        }
+        let across = i1.wrapping_sub(i0).saturating_add(1);
+        let up = k1.wrapping_sub(k0).saturating_add(1);
+        let squares = across.saturating_mul(up);
+        if squares > 1 && squares > self.mask {
+            // More squares than lists.
+            self.items.iter().enumerate().for_each(|(index, item)| look(index, item));
+            return;
+        }
+        for k in (0..up).map(|step| k0.wrapping_add(step)) {
+            for i in (0..across).map(|step| i0.wrapping_add(step)) {
+                let head = columns.get(self.hash([i, k]));
+                let mut next = head.map_or(NONE, |column| self.links.head(column));
+                while let (Some(item), Some(column)) =
+                    (self.items.get(usize::from(next)), columns.get(usize::from(next)))
+                {
+                    if squares == 1 || self.square([item.x, item.y]) == [i, k] {
+                        look(usize::from(next), item);
+                    }
+                    next = self.links.next(column);
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,91 @@
+//! How much the model computes (`spec/4-arithmetic.md#conformance-of-an-implementation`): a cycle that
+//! needs more than 10^10 comparisons is no input of the model.
+
+use crate::hardened::{detection_history, h13_moving};
+use crate::input::profile::Profile;
+use crate::input::scene::{Grid, Point, Scene};
+use crate::numbers::assignment;
+use crate::numbers::real::Real;
+use crate::report::{InvalidInput, Stage};
+use crate::stages::horizon::places_examined;
+use crate::stages::v_grid_map::disk_radius;
+
+/// The comparisons that the stages of a cycle may need.
+const MOST: i128 = 10_000_000_000;
+
+/// Counts what the stages need one after the other.
+#[derive(Debug, Default)]
+pub struct Work(i128);
+
+impl Work {
+    /// Adds what a stage needs that is about to run. `Err` is a problem at the field `work`: more
+    /// than 10^10 in all.
+    pub fn add(&mut self, scene: &Scene, stage: Stage) -> Result<(), InvalidInput> {
+        self.0 = self.0.saturating_add(comparisons(scene, stage));
+        if self.0 <= MOST {
+            return Ok(());
+        }
+        let message = format!("the cycle needs {} comparisons; the model makes {MOST}", self.0);
+        Err(InvalidInput { field: "work".into(), index: None, message })
+    }
+}
+
+/// The comparisons that a stage needs when nothing fails early, in the reading of the scene:
+///
+/// * i: the steps of the assignment, of all tracks and detections (its work), and in the hardened
+///   profile each track with each detection and each item of a usable list;
+/// * ii: each trajectory point with each cross section;
+/// * iii: each place of the CAV with each track, in the hardened profile twice (H-09);
+/// * iv: each place with each detection, and the work of H-13;
+/// * v: each disk at each place with each cell that is as near as its radius, in the hardened profile
+///   those with each detection, too.
+fn comparisons(scene: &Scene, stage: Stage) -> i128 {
+    let trajectory = scene.trajectory.as_deref().unwrap_or_default();
+    let is_hardened = scene.profile == Profile::Hardened;
+    let tracks = scene.tracks.as_ref().map_or(0, |list| list.items.len());
+    let detections = scene.detections.as_ref().map_or(0, |list| list.items.len());
+    match stage {
+        Stage::I => {
+            let lists = detection_history::usable(scene);
+            let items: usize = lists.iter().map(|list| list.items.len()).sum();
+            let seen = if is_hardened { tracks as i128 * (detections + items) as i128 } else { 0 };
+            let left_out = usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(tracks);
+            seen + assignment::work(tracks, detections + left_out)
+        }
+        Stage::Ii => trajectory.len() as i128 * scene.route.cross_sections.len() as i128,
+        Stage::Iii => {
+            let times = if is_hardened { 2 } else { 1 };
+            times * places(scene, trajectory) * tracks as i128
+        }
+        Stage::Iv => places(scene, trajectory) * detections as i128 + moving(scene, trajectory),
+        Stage::V => {
+            let times = if is_hardened { 1 + detections as i128 } else { 1 };
+            times * places(scene, trajectory) * scene.grid.as_ref().map_or(0, |g| cells(scene, g))
+        }
+    }
+}
+
+/// The places of the CAV that a stage can examine: all points, and those beyond the end (H-04).
+fn places(scene: &Scene, trajectory: &[Point]) -> i128 {
+    let whole = Real::from_integer(i128::MAX);
+    places_examined(scene, trajectory, &whole).count()
+}
+
+/// The work of H-13.
+fn moving(scene: &Scene, trajectory: &[Point]) -> i128 {
+    let Some(detections) = scene.detections.as_ref().filter(|_| scene.profile == Profile::Hardened)
+    else {
+        return 0;
+    };
+    let places = h13_moving::places(scene, trajectory);
+    h13_moving::work(&detection_history::usable(scene), detections, &places).unwrap_or(0)
+}
+
+/// The cells near the n disks of a place.
+fn cells(scene: &Scene, grid: &Grid) -> i128 {
+    let n = scene.parameters.n;
+    let r = disk_radius(&scene.ego.length, &scene.ego.width, &Real::from_integer(n.into()));
+    let across = i128::from((Real::from_integer(2) * r / &grid.resolution).floor()) + 4;
+    let near = |side: i64| across.min(i128::from(side));
+    i128::from(n) * near(grid.width) * near(grid.height)
+}

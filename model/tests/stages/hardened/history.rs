@@ -1,0 +1,302 @@
+//! `spec/3-stages.md#what-the-cav-saw-itself`: each term at its bound and on both sides of it, and what
+//! is too close to call.
+
+use mufasa_model::hardened::detection_history::{
+    Seen, confirmed, nearest_to_reference, seen, usable,
+};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
+use mufasa_model::input::scene::Scene;
+use mufasa_model::numbers::real::Real;
+use mufasa_model::report::{Reading, Rule, Stage};
+use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use mufasa_model::stages::check;
+
+use crate::base::*;
+use crate::near::*;
+
+/// Stage i alone, with these tracks and detections, and lists of these ages in ms.
+fn cycle(items: Vec<Track>, seen: Vec<Detection>, lists: &[(i64, Vec<Detection>)]) -> Cycle {
+    let mut cycle = base(Profile::Hardened, MotRemote);
+    cycle.trajectory = None;
+    cycle.tracks = tracks(items);
+    cycle.detections = detections(seen);
+    cycle.detection_history = (lists.iter())
+        .map(|(ms, items)| DetectionList { stamp_ns: NOW - ms * 1_000_000, items: items.clone() })
+        .collect();
+    cycle
+}
+
+fn scene(cycle: &Cycle) -> Scene {
+    Scene::new(cycle, Reading::Exact)
+}
+
+/// What the CAV saw of the tracks of a cycle.
+fn all_seen(cycle: &Cycle) -> Vec<Seen> {
+    let scene = scene(cycle);
+    seen(&scene, scene.tracks.as_ref().expect("there are tracks"))
+}
+
+/// Strict fails stage i because something is too close to call; the others do not ask.
+fn is_ambiguous(cycle: &Cycle) -> bool {
+    let rule = |reading| {
+        let report = check(cycle, reading).expect("valid");
+        match &report.stages[Stage::I as usize] {
+            mufasa_model::report::Outcome::Failed(witness) => Some(witness.rule),
+            _ => None,
+        }
+    };
+    assert_ne!(rule(Reading::Exact), Some(Rule::Ambiguous));
+    assert_ne!(rule(Reading::Lax), Some(Rule::Ambiguous));
+    rule(Reading::Strict) == Some(Rule::Ambiguous)
+}
+
+/// A car at (20, 0) that drives at (8, 0), seen 250, 500 and 750 ms ago, of which `lists` are kept.
+fn driving(lists: &[i64]) -> Cycle {
+    let then = |ms: i64| 20.0 - 8.0 * f64::from(i32::try_from(ms).expect("small")) / 1000.0;
+    let lists: Vec<_> = lists.iter().map(|ms| (*ms, vec![detection(then(*ms), 0.0)])).collect();
+    let track = Track { vx: 8.0, ..track(1, 20.0, 0.0) };
+    cycle(vec![track], vec![detection(20.0, 0.0), detection(60.0, 0.0)], &lists)
+}
+
+/// `spec/3-stages.md#what-the-cav-saw-itself.1`: both ends of the ages are usable.
+#[test]
+fn lists_of_200_ms_to_1_s_are_usable() {
+    let ages = |cycle: &Cycle| -> Vec<i128> {
+        usable(&scene(cycle)).iter().map(|list| list.age_ns).collect()
+    };
+    let mut cycle = driving(&[0, 200, 500, 1000]);
+    assert_eq!(ages(&cycle), [200_000_000, 500_000_000, 1_000_000_000]);
+    cycle.detection_history[1].stamp_ns += 1;
+    cycle.detection_history[3].stamp_ns -= 1;
+    assert_eq!(ages(&cycle), [500_000_000]);
+    // Ages count from the stamp of the detections, wherever that is.
+    cycle.detections.as_mut().expect("set").stamp_ns -= 50_000_000;
+    assert_eq!(ages(&cycle), [450_000_000, 950_000_001]);
+    let mut without = driving(&[500]);
+    without.detections = None;
+    assert_eq!(ages(&without), []);
+    // A list in the future of the detections is no error.
+    cycle.detection_history = vec![DetectionList { stamp_ns: NOW + 1, items: Vec::new() }];
+    assert_eq!(ages(&cycle), []);
+    let mut later = driving(&[500]);
+    later.detection_history[0].stamp_ns = NOW + 1;
+    assert_eq!((ages(&later), failed(&later)), (vec![], None));
+}
+
+/// A list older than 60 s counts as missing, though 500 ms older than current detections.
+#[test]
+fn a_list_older_than_60_s_is_missing() {
+    let mut cycle = driving(&[0]);
+    cycle.parameters.max_age_ns = 60_000_000_000;
+    cycle.detections.as_mut().expect("set").stamp_ns = NOW - 59_500_000_000;
+    cycle.detection_history[0].stamp_ns = NOW - 60_000_000_000;
+    assert_eq!(usable(&scene(&cycle)).len(), 1);
+    cycle.detection_history[0].stamp_ns -= 1;
+    assert_eq!(usable(&scene(&cycle)).len(), 0);
+}
+
+#[test]
+fn the_reference_list_is_nearest_to_500_ms_and_the_younger_of_two() {
+    let reference = |ages: &[i64]| {
+        let cycle = driving(ages);
+        let scene = scene(&cycle);
+        let lists = usable(&scene);
+        nearest_to_reference(lists.iter().enumerate()).map(|(_, list)| list.age_ns / 1_000_000)
+    };
+    assert_eq!(reference(&[250, 480, 530, 900]), Some(480));
+    assert_eq!(reference(&[250, 450, 549, 900]), Some(549));
+    assert_eq!(reference(&[400, 600]), Some(400));
+    assert_eq!(reference(&[400, 599]), Some(599));
+    assert_eq!(reference(&[100, 1001]), None);
+}
+
+/// place = p + v (t_D - t_T), of either sign.
+#[test]
+fn the_place_is_where_the_track_is_when_the_cav_detects() {
+    let place = |track_ns: i64| {
+        let mut cycle = driving(&[]);
+        cycle.tracks.as_mut().expect("set").stamp_ns += track_ns;
+        all_seen(&cycle)[0].place.x.clone()
+    };
+    assert_eq!([-500_000_000, 0, 250_000_000].map(place), [24, 20, 18].map(Real::from_integer));
+    let mut blind = driving(&[]);
+    blind.detections = None;
+    blind.tracks.as_mut().expect("set").stamp_ns -= 500_000_000;
+    assert_eq!(all_seen(&blind)[0].place.x, Real::from_integer(20), "p without current detections");
+}
+
+/// Backed: own origins in two usable lists, each at distance <= 1 + 2 dt.
+#[test]
+fn a_track_is_backed_by_its_own_origins_in_two_lists() {
+    let is_backed = |cycle: &Cycle| all_seen(cycle)[0].is_backed;
+    assert!(is_backed(&driving(&[250, 500])));
+    assert!(is_backed(&driving(&[250, 500, 750])));
+    assert!(!is_backed(&driving(&[500])));
+    // 500 ms: 2 m, and that is included.
+    let moved = |y: f64| {
+        let mut cycle = driving(&[250, 500]);
+        cycle.detection_history[1].items[0].y = y;
+        cycle
+    };
+    assert!(is_backed(&moved(2.0)));
+    assert!(!is_backed(&moved(2.0f64.next_up())));
+    // 1000 ms: 3 m.
+    let mut oldest = driving(&[250, 1000]);
+    oldest.detection_history[1].items[0].y = 3.0;
+    assert!(is_backed(&oldest));
+    oldest.detection_history[1].items[0].y = 3.0f64.next_up();
+    assert!(!is_backed(&oldest));
+    for (y, expected) in [(2.0 - 3e-6, false), (2.0 - 0.9e-6, true), (2.0 + 0.9e-6, true)] {
+        assert_eq!(is_ambiguous(&moved(y)), expected, "{y}");
+    }
+    assert!(!is_ambiguous(&moved(2.0 + 3e-6)));
+}
+
+/// An origin that another received track has, too, is nobody's own: also of one far outside the gate.
+#[test]
+fn an_origin_of_two_tracks_is_no_ones_own() {
+    let mut cycle = driving(&[250, 500, 750]);
+    assert!(all_seen(&cycle)[0].is_backed);
+    // At (200, 0), and so fast that it came from the same place 500 ms ago.
+    let far = |vx: f64| Track { vx, ..track(2, 80.0, 0.0) };
+    cycle.tracks.as_mut().expect("set").items.push(far(128.0));
+    let of_two = all_seen(&cycle);
+    assert_eq!(of_two[0].own_origins, [Some(0), None, Some(0)]);
+    assert!(of_two[0].is_backed, "two of three are left");
+    cycle.detection_history.remove(2);
+    assert!(!all_seen(&cycle)[0].is_backed);
+}
+
+/// The first of several at the same distance is the origin, and two items at one position are one.
+#[test]
+fn the_first_of_the_nearest_items_is_the_origin() {
+    let with = |items: [(f64, f64); 2]| {
+        let mut cycle = driving(&[250, 500]);
+        cycle.detection_history[1].items = items.map(|(x, y)| detection(x, y)).into();
+        cycle
+    };
+    assert_eq!(all_seen(&with([(16.0, 1.0), (16.0, -1.0)]))[0].own_origins[1], Some(0));
+    assert_eq!(all_seen(&with([(16.0, 1.0), (16.0, 0.5)]))[0].own_origins[1], Some(1));
+    assert!(is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0)])), "as near, at another place");
+    assert!(is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0 - 0.9e-6)])));
+    assert!(!is_ambiguous(&with([(16.0, 1.0), (16.0, -1.0 - 1.1e-6)])));
+    assert!(!is_ambiguous(&with([(16.0, 1.0), (16.0, 1.0)])), "the same position");
+    assert!(is_ambiguous(&with([(16.0, 2.0 + 0.9e-6), (16.0, -2.0 - 1.5e-6)])));
+    assert!(!is_ambiguous(&with([(16.0, 2.1), (16.0, -2.1)])), "beyond the bound");
+    assert!(!is_ambiguous(&with([(16.0, 2.0 + 1.5e-6), (16.0, -2.0 - 1.5e-6)])), "by 1.5 delta");
+}
+
+/// `v_object` is included.
+#[test]
+fn a_backed_track_is_at_most_as_fast_as_v_object() {
+    let with = |v_object: f64| {
+        let mut cycle = driving(&[250, 500]);
+        cycle.parameters.v_object = v_object;
+        cycle
+    };
+    assert!(all_seen(&with(8.0))[0].is_backed);
+    assert!(!all_seen(&with(8.0f64.next_down()))[0].is_backed);
+    assert!(is_ambiguous(&with(8.0 - 0.9e-6)) && is_ambiguous(&with(8.0 + 0.9e-6)));
+    assert!(!is_ambiguous(&with(8.0 - 1.1e-6)) && !is_ambiguous(&with(8.0 + 1.1e-6)));
+}
+
+/// The detection of a track is nearer than theta_track_max, and a confirmed one has it for itself.
+#[test]
+fn a_confirmed_track_has_a_detection_of_its_own() {
+    let with = |y: f64| {
+        let mut cycle = driving(&[250, 500]);
+        cycle.detections.as_mut().expect("set").items[0].y = y;
+        cycle
+    };
+    let near = &all_seen(&with(1.0f64.next_down()))[0];
+    assert_eq!((near.detection, near.is_confirmed), (Some(0), true));
+    let far = &all_seen(&with(1.0))[0];
+    assert_eq!((far.detection, far.is_backed, far.is_confirmed), (None, true, false));
+    assert!(is_ambiguous(&with(1.0 - 0.9e-6)) && is_ambiguous(&with(1.0 + 0.9e-6)));
+    assert!(!is_ambiguous(&with(1.0 - 1.1e-6)) && !is_ambiguous(&with(1.0 + 1.1e-6)));
+    // Another track with the same detection.
+    let mut two = with(0.0);
+    two.tracks.as_mut().expect("set").items.push(track(2, 20.0, 0.5));
+    let of_two = all_seen(&two);
+    assert_eq!(of_two.iter().map(|it| it.detection).collect::<Vec<_>>(), [Some(0), Some(0)]);
+    assert!(of_two[0].is_backed && !of_two[0].is_confirmed);
+}
+
+/// abs(v x direction) <= 2 + 8 / 10 for what is longer than 1 m; directions as given.
+#[test]
+fn a_confirmed_track_moves_along_its_detection() {
+    let with = |sideways: f64, length: f64| {
+        let mut cycle = driving(&[250, 500]);
+        let seen = &mut cycle.detections.as_mut().expect("set").items[0];
+        let sin = sideways / 8.0;
+        (seen.cos, seen.sin, seen.length) = ((1.0 - sin * sin).sqrt(), sin, length);
+        cycle
+    };
+    let is_confirmed =
+        |sideways: f64, length: f64| all_seen(&with(sideways, length))[0].is_confirmed;
+    assert!(is_confirmed(2.8 - 1e-9, 4.0) && !is_confirmed(2.8 + 1e-9, 4.0));
+    assert!(is_confirmed(-2.8 + 1e-9, 4.0) && !is_confirmed(-2.8 - 1e-9, 4.0));
+    assert!(is_confirmed(7.9, 1.0) && !is_confirmed(7.9, 1.0f64.next_up()));
+    assert!(is_ambiguous(&with(2.8 - 0.9e-6, 4.0)) && is_ambiguous(&with(2.8 + 0.9e-6, 4.0)));
+    assert!(!is_ambiguous(&with(2.8 - 1.1e-6, 4.0)) && !is_ambiguous(&with(2.8 + 1.1e-6, 4.0)));
+    assert!(!is_ambiguous(&with(2.8, 1.0)), "not asked");
+    // Not asked of a track that is not backed, either.
+    let mut unbacked = with(2.8, 4.0);
+    unbacked.detection_history.remove(0);
+    assert!(!is_ambiguous(&unbacked));
+}
+
+/// The bound is included: abs((5, 0) x (cos, 0.75)) = 3.75 = theta_velocity + 5 / 10.
+#[test]
+fn the_bound_of_sideways_motion_is_included() {
+    let mut cycle = driving(&[250, 500]);
+    cycle.tracks.as_mut().expect("set").items[0].vx = 5.0;
+    for (ms, list) in [250.0, 500.0].iter().zip(&mut cycle.detection_history) {
+        list.items[0].x = 20.0 - 5.0 * ms / 1000.0;
+    }
+    let seen = &mut cycle.detections.as_mut().expect("set").items[0];
+    (seen.cos, seen.sin) = (0.661_437_827_8, 0.75);
+    cycle.parameters.theta_velocity = 3.25;
+    assert!(all_seen(&cycle)[0].is_confirmed);
+    cycle.parameters.theta_velocity = 3.25f64.next_down();
+    assert!(!all_seen(&cycle)[0].is_confirmed);
+}
+
+/// Confirmed are tracks of a current list that was received.
+#[test]
+fn only_received_and_current_tracks_confirm() {
+    let count = |cycle: &Cycle| confirmed(&scene(cycle)).len();
+    let mut cycle = driving(&[250, 500]);
+    assert_eq!(count(&cycle), 1);
+    cycle.configuration = AllRemote;
+    assert_eq!(count(&cycle), 1);
+    cycle.configuration = PlanRemote;
+    assert_eq!(count(&cycle), 0);
+    cycle.configuration = MotRemote;
+    cycle.parameters.max_age_ns -= 1;
+    cycle.tracks.as_mut().expect("set").stamp_ns -= 100_000_000;
+    cycle.tracks.as_mut().expect("set").items[0].x -= 0.8;
+    assert_eq!(count(&cycle), 0);
+    cycle.parameters.max_age_ns += 1;
+    assert_eq!(count(&cycle), 1);
+}
+
+/// `spec/4-arithmetic.md#strict-and-lax.3`: the strict reading asks only when stage i runs, and of every received track.
+#[test]
+fn ambiguity_fails_stage_i_and_no_other() {
+    let mut cycle = driving(&[250, 500]);
+    cycle.detection_history[1].items[0].y = 2.0;
+    assert!(is_ambiguous(&cycle));
+    let mut local = cycle.clone();
+    local.configuration = PlanRemote;
+    assert_eq!(safe(&local), YES);
+    let mut blind = cycle.clone();
+    blind.detections = None;
+    assert_eq!(safe(&blind), YES);
+    // Far outside the field of view.
+    let items = &mut cycle.tracks.as_mut().expect("set").items;
+    items[0].x += 1000.0;
+    cycle.detection_history.iter_mut().for_each(|list| list.items[0].x += 1000.0);
+    assert!(is_ambiguous(&cycle));
+    assert_eq!(safe(&cycle), NEAR_SAFE);
+}

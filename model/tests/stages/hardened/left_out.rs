@@ -1,0 +1,130 @@
+//! H-01: which tracks may be left out, and what remains.
+
+use mufasa_model::input::cycle::{Cycle, Profile, Track};
+use mufasa_model::report::{Rule, Stage};
+use mufasa_model::services::configuration::Configuration::MotRemote;
+
+use crate::base::*;
+use crate::near::*;
+
+/// Stage i alone: tracks that stand at (x, y), detections there, and what the CAV saw before of
+/// `backed`.
+fn cycle(at: &[[f64; 2]], seen: &[[f64; 2]], backed: &[[f64; 2]]) -> Cycle {
+    let mut cycle = base(Profile::Hardened, MotRemote);
+    cycle.trajectory = None;
+    let items = (1..).zip(at).map(|(id, [x, y])| track(id, *x, *y));
+    cycle.tracks = tracks(items.collect());
+    cycle.detections = detections(seen.iter().map(|[x, y]| detection(*x, *y)).collect());
+    let objects: Vec<[f64; 4]> = backed.iter().map(|[x, y]| [*x, *y, 0.0, 0.0]).collect();
+    cycle.detection_history = history(&objects);
+    cycle
+}
+
+const FAR: [f64; 2] = [90.0, 0.0];
+const A: [f64; 2] = [20.0, 5.0];
+const B: [f64; 2] = [40.0, 5.0];
+
+#[test]
+fn a_backed_track_without_a_detection_may_be_left_out() {
+    let one = |backed: &[[f64; 2]], budget: i64| {
+        let mut cycle = cycle(&[A, B], &[A, FAR], backed);
+        cycle.parameters.miss_budget = budget;
+        rule(&cycle, Stage::I)
+    };
+    assert_eq!(one(&[B], 4), None);
+    assert_eq!(one(&[A], 4), Some(Rule::NoAssignment), "the other one is backed");
+    assert_eq!(one(&[B], 0), Some(Rule::NoAssignment));
+    assert_eq!(one(&[], 4), Some(Rule::NoAssignment));
+}
+
+#[test]
+fn at_most_miss_budget_tracks_are_left_out() {
+    let with = |budget: i64| {
+        let backed = [B, [40.0, -5.0], [30.0, -5.0]];
+        let mut cycle = cycle(&[A, backed[0], backed[1], backed[2]], &[A, FAR], &backed);
+        cycle.parameters.miss_budget = budget;
+        rule(&cycle, Stage::I)
+    };
+    assert_eq!(with(3), None);
+    assert_eq!(with(2), Some(Rule::NoAssignment));
+}
+
+#[test]
+fn nothing_that_remains_passes() {
+    let mut cycle = cycle(&[A, B], &[FAR], &[A, B]);
+    assert_eq!(rule(&cycle, Stage::I), None);
+    cycle.parameters.theta_tr = 1e-3;
+    cycle.parameters.delta = 1e-2;
+    assert_eq!(safe(&cycle), YES, "no mean is compared");
+    cycle.parameters.miss_budget = 1;
+    assert_eq!(rule(&cycle, Stage::I), Some(Rule::NoAssignment));
+    cycle.tracks.as_mut().expect("set").items.clear();
+    assert_eq!(safe(&cycle), YES);
+}
+
+/// The mean is that of what remains: a track left out makes it neither better nor worse.
+#[test]
+fn the_mean_is_that_of_what_remains() {
+    // A is 0.3 m off, B exact; C is gone, and backed.
+    let c = [30.0, -5.0];
+    let off = [20.0, 5.3];
+    let with = |at: &[[f64; 2]], seen: &[[f64; 2]], theta_tr: f64| {
+        let mut cycle = cycle(at, seen, &[c]);
+        cycle.parameters.theta_tr = theta_tr;
+        cycle.detections.as_mut().expect("set").items.push(detection(90.0, 0.0));
+        rule(&cycle, Stage::I)
+    };
+    assert_eq!(with(&[A, B, c], &[off, B], 0.151), None);
+    assert_eq!(with(&[A, B, c], &[off, B], 0.149), Some(Rule::MeanCost));
+    assert_eq!(with(&[A, B], &[off, B], 0.149), Some(Rule::MeanCost));
+    // Of what may be left out the worst is: here the backed track that is 0.3 m off.
+    let backed_off = |budget: i64, theta_tr: f64| {
+        let mut cycle = cycle(&[A, B], &[off, B, FAR], &[A]);
+        (cycle.parameters.miss_budget, cycle.parameters.theta_tr) = (budget, theta_tr);
+        rule(&cycle, Stage::I)
+    };
+    assert_eq!(backed_off(0, 0.149), Some(Rule::MeanCost));
+    assert_eq!(backed_off(1, 0.149), None);
+    assert_eq!(backed_off(1, 0.001), None, "B alone is exact");
+}
+
+/// Mean and closeness move by the margin, also beside a track that is left out.
+#[test]
+fn margins_move_what_remains() {
+    margins_move(&[
+        ("mean of what remains < theta_tr - m", MotRemote, Profile::Hardened, |c, e| {
+            *c = cycle(&[A, B], &[[20.0, 5.2 + e], FAR], &[B]);
+        }),
+        (
+            "closeness of what remains < theta_track_max - m",
+            MotRemote,
+            Profile::Hardened,
+            |c, e| {
+                *c = cycle(&[A, B], &[[20.0, 6.0 + e], FAR], &[B]);
+                c.parameters.theta_tr = 100.0;
+            },
+        ),
+    ]);
+}
+
+/// `spec/3-stages.md#what-the-cav-saw-itself.2`: gate and assignment are at the places: the lists need not be of one time.
+#[test]
+fn tracks_are_compared_at_their_places() {
+    let mut cycle = cycle(&[], &[[60.0, 0.0], FAR], &[]);
+    let late = Track { vx: 20.0, ..track(1, 59.0, 0.0) };
+    cycle.tracks = tracks(vec![late]);
+    cycle.tracks.as_mut().expect("set").stamp_ns -= 50_000_000;
+    assert_eq!(rule(&cycle, Stage::I), None, "59 + 20 * 0.05 = 60");
+    cycle.profile = Profile::Paper;
+    assert_eq!(rule(&cycle, Stage::I), Some(Rule::MeanCost));
+    // Outside the field of view at its stamp, inside at its place, and the other way round.
+    let gate = |x: f64, vx: f64| {
+        let mut cycle = cycle.clone();
+        cycle.profile = Profile::Hardened;
+        let ghost = Track { vx, ..track(2, x, 0.0) };
+        cycle.tracks.as_mut().expect("set").items.push(ghost);
+        rule(&cycle, Stage::I)
+    };
+    assert_eq!(gate(92.0, -60.0), Some(Rule::NoAssignment));
+    assert_eq!(gate(88.0, 60.0), None);
+}

@@ -1,0 +1,65 @@
+//! H-07: the start of the trajectory on both sides of each bound.
+
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::report::{Rule, Stage};
+use mufasa_model::services::configuration::Configuration::PlanRemote;
+
+use crate::base::*;
+use crate::near::*;
+
+const NEAR: &[Near] = &[
+    ("start <= limit - m", PlanRemote, Profile::Hardened, |c, e| c.ego.x = 2.0 + e),
+    ("heading x heading <= 0.17 - m", PlanRemote, Profile::Hardened, |c, e| {
+        let sin = 0.17 + e;
+        (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), sin);
+    }),
+    ("heading x heading >= -0.17 + m", PlanRemote, Profile::Hardened, |c, e| {
+        let sin = 0.17 + e;
+        (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), -sin);
+    }),
+    ("offset to the right <= lateral_tolerance - m", PlanRemote, Profile::Hardened, |c, e| {
+        c.ego.y = -0.5 - e;
+    }),
+    ("offset to the left <= lateral_tolerance - m", PlanRemote, Profile::Hardened, |c, e| {
+        (c.ego.x, c.ego.y) = (-1.0, 0.25 + e);
+        c.parameters.lateral_tolerance = 0.25;
+    }),
+];
+
+#[test]
+fn margins_move_each_bound_of_the_start() {
+    margins_move(NEAR);
+    let rules = [Rule::StartPosition, Rule::StartHeading, Rule::StartHeading];
+    let rules = rules.into_iter().chain([Rule::StartOffset; 2]);
+    for ((name, configuration, profile, with), expected) in NEAR.iter().zip(rules) {
+        let mut cycle = base(*profile, *configuration);
+        with(&mut cycle, 3e-6);
+        assert_eq!(rule(&cycle, Stage::Ii), Some(expected), "{name}");
+    }
+}
+
+#[test]
+fn the_filter_changes_no_report_of_the_start() {
+    the_filter_changes_nothing(NEAR);
+}
+
+/// The cross product alone would take the opposite for the same.
+#[test]
+fn the_opposite_heading_is_another_one() {
+    let mut cycle = base(Profile::Hardened, PlanRemote);
+    cycle.ego.cos = -1.0;
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartHeading));
+    // Position comes before heading, heading before offset.
+    cycle.ego.y = 0.6;
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartHeading));
+    cycle.ego.y = 2.1;
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
+}
+
+/// F-37: the CAV is 2 m beside a trajectory that goes past what stands ahead of it.
+#[test]
+fn a_trajectory_does_not_start_beside_the_cav() {
+    let mut cycle = base(Profile::Hardened, PlanRemote);
+    cycle.ego.y = -1.9;
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartOffset));
+}

@@ -1,0 +1,81 @@
+//! Cases near a threshold, and what the three readings say of them (`spec/4-arithmetic.md#strict-and-lax`).
+
+use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
+use mufasa_model::numbers::real::unfiltered;
+use mufasa_model::report::Reading;
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages::check;
+
+use crate::base::*;
+
+/// Safe in the readings strict, exact, lax.
+pub fn safe(cycle: &Cycle) -> [bool; 3] {
+    [Reading::Strict, Reading::Exact, Reading::Lax]
+        .map(|reading| check(cycle, reading).expect("valid").failed_stage.is_none())
+}
+
+pub const YES: [bool; 3] = [true; 3];
+pub const NO: [bool; 3] = [false; 3];
+/// Within the margin on the safe side.
+pub const NEAR_SAFE: [bool; 3] = [false, true, true];
+/// Within the margin on the unsafe side.
+pub const NEAR_UNSAFE: [bool; 3] = [false, false, true];
+
+/// Cases near a threshold: `(configuration, profile, offset -> cycle)`, positive offsets unsafe.
+pub type Near = (&'static str, Configuration, Profile, fn(&mut Cycle, f64));
+
+pub fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
+    &mut cycle.trajectory.as_mut().expect("there is one").points
+}
+
+pub fn two_points(cycle: &mut Cycle, millis: i64, [x, y]: [f64; 2]) {
+    cycle.ego.speed = 0.0;
+    cycle.parameters.start_tolerance = 100.0;
+    let points = vec![at_time(0, 0.0, 0.0), at_time(millis * 1_000_000, x, y)];
+    cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+    cycle.tracks = tracks(vec![]);
+}
+
+pub fn arc(cycle: &mut Cycle, x: f64) {
+    two_points(cycle, 500, [x, 0.0]);
+    cycle.parameters.step_max_ns = 1_000_000_000;
+    cycle.parameters.start_tolerance = 0.5;
+    cycle.parameters.a_b = 20.0;
+    cycle.ego.length = 20.0;
+    cycle.ego.speed = 10.0;
+}
+
+/// Strict and lax move each comparison by the margin, towards rejection and towards acceptance, by no
+/// more than the margin, and farther with a larger one.
+pub fn margins_move(cases: &[Near]) {
+    for (name, configuration, profile, with) in cases {
+        let at = |offset: f64, delta: f64| {
+            let mut cycle = base(*profile, *configuration);
+            with(&mut cycle, offset);
+            cycle.parameters.delta = delta;
+            safe(&cycle)
+        };
+        assert_eq!(at(-3e-6, 1e-6), YES, "{name}: safe by three margins");
+        assert_eq!(at(-0.5e-6, 1e-6), NEAR_SAFE, "{name}: safe by half a margin");
+        assert_eq!(at(0.5e-6, 1e-6), NEAR_UNSAFE, "{name}: unsafe by half a margin");
+        assert_eq!(at(3e-6, 1e-6), NO, "{name}: unsafe by three margins");
+        assert_eq!(at(-3e-6, 1e-5), NEAR_SAFE, "{name}: a larger delta");
+        assert_eq!(at(3e-6, 1e-5), NEAR_UNSAFE, "{name}: a larger delta");
+    }
+}
+
+/// The interval filter in front of the exact arithmetic changes no report.
+pub fn the_filter_changes_nothing(cases: &[Near]) {
+    for (_, configuration, profile, with) in cases {
+        for offset in [-1e-6, 0.0, 1e-6] {
+            let mut cycle = base(*profile, *configuration);
+            with(&mut cycle, offset);
+            // Exact arithmetic alone takes its time: a short trajectory will do.
+            points(&mut cycle).truncate(20);
+            for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
+                let plain = unfiltered(|| check(&cycle, reading));
+                assert_eq!(check(&cycle, reading), plain);
+            }
+        }
+    }
+}

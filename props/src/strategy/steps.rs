@@ -1,0 +1,122 @@
+//! Steps of a trajectory at the limits of H-11 (`spec/3-stages.md#hardened-profile`): one step at a
+//! time, and turns from a mark to the points behind it.
+
+use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
+
+use super::base::{self, Frame, seconds};
+use super::draw::Draw;
+
+/// A trajectory on a wide road that one limit of H-11 decides.
+pub fn cycle(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.route = base::road(frame, 40.0);
+    cycle.parameters.start_tolerance = 20.0;
+    if draw.below(3) == 0 {
+        turn(draw, frame, cycle);
+    } else {
+        step(draw, frame, cycle);
+    }
+}
+
+/// The first step at a limit of time, length, speed, direction, width, slide or turn; the CAV
+/// stays where it leads.
+fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[8.0, 2.0, 5.0]);
+    let length = cycle.ego.length;
+    let mut dt_ns = 200_000_000;
+    let (mut along, mut aside, mut turned) = (0.1, 0.0, (1.0, 0.0));
+    match draw.below(7) {
+        0 => dt_ns = draw.near_ns(cycle.parameters.step_max_ns),
+        1 => along = draw.near(length),
+        2 => {
+            cycle.parameters.v_max = draw.pick(&[4.0, 2.5, 5.0]);
+            along = draw.near(cycle.parameters.v_max * 0.2);
+        }
+        3 => along = -draw.near(0.02),
+        4 => {
+            // Only the reference of a long vehicle goes so far aside: half of it ahead of the
+            // rear axle, in the sharpest turn.
+            (cycle.ego.length, cycle.ego.width) = (12.0, draw.pick(&[2.0, 1.0]));
+            let side = draw.pick(&[1.0, -1.0]);
+            turned = (0.88, side * (1.0_f64 - 0.88 * 0.88).sqrt());
+            (along, aside) = (1.0, side * draw.near(0.5 * cycle.ego.width));
+        }
+        5 => {
+            // u x (h1 + h2) + L (h1 x h2)/2 = +-(L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.1 dt)
+            let turn: f64 = draw.pick(&[0.0, 0.1, -0.2, 0.3]);
+            turned = (turn.cos(), turn.sin());
+            along = draw.pick(&[0.5, 1.0, 1.5]);
+            let side = draw.pick(&[1.0, -1.0]);
+            let (sum, sine) = (1.0 + turned.0, turned.1);
+            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.02;
+            aside = (along * sine + 0.5 * length * sine - side * slack) / (sum + side * 0.1 * sine);
+            aside = draw.near(aside);
+        }
+        _ => {
+            let turn = draw.near(0.866).acos() * draw.pick(&[1.0, -1.0]);
+            turned = (turn.cos(), turn.sin());
+            (along, aside) = (0.95 * (0.5 * turn).cos(), 0.95 * (0.5 * turn).sin());
+        }
+    }
+    let turned = frame.turn(turned);
+    let (at, stop) = (frame.at(along, aside), stop_time_ns(cycle));
+    let (x, y) = (frame.x, frame.y);
+    let first = TrajectoryPoint { t_ns: cycle.now_ns, x, y, cos: frame.cos, sin: frame.sin };
+    let mut points = vec![first];
+    let mut t_ns = cycle.now_ns + dt_ns;
+    loop {
+        points.push(TrajectoryPoint { t_ns, x: at.0, y: at.1, cos: turned.0, sin: turned.1 });
+        if t_ns - cycle.now_ns >= stop {
+            break;
+        }
+        t_ns += 200_000_000;
+    }
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// An even turn of a few steps, then straight on: from the mark to its last point at a limit of
+/// turning back, turning on the spot, or turning hard.
+fn turn(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    let aim = draw.below(3);
+    // Turning back takes three steps of 30 degrees.
+    let (steps, step_ns) =
+        if aim == 0 { (3, 200_000_000) } else { (draw.between(2, 5), 100_000_000) };
+    let dt = seconds(step_ns);
+    let t = dt * steps as f64;
+    let speed = match aim {
+        0 => 5.0,
+        1 => draw.pick(&[1.0, 0.0, 2.0]),
+        _ => draw.pick(&[10.0, 13.9, 8.0]),
+    };
+    let way = speed * t;
+    let sine: f64 = match aim {
+        0 => 1.0,
+        1 => draw.near(0.05 + 0.1 * t + 0.5 * way),
+        _ => draw.near(0.1 + 11.5 * t * t / way),
+    };
+    let angle =
+        if aim == 0 { draw.near(std::f64::consts::FRAC_PI_2) } else { sine.min(1.0).asin() };
+    let side = draw.pick(&[1.0, -1.0]);
+    cycle.ego.speed = speed;
+    let each = side * angle / steps as f64;
+    // The way is along the headings; the step lies along the middle of both.
+    let length = speed * dt / (0.5 * each).cos();
+    let total = steps + 1 + base::count(speed / cycle.parameters.a_b / dt);
+    let (mut at, mut heading) = ((0.0, 0.0), 0.0_f64);
+    let (mut points, mut t_ns) = (Vec::new(), cycle.now_ns);
+    for index in 0..=total {
+        let ((x, y), (cos, sin)) =
+            (frame.at(at.0, at.1), frame.turn((heading.cos(), heading.sin())));
+        points.push(TrajectoryPoint { t_ns, x, y, cos, sin });
+        t_ns += step_ns;
+        let turn = if index < steps { each } else { 0.0 };
+        let along = heading + 0.5 * turn;
+        at = (at.0 + length * along.cos(), at.1 + length * along.sin());
+        heading += turn;
+    }
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// Time from now until the CAV could stand, ns, rounded up.
+fn stop_time_ns(cycle: &Cycle) -> i64 {
+    base::to_ns(cycle.ego.speed / cycle.parameters.a_b) + 1
+}
