@@ -2,11 +2,11 @@
 for stage ii (hardened_ii.py) and H-08 (offloading.py)."""
 import math
 
+from closed_cells import stage_v
 from detection_history import S, Seen, gap
 from geometry import EPS, assignment_cost, distance, rectangles_meet
 from hardened_ii import stage_ii
-from paper import (current, disk_centres, disk_radius, gated, s_b, s_cav, s_follow, s_valid,
-                   too_much_work)
+from paper import current, gated, s_cav, s_follow, s_valid, too_much_work
 from stopping import places, s_stop
 
 
@@ -113,7 +113,7 @@ def stage_iv(cycle, seen, ran_iii):
 def stage_iv_moving(cycle, seen):
     """H-13: the motions that the CAV may have seen itself."""
     horizon = s_stop(cycle) + cycle["parameters"]["tau_motion"] * cycle["ego"]["speed"]
-    examined, stamp_ns = list(places(cycle, horizon)), cycle["detections"]["stamp_ns"]
+    examined, stamp_ns = list(places(cycle, horizon, horizon)), cycle["detections"]["stamp_ns"]
     if seen.work(len(examined)) > cycle["parameters"]["work_limit"]:
         return False
     motions = list(seen.moving())
@@ -122,38 +122,3 @@ def stage_iv_moving(cycle, seen):
         if any(collides(cycle, place, item, wx * t, wy * t) for item, (wx, wy) in motions):
             return False
     return True
-
-
-def stage_v(cycle, ran_iv):
-    """H-06: the disks against the squares of cells; the unknown counts unless stage iv ran."""
-    grid, r = cycle["grid"], disk_radius(cycle) + EPS
-    high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
-    bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
-    bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
-    filled = bits[0] | bits[-1]
-    rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
-            for k in range(grid["height"])]
-    for place in places(cycle, max(s_b(cycle, cycle["ego"]["speed"]), s_stop(cycle))):
-        for u, v in disk_centres(cycle, *place):
-            if not ran_iv and not (r < u < high_u - r and r < v < high_v - r):
-                return False
-            if meets_cell(grid, rows, u, v, r):
-                return False
-    return True
-
-
-def meets_cell(grid, rows, u, v, r):
-    """Whether the closed square of a marked cell is at distance at most r from (u, v)."""
-    res = grid["resolution"]
-    # One row more on either side: a distance decides, not the rounding of a quotient.
-    for k in range(max(math.floor((v - r) / res) - 1, 0),
-                   min(math.floor((v + r) / res) + 2, grid["height"])):
-        dv = max(k * res - v, v - (k + 1) * res, 0.0)
-        if not rows[k] or dv > r:
-            continue
-        half = math.sqrt(r * r - dv * dv)
-        low = max(math.ceil((u - half) / res) - 1, 0)
-        high = min(math.floor((u + half) / res), grid["width"] - 1)
-        if low <= high and rows[k] >> low & ((1 << (high - low + 1)) - 1):
-            return True
-    return False

@@ -38,13 +38,16 @@ def s_stop(cycle):
             + (v + a_max * tau)**2 / (2 * parameters["a_b"]))
 
 
-def places(cycle, horizon):
-    """The places up to a horizon, and the next one: each a point and a center_offset. A trajectory
-    that ends before s_stop is examined beyond its end, as if the CAV went straight on."""
+def places(cycle, horizon, beyond=None):
+    """The places up to a horizon, and the first one beyond s_stop (or beyond another way): each a
+    point and a center_offset. A trajectory that ends before s_stop is examined beyond its end, as
+    if the CAV went straight on."""
     points = cycle["trajectory"]["points"]
     offset, stop, way = cycle["ego"]["center_offset"], s_stop(cycle), ways(points)
-    for point, before in zip(points, [0.0, *way]):
-        if before > (1 + 1e-6) * horizon + EPS:
+    beyond = stop if beyond is None else beyond
+    for point, here, before in zip(points, way, [0.0, *way]):
+        is_next = before <= (1 + 1e-6) * beyond + EPS
+        if here > (1 + 1e-6) * horizon + EPS and not is_next:
             return
         yield point, offset
     if way[-1] < stop + EPS:
