@@ -75,13 +75,13 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_places_examined_reach_s_stop",
         statement: "H-04: along a trajectory and straight on behind its end, also in MotRemote, the last place \
-                    examined is not before s_stop; when it is not the last point, it is behind s, too",
+                    examined is not before s_stop; a point that is not examined is behind s",
         domain: "3 points anywhere, all headings along x, that end at most 1/2 m before s_stop, all \
                  s >= 0, speeds, tau, a_max >= 0, a_b > 0, L >= 1/4 m; center_offset = 0",
-        claim: || reach(Profile::Hardened, |_, _| any_s(), places_examined),
+        claim: || reach(Profile::Hardened, any_s, places_examined),
         wrong: Wrong {
             statement: "also in the paper profile",
-            claim: || reach(Profile::Paper, |_, _| any_s(), places_examined),
+            claim: || reach(Profile::Paper, any_s, places_examined),
         },
     },
     Theorem {
@@ -151,16 +151,18 @@ fn braking(share: &Real) -> Formula {
     equal(&(driven(&v, &a, &t) + s_b(&(&v + &a * &t), &a_b)), &s_b(&v, &a_b))
 }
 
-/// Any horizon of a stage.
-fn any_s() -> Real {
+/// Any horizon of a stage, and s_stop.
+fn any_s(scene: &Scene, trajectory: &[Point]) -> [Real; 2] {
     let s = Real::variable("s");
     given(at_most(&Real::zero(), &s));
-    s
+    [s, s_stop_along(scene, trajectory)]
 }
 
-/// s_stop + tau_motion v_now, m.
-fn tau_motion_farther(scene: &Scene, trajectory: &[Point]) -> Real {
-    s_stop_along(scene, trajectory) + &scene.parameters.tau_motion * &scene.ego.v_now
+/// s_stop + tau_motion v_now, m, twice.
+fn tau_motion_farther(scene: &Scene, trajectory: &[Point]) -> [Real; 2] {
+    let way = &scene.parameters.tau_motion * &scene.ego.v_now;
+    let s = s_stop_along(scene, trajectory) + way;
+    [s.clone(), s]
 }
 
 fn along_first_heading(share: &Real) -> Formula {
@@ -174,7 +176,8 @@ fn along_first_heading(share: &Real) -> Formula {
     at_most(&along, &(share * e(&scene, &[first])))
 }
 
-type Horizon = fn(&Scene, &[Point]) -> Real;
+/// How far all points are examined, and how far the last one of them is at least.
+type Horizon = fn(&Scene, &[Point]) -> [Real; 2];
 type Examined = for<'a> fn(&'a Scene, &'a [Point], &Real) -> Places<'a>;
 
 fn reach(profile: Profile, horizon: Horizon, examined: Examined) -> Formula {
@@ -195,11 +198,11 @@ fn reach(profile: Profile, horizon: Horizon, examined: Examined) -> Formula {
     let (arcs, s_stop) = (ways(&trajectory), s_stop_along(&scene, &trajectory));
     let end = &arcs[trajectory.len() - 1];
     given(at_most(&(&s_stop - end), &Real::ratio(1, 2)));
-    let s = horizon(&scene, &trajectory);
+    let [s, t] = horizon(&scene, &trajectory);
     let examined: Vec<Point> = examined(&scene, &trajectory, &s).iter().collect();
     if examined.len() < trajectory.len() {
-        let arc = &arcs[examined.len() - 1];
-        return Formula::All(vec![less(&s, arc), less(&s_stop, arc)]);
+        let [last, next] = [examined.len() - 1, examined.len()].map(|i| &arcs[i]);
+        return Formula::All(vec![less(&s_stop, last), less(&t, last), less(&s, next)]);
     }
     let last = &examined[examined.len() - 1].pose.origin;
     let beyond = (last - &trajectory[trajectory.len() - 1].pose.origin).length();
