@@ -111,7 +111,7 @@ impl PlacesBeyond {
         &self,
         cycle: &Cycle<'a>,
         points: &[TrajectoryPoint],
-        find: impl Fn(&Cycle<'a>, &[TrajectoryPoint]) -> Option<Witness>,
+        mut find: impl FnMut(&Cycle<'a>, &[TrajectoryPoint]) -> Option<Witness>,
     ) -> Option<Witness> {
         let last = points.last()?;
         self.moved_on(cycle.ego).zip(points.len()..).find_map(|(ego, index)| {

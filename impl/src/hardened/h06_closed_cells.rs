@@ -1,49 +1,102 @@
 //! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, Grid};
+use crate::input::cycle::{Cycle, Detection, Grid};
+use crate::numbers::plane::Vector;
 use crate::numbers::range::{float, integer, larger, smaller};
+use crate::numbers::rectangle::{Rectangle, certainly_touch};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::PointsExamined;
+use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
 use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
-/// grid. `unknown_is_free`: stage iv ran in this cycle, so that the last two do not count.
+/// grid. `left_to_iv`: the current detections, when stage iv ran in this cycle, so that the last two
+/// do not count.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
     examined: &PointsExamined<'_, '_>,
-    unknown_is_free: bool,
+    left_to_iv: Option<&[Detection]>,
 ) -> Option<Witness> {
-    let everywhere = |find: &dyn Fn(&DiskSearch<'_, '_>) -> Option<Witness>| {
+    let everywhere = |find: &mut dyn FnMut(&DiskSearch<'_, '_>) -> Option<Witness>| {
         let found = find(&DiskSearch::new(cycle, grid, examined.points));
         let beyond =
             || examined.first_beyond(|cycle, points| find(&DiskSearch::new(cycle, grid, points)));
         found.or_else(beyond)
     };
-    let touched = |rule, cells: &Bitmap<'_>| {
-        everywhere(&|search| search.cells(rule, cells, |grid, disk| grid.touched(disk, cells)))
+    let touched = |rule, cells: &Bitmap<'_>, covered: &mut Covered<'_>| {
+        everywhere(&mut |search| {
+            search.cells(rule, cells, |grid, disk| grid.touched(disk, cells, covered))
+        })
     };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
-    let found = touched(Rule::Occupied, &occupied);
-    if unknown_is_free {
-        return found;
+    if let Some(detections) = left_to_iv {
+        return touched(Rule::Occupied, &occupied, &mut Covered::by(detections, grid));
     }
+    let mut none = Covered::by(&[], grid);
+    let found = touched(Rule::Occupied, &occupied, &mut none);
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
-    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
+    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown, &mut none));
     let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
     let outside =
-        || everywhere(&|search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
+        || everywhere(&mut |search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
     found.or_else(unknown).or_else(outside)
 }
 
+/// The cells that the rectangle of a detection covers in part: stage iv has examined it.
+struct Covered<'d> {
+    detections: &'d [Detection],
+    grid: &'d Grid<'d>,
+    /// The detection that covered the last cell, as an index: mostly it covers the next one, too.
+    last: usize,
+}
+
+impl<'d> Covered<'d> {
+    const fn by(detections: &'d [Detection], grid: &'d Grid<'d>) -> Self {
+        Self { detections, grid, last: 0 }
+    }
+
+    /// Whether the closed square of the cell certainly shares a point with a detection.
+    fn contains(&mut self, geometry: &GridGeometry, i: i64, k: i64) -> bool {
+        let cell = self.plain_cell(i, k);
+        let touches = |detection: &Detection| {
+            let detection = MovingRectangle::detection(detection);
+            !cell.certainly_apart(&detection, 0.0)
+                && certainly_touch(
+                    &geometry.cell(self.grid, i, k),
+                    &detection.displaced(Vector::ZERO),
+                )
+        };
+        if self.detections.get(self.last).is_some_and(touches) {
+            return true;
+        }
+        let found = self.detections.iter().position(touches);
+        self.last = found.unwrap_or(0);
+        found.is_some()
+    }
+
+    /// The cell in plain doubles; its centre errs by less than 2^-25 m.
+    fn plain_cell(&self, i: i64, k: i64) -> MovingRectangle {
+        let &Grid { x, y, cos, sin, resolution, .. } = self.grid;
+        let [a, b] = [i, k].map(|index| (float(index) + 0.5) * resolution);
+        MovingRectangle {
+            centre: [x + (a * cos - b * sin), y + (a * sin + b * cos)],
+            direction: [cos, sin],
+            velocity: [0.0, 0.0],
+            size: [resolution, resolution],
+        }
+    }
+}
+
 impl GridGeometry {
-    /// The first cell of the bitmap whose closed square may be at distance <= r.
-    fn touched(&self, disk: &Disk, cells: &Bitmap<'_>) -> Option<Hit> {
+    /// The first cell of the bitmap whose closed square may be at distance <= r, but for those that
+    /// are covered.
+    fn touched(&self, disk: &Disk, cells: &Bitmap<'_>, covered: &mut Covered<'_>) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
             if self.row_is_free(disk, k, cells) {
@@ -53,7 +106,7 @@ impl GridGeometry {
             let mut next = cells.first_in_row(k, from, to);
             while let Some(i) = next {
                 let hit = self.hit(disk, i, k);
-                if hit.is_some() {
+                if hit.is_some() && !covered.contains(self, i, k) {
                     return hit;
                 }
                 next = cells.first_in_row(k, i.saturating_add(1), to);
@@ -95,6 +148,15 @@ impl GridGeometry {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);
         touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
+    }
+
+    /// The closed square of the cell.
+    fn cell(&self, grid: &Grid<'_>, i: i64, k: i64) -> Rectangle {
+        let middle = |index| (Real::integer(index) + Real::new(0.5)) * self.resolution;
+        let turned = Vector { x: -self.direction.y, y: self.direction.x };
+        let centre = self.origin + self.direction.times(middle(i)) + turned.times(middle(k));
+        let (length, width) = (grid.resolution, grid.resolution);
+        Rectangle { centre, direction: self.direction, length, width }
     }
 
     /// The first and the last column that the disk may touch in row `k`.

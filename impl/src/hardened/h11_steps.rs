@@ -63,15 +63,17 @@ fn step_is_fine(cycle: &Cycle<'_>, from: &TrajectoryPoint, to: &TrajectoryPoint)
         && fits(along, aside)
         && fits(along_next, aside_next)
         && from.cos * to.cos + from.sin * to.sin >= LEAST_COSINE + STEP_ERROR
-        && slide + STEP_ERROR <= bent.abs() + SLIDE * (along + along_next + dt)
+        && slide + STEP_ERROR <= bent.abs() + SLIDE * (along + along_next) + DRIFT * dt
 }
 
 /// m/s: a standing vehicle seems to move back so fast.
 const BACK: f64 = 0.1;
 /// Of a turn of a step: 30 degrees.
 const LEAST_COSINE: f64 = 0.866;
-/// What a step may lie beside its headings: for each m along them (and for each s, in m).
+/// What a step may lie beside its headings, both together, for each m along them.
 const SLIDE: f64 = 0.1;
+/// The same for each s, m.
+const DRIFT: f64 = 0.2;
 
 /// The first rule that the step does not certainly keep, and the two numbers.
 fn first_broken(
@@ -96,7 +98,7 @@ fn first_broken(
     let (both, bent) = (before + after, length * before.cross(after) * Real::new(0.5));
     let slide = at_most(
         (u.cross(both) + bent).abs(),
-        bent.abs() + Real::new(SLIDE) * u.dot(both) + Real::new(SLIDE) * dt,
+        bent.abs() + Real::new(SLIDE) * u.dot(both) + Real::new(DRIFT) * dt,
     );
     let rules = [
         (Rule::StepLength, true, at_most(size, length)),

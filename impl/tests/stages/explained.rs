@@ -65,6 +65,19 @@ fn any_other_detection_stands_within_s_valid() {
     assert_eq!(met(&shared), Some((6, 1)));
 }
 
+/// H-04: a car one step beyond `s_follow`, 9 m, is not examined.
+#[test]
+fn behind_s_valid_no_point_is_next() {
+    let left_out = |gap: f64| {
+        let mut scene = driving_away(AllRemote, gap);
+        scene.tracks.as_mut().expect("tracks").pop();
+        met(&scene)
+    };
+    // From the front at 2.5 m to that at 9 m, the nineteenth point.
+    assert_eq!(left_out(6.5 - 1e-7), Some((18, 1)));
+    assert_eq!(left_out(6.5 + 1e-7), None);
+}
+
 #[test]
 fn without_stage_iii_it_stands_within_s_valid() {
     assert_eq!(met(&driving_away(MotRemote, 1e-7)), Some((6, 1)));

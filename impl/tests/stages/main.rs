@@ -5,6 +5,7 @@
     reason = "small numbers of tests"
 )]
 
+mod cells;
 mod explained;
 mod history;
 mod input;

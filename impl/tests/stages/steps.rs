@@ -1,7 +1,7 @@
 //! Horizons, starts, steps, turns and progress of a trajectory on both sides of their thresholds
 //! (H-04, H-07 and H-10 to H-12 of `spec/3-stages.md#hardened-profile`).
 
-use crate::scene::{NOW_NS, Scene, detection, scene};
+use crate::scene::{NOW_NS, Scene, detection, scene, track};
 use mufasa::input::cycle::{Lead, TrajectoryPoint};
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::{Outcome, Rule, Stage};
@@ -72,11 +72,11 @@ fn a_step_back_is_noise_up_to_a_tenth_of_a_metre_per_second() {
     }
 }
 
-/// 0.1 of twice the step and 0.1 m/s: 0.11 m for both headings together.
+/// 0.1 of twice the step and 0.2 m/s: 0.12 m for both headings together.
 #[test]
 fn a_step_lies_along_its_headings() {
     for sign in [1.0, -1.0] {
-        for (aside, rule) in [(0.055 - 1e-7, None), (0.055 + 1e-7, Some(Rule::StepSlide))] {
+        for (aside, rule) in [(0.06 - 1e-7, None), (0.06 + 1e-7, Some(Rule::StepSlide))] {
             assert_eq!(moved(0.0, sign * aside).rule(), rule, "{aside}");
         }
     }
@@ -99,10 +99,10 @@ fn a_step_on_an_arc() {
         let mut scene = base();
         // u x (h1 + h2) = x sin - y (1 + cos) is from -L sin to 0, and slack to both sides.
         let (x, length) = (0.5, scene.ego.length);
-        let slack = 0.1 * x * (1.0 + cos) + 0.01;
+        let slack = 0.1 * x * (1.0 + cos) + 0.02;
         let target = -inward * length * sin + if inward > 0.0 { -1.0 } else { 1.0 } * slack;
         // The slack is of u . (h1 + h2), which has y sin in it, too.
-        let limit = |y: f64| 0.1 * (x * (1.0 + cos) + y * sin) + 0.01 - slack;
+        let limit = |y: f64| 0.1 * (x * (1.0 + cos) + y * sin) + 0.02 - slack;
         let mut y = (x * sin - target) / (1.0 + cos);
         for _ in 0..20 {
             let outer = if inward > 0.0 { -limit(y) } else { limit(y) };
@@ -245,6 +245,42 @@ fn a_cav_behind_the_first_point_has_no_start_to_make_up_for() {
     assert!(met(front - 1e-7, 0.0) && !met(front + 1e-7, 0.0));
     assert!(!met(front + 1e-7, -0.3));
     assert!(met(front + 0.5 - 1e-7, 0.3) && !met(front + 0.5 + 1e-7, 0.3));
+}
+
+/// Where the front of the CAV is at the last point that stage iii examines, `s_CAV` being so many m.
+fn examined_with(s_cav: f64) -> f64 {
+    let met = |x: f64| {
+        let mut scene = scene(Hardened, PlanRemote, [0.0, 0.0]);
+        scene.parameters.safety_time = s_cav / scene.ego.speed;
+        scene.tracks = Some(vec![track(1, x, 0.0)]);
+        scene.rule().is_some()
+    };
+    let fronts = (0..30).map(|i| 0.5 * f64::from(i)).filter(|way| {
+        let touching = way + 1.4 + 2.25 + 2.0;
+        met(touching - 1e-7) && !met(touching + 1e-7)
+    });
+    fronts.fold(f64::NAN, f64::max)
+}
+
+/// `s_stop` is 2.270_625 m, and the points are at each 0.5 m.
+#[test]
+fn the_next_point_is_the_first_beyond_s_stop() {
+    // Within `s_CAV`, where that is farther, or behind it.
+    for (s_cav, farthest) in
+        [(0.0, 2.5), (2.2, 2.5), (2.4, 2.5), (2.5, 2.5), (2.99, 2.5), (3.0, 3.0), (3.2, 3.0)]
+    {
+        assert!((examined_with(s_cav) - farthest).abs() < 1e-9, "{s_cav}");
+    }
+    // A point at (1 + 1e-6) s_stop is not beyond it; without tau s_stop is s_b.
+    let met = |v: f64| {
+        let mut scene = base();
+        (scene.parameters.tau, scene.ego.speed) = (0.0, v);
+        (scene.tracks, scene.detections) = (None, Some(vec![detection(3.0 + 5.65 - 1e-7, 0.0)]));
+        scene.rule().is_some()
+    };
+    // s_b = v^2/16 is 2.5 m.
+    let v = 40.0_f64.sqrt();
+    assert!(met(v + 1e-7) && met(v) && !met(v - 1e-5));
 }
 
 /// Between now and the time of the first point the CAV may brake or accelerate: d = 50 ms.

@@ -9,6 +9,8 @@ use super::draw::Draw;
 use super::end;
 use super::obstacle;
 
+mod covered;
+
 /// A grid as it is being made: where a disk centre lies in it.
 struct Plan {
     /// Column and row of the cell of the disk centre.
@@ -21,7 +23,7 @@ struct Plan {
     resolution: f64,
 }
 
-/// A cycle that stage v decides: no tracks and no detections.
+/// A cycle that stage v decides; there are no tracks and no detections but for what covers cells.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let frame = base::frame(draw);
     let configurations = [
@@ -42,6 +44,10 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.ego.speed = draw.pick(&[0.0, 1.0, 2.0]);
     let ego = cycle.ego.clone();
     cycle.trajectory = Some(base::straight(&ego, frame, cycle.now_ns, &cycle.parameters));
+    if profile == Profile::Hardened && draw.one_in(4) {
+        covered::cell(draw, &mut cycle);
+        return cycle;
+    }
     match draw.below(8) {
         0..=2 => cell_at_radius(draw, &mut cycle),
         3 | 4 => border(draw, &mut cycle),
@@ -202,8 +208,9 @@ fn border(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     const SIDE: f64 = 0.5;
     cycle.ego.speed = draw.pick(&[5.0, 8.0, 3.0]);
-    let reach = obstacle::horizon_of_grid(cycle);
-    let found = obstacle::at_horizon(draw, cycle, reach);
+    let horizon = obstacle::horizon_of_grid(cycle);
+    let reach = horizon.metres;
+    let found = obstacle::at_horizon(draw, cycle, horizon);
     let (ego, r) = (&cycle.ego, radius(cycle));
     let Some(points) = cycle.trajectory.as_ref().map(|list| &list.points) else { return };
     let (hit, before) = (&points[found.point], &points[found.point - 1]);
@@ -231,7 +238,7 @@ fn beyond(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let n = cycle.parameters.n as f64;
     let front = 0.5 * cycle.ego.length - cycle.ego.length / (2.0 * n);
     let ahead = front + draw.near(radius(cycle));
-    let reach = obstacle::horizon_of_grid(cycle) + 2.0;
+    let reach = obstacle::horizon_of_grid(cycle).metres + 2.0;
     cycle.grid = Some(wall(draw, cycle, place, ahead, reach));
 }
 

@@ -7,8 +7,17 @@ use super::base::{self, Frame, Obstacle, s_stop, to_ns};
 use super::draw::Draw;
 use super::end;
 
-/// An object that decides a cycle with `horizon` metres examined (H-04 included by the caller).
-pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: f64) -> Obstacle {
+/// How far a stage looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Horizon {
+    /// Rounded, m; H-04 included.
+    pub metres: f64,
+    /// Whether the next point is examined, too.
+    pub next: bool,
+}
+
+/// An object that decides a cycle with this horizon.
+pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obstacle {
     if end::is_examined(cycle) && draw.one_in(4) {
         return end::obstacle(draw, cycle);
     }
@@ -80,17 +89,17 @@ fn far_centre(draw: &mut Draw<'_>, cycle: &Cycle) -> Obstacle {
     obstacle(ego, at, (cos, sin), (length.max(0.5), 2.5), (-1.0, 0.0))
 }
 
-/// A new trajectory with one point at the horizon, and an object that only the first point behind
-/// it hits (paper: the point itself).
-pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: f64) -> Obstacle {
+/// A new trajectory with one point at the horizon, and an object that only the last point examined
+/// hits: this one, or the next.
+pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obstacle {
     let hardened = cycle.profile == Profile::Hardened;
     let speed = cycle.ego.speed;
     let spacing = (0.15 * speed).clamp(0.05, 0.8 * cycle.ego.length);
-    let reach = draw.near(horizon).max(0.0);
+    let reach = draw.near(horizon.metres).max(0.0);
     let most = if hardened { 40 } else { draw.between(2, 8) };
     let steps = base::count(reach / spacing).clamp(1, most);
     let behind = draw.between(1, 2);
-    let hit = if hardened { steps + 1 } else { steps };
+    let hit = if horizon.next { steps + 1 } else { steps };
     let (now_ns, ego) = (cycle.now_ns, cycle.ego.clone());
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
     let zigzag = !hardened && draw.one_in(3);
@@ -139,30 +148,31 @@ fn later(points: &mut [TrajectoryPoint]) {
     }
 }
 
-/// The largest horizon of iii (`s_CAV`) in the profile, rounded, m.
-pub fn horizon_of_tracks(cycle: &Cycle) -> f64 {
+/// The horizon of iii (`s_CAV`) in the profile.
+pub fn horizon_of_tracks(cycle: &Cycle) -> Horizon {
     with_stop(cycle, cycle.parameters.safety_time * cycle.ego.speed)
 }
 
-/// The largest horizon of iv (`s_valid`) in the profile, rounded, m.
-pub fn horizon_of_detections(cycle: &Cycle) -> f64 {
+/// The horizon of iv (`s_valid`) in the profile.
+pub fn horizon_of_detections(cycle: &Cycle) -> Horizon {
     let braking = cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b);
     with_stop(cycle, if cycle.lead.is_some() { s_follow(cycle) } else { braking })
 }
 
-/// The largest horizon of v (`s_b`) in the profile, rounded, m.
-pub fn horizon_of_grid(cycle: &Cycle) -> f64 {
+/// The horizon of v (`s_b`) in the profile.
+pub fn horizon_of_grid(cycle: &Cycle) -> Horizon {
     with_stop(cycle, cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b))
 }
 
-/// The horizon of what is explained (H-10), rounded, m.
-pub fn horizon_of_explained(cycle: &Cycle) -> f64 {
-    (1.0 + 1e-6) * s_stop(cycle)
+/// The horizon of what is explained (H-10).
+pub fn horizon_of_explained(cycle: &Cycle) -> Horizon {
+    Horizon { metres: (1.0 + 1e-6) * s_stop(cycle), next: true }
 }
 
-/// The horizon of H-13, rounded, m.
-pub fn horizon_of_moving(cycle: &Cycle) -> f64 {
-    (1.0 + 1e-6) * (s_stop(cycle) + cycle.parameters.tau_motion * cycle.ego.speed)
+/// The horizon of H-13.
+pub fn horizon_of_moving(cycle: &Cycle) -> Horizon {
+    let metres = (1.0 + 1e-6) * (s_stop(cycle) + cycle.parameters.tau_motion * cycle.ego.speed);
+    Horizon { metres, next: true }
 }
 
 /// `s_follow`, rounded, m; the lead counts as standing when there is none.
@@ -172,11 +182,12 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
     ((v * v - lead * lead) / (2.0 * p.a_b)).max(0.0) + p.safety_time * v
 }
 
-/// H-04.
-fn with_stop(cycle: &Cycle, s: f64) -> f64 {
+/// H-04: behind a horizon that is longer than `s_stop` no point is next.
+fn with_stop(cycle: &Cycle, s: f64) -> Horizon {
+    let s_stop = s_stop(cycle);
     match cycle.profile {
-        Profile::Paper => s,
-        Profile::Hardened => (1.0 + 1e-6) * s.max(s_stop(cycle)),
+        Profile::Paper => Horizon { metres: s, next: false },
+        Profile::Hardened => Horizon { metres: (1.0 + 1e-6) * s.max(s_stop), next: s <= s_stop },
     }
 }
 

@@ -20,8 +20,8 @@ pub(crate) struct Hit {
 
 /// The frame and the cells of a grid, and the disks' radius.
 pub(crate) struct GridGeometry {
-    origin: Vector,
-    direction: Vector,
+    pub(crate) origin: Vector,
+    pub(crate) direction: Vector,
     norm_squared: Real,
     pub(crate) resolution: Real,
     pub(crate) width: i64,
