@@ -1,16 +1,19 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
 //! grid counts as occupied, unless stage iv ran in this cycle. Where it ran, it examined the rectangles of the
-//! detections, and the occupied cells that one of them touches are left to it.
+//! detections, and against the occupied cells that one of them touches stands the rectangle of the CAV instead of
+//! its disks; not in `MotRemote`, where the paper examines the grid, too.
 
 use crate::input::scene::{Detections, Grid, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::{Rectangle, surely_share_a_point};
+use crate::numbers::rectangle::{Rectangle, may_share_a_point, surely_share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Rule;
+use crate::services::configuration::Configuration;
 
-/// What a disk with its centre (in the frame of the grid) and the radius r must not reach.
-pub type Test<'a> = Box<dyn Fn(&Vector, &Real) -> Option<Hit> + 'a>;
+/// What the CAV (its rectangle), a disk of it with its centre (in the frame of the grid) and the radius r must
+/// not reach.
+pub type Test<'a> = Box<dyn Fn(&Rectangle, &Vector, &Real) -> Option<Hit> + 'a>;
 
 /// The rules in the order in which they are asked of all disks. `examined`: the detections, when stage iv
 /// ran in this cycle.
@@ -20,17 +23,21 @@ pub fn rules<'a>(
     examined: Option<&'a Detections>,
 ) -> Vec<(Rule, Test<'a>)> {
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
-        Box::new(move |centre, r| {
+        let compared = examined.filter(|_| scene.configuration != Configuration::MotRemote);
+        Box::new(move |cav, centre, r| {
             touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
-                let left = |them| is_left(scene, grid, hit.cell, them);
-                !examined.is_some_and(left)
+                let square = hit.cell.map(|cell| square(grid, cell));
+                !square.zip(compared).is_some_and(|(square, detections)| {
+                    is_of_a_detection(scene, &square, detections)
+                        && !may_share_a_point(&scene.reads, cav, &square)
+                })
             })
         })
     };
     if examined.is_some() {
         return vec![(Rule::Occupied, touched(Grid::is_occupied))];
     }
-    let outside: Test = Box::new(|centre, r| touched_border(scene, grid, centre, r));
+    let outside: Test = Box::new(|_, centre, r| touched_border(scene, grid, centre, r));
     vec![
         (Rule::Occupied, touched(Grid::is_occupied)),
         (Rule::Unknown, touched(Grid::is_unknown)),
@@ -38,14 +45,17 @@ pub fn rules<'a>(
     ]
 }
 
-/// The closed square of the cell shares a point with the rectangle of a detection.
-fn is_left(scene: &Scene, grid: &Grid, cell: Option<Cell>, detections: &Detections) -> bool {
-    let Some(cell) = cell else { return false };
+/// The closed square of a cell.
+fn square(grid: &Grid, cell: Cell) -> Rectangle {
     let middle = centre(cell, &grid.resolution);
     let direction = grid.frame.direction.clone();
     let frame = Frame { origin: grid.frame.point(&middle.x, &middle.y), direction };
-    let square = Rectangle::new(frame, &grid.resolution, &grid.resolution);
-    let touches = |d: &Rectangle| surely_share_a_point(&scene.reads, d, &square);
+    Rectangle::new(frame, &grid.resolution, &grid.resolution)
+}
+
+/// The square of a cell shares a point with the rectangle of a detection.
+fn is_of_a_detection(scene: &Scene, square: &Rectangle, detections: &Detections) -> bool {
+    let touches = |d: &Rectangle| surely_share_a_point(&scene.reads, d, square);
     detections.items.iter().any(|d| touches(&d.rectangle()))
 }
 

@@ -9,7 +9,8 @@ use crate::input::profile::Profile;
 use crate::input::scene::{Detections, Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
-use crate::numbers::vector::Vector;
+use crate::numbers::rectangle::Rectangle;
+use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
 use crate::stages::horizon::places_examined;
@@ -27,21 +28,22 @@ pub fn trajectory_with_grid_map(
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
     let r = disk_radius(&ego.length, &ego.width, &n);
     let places = places_examined(scene, trajectory, &s_b);
-    let first = |rule: Rule, collides: &dyn Fn(&Vector) -> Option<Hit>| {
+    let first = |rule: Rule, collides: &dyn Fn(&Rectangle, &Vector) -> Option<Hit>| {
         places.iter().enumerate().find_map(|(i, place)| {
-            disk_centres(scene, grid, &place).iter().enumerate().find_map(|(d, centre)| {
-                let Hit { cell, distance } = collides(centre)?;
+            let cav = Rectangle::new(centre(scene, &place), &ego.length, &ego.width);
+            disk_centres(scene, grid, &cav.frame).iter().enumerate().find_map(|(d, centre)| {
+                let Hit { cell, distance } = collides(&cav, centre)?;
                 let witness = Witness::new(rule, &distance, &r).at_point(i);
                 Some(Witness { disk: Some(d), cell, ..witness })
             })
         })
     };
     match scene.profile {
-        Profile::Paper => first(Rule::Occupied, &|centre| {
+        Profile::Paper => first(Rule::Occupied, &|_, centre| {
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
         Profile::Hardened => (h06_closed_cells::rules(scene, grid, examined).into_iter())
-            .find_map(|(rule, reaches)| first(rule, &|centre| reaches(centre, &r))),
+            .find_map(|(rule, reaches)| first(rule, &|cav, centre| reaches(cav, centre, &r))),
     }
 }
 
@@ -57,12 +59,11 @@ pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
 }
 
 /// The centres of the n disks on the long axis of the CAV's rectangle, in the frame of the grid.
-fn disk_centres(scene: &Scene, grid: &Grid, point: &Point) -> Vec<Vector> {
-    let rectangle = centre(scene, point);
+fn disk_centres(scene: &Scene, grid: &Grid, cav: &Frame) -> Vec<Vector> {
     let disk = |i: i64| {
         let [i, n] = [i, scene.parameters.n].map(|number| Real::from_integer(number.into()));
         let along = disk_offset(&i, &n, &scene.ego.length);
-        grid.frame.coordinates(&rectangle.point(&along, &Real::zero()))
+        grid.frame.coordinates(&cav.point(&along, &Real::zero()))
     };
     (0..scene.parameters.n).map(disk).collect()
 }
