@@ -13,9 +13,11 @@ def stage_v(cycle, ran_iv):
     bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
     filled = bits[0] | bits[-1]
-    if ran_iv:
-        for cell in cells_of_detections(cycle, filled):
-            filled &= ~(1 << cell)
+    theirs = set()
+    if ran_iv and cycle["configuration"] != "MotRemote":
+        theirs = set(cells_of_detections(cycle, filled))
+    for cell in theirs:
+        filled &= ~(1 << cell)
     rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
             for k in range(grid["height"])]
     for place in places(cycle, max(s_b(cycle, cycle["ego"]["speed"]), s_stop(cycle))):
@@ -24,6 +26,8 @@ def stage_v(cycle, ran_iv):
                 return False
             if meets_cell(grid, rows, u, v, r):
                 return False
+        if any(rectangle_meets(cycle, place, cell) for cell in theirs):
+            return False
     return True
 
 
@@ -46,26 +50,36 @@ def meets_cell(grid, rows, u, v, r):
 
 def cells_of_detections(cycle, filled):
     """The numbers of the marked cells whose closed square surely shares a point with the rectangle
-    of a detection: stage iv has examined that rectangle."""
+    of a detection. Against these stands the CAV's rectangle, not its disks."""
     grid = cycle["grid"]
-    res = grid["resolution"]
+    for item in cycle["detections"]["items"]:
+        half = item["length"] / 2 - EPS, item["width"] / 2 - EPS
+        if min(half) < 0.0:
+            continue
+        middle, along = in_grid(grid, item["x"], item["y"], item)
+        reach = math.hypot(*half) + grid["resolution"]
+        for k in near(middle[1], reach, grid["resolution"], grid["height"]):
+            for i in near(middle[0], reach, grid["resolution"], grid["width"]):
+                cell = k * grid["width"] + i
+                if filled >> cell & 1 and square_meets(grid, cell, middle, along, half):
+                    yield cell
+
+
+def rectangle_meets(cycle, place, cell):
+    """Whether the CAV's rectangle at a place may share a point with the closed square of a cell."""
+    (pose, offset), ego = place, cycle["ego"]
+    x, y = pose["x"] + offset * pose["cos"], pose["y"] + offset * pose["sin"]
+    half = ego["length"] / 2 + EPS, ego["width"] / 2 + EPS
+    return square_meets(cycle["grid"], cell, *in_grid(cycle["grid"], x, y, pose), half)
+
+
+def in_grid(grid, x, y, heading):
+    """A place and a heading in the frame of the grid."""
     norm = grid["cos"]**2 + grid["sin"]**2
     c, s = grid["cos"] / norm, grid["sin"] / norm
-    for item in cycle["detections"]["items"]:
-        half_length, half_width = item["length"] / 2 - EPS, item["width"] / 2 - EPS
-        if min(half_length, half_width) < 0.0:
-            continue
-        x, y = item["x"] - grid["x"], item["y"] - grid["y"]
-        u, v = x * c + y * s, y * c - x * s
-        along = item["cos"] * c + item["sin"] * s, item["sin"] * c - item["cos"] * s
-        reach = math.hypot(half_length, half_width) + res
-        for k in near(v, reach, res, grid["height"]):
-            for i in near(u, reach, res, grid["width"]):
-                cell = k * grid["width"] + i
-                du, dv = u - (i + 0.5) * res, v - (k + 0.5) * res
-                if filled >> cell & 1 and square_meets(res / 2, du, dv, along, half_length,
-                                                       half_width):
-                    yield cell
+    x, y = x - grid["x"], y - grid["y"]
+    return ((x * c + y * s, y * c - x * s),
+            (heading["cos"] * c + heading["sin"] * s, heading["sin"] * c - heading["cos"] * s))
 
 
 def near(middle, reach, res, count):
@@ -73,11 +87,14 @@ def near(middle, reach, res, count):
     return range(max(low, 0), min(high + 1, count))
 
 
-def square_meets(half, du, dv, along, half_length, half_width):
-    """Whether a square along the axes and a rectangle at (du, dv) along a direction share a point."""
-    c, s = along
-    turned, square = abs(c) + abs(s), c * c + s * s
-    return (abs(du) <= half + half_length * abs(c) + half_width * abs(s)
-            and abs(dv) <= half + half_length * abs(s) + half_width * abs(c)
-            and abs(du * c + dv * s) <= half * turned + half_length * square
-            and abs(dv * c - du * s) <= half * turned + half_width * square)
+def square_meets(grid, cell, middle, along, half):
+    """Whether the closed square of a cell and a rectangle, all in the frame of the grid, share a
+    point: no axis of either separates them."""
+    (half_length, half_width), (c, s), res = half, along, grid["resolution"]
+    k, i = divmod(cell, grid["width"])
+    du, dv = middle[0] - (i + 0.5) * res, middle[1] - (k + 0.5) * res
+    turned, square = res / 2 * (abs(c) + abs(s)), c * c + s * s
+    return (abs(du) <= res / 2 + half_length * abs(c) + half_width * abs(s)
+            and abs(dv) <= res / 2 + half_length * abs(s) + half_width * abs(c)
+            and abs(du * c + dv * s) <= turned + half_length * square
+            and abs(dv * c - du * s) <= turned + half_width * square)

@@ -40,26 +40,31 @@ fn h_04_a_larger_gap_is_no_run_of_stage_iv() {
     );
 }
 
-/// H-06: the cells that a detection touches are left to stage iv, where it ran, and no others.
+/// H-06: against the cells that a detection touches stands the CAV's rectangle, where stage iv ran beside what
+/// the paper's schedule runs, and against no others.
 #[test]
-fn h_06_cells_of_a_detection_are_left_to_stage_iv() {
-    let with = |occupied: [f64; 2], is_current: bool| {
-        let mut cycle = base(Profile::Hardened, MotRemote);
+fn h_06_the_rectangle_stands_against_cells_of_a_detection() {
+    let with = |occupied: [f64; 2], change: fn(&mut Cycle)| {
+        let mut cycle = base(Profile::Hardened, PlanRemote);
+        // The disks reach y = 1.16, the rectangle 0.95.
+        cycle.ego.width = 1.9;
         let grid = cycle.grid.as_mut().expect("there is a grid");
         mark(&mut grid.occupied, occupied[0], occupied[1]);
-        cycle.tracks = tracks(vec![track(1, 3.5, 2.5)]);
+        cycle.tracks = None;
+        // It covers x from 1.5 to 5.5, y from 1.5 to 3.5.
         cycle.detections = detections(vec![detection(3.5, 2.5)]);
-        if !is_current {
-            cycle.detections.as_mut().expect("just given").stamp_ns -= 200_000_000;
-        }
+        change(&mut cycle);
         rule(&cycle, Stage::V)
     };
-    // The detection covers x from 1.5 to 5.5, y from 1.5 to 3.5.
-    assert_eq!(with([3.5, 1.5], true), None);
-    assert_eq!(with([1.5, 1.5], true), None);
-    assert_eq!(with([6.5, 1.5], true), Some(Rule::Occupied));
-    assert_eq!(with([3.5, -1.5], true), Some(Rule::Occupied));
-    assert_eq!(with([3.5, 1.5], false), Some(Rule::Occupied));
+    assert_eq!(with([3.5, 1.5], |_| ()), None);
+    assert_eq!(with([1.5, 1.5], |_| ()), None);
+    assert_eq!(with([6.5, 1.5], |_| ()), Some(Rule::Occupied));
+    assert_eq!(with([3.5, -1.5], |_| ()), Some(Rule::Occupied));
+    assert_eq!(with([3.5, 1.5], |c| c.ego.width = 2.0), Some(Rule::Occupied));
+    let mot: fn(&mut Cycle) = |c| c.configuration = MotRemote;
+    assert_eq!(with([3.5, 1.5], mot), Some(Rule::Occupied));
+    let old: fn(&mut Cycle) = |c| c.detections.as_mut().expect("given").stamp_ns -= 200_000_000;
+    assert_eq!(with([3.5, 1.5], old), Some(Rule::Occupied));
 }
 
 /// H-06: a cell both occupied and unknown is occupied.
