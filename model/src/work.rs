@@ -37,8 +37,7 @@ impl Work {
 /// * ii: each trajectory point with each cross section;
 /// * iii: each place of the CAV with each track, in the hardened profile twice (H-09);
 /// * iv: each place with each detection, and the work of H-13;
-/// * v: each disk at each place with each cell that is as near as its radius, in the hardened profile
-///   those with each detection, too.
+/// * v: each disk at each place with each cell that is as near as its radius.
 fn comparisons(scene: &Scene, stage: Stage) -> i128 {
     let trajectory = scene.trajectory.as_deref().unwrap_or_default();
     let is_hardened = scene.profile == Profile::Hardened;
@@ -58,10 +57,7 @@ fn comparisons(scene: &Scene, stage: Stage) -> i128 {
             times * places(scene, trajectory) * tracks as i128
         }
         Stage::Iv => places(scene, trajectory) * detections as i128 + moving(scene, trajectory),
-        Stage::V => {
-            let times = if is_hardened { 1 + detections as i128 } else { 1 };
-            times * places(scene, trajectory) * scene.grid.as_ref().map_or(0, |g| cells(scene, g))
-        }
+        Stage::V => places(scene, trajectory) * scene.grid.as_ref().map_or(0, |g| cells(scene, g)),
     }
 }
 

@@ -1,12 +1,11 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
-//! grid counts as occupied, unless stage iv ran in this cycle. Where it ran, it examined the rectangles of the
-//! detections, and against the occupied cells that one of them touches stands the rectangle of the CAV instead of
-//! its disks; not in `MotRemote`, where the paper examines the grid, too.
+//! grid counts as occupied, unless stage iv ran in this cycle. Where it ran in `AllRemote` or `PlanRemote`, where
+//! the paper does not examine the grid, the CAV's rectangle has to reach the cell, too.
 
-use crate::input::scene::{Detections, Grid, Scene};
+use crate::input::scene::{Grid, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::{Rectangle, may_share_a_point, surely_share_a_point};
+use crate::numbers::rectangle::{Rectangle, may_share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Rule;
 use crate::services::configuration::Configuration;
@@ -15,34 +14,24 @@ use crate::services::configuration::Configuration;
 /// not reach.
 pub type Test<'a> = Box<dyn Fn(&Rectangle, &Vector, &Real) -> Option<Hit> + 'a>;
 
-/// The rules in the order in which they are asked of all disks. `examined`: the detections, when stage iv
-/// ran in this cycle.
-pub fn rules<'a>(
-    scene: &'a Scene,
-    grid: &'a Grid,
-    examined: Option<&'a Detections>,
-) -> Vec<(Rule, Test<'a>)> {
+/// The rules in the order in which they are asked of all disks.
+pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid, stage_iv_ran: bool) -> Vec<(Rule, Test<'a>)> {
+    let is_exact = stage_iv_ran && scene.configuration != Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
-        let compared = examined.filter(|_| scene.configuration != Configuration::MotRemote);
         Box::new(move |cav, centre, r| {
             touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
                 let square = hit.cell.map(|cell| square(grid, cell));
-                !square.zip(compared).is_some_and(|(square, detections)| {
-                    is_of_a_detection(scene, &square, detections)
-                        && !may_share_a_point(&scene.reads, cav, &square)
-                })
+                let reaches = |square| may_share_a_point(&scene.reads, cav, &square);
+                !is_exact || square.is_some_and(reaches)
             })
         })
     };
-    if examined.is_some() {
-        return vec![(Rule::Occupied, touched(Grid::is_occupied))];
+    let occupied = (Rule::Occupied, touched(Grid::is_occupied));
+    if stage_iv_ran {
+        return vec![occupied];
     }
     let outside: Test = Box::new(|_, centre, r| touched_border(scene, grid, centre, r));
-    vec![
-        (Rule::Occupied, touched(Grid::is_occupied)),
-        (Rule::Unknown, touched(Grid::is_unknown)),
-        (Rule::Outside, outside),
-    ]
+    vec![occupied, (Rule::Unknown, touched(Grid::is_unknown)), (Rule::Outside, outside)]
 }
 
 /// The closed square of a cell.
@@ -51,12 +40,6 @@ fn square(grid: &Grid, cell: Cell) -> Rectangle {
     let direction = grid.frame.direction.clone();
     let frame = Frame { origin: grid.frame.point(&middle.x, &middle.y), direction };
     Rectangle::new(frame, &grid.resolution, &grid.resolution)
-}
-
-/// The square of a cell shares a point with the rectangle of a detection.
-fn is_of_a_detection(scene: &Scene, square: &Rectangle, detections: &Detections) -> bool {
-    let touches = |d: &Rectangle| surely_share_a_point(&scene.reads, d, square);
-    detections.items.iter().any(|d| touches(&d.rectangle()))
 }
 
 /// The cells of a kind whose closed square is at distance <= r from the centre, by row and column.

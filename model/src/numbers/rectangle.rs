@@ -45,17 +45,6 @@ pub fn may_share_a_point(reads: &Comparisons, a: &Rectangle, b: &Rectangle) -> b
     share_a_point(&raised, b)
 }
 
-/// The rectangles share a point, and not just nearly so: half length and half width of the first are
-/// lowered by the margin.
-pub fn surely_share_a_point(reads: &Comparisons, a: &Rectangle, b: &Rectangle) -> bool {
-    let lowered = Rectangle {
-        frame: a.frame.clone(),
-        half_length: reads.lowered(&a.half_length),
-        half_width: reads.lowered(&a.half_width),
-    };
-    share_a_point(&lowered, b)
-}
-
 /// The rectangles share a point: no axis parallel to a side of one of them separates their
 /// corners (two convex polygons are disjoint exactly when the normal of some side separates them).
 pub fn share_a_point(a: &Rectangle, b: &Rectangle) -> bool {

@@ -206,8 +206,8 @@ impl Run<'_> {
                 trajectory_with_detections(scene, trajectory?, detections?, beside_tracks)
             }
             Stage::V => {
-                let examined = detections.filter(|_| self.has_run(Stage::Iv));
-                trajectory_with_grid_map(scene, trajectory?, scene.grid.as_ref()?, examined)
+                let grid = scene.grid.as_ref()?;
+                trajectory_with_grid_map(scene, trajectory?, grid, self.has_run(Stage::Iv))
             }
         }
     }

@@ -6,7 +6,7 @@
 
 use crate::hardened::h06_closed_cells;
 use crate::input::profile::Profile;
-use crate::input::scene::{Detections, Grid, Point, Scene};
+use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
@@ -16,13 +16,12 @@ use crate::stages::distances::s_b;
 use crate::stages::horizon::places_examined;
 use crate::stages::llcc::centre;
 
-/// Checks the trajectory in the dilated grid; `None` passes. `examined`: the detections, when stage iv ran
-/// in this cycle (H-06).
+/// Checks the trajectory in the dilated grid; `None` passes. `stage_iv_ran`: in this cycle (H-06).
 pub fn trajectory_with_grid_map(
     scene: &Scene,
     trajectory: &[Point],
     grid: &Grid,
-    examined: Option<&Detections>,
+    stage_iv_ran: bool,
 ) -> Option<Witness> {
     let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
@@ -42,7 +41,7 @@ pub fn trajectory_with_grid_map(
         Profile::Paper => first(Rule::Occupied, &|_, centre| {
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
-        Profile::Hardened => (h06_closed_cells::rules(scene, grid, examined).into_iter())
+        Profile::Hardened => (h06_closed_cells::rules(scene, grid, stage_iv_ran).into_iter())
             .find_map(|(rule, reaches)| first(rule, &|cav, centre| reaches(cav, centre, &r))),
     }
 }

@@ -21,12 +21,6 @@ fn standing(cycle: &mut Cycle, x: f64) {
     cycle.detections = detections(vec![detection(x, 0.0)]);
 }
 
-/// An occupied cell from y = 1 to 2, which disks of the CAV reach.
-fn beside_a_cell(cycle: &mut Cycle) {
-    mark(&mut cycle.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
-    cycle.tracks = None;
-}
-
 const NEAR: &[Near] = &[
     ("way <= (1 + 1e-6) max(s, s_stop) + m", PlanRemote, HARDENED, |c, e| {
         // s_CAV = 18; the car is met at the point there, and at none before.
@@ -39,15 +33,11 @@ const NEAR: &[Near] = &[
         points(c)[8].x = 7.645_632_645_625 - e;
         c.tracks = tracks(vec![track(1, 12.5, 0.0)]);
     }),
-    ("half width of a detection at a cell - m", PlanRemote, HARDENED, |c, e| {
-        beside_a_cell(c);
-        c.ego.width = 1.9;
-        c.detections = detections(vec![detection(3.5, 3.0 + e)]);
-    }),
     ("half width of the CAV at a cell + m", PlanRemote, HARDENED, |c, e| {
-        beside_a_cell(c);
+        // The cell begins at y = 1, and disks reach it.
+        mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
+        c.tracks = None;
         c.ego.width = 2.0 + 2.0 * e;
-        c.detections = detections(vec![detection(3.5, 2.5)]);
     }),
     ("(p - first point) . first heading > -m", MotRemote, HARDENED, |c, e| {
         // Ahead of the first point the CAV is 0.4 m from it: s_stop is 8.05 in place of 7.65.
