@@ -58,7 +58,7 @@ def steps_are_driven(cycle):
         # u x h = -across
         turn = length * cross(a, b) / 2
         slide = abs(turn - across_a - across_b)
-        if slide > abs(turn) + 0.1 * (along_a + along_b) + 0.2 * dt - EPS:
+        if slide > abs(turn) + 0.1 * (along_a + along_b) + 0.4 * dt - EPS:
             return False
     return True
 

@@ -100,11 +100,11 @@ fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
     Witness::unless(scene.reads.at_least(&product, &limit), Rule::StepTurn, &product, &limit)
 }
 
-/// abs(u x (h1 + h2) + L (h1 x h2)/2) <= L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.2 dt: the step lies
+/// abs(u x (h1 + h2) + L (h1 x h2)/2) <= L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.4 dt: the step lies
 /// along its headings; one of length 0 passes in every reading.
 fn step_slide(scene: &Scene, step: &Step) -> Option<Witness> {
     let ([h1, h2], u) = (step.headings, &step.u);
-    let (sum, [share, drift]) = (h1 + h2, [0.1, 0.2].map(Real::from_double));
+    let (sum, [share, drift]) = (h1 + h2, [0.1, 0.4].map(Real::from_double));
     let turned = &scene.ego.length * h1.cross(h2) / Real::from_integer(2);
     let sideways = (u.cross(&sum) + &turned).abs();
     let along = share * u.dot(&sum) + drift * Real::seconds(step.dt_ns);

@@ -41,13 +41,13 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             (along, aside) = (1.0, side * draw.near(0.5 * cycle.ego.width));
         }
         5 => {
-            // u x (h1 + h2) + L (h1 x h2)/2 = +-(L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.2 dt)
+            // u x (h1 + h2) + L (h1 x h2)/2 = +-(L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.4 dt)
             let turn: f64 = draw.pick(&[0.0, 0.1, -0.2, 0.3]);
             turned = (turn.cos(), turn.sin());
             along = draw.pick(&[0.5, 1.0, 1.5]);
             let side = draw.pick(&[1.0, -1.0]);
             let (sum, sine) = (1.0 + turned.0, turned.1);
-            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.04;
+            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.08;
             aside = (along * sine + 0.5 * length * sine - side * slack) / (sum + side * 0.1 * sine);
             aside = draw.near(aside);
         }

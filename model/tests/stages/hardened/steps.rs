@@ -26,15 +26,15 @@ const NEAR: &[Near] = &[
         turn(c, 0.866 - e);
     }),
     ("slide <= bound - m", PlanRemote, HARDENED, |c, e| {
-        // Both headings along x: 2 y <= 0.1 * 2 + 0.2 * 0.1.
-        two_points(c, 100, [1.0, 0.11 + e / 2.0]);
+        // Both headings along x: 2 y <= 0.1 * 2 + 0.4 * 0.1.
+        two_points(c, 100, [1.0, 0.12 + e / 2.0]);
     }),
     ("slide of a turn <= bound - m", PlanRemote, HARDENED, |c, e| {
         // u x (h1 + h2) = 0.56 - 1.96 y, L (h1 x h2)/2 = 0.56: the CAV turns left about a point to
-        // its right. 1.12 - 1.96 y <= 0.56 + 0.1 (3.92 + 0.28 y) + 0.04
+        // its right. 1.12 - 1.96 y <= 0.56 + 0.1 (3.92 + 0.28 y) + 0.08
         two_points(c, 200, [2.0, 0.0]);
         turn(c, 0.96);
-        points(c)[1].y = (0.56 - 0.432 - e) / 1.988;
+        points(c)[1].y = (0.56 - 0.472 - e) / 1.988;
     }),
     ("turn reversed: hm . h >= m", PlanRemote, HARDENED, |c, e| {
         quarter_turn(c, e);

@@ -10,8 +10,8 @@ use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[Theorem {
-    id: "a_step_of_one_heading_slides_by_a_tenth_of_it_and_0.1_m_per_second",
-    statement: "H-11, F-35: headings equal, abs(u x h) <= 0.1 u . h + 0.1 dt up to the rounding of the constants",
+    id: "a_step_of_one_heading_slides_by_a_tenth_of_it_and_0.2_m_per_second",
+    statement: "H-11, F-35: headings equal, abs(u x h) <= 0.1 u . h + 0.2 dt up to the rounding of the constants",
     domain: "steps of 100 ms with both headings along x, all u, L, W",
     claim: || slide(&Real::ratio(1, 10)),
     wrong: Wrong { statement: "by a twentieth of it", claim: || slide(&Real::ratio(1, 20)) },
@@ -28,6 +28,6 @@ fn slide(share: &Real) -> Formula {
     }
     let u = &trajectory[1].pose.origin;
     // 0.1 in doubles is more than 1/10, by less than 2^-56.
-    let limit = share * &u.x + Real::ratio(1, 100) + Real::ratio(1, 1_000_000_000);
+    let limit = share * &u.x + Real::ratio(2, 100) + Real::ratio(1, 1_000_000_000);
     Formula::All(vec![at_most(&u.y, &limit), at_most(&-&u.y, &limit)])
 }
