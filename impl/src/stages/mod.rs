@@ -195,8 +195,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         let trajectory = self.current.trajectory()?;
         let grid = self.current.grid.ok_or(Input::Grid)?;
         let detections = self.current.detections.map_or(&[][..], |list| list.items);
-        let left_to_iv = ran_iv.then_some(detections);
-        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, left_to_iv))
+        let beside_iv = ran_iv.then_some(detections);
+        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, beside_iv))
     }
 }
 

@@ -13,18 +13,18 @@ use crate::stages::horizon::{Horizon, PointsExamined};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::search::DiskSearch;
 
-/// Why stage v fails, if it does. `left_to_iv`: the current detections, when stage iv ran in this
+/// Why stage v fails, if it does. `beside_iv`: the current detections, when stage iv ran in this
 /// cycle (H-06).
 pub(crate) fn trajectory_with_grid_map(
     cycle: &Cycle<'_>,
     trajectory: &Trajectory<'_>,
     grid: &Grid<'_>,
-    left_to_iv: Option<&[Detection]>,
+    beside_iv: Option<&[Detection]>,
 ) -> Option<Witness> {
     let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Braking);
     match cycle.profile {
         Profile::Paper => dilated_cells(cycle, grid, &examined),
-        Profile::Hardened => closed_cells(cycle, grid, &examined, left_to_iv),
+        Profile::Hardened => closed_cells(cycle, grid, &examined, beside_iv),
     }
 }
 
