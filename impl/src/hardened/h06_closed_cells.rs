@@ -1,102 +1,76 @@
 //! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, Detection, Grid};
+use crate::input::cycle::{Cycle, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{float, integer, larger, smaller};
-use crate::numbers::rectangle::{Rectangle, certainly_touch};
+use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
+use crate::services::configuration::Configuration;
 use crate::stages::horizon::PointsExamined;
-use crate::stages::llcc::sweep::MovingRectangle;
+use crate::stages::llcc::footprint;
 use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
 use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
-/// grid. `left_to_iv`: the current detections, when stage iv ran in this cycle, so that the last two
-/// do not count.
+/// grid. `ran_iv`: stage iv ran in this cycle, so that the last two do not count.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
     examined: &PointsExamined<'_, '_>,
-    left_to_iv: Option<&[Detection]>,
+    ran_iv: bool,
 ) -> Option<Witness> {
-    let everywhere = |find: &mut dyn FnMut(&DiskSearch<'_, '_>) -> Option<Witness>| {
+    let everywhere = |find: &dyn Fn(&DiskSearch<'_, '_>) -> Option<Witness>| {
         let found = find(&DiskSearch::new(cycle, grid, examined.points));
         let beyond =
             || examined.first_beyond(|cycle, points| find(&DiskSearch::new(cycle, grid, points)));
         found.or_else(beyond)
     };
-    let touched = |rule, cells: &Bitmap<'_>, covered: &mut Covered<'_>| {
-        everywhere(&mut |search| {
-            search.cells(rule, cells, |grid, disk| grid.touched(disk, cells, covered))
+    let asks_rectangle = ran_iv && rectangle_counts_beside_iv(cycle.configuration);
+    let touched = |rule, cells: &Bitmap<'_>| {
+        everywhere(&|search| {
+            search.cells(rule, cells, |grid, disk| {
+                grid.touched(disk, cells, |i, k| {
+                    let cav = || footprint(&search.cycle.ego, disk.at);
+                    !asks_rectangle || possibly_touch(&cav(), &grid.cell(i, k))
+                })
+            })
         })
     };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
-    if let Some(detections) = left_to_iv {
-        return touched(Rule::Occupied, &occupied, &mut Covered::by(detections, grid));
+    let found = touched(Rule::Occupied, &occupied);
+    if ran_iv {
+        return found;
     }
-    let mut none = Covered::by(&[], grid);
-    let found = touched(Rule::Occupied, &occupied, &mut none);
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
-    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown, &mut none));
+    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
     let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
     let outside =
-        || everywhere(&mut |search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
+        || everywhere(&|search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
     found.or_else(unknown).or_else(outside)
 }
 
-/// The cells that the rectangle of a detection covers in part: stage iv has examined it.
-struct Covered<'d> {
-    detections: &'d [Detection],
-    grid: &'d Grid<'d>,
-    /// The detection that covered the last cell, as an index: mostly it covers the next one, too.
-    last: usize,
-}
-
-impl<'d> Covered<'d> {
-    const fn by(detections: &'d [Detection], grid: &'d Grid<'d>) -> Self {
-        Self { detections, grid, last: 0 }
-    }
-
-    /// Whether the closed square of the cell certainly shares a point with a detection.
-    fn contains(&mut self, geometry: &GridGeometry, i: i64, k: i64) -> bool {
-        let cell = self.plain_cell(i, k);
-        let touches = |detection: &Detection| {
-            let detection = MovingRectangle::detection(detection);
-            !cell.certainly_apart(&detection, 0.0)
-                && certainly_touch(
-                    &geometry.cell(self.grid, i, k),
-                    &detection.displaced(Vector::ZERO),
-                )
-        };
-        if self.detections.get(self.last).is_some_and(touches) {
-            return true;
-        }
-        let found = self.detections.iter().position(touches);
-        self.last = found.unwrap_or(0);
-        found.is_some()
-    }
-
-    /// The cell in plain doubles; its centre errs by less than 2^-25 m.
-    fn plain_cell(&self, i: i64, k: i64) -> MovingRectangle {
-        let &Grid { x, y, cos, sin, resolution, .. } = self.grid;
-        let [a, b] = [i, k].map(|index| (float(index) + 0.5) * resolution);
-        MovingRectangle {
-            centre: [x + (a * cos - b * sin), y + (a * sin + b * cos)],
-            direction: [cos, sin],
-            velocity: [0.0, 0.0],
-            size: [resolution, resolution],
-        }
+/// Where the paper does not examine the grid beside stage iv, a cell has to touch the CAV's
+/// rectangle, too.
+const fn rectangle_counts_beside_iv(configuration: Configuration) -> bool {
+    match configuration {
+        Configuration::AllRemote | Configuration::PlanRemote => true,
+        Configuration::Local | Configuration::MotRemote => false,
     }
 }
 
 impl GridGeometry {
-    /// The first cell of the bitmap whose closed square may be at distance <= r, but for those that
-    /// are covered.
-    fn touched(&self, disk: &Disk, cells: &Bitmap<'_>, covered: &mut Covered<'_>) -> Option<Hit> {
+    /// The first cell of the bitmap whose closed square may be at distance <= r, of those that
+    /// count.
+    fn touched(
+        &self,
+        disk: &Disk<'_>,
+        cells: &Bitmap<'_>,
+        counts: impl Fn(i64, i64) -> bool,
+    ) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
             if self.row_is_free(disk, k, cells) {
@@ -106,7 +80,7 @@ impl GridGeometry {
             let mut next = cells.first_in_row(k, from, to);
             while let Some(i) = next {
                 let hit = self.hit(disk, i, k);
-                if hit.is_some() && !covered.contains(self, i, k) {
+                if hit.is_some() && counts(i, k) {
                     return hit;
                 }
                 next = cells.first_in_row(k, i.saturating_add(1), to);
@@ -117,7 +91,7 @@ impl GridGeometry {
 
     /// Whether certainly no cell of the row that the disk may touch is set. Plain doubles, in cells;
     /// 1e-3 is more than they err, also at the limits of the domain.
-    fn row_is_free(&self, disk: &Disk, k: i64, cells: &Bitmap<'_>) -> bool {
+    fn row_is_free(&self, disk: &Disk<'_>, k: i64, cells: &Bitmap<'_>) -> bool {
         let scale = 1.0 / self.resolution.value();
         let [x, y, r] = [disk.column, disk.row, self.radius].map(|it| it.value() * scale);
         let (r, below) = (r + 1e-3, float(k) - y);
@@ -134,7 +108,7 @@ impl GridGeometry {
     }
 
     /// Places outside the grid may be at distance <= r.
-    fn outside(&self, disk: &Disk) -> Option<Hit> {
+    fn outside(&self, disk: &Disk<'_>) -> Option<Hit> {
         let end = |count: i64| Real::integer(count) * self.resolution;
         let columns = disk.column.min(end(self.width) - disk.column);
         let rows = disk.row.min(end(self.height) - disk.row);
@@ -144,23 +118,23 @@ impl GridGeometry {
     }
 
     /// The cell, if its closed square may be at distance <= r.
-    fn hit(&self, disk: &Disk, i: i64, k: i64) -> Option<Hit> {
+    fn hit(&self, disk: &Disk<'_>, i: i64, k: i64) -> Option<Hit> {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);
         touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
     }
 
     /// The closed square of the cell.
-    fn cell(&self, grid: &Grid<'_>, i: i64, k: i64) -> Rectangle {
+    fn cell(&self, i: i64, k: i64) -> Rectangle {
         let middle = |index| (Real::integer(index) + Real::new(0.5)) * self.resolution;
         let turned = Vector { x: -self.direction.y, y: self.direction.x };
         let centre = self.origin + self.direction.times(middle(i)) + turned.times(middle(k));
-        let (length, width) = (grid.resolution, grid.resolution);
-        Rectangle { centre, direction: self.direction, length, width }
+        let side = self.resolution.value();
+        Rectangle { centre, direction: self.direction, length: side, width: side }
     }
 
     /// The first and the last column that the disk may touch in row `k`.
-    fn reach_in_row(&self, disk: &Disk, k: i64) -> (i64, i64) {
+    fn reach_in_row(&self, disk: &Disk<'_>, k: i64) -> (i64, i64) {
         let chord_squared = self.radius_squared - self.gap(disk.row, k).squared();
         self.reach(disk.column, chord_squared.max(Real::ZERO).sqrt())
     }

@@ -13,8 +13,6 @@ pub(crate) struct Vector {
 }
 
 impl Vector {
-    pub(crate) const ZERO: Self = Self::new(0.0, 0.0);
-
     /// The point with these coordinates, exactly.
     pub(crate) const fn new(x: f64, y: f64) -> Self {
         Self { x: Real::new(x), y: Real::new(y) }

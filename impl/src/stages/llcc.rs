@@ -188,7 +188,7 @@ fn poses<'c>(
 }
 
 /// The CAV's rectangle at a trajectory point: shifted forward by `center_offset`.
-fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Rectangle {
+pub(crate) fn footprint(ego: &Ego, point: &TrajectoryPoint) -> Rectangle {
     let direction = Vector::new(point.cos, point.sin);
     let shift = direction.times(Real::new(ego.center_offset));
     let centre = Vector::new(point.x, point.y) + shift;

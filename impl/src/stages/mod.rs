@@ -48,7 +48,8 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// * v: 2 P + log2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
 ///   looks at the square around it (in the paper profile around up to four cells), which is
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells. In the hardened profile
-///   each occupied cell that a disk reaches is compared with the D detections, when stage iv ran.
+///   each occupied cell that a disk reaches is compared with the CAV's rectangle, too, where stage
+///   iv ran in `AllRemote` or `PlanRemote`.
 ///
 /// Only stage i has a limit. The default of `work_limit`, 10^10, is above the most work there is,
 /// 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it. To bound the run
@@ -194,9 +195,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     fn v(&self, ran_iv: bool) -> Found {
         let trajectory = self.current.trajectory()?;
         let grid = self.current.grid.ok_or(Input::Grid)?;
-        let detections = self.current.detections.map_or(&[][..], |list| list.items);
-        let left_to_iv = ran_iv.then_some(detections);
-        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, left_to_iv))
+        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, ran_iv))
     }
 }
 

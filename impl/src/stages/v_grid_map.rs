@@ -6,25 +6,24 @@ pub(crate) mod disk;
 pub(crate) mod search;
 
 use crate::hardened::h06_closed_cells::closed_cells;
-use crate::input::cycle::{Cycle, Detection, Grid, Trajectory};
+use crate::input::cycle::{Cycle, Grid, Trajectory};
 use crate::input::profile::Profile;
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::search::DiskSearch;
 
-/// Why stage v fails, if it does. `left_to_iv`: the current detections, when stage iv ran in this
-/// cycle (H-06).
+/// Why stage v fails, if it does. `ran_iv`: stage iv ran in this cycle (H-06).
 pub(crate) fn trajectory_with_grid_map(
     cycle: &Cycle<'_>,
     trajectory: &Trajectory<'_>,
     grid: &Grid<'_>,
-    left_to_iv: Option<&[Detection]>,
+    ran_iv: bool,
 ) -> Option<Witness> {
     let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Braking);
     match cycle.profile {
         Profile::Paper => dilated_cells(cycle, grid, &examined),
-        Profile::Hardened => closed_cells(cycle, grid, &examined, left_to_iv),
+        Profile::Hardened => closed_cells(cycle, grid, &examined, ran_iv),
     }
 }
 

@@ -1,90 +1,135 @@
-//! Stage v beside stage iv: occupied cells that a detection touches (H-06 of
+//! Stage v beside stage iv: occupied cells that the CAV's rectangle touches (H-06 of
 //! `spec/3-stages.md#hardened-profile`). Cells of 1 m, with the CAV's first point at the corner of
-//! the cell (100, 100); its disks reach 1.104 m to the side, its rectangle 0.95 m.
+//! the cell (100, 100); its disks reach 1.104 m to the side, its rectangle 0.95 m. To the front the
+//! disks reach 4.19 m, the rectangle 3.65 m.
 
-use crate::scene::{Scene, detection, scene};
-use mufasa::input::cycle::Detection;
+use crate::scene::{Scene, scene};
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 
 const PLACES: [[f64; 2]; 3] = [[0.0, 0.0], [583_912.25, 5_361_004.5], [-1.6e7, 1.6e7]];
 
-/// The scene at a place with these cells occupied and one more detection, relative to the place;
-/// without tracks.
-fn beside(
-    configuration: Configuration,
-    [x, y]: [f64; 2],
-    cells: &[(usize, usize)],
-    seen: Detection,
-) -> Scene {
-    let mut scene = scene(Hardened, configuration, [x, y]);
+/// From 1 m to 2 m beside the road, 2 m to 3 m ahead.
+const BESIDE: (usize, usize) = (102, 101);
+const HIT_BESIDE: Option<(i64, i64)> = Some((102, 101));
+
+/// On the road, 5 m ahead.
+const AHEAD: (usize, usize) = (105, 100);
+
+/// The scene at a place with these cells occupied and without tracks, so that stage iv runs.
+fn occupied(configuration: Configuration, place: [f64; 2], cells: &[(usize, usize)]) -> Scene {
+    let mut scene = scene(Hardened, configuration, place);
     let occupied = scene.occupied.as_mut().expect("a grid");
     for &(column, row) in cells {
         let bit = row * 200 + column;
         occupied[bit / 8] |= 1 << (bit % 8);
     }
     scene.tracks = None;
-    scene.detections = Some(vec![
-        detection(x - 30.0, y + 30.0),
-        Detection { x: x + seen.x, y: y + seen.y, ..seen },
-    ]);
     scene
 }
 
-/// The cell with which stage v collides, if it does; everything else passes.
-fn hit(scene: &Scene) -> Option<(i64, i64)> {
+/// The point and the cell of stage v's collision, if it has one; everything else passes.
+fn collision(scene: &Scene) -> Option<(usize, (i64, i64))> {
     let (stage, witness) = scene.failure()?;
     assert_eq!((stage, witness.rule), (Stage::V, Rule::Occupied));
-    witness.cell
+    witness.point.zip(witness.cell)
 }
 
-/// From 1 m to 2 m beside the road, 2 m to 3 m ahead.
-const CELL: (usize, usize) = (102, 101);
-const HIT: Option<(i64, i64)> = Some((102, 101));
+/// The cell alone.
+fn hit(scene: &Scene) -> Option<(i64, i64)> {
+    Some(collision(scene)?.1)
+}
 
 #[test]
-fn a_cell_that_a_detection_touches_is_left_to_stage_iv() {
+fn the_side_of_the_cav_touches_the_cell() {
     for place in PLACES {
-        for configuration in [MotRemote, AllRemote, PlanRemote] {
-            // 4 m by 2 m: its side at 2 m, then its front at 2 m.
-            for (x, y, dx, dy) in [(2.5, 3.0, 0.0, 1.0), (0.0, 2.0, -1.0, 0.0)] {
-                let at = |off: f64| detection(x + off * dx, y + off * dy);
-                let found = |off| hit(&beside(configuration, place, &[CELL], at(off)));
-                assert_eq!(found(0.0), None, "{place:?} {configuration:?}");
-                assert_eq!(found(-1e-7), None, "{place:?} {configuration:?}");
-                assert_eq!(found(1e-7), HIT, "{place:?} {configuration:?}");
-            }
+        for configuration in [AllRemote, PlanRemote] {
+            let found = |width| {
+                let mut scene = occupied(configuration, place, &[BESIDE]);
+                scene.ego.width = width;
+                hit(&scene)
+            };
+            assert_eq!(found(1.9), None, "{place:?} {configuration:?}");
+            assert_eq!(found(2.0 - 2e-7), None, "{place:?} {configuration:?}");
+            assert_eq!(found(2.0), HIT_BESIDE, "{place:?} {configuration:?}");
+            assert_eq!(found(2.0 + 2e-7), HIT_BESIDE, "{place:?} {configuration:?}");
         }
     }
 }
 
-/// Its corner at the cell's corner, and the cell's corner in the middle of its front.
+/// The front is 2.25 m farther than the offset: after 1.5 m it is there, after 1 m a disk is.
+#[test]
+fn the_front_of_the_cav_touches_the_cell() {
+    for place in PLACES {
+        let found = |configuration, center_offset| {
+            let mut scene = occupied(configuration, place, &[AHEAD]);
+            scene.ego.center_offset = center_offset;
+            collision(&scene)
+        };
+        for (center_offset, point) in [(1.25, 3), (1.25 + 1e-7, 3), (1.25 - 1e-7, 4)] {
+            let expected = Some((point, (105, 100)));
+            assert_eq!(found(AllRemote, center_offset), expected, "{place:?} {center_offset}");
+            assert_eq!(found(PlanRemote, center_offset), expected, "{place:?} {center_offset}");
+            let disk = Some((2, (105, 100)));
+            assert_eq!(found(MotRemote, center_offset), disk, "{place:?} {center_offset}");
+        }
+    }
+}
+
+/// Cells turned by 45 degrees: the first corner of (100, 100) is 2.5 m ahead and 1 m beside.
 #[test]
 fn a_corner_is_a_point() {
-    let corner = |off: f64| detection(3.0 + off + 2.0, 2.0 + off + 1.0);
-    let half = 0.5_f64.sqrt();
-    let turned = |off: f64| {
-        let away = (2.0 + off) * half;
-        let (x, y) = (2.0 - away, 2.0 + away);
-        Detection { x, y, cos: half, sin: -half, length: 4.0, width: 2.0 }
+    for (width, found) in [(2.0 - 2e-7, None), (2.0 + 2e-7, Some((100, 100)))] {
+        let mut scene = occupied(AllRemote, PLACES[0], &[(100, 100)]);
+        scene.ego.width = width;
+        scene.change = |cycle| {
+            if let Some(grid) = &mut cycle.grid {
+                let half = 0.5_f64.sqrt();
+                (grid.cos, grid.sin) = (half, half);
+                (grid.x, grid.y) = (cycle.ego.x + 2.5, cycle.ego.y + 1.0 - 200.0 * half);
+            }
+        };
+        assert_eq!(hit(&scene), found);
+    }
+}
+
+/// The trajectory stands after 0.5 m, and its points are 0 to 7: places 1.5 m, 1.75 m, 2 m and
+/// 2.25 m ahead of its end follow.
+#[test]
+fn beyond_the_end_the_cav_is_where_it_is_moved_to() {
+    let found = |configuration, length| {
+        let mut scene = occupied(configuration, PLACES[0], &[AHEAD]);
+        scene.points.truncate(8);
+        scene.points.iter_mut().skip(1).for_each(|point| point.x = 0.5);
+        scene.ego.length = length;
+        collision(&scene)
     };
-    for (off, found) in [(-1e-7, None), (1e-7, HIT)] {
-        assert_eq!(hit(&beside(MotRemote, PLACES[0], &[CELL], corner(off))), found);
-        assert_eq!(hit(&beside(MotRemote, PLACES[0], &[CELL], turned(off))), found);
+    for configuration in [AllRemote, PlanRemote] {
+        // The front reaches 5 m at the fourth of the places, or at the fifth.
+        assert_eq!(found(configuration, 4.5), Some((11, (105, 100))));
+        assert_eq!(found(configuration, 4.5 - 2e-7), Some((12, (105, 100))));
+    }
+    // A disk reaches it at the second.
+    assert_eq!(found(MotRemote, 4.5), Some((9, (105, 100))));
+}
+
+/// There the paper's stage v runs, too.
+#[test]
+fn in_mot_remote_the_disks_collide() {
+    for place in PLACES {
+        assert_eq!(hit(&occupied(MotRemote, place, &[BESIDE])), HIT_BESIDE, "{place:?}");
     }
 }
 
 /// In `PlanRemote` stage iii, which ran on tracks, replaces it.
 #[test]
-fn without_stage_iv_every_cell_counts() {
-    let covering = detection(2.5, 2.5);
-    let mut scene = beside(PlanRemote, PLACES[0], &[CELL], covering);
+fn without_stage_iv_the_disks_collide() {
+    let mut scene = occupied(PlanRemote, PLACES[0], &[BESIDE]);
     assert_eq!(hit(&scene), None);
     scene.tracks = Some(Vec::new());
-    let report = scene.report();
-    assert!(matches!(report.stages[3], Outcome::Skipped(_)));
-    assert_eq!(hit(&scene), HIT);
+    assert!(matches!(scene.report().stages[3], Outcome::Skipped(_)));
+    assert_eq!(hit(&scene), HIT_BESIDE);
     // A list that is not current is none.
     scene.tracks = None;
     scene.change = |cycle| {
@@ -92,15 +137,17 @@ fn without_stage_iv_every_cell_counts() {
             list.stamp_ns -= 200_000_000;
         }
     };
-    assert_eq!(hit(&scene), HIT);
+    assert_eq!(hit(&scene), HIT_BESIDE);
 }
 
+/// Disks reach the cells beside the road at the first points; the one behind it is the witness.
 #[test]
-fn the_witness_is_the_first_cell_that_none_touches() {
-    // The second cell begins 3 m ahead, where the detection ends, or just not.
-    let cells = [CELL, (103, 101), (105, 98)];
-    for (x, found) in [(1.0, (105, 98)), (1.0 - 1e-7, (103, 101))] {
-        let scene = beside(MotRemote, PLACES[0], &cells, detection(x, 2.5));
-        assert_eq!(hit(&scene), Some(found));
-    }
+fn the_witness_is_the_first_cell_that_disk_and_rectangle_touch() {
+    let scene = occupied(AllRemote, PLACES[0], &[BESIDE, (104, 98), AHEAD, (106, 100)]);
+    assert_eq!(collision(&scene), Some((3, (105, 100))));
+    // The rear disk reaches both; the rectangle only the one in the later row, or just the other, too.
+    let mut scene = occupied(AllRemote, PLACES[0], &[(99, 98), (99, 100)]);
+    assert_eq!(collision(&scene), Some((0, (99, 100))));
+    scene.ego.width = 2.0;
+    assert_eq!(collision(&scene), Some((0, (99, 98))));
 }

@@ -6,10 +6,11 @@ use crate::numbers::plane::Vector;
 use crate::numbers::rounding::Real;
 use crate::stages::v_grid_map::bitmap::{Bitmap, NearCell};
 
-/// A disk centre in the grid's frame, m.
-pub(crate) struct Disk {
+/// A disk centre in the grid's frame, m, and where the CAV is.
+pub(crate) struct Disk<'p> {
     pub(crate) column: Real,
     pub(crate) row: Real,
+    pub(crate) at: &'p TrajectoryPoint,
 }
 
 /// A cell, unless it is beyond the array, and its distance as the stage means it, m.
@@ -49,7 +50,12 @@ impl GridGeometry {
     }
 
     /// Disk `i` of the footprint at a point: (2i+1) L/(2n) - L/2 from the rectangle's centre.
-    pub(crate) fn disk(&self, cycle: &Cycle<'_>, point: &TrajectoryPoint, i: i64) -> Disk {
+    pub(crate) fn disk<'p>(
+        &self,
+        cycle: &Cycle<'_>,
+        point: &'p TrajectoryPoint,
+        i: i64,
+    ) -> Disk<'p> {
         let n = cycle.parameters.n;
         let odd = Real::integer(i) + Real::integer(i) + Real::ONE;
         let share = odd.over(Real::integer(n) + Real::integer(n)) - Real::new(0.5);
@@ -59,6 +65,7 @@ impl GridGeometry {
         Disk {
             column: relative.dot(self.direction).over(self.norm_squared),
             row: self.direction.cross(relative).over(self.norm_squared),
+            at: point,
         }
     }
 
@@ -72,7 +79,7 @@ impl GridGeometry {
 
     /// Paper: the first occupied cell that marks a cell of the array in which the disk centre may
     /// lie.
-    pub(crate) fn marked(&self, disk: &Disk, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
+    pub(crate) fn marked(&self, disk: &Disk<'_>, occupied: &Bitmap<'_>, steps: i64) -> Option<Hit> {
         let column = disk.column.over(self.resolution);
         let row = disk.row.over(self.resolution);
         let place = |near: &NearCell| (near.row, near.column);

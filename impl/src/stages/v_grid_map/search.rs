@@ -9,7 +9,7 @@ use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
 
 /// Points that are examined, on a grid.
 pub(crate) struct DiskSearch<'c, 'a> {
-    cycle: &'c Cycle<'a>,
+    pub(crate) cycle: &'c Cycle<'a>,
     grid: &'c Grid<'a>,
     points: &'c [TrajectoryPoint],
     frame: CellFrame,
@@ -29,7 +29,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
         &self,
         rule: Rule,
         cells: &Bitmap<'_>,
-        hit: impl FnMut(&GridGeometry, &Disk) -> Option<Hit>,
+        hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
     ) -> Option<Witness> {
         self.first(rule, |band| band.is_free(cells), hit)
     }
@@ -40,7 +40,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
         &self,
         rule: Rule,
         is_free: impl Fn(&Band) -> bool,
-        mut hit: impl FnMut(&GridGeometry, &Disk) -> Option<Hit>,
+        hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
     ) -> Option<Witness> {
         let (mut at, mut size) = (0_usize, self.points.len());
         while at < self.points.len() {
@@ -50,7 +50,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
                 at = end;
                 size = size.saturating_mul(2);
             } else if let [point] = points {
-                let found = self.at_point(rule, at, point, &mut hit);
+                let found = self.at_point(rule, at, point, &hit);
                 if found.is_some() {
                     return found;
                 }
@@ -68,7 +68,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
         rule: Rule,
         index: usize,
         point: &TrajectoryPoint,
-        mut hit: impl FnMut(&GridGeometry, &Disk) -> Option<Hit>,
+        hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
     ) -> Option<Witness> {
         let grid = GridGeometry::new(self.cycle, self.grid);
         (0..self.cycle.parameters.n).zip(0_usize..).find_map(|(i, number)| {
