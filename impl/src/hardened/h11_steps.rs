@@ -73,7 +73,7 @@ const LEAST_COSINE: f64 = 0.866;
 /// What a step may lie beside its headings, both together, for each m along them.
 const SLIDE: f64 = 0.1;
 /// The same for each s, m.
-const DRIFT: f64 = 0.2;
+const DRIFT: f64 = 0.4;
 
 /// The first rule that the step does not certainly keep, and the two numbers.
 fn first_broken(
