@@ -1,46 +1,60 @@
 //! The implementation as it is timed: validation of the input and each stage alone, and whole
-//! cycles. As with the peers, the route is indexed outside the measured time.
+//! cycles. As with the peers, the route is indexed outside the measured time, and so is each list of
+//! detections, once for all cycles in which it is current or history.
 
 use std::hint::black_box;
 
-use mufasa::input::cycle::Cycle;
+use mufasa::input::cycle::{Cycle, DetectionList};
+use mufasa::input::detection_index::{DetectionIndex, Slot};
+use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{Outcome, Report, Stage};
-use mufasa::stages::{ValidCycle, check, check_indexed};
+use mufasa::stages::{ValidCycle, check_with};
 
 /// A cycle with its scratch memory and the index of its route.
 pub struct Contestant<'a> {
     cycle: &'a Cycle<'a>,
-    index: Option<&'a RouteIndex<'a>>,
+    indexes: Indexes<'a, 'a>,
     valid: ValidCycle<'a, 'a>,
     rows: Vec<Row>,
     columns: Vec<Column>,
 }
 
 impl<'a> Contestant<'a> {
-    /// With an index of the route, which is never freed: a bench ends soon.
+    /// With an index of the route and of the detections, which are never freed: a bench ends soon.
     ///
     /// # Panics
     /// When the input is invalid.
     pub fn new(cycle: &'a Cycle<'a>) -> Self {
         let blocks = vec![Block::default(); Block::needed(cycle.route.cross_sections.len())].leak();
-        let index = RouteIndex::new(cycle.route, blocks).expect("the workloads are valid input");
-        Self::with_index(cycle, Some(Box::leak(Box::new(index))))
+        let route = RouteIndex::new(cycle.route, blocks).expect("the workloads are valid input");
+        let index = |list: &DetectionList<'a>| {
+            let slots = vec![Slot::default(); list.items.len()].leak();
+            DetectionIndex::new(list, slots).expect("the workloads are valid input")
+        };
+        let lists = cycle.detections.iter().chain(cycle.detection_history);
+        let detections = lists.map(index).collect::<Vec<_>>().leak();
+        Self::with(cycle, Indexes { route: Some(Box::leak(Box::new(route))), detections })
     }
 
-    /// With as much scratch as the cycle needs.
+    /// With nothing that is kept between cycles, or the index of the route alone.
     ///
     /// # Panics
     /// When the input is invalid.
     pub fn with_index(cycle: &'a Cycle<'a>, index: Option<&'a RouteIndex<'a>>) -> Self {
+        Self::with(cycle, Indexes { route: index, detections: &[] })
+    }
+
+    /// With as much scratch as the cycle needs.
+    fn with(cycle: &'a Cycle<'a>, indexes: Indexes<'a, 'a>) -> Self {
         let Sizes { rows, columns } = Sizes::for_cycle(cycle);
         let (mut rows, mut columns) =
             (vec![Row::default(); rows], vec![Column::default(); columns]);
         let scratch = Scratch::new(&mut rows, &mut columns);
-        let valid = ValidCycle::new(cycle, index, &scratch);
+        let valid = ValidCycle::with(cycle, indexes, &scratch);
         let valid = valid.expect("the workloads are valid input");
-        Self { cycle, index, valid, rows, columns }
+        Self { cycle, indexes, valid, rows, columns }
     }
 
     /// The report on the cycle as a vehicle asks for it.
@@ -50,17 +64,13 @@ impl<'a> Contestant<'a> {
     pub fn check(&mut self) -> Report {
         let mut scratch = Scratch::new(&mut self.rows, &mut self.columns);
         let cycle = black_box(self.cycle);
-        match self.index {
-            Some(index) => check_indexed(cycle, index, &mut scratch),
-            None => check(cycle, &mut scratch),
-        }
-        .expect("valid input")
+        check_with(cycle, &self.indexes, &mut scratch).expect("valid input")
     }
 
     /// Whether the input is valid.
     pub fn validate(&mut self) -> bool {
         let scratch = Scratch::new(&mut self.rows, &mut self.columns);
-        ValidCycle::new(black_box(self.cycle), self.index, &scratch).is_ok()
+        ValidCycle::with(black_box(self.cycle), self.indexes, &scratch).is_ok()
     }
 
     /// One stage, the input having been checked before; whether it passes.

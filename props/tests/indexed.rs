@@ -1,15 +1,20 @@
 //! An index of the route changes no answer (`spec/3-stages.md#stage-ii-trajectory-to-map`), on
-//! routes of many blocks, too.
+//! routes of many blocks, too; nor do indexes of detections
+//! (`spec/3-stages.md#what-the-cav-saw-itself`).
 
+use std::collections::BTreeMap;
+
+use mufasa::input::detection_index::{DetectionIndex, Slot};
+use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::report::{FailedStage, Outcome, Stage, Witness};
-use mufasa::stages::{check, check_indexed};
-use mufasa_model::input::cycle::{CrossSection, Cycle, Profile};
+use mufasa::report::{FailedStage, Outcome, Rule, Stage, Witness};
+use mufasa::stages::{check, check_indexed, check_with};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Detection, Profile};
 use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
-use mufasa_props::strategy::map_validation;
+use mufasa_props::strategy::{map_validation, whole};
 use proptest::strategy::Strategy;
 
 /// The witness without the segment: of two that are equally near either may be named.
@@ -69,5 +74,74 @@ fn an_index_changes_no_answer() {
         });
         assert_eq!(result, Ok(()), "{profile:?}");
         assert!(failed.get() > 10, "stage ii fails in {} cases only", failed.get());
+    }
+}
+
+/// A cycle with up to 40 more things around, now and in the history, of which some have moved.
+fn crowded(draw: &mut Draw<'_>) -> Cycle {
+    let mut cycle = whole::cycle(draw, Profile::Hardened);
+    let count = draw.pick(&[0_u32, 0, 5, 40]);
+    let (spread, moved) = (draw.pick(&[60.0, 3.0, 300.0]), draw.pick(&[0.5, 0.0, 12.0]));
+    let ego = cycle.ego.clone();
+    let more = (0..count).map(|_| {
+        let (a, b) = (draw.range(-spread, spread), draw.range(-spread, spread));
+        Detection { x: ego.x + a, y: ego.y + b, cos: 1.0, sin: 0.0, length: 0.5, width: 0.5 }
+    });
+    let more: Vec<_> = more.collect();
+    let lists = cycle.detections.iter_mut().chain(&mut cycle.detection_history);
+    for (list, back) in lists.zip(0_u8..) {
+        let shifted = more.iter().map(|it| Detection { x: it.x - moved * f64::from(back), ..*it });
+        list.items.extend(shifted);
+    }
+    cycle
+}
+
+#[test]
+fn indexes_of_detections_change_no_answer() {
+    let cycles = tape().prop_map(|tape| crowded(&mut Draw::new(&tape)));
+    let rules = std::cell::RefCell::new(BTreeMap::new());
+    let result = runner().run(&cycles, |cycle| {
+        let owned = to_impl(&cycle);
+        let history = owned.history();
+        let cycle = owned.borrow(&history);
+        let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
+        let (mut rows, mut columns) =
+            (vec![Row::default(); rows], vec![Column::default(); columns]);
+        let mut scratch = Scratch::new(&mut rows, &mut columns);
+        let plain = check(&cycle, &mut scratch);
+        let lists: Vec<_> = cycle.detections.iter().chain(cycle.detection_history).collect();
+        let mut memory: Vec<_> =
+            lists.iter().map(|list| vec![Slot::default(); list.items.len()]).collect();
+        let indexes = lists
+            .iter()
+            .zip(&mut memory)
+            .map(|(list, slots)| DetectionIndex::new(list, slots).map_err(|problem| problem.field));
+        let indexes: Result<Vec<_>, _> = indexes.collect();
+        let Ok(all) = indexes else {
+            assert!(plain.is_err());
+            return Ok(());
+        };
+        // All lists, and all but one.
+        for detections in [&all[..], all.get(1..).unwrap_or(&[])] {
+            let indexes = Indexes { route: None, detections };
+            assert_eq!(check_with(&cycle, &indexes, &mut scratch), plain);
+        }
+        let rule = plain.ok().and_then(|report| {
+            report.stages.iter().find_map(|outcome| match outcome {
+                Outcome::Failed(witness) => Some(witness.rule),
+                Outcome::Passed
+                | Outcome::Skipped(_)
+                | Outcome::NotApplicable(_)
+                | Outcome::NotScheduled => None,
+            })
+        });
+        *rules.borrow_mut().entry(rule).or_insert(0_u32) += 1;
+        Ok(())
+    });
+    assert_eq!(result, Ok(()));
+    let rules = rules.into_inner();
+    println!("indexes of detections: {rules:?}");
+    for rule in [None, Some(Rule::CollisionMoving), Some(Rule::NoAssignment)] {
+        assert!(rules.get(&rule).is_some_and(|count| *count > 10), "{rules:?}");
     }
 }

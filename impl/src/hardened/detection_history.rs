@@ -6,22 +6,22 @@
 //! told apart: stage i fails (`ambiguous`), as that of the strict model does within delta, which
 //! is at least 1e-8.
 
+mod own;
 pub(crate) mod squares;
 
-use crate::hardened::detection_history::squares::{Links, MARGIN, Squares};
+use crate::hardened::detection_history::own::{Search, too_close};
+use crate::hardened::detection_history::squares::CLOSE;
 use crate::hardened::h01_matched_pairs::pair_limits;
 use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
+use crate::input::detection_index::DetectionIndex;
+use crate::input::indexes::Indexes;
 use crate::input::profile::Profile;
-use crate::input::scratch::{Column, NONE, Row, Scratch, short};
-use crate::numbers::plane::same_point;
+use crate::input::scratch::{Row, Scratch};
 use crate::numbers::time::{elapsed_ns, seconds};
-use crate::report::{Rule, Witness};
+use crate::report::Witness;
 use crate::stages::i_track_validation::gate::Gate;
 use crate::stages::i_track_validation::pairing::PairSum;
 use crate::stages::i_track_validation::places::Places;
-
-/// m, or m/s.
-pub(crate) const CLOSE: f64 = 1e-9;
 
 /// Of a usable list, ns.
 const AGES_NS: [i64; 2] = [200_000_000, 1_000_000_000];
@@ -34,6 +34,7 @@ const OLDEST_NS: i64 = 60_000_000_000;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UsableList<'a> {
     pub(crate) items: &'a [Detection],
+    pub(crate) index: Option<&'a DetectionIndex<'a>>,
     pub(crate) age_ns: i64,
     /// The same in s.
     pub(crate) age: f64,
@@ -55,12 +56,18 @@ impl UsableList<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DetectionHistory<'c, 'a> {
     pub(crate) detections: Option<&'c DetectionList<'a>>,
-    pub(crate) usable: [Option<UsableList<'a>>; 4],
+    /// Of the current detections.
+    index: Option<&'c DetectionIndex<'a>>,
+    pub(crate) usable: [Option<UsableList<'c>>; 4],
 }
 
 impl<'c, 'a> DetectionHistory<'c, 'a> {
     /// `detections`: the current ones. In the paper profile no list is usable.
-    pub(crate) fn new(cycle: &Cycle<'a>, detections: Option<&'c DetectionList<'a>>) -> Self {
+    pub(crate) fn new(
+        cycle: &'c Cycle<'a>,
+        detections: Option<&'c DetectionList<'a>>,
+        indexes: &Indexes<'c, 'a>,
+    ) -> Self {
         let [least_ns, most_ns] = AGES_NS;
         let mut usable = [None; 4];
         if let (Some(current), Profile::Hardened) = (detections, cycle.profile) {
@@ -71,12 +78,14 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
                     && elapsed_ns(list.stamp_ns, cycle.now_ns) <= OLDEST_NS;
                 *place = is_usable.then_some(UsableList {
                     items: list.items,
+                    index: indexes.of(list.items),
                     age_ns,
                     age: seconds(age_ns),
                 });
             }
         }
-        Self { detections, usable }
+        let index = detections.and_then(|list| indexes.of(list.items));
+        Self { detections, index, usable }
     }
 
     /// The place of the reference list.
@@ -116,18 +125,18 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
                 break;
             }
             let then_ns = since_ns.saturating_sub(list.age_ns);
-            let search = Search::new(list.items, list.reach(cycle), then_ns, scratch.columns);
-            if let Some(witness) = search.mark_nearest(tracks.items, scratch) {
+            let list_of = (list.items, list.index);
+            let search = Search::new(list_of, list.reach(cycle), then_ns, scratch.columns);
+            if let Some(witness) = search.mark_own(own_origin(place), tracks.items, scratch) {
                 return Seen::Unclear(witness);
             }
-            mark_own(own_origin(place), scratch, count);
         }
         let limit = cycle.parameters.theta_track_max;
-        let search = Search::new(detections.items, limit, since_ns, scratch.columns);
-        if let Some(witness) = search.mark_nearest(tracks.items, scratch) {
+        let list_of = (detections.items, self.index);
+        let search = Search::new(list_of, limit, since_ns, scratch.columns);
+        if let Some(witness) = search.mark_own(OWN_DETECTION, tracks.items, scratch) {
             return Seen::Unclear(witness);
         }
-        mark_own(OWN_DETECTION, scratch, count);
         let mut pairs = tracks.items.iter().zip(scratch.rows.iter_mut());
         let unclear = pairs.find_map(|(track, row)| judge(cycle, track, row, detections.items));
         match unclear {
@@ -195,16 +204,6 @@ impl Row {
     }
 }
 
-/// Marks the tracks of which the item is that of no other one.
-fn mark_own(mark: u16, scratch: &mut Scratch<'_>, tracks: usize) {
-    for (row, index) in scratch.rows.iter_mut().take(tracks).zip(0_u16..) {
-        let owner = scratch.columns.get(usize::from(row.item)).map(|column| column.row);
-        if owner == Some(index) {
-            row.seen |= mark;
-        }
-    }
-}
-
 /// Whether a track is backed and confirmed; the witness when that is too close to call.
 fn judge(
     cycle: &Cycle<'_>,
@@ -260,118 +259,4 @@ fn own_detections_pass(
             None => false,
         }
     }) && sum.passes(&limits, &places)
-}
-
-fn too_close(track: &Track, compared: [f64; 2]) -> Witness {
-    Witness { track: Some(track.id), ..Witness::of(Rule::Ambiguous, compared) }
-}
-
-/// The item of a list that is nearest to where tracks were at its time.
-struct Search<'a> {
-    squares: Squares<'a>,
-    /// An item that is farther is none, m.
-    reach: f64,
-    /// From the stamp of the tracks to that of the list, s.
-    since: f64,
-}
-
-/// An item, and how far it and the next one at another place are, m^2.
-#[derive(Clone, Copy)]
-struct Nearest {
-    item: usize,
-    squared: f64,
-    next: f64,
-}
-
-impl Nearest {
-    const NONE: Self = Self { item: 0, squared: f64::MAX, next: f64::MAX };
-
-    /// Another item, at this distance. At the same place as the nearest it is as far; the first of
-    /// several is it then.
-    #[inline]
-    fn compare(&mut self, item: usize, squared: f64, items: &[Detection]) {
-        if squared < self.squared {
-            *self = Self { item, squared, next: self.squared };
-        } else if squared < self.next {
-            if squared > self.squared || !self.is_at_the_place_of(item, items) {
-                self.next = squared;
-            } else {
-                self.item = self.item.min(item);
-            }
-        }
-    }
-
-    #[cold]
-    fn is_at_the_place_of(&self, item: usize, items: &[Detection]) -> bool {
-        let [one, other] = [self.item, item].map(|item| items.get(item).map(|it| [it.x, it.y]));
-        one.zip(other).is_some_and(|(one, other)| same_point(one, other))
-    }
-}
-
-/// An item that more than one track has.
-const SHARED: u16 = NONE - 1;
-
-impl<'a> Search<'a> {
-    fn new(items: &'a [Detection], reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
-        let squares = Squares::new(items, 4.0 * (reach + MARGIN), Links::First, columns);
-        Self { squares, reach, since: seconds(since_ns) }
-    }
-
-    /// Writes the item of every track into the row with its index, and into the column with the
-    /// index of the item whose it is; fails when it is too close to call.
-    fn mark_nearest(&self, tracks: &[Track], scratch: &mut Scratch<'_>) -> Option<Witness> {
-        let items = self.squares.items().len();
-        scratch.columns.iter_mut().take(items).for_each(|column| column.row = NONE);
-        for (index, track) in tracks.iter().enumerate() {
-            let nearest = self.nearest(track, scratch.columns);
-            let item = match nearest.map(|nearest| (nearest, self.is_near(&nearest))) {
-                Some((nearest, None)) => {
-                    return Some(too_close(track, [libm::sqrt(nearest.squared), self.reach]));
-                }
-                Some((nearest, Some(true))) => nearest.item,
-                Some((_, Some(false))) | None => usize::from(NONE),
-            };
-            if let Some(column) = scratch.columns.get_mut(item) {
-                column.row = if column.row == NONE { short(index) } else { SHARED };
-            }
-            if let Some(row) = scratch.rows.get_mut(index) {
-                row.item = short(item);
-            }
-        }
-        None
-    }
-
-    fn nearest(&self, track: &Track, columns: &[Column]) -> Option<Nearest> {
-        let (dx, dy) = (track.vx * self.since, track.vy * self.since);
-        let place = [track.x + dx, track.y + dy];
-        let items = self.squares.items();
-        let mut nearest = Nearest::NONE;
-        let mut look = |item: usize, &Detection { x, y, .. }: &Detection| {
-            let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
-            nearest.compare(item, to_x * to_x + to_y * to_y, items);
-        };
-        let away = self.squares.for_each_beside(columns, place, &mut look);
-        // Whatever is in another square is farther.
-        if !(away > 0.0 && nearest.squared < away * away) {
-            let reach = self.reach + MARGIN;
-            let near = place.map(|at| [at - reach, at + reach]);
-            nearest = Nearest::NONE;
-            let mut look = |item: usize, &Detection { x, y, .. }: &Detection| {
-                let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
-                nearest.compare(item, to_x * to_x + to_y * to_y, items);
-            };
-            self.squares.for_each_in(columns, near, &mut look);
-        }
-        (nearest.squared < f64::MAX).then_some(nearest)
-    }
-
-    /// Whether the item is within reach; `None` when that is too close to call, or which item is.
-    fn is_near(&self, nearest: &Nearest) -> Option<bool> {
-        let away = libm::sqrt(nearest.squared);
-        if away > self.reach + CLOSE {
-            return Some(false);
-        }
-        let is_clear = away < self.reach - CLOSE && libm::sqrt(nearest.next) - away > CLOSE;
-        is_clear.then_some(true)
-    }
 }

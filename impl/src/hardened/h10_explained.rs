@@ -34,12 +34,15 @@ pub(crate) fn mark_explained(
     let count = history.detections.map_or(0, |list| list.items.len());
     scratch.columns.iter_mut().take(count).for_each(|column| column.potential = UNEXPLAINED);
     let tracks = tracks.map_or(0, |list| list.items.len());
+    let mut explained = 0_usize;
     for item in scratch.rows.iter().take(tracks).filter_map(Row::confirmed_by) {
         if let Some(column) = scratch.columns.get_mut(usize::from(item)) {
+            // A detection confirms one track at most.
             column.potential = EXPLAINED;
+            explained = explained.saturating_add(1);
         }
     }
-    scratch.columns.iter().take(count).filter(|column| column.is_explained()).count()
+    explained
 }
 
 /// At how many points of the trajectory stage iv examines explained detections as standing; `None`

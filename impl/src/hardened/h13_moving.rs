@@ -5,8 +5,8 @@
 //! pairs of a detection and an earlier item are examined; whether they collide is decided as in
 //! stage iii.
 
-use crate::hardened::detection_history::squares::{Links, MARGIN, Squares};
-use crate::hardened::detection_history::{CLOSE, DetectionHistory, UsableList};
+use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
+use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList, Trajectory};
 use crate::input::scratch::{Column, Scratch};
 use crate::numbers::plane::Vector;
@@ -73,11 +73,11 @@ struct SeenTwice {
 }
 
 impl SeenTwice {
-    fn new(now: &Detection, before: &Detection, list: &UsableList<'_>) -> Self {
-        let rate = 1.0 / list.age;
-        let velocity = [(now.x - before.x) * rate, (now.y - before.y) * rate];
+    fn new(now: &Detection, before: [f64; 2], list: &UsableList<'_>) -> Self {
+        let (rate, [x, y]) = (1.0 / list.age, before);
+        let velocity = [(now.x - x) * rate, (now.y - y) * rate];
         let now = MovingRectangle { velocity, ..MovingRectangle::detection(now) };
-        Self { now, before: [before.x, before.y], age_ns: list.age_ns }
+        Self { now, before, age_ns: list.age_ns }
     }
 }
 
@@ -130,7 +130,8 @@ struct Pair<'a> {
     detection: usize,
     now: &'a Detection,
     item: usize,
-    before: &'a Detection,
+    /// Where the item is, m.
+    before: [f64; 2],
     list: usize,
 }
 
@@ -153,17 +154,17 @@ struct Search<'m, 'c, 'a> {
     detections: &'c DetectionList<'a>,
     motion: &'m CavMotion<'m, 'a>,
     /// The usable lists by squares, once they are needed.
-    lists: [Option<Squares<'a>>; 4],
+    lists: [Option<Squares<'c>>; 4],
     first: Option<Found>,
 }
 
-impl<'a> Search<'_, '_, 'a> {
-    fn usable(&self, list: usize) -> Option<UsableList<'a>> {
+impl<'c> Search<'_, 'c, '_> {
+    fn usable(&self, list: usize) -> Option<UsableList<'c>> {
         self.moving.history.usable.get(list).copied().flatten()
     }
 
     /// The list by squares. All usable ones are listed at the first call.
-    fn by_squares(&mut self, list: usize, columns: &mut [Column]) -> Option<Squares<'a>> {
+    fn by_squares(&mut self, list: usize, columns: &mut [Column]) -> Option<Squares<'c>> {
         if self.lists.iter().all(Option::is_none) {
             // Of a few squares for what comes from anywhere, and of a few things in a square.
             let side = larger(
@@ -172,7 +173,8 @@ impl<'a> Search<'_, '_, 'a> {
             );
             let usable = self.moving.history.usable.iter().zip(Links::ALL);
             for (squares, (list, links)) in self.lists.iter_mut().zip(usable) {
-                *squares = list.map(|list| Squares::new(list.items, side, links, columns));
+                *squares =
+                    list.map(|list| Squares::of((list.items, list.index), side, links, columns));
             }
         }
         self.lists.get(list).copied().flatten()
@@ -198,7 +200,8 @@ impl<'a> Search<'_, '_, 'a> {
             let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
             let near = [around(track.x + dx), around(track.y + dy)];
             squares.for_each_in(scratch.columns, near, |item, before| {
-                let (x, y) = ((track.x - before.x) + dx, (track.y - before.y) + dy);
+                let [before_x, before_y] = before;
+                let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
                 if x * x + y * y <= reach * reach {
                     self.examine(&Pair { order, detection, now, item, before, list });
                 }
@@ -208,7 +211,7 @@ impl<'a> Search<'_, '_, 'a> {
 
     /// The list in which the past of a confirmed track is looked for, for each set of lists that
     /// hold its own origin: a bit for each place of the history.
-    fn pasts(&self) -> [Option<Past<'a>>; 16] {
+    fn pasts(&self) -> [Option<Past<'c>>; 16] {
         let mut pasts = [None; 16];
         for (origins, past) in pasts.iter_mut().enumerate() {
             let mut lists = self.moving.history.by_reference_age();
@@ -264,7 +267,8 @@ impl<'a> Search<'_, '_, 'a> {
             let order = tracks.saturating_add(detection);
             let from = self.motion.sweep.comes_from(&standing, speed, age);
             squares.for_each_in(scratch.columns, from, |item, before| {
-                let (x, y) = (now.x - before.x, now.y - before.y);
+                let [before_x, before_y] = before;
+                let (x, y) = (now.x - before_x, now.y - before_y);
                 let pair = Pair { order, detection, now, item, before, list: reference };
                 if x * x + y * y <= farthest * farthest
                     && self.may_collide(&pair)
@@ -287,22 +291,26 @@ impl<'a> Search<'_, '_, 'a> {
     fn is_supported(&self, pair: &Pair<'_>, columns: &[Column]) -> bool {
         let Some(own) = self.usable(pair.list) else { return true };
         let reach = self.cycle.parameters.theta_track_max + CLOSE;
-        let (mut alone, mut supported) = (true, false);
+        let mut alone = true;
         for (list, squares) in self.lists.iter().enumerate().filter(|&(list, _)| list != pair.list)
         {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
             alone = false;
+            let mut supported = false;
             let share = other.age / own.age;
-            let (dx, dy) =
-                ((pair.before.x - pair.now.x) * share, (pair.before.y - pair.now.y) * share);
+            let [before_x, before_y] = pair.before;
+            let (dx, dy) = ((before_x - pair.now.x) * share, (before_y - pair.now.y) * share);
             let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
             let near = [around(pair.now.x + dx), around(pair.now.y + dy)];
-            squares.for_each_in(columns, near, |_, item| {
-                let (x, y) = ((pair.now.x - item.x) + dx, (pair.now.y - item.y) + dy);
+            squares.for_each_in(columns, near, |_, [item_x, item_y]| {
+                let (x, y) = ((pair.now.x - item_x) + dx, (pair.now.y - item_y) + dy);
                 supported |= x * x + y * y <= reach * reach;
             });
+            if supported {
+                return true;
+            }
         }
-        alone || supported
+        alone
     }
 
     /// Looks for a collision that is earlier than the first so far.

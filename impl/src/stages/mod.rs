@@ -17,7 +17,8 @@ use crate::hardened::h02_h05_h10_schedule::{
 use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h13_moving::MovingDetections;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
-use crate::input::domain::{Fault, Usable, validate};
+use crate::input::domain::{Fault, Usable};
+use crate::input::indexes::Indexes;
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::numbers::time::elapsed_ns;
@@ -56,7 +57,7 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 /// time, choose a smaller one (`docs/speed.md` has the time for a work) and limit lists, disks and
 /// cells: the other stages do what the sizes say.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
-    decide(cycle, None, scratch)
+    check_with(cycle, &Indexes::default(), scratch)
 }
 
 /// As `check`, with the index of the cycle's route: the same stations in the same memory. An index
@@ -67,15 +68,18 @@ pub fn check_indexed<'a>(
     index: &RouteIndex<'a>,
     scratch: &mut Scratch<'_>,
 ) -> Result<Report, InvalidInput> {
-    decide(cycle, Some(index).filter(|index| index.is_of(&cycle.route)), scratch)
+    check_with(cycle, &Indexes { route: Some(index), detections: &[] }, scratch)
 }
 
-fn decide<'a>(
+/// As `check`, with what the caller keeps. The answer is the same. Source:
+/// `spec/4-arithmetic.md#conformance-of-an-implementation`.
+pub fn check_with<'a>(
     cycle: &Cycle<'a>,
-    index: Option<&RouteIndex<'a>>,
+    indexes: &Indexes<'_, 'a>,
     scratch: &mut Scratch<'_>,
 ) -> Result<Report, InvalidInput> {
-    match validate(cycle, index.is_some()) {
+    let indexes = of_this_route(cycle, indexes);
+    match indexes.validate(cycle) {
         Err(Fault::Local(problem)) => Err(problem),
         Err(Fault::Remote(problem)) => {
             let stages = Stage::ALL.map(|stage| match scheduled(cycle, stage) {
@@ -88,9 +92,14 @@ fn decide<'a>(
         }
         Ok(usable) => {
             scratch.fits(cycle)?;
-            Ok(run(&ValidCycle::of(cycle, usable, index), scratch))
+            Ok(run(&ValidCycle::of(cycle, usable, indexes), scratch))
         }
     }
+}
+
+/// Without an index of another route.
+fn of_this_route<'i, 'a>(cycle: &Cycle<'a>, indexes: &Indexes<'i, 'a>) -> Indexes<'i, 'a> {
+    Indexes { route: indexes.route.filter(|index| index.is_of(&cycle.route)), ..*indexes }
 }
 
 /// A cycle whose input is valid, for running one stage alone: to test it, or to time it. Source:
@@ -100,7 +109,7 @@ pub struct ValidCycle<'c, 'a> {
     cycle: &'c Cycle<'a>,
     current: Current<'c, 'a>,
     history: DetectionHistory<'c, 'a>,
-    index: Option<&'c RouteIndex<'a>>,
+    indexes: Indexes<'c, 'a>,
 }
 
 /// Why a stage fails, if it does; or the first input that it lacks.
@@ -116,17 +125,29 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         index: Option<&'c RouteIndex<'a>>,
         scratch: &Scratch<'_>,
     ) -> Result<Self, InvalidInput> {
-        let index = index.filter(|index| index.is_of(&cycle.route));
-        let usable = validate(cycle, index.is_some())
-            .map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
-        scratch.fits(cycle)?;
-        Ok(Self::of(cycle, usable, index))
+        Self::with(cycle, Indexes { route: index, detections: &[] }, scratch)
     }
 
-    fn of(cycle: &'c Cycle<'a>, usable: Usable, index: Option<&'c RouteIndex<'a>>) -> Self {
+    /// As `new`, with what the caller keeps.
+    ///
+    /// Errors: the first invalid value. Source: `spec/3-stages.md#invalid-input`.
+    pub fn with(
+        cycle: &'c Cycle<'a>,
+        indexes: Indexes<'c, 'a>,
+        scratch: &Scratch<'_>,
+    ) -> Result<Self, InvalidInput> {
+        let indexes = of_this_route(cycle, &indexes);
+        let usable = indexes
+            .validate(cycle)
+            .map_err(|(Fault::Local(problem) | Fault::Remote(problem))| problem)?;
+        scratch.fits(cycle)?;
+        Ok(Self::of(cycle, usable, indexes))
+    }
+
+    fn of(cycle: &'c Cycle<'a>, usable: Usable, indexes: Indexes<'c, 'a>) -> Self {
         let current = Current::new(cycle, usable);
-        let history = DetectionHistory::new(cycle, current.detections);
-        Self { cycle, current, history, index }
+        let history = DetectionHistory::new(cycle, current.detections, &indexes);
+        Self { cycle, current, history, indexes }
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
@@ -171,7 +192,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     fn ii(&self) -> Found {
-        Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.index))
+        Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.indexes.route))
     }
 
     /// After `look_back`, and so after stage i.

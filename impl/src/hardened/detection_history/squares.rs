@@ -5,11 +5,15 @@
 //! 1e-7 m; whoever searches makes what is searched larger by `MARGIN`.
 
 use crate::input::cycle::Detection;
+use crate::input::detection_index::DetectionIndex;
 use crate::input::scratch::{Column, NONE, short};
 use crate::numbers::range::smaller;
 
 /// m
 pub(crate) const MARGIN: f64 = 1e-6;
+
+/// What is closer than this to a bound is too close to call, m or m/s.
+pub(crate) const CLOSE: f64 = 1e-9;
 
 /// Which fields of the columns hold the lists: four can be there at once while stage i does not
 /// use the columns; while it does, or items are marked in `Column::row`, only the first.
@@ -77,6 +81,8 @@ type Square = [u64; 2];
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Squares<'a> {
     items: &'a [Detection],
+    /// When the caller keeps an index, it is used, and nothing else here.
+    index: Option<&'a DetectionIndex<'a>>,
     links: Links,
     mask: u64,
     /// Of a square, m, and squares per m.
@@ -84,7 +90,23 @@ pub(crate) struct Squares<'a> {
     scale: f64,
 }
 
+/// Items, with the index that the caller keeps of them.
+pub(crate) type Listed<'a> = (&'a [Detection], Option<&'a DetectionIndex<'a>>);
+
 impl<'a> Squares<'a> {
+    /// The items by squares: by the index, if there is one, else as `new`.
+    pub(crate) fn of(
+        (items, index): Listed<'a>,
+        side: f64,
+        links: Links,
+        columns: &mut [Column],
+    ) -> Self {
+        match index {
+            Some(_) => Self { items, index, links, mask: 0, side, scale: 1.0 },
+            None => Self::new(items, side, links, columns),
+        }
+    }
+
     /// Lists the items. `side`: of a square, m, at least 1e-3; there have to be as many columns as
     /// items.
     pub(crate) fn new(
@@ -97,7 +119,7 @@ impl<'a> Squares<'a> {
             Some(log) => (1_u64 << log).wrapping_sub(1),
             None => 0,
         };
-        let squares = Self { items, links, mask, side, scale: 1.0 / side };
+        let squares = Self { items, index: None, links, mask, side, scale: 1.0 / side };
         columns.iter_mut().take(items.len()).for_each(|column| links.set_head(column, NONE));
         for (index, item) in items.iter().enumerate() {
             let hash = squares.hash(squares.square([item.x, item.y]));
@@ -132,8 +154,11 @@ impl<'a> Squares<'a> {
         &self,
         columns: &[Column],
         place: [f64; 2],
-        mut look: impl FnMut(usize, &'a Detection),
+        mut look: impl FnMut(usize, [f64; 2]),
     ) -> f64 {
+        if let Some(index) = self.index {
+            return index.for_each_beside(place, look) - MARGIN;
+        }
         let [left, up] = place.map(|value| {
             let scaled = value * self.scale;
             0.5 - (scaled - ((scaled + INTEGER) - INTEGER)).abs()
@@ -143,7 +168,7 @@ impl<'a> Squares<'a> {
         while let (Some(item), Some(column)) =
             (self.items.get(usize::from(next)), columns.get(usize::from(next)))
         {
-            look(usize::from(next), item);
+            look(usize::from(next), [item.x, item.y]);
             next = self.links.next(column);
         }
         smaller(left, up) * self.side - MARGIN
@@ -154,9 +179,13 @@ impl<'a> Squares<'a> {
     pub(crate) fn for_each_in(
         &self,
         columns: &[Column],
-        [[left, right], [bottom, top]]: [[f64; 2]; 2],
-        mut look: impl FnMut(usize, &'a Detection),
+        area: [[f64; 2]; 2],
+        mut look: impl FnMut(usize, [f64; 2]),
     ) {
+        if let Some(index) = self.index {
+            return index.for_each_in(area, look);
+        }
+        let [[left, right], [bottom, top]] = area;
         let ([i0, k0], [i1, k1]) = (self.square([left, bottom]), self.square([right, top]));
         if i1 < i0 || k1 < k0 {
             return;
@@ -166,7 +195,7 @@ impl<'a> Squares<'a> {
         let squares = across.saturating_mul(up);
         if squares > 1 && squares > self.mask {
             // More squares than lists.
-            self.items.iter().enumerate().for_each(|(index, item)| look(index, item));
+            self.items.iter().enumerate().for_each(|(index, item)| look(index, [item.x, item.y]));
             return;
         }
         for k in (0..up).map(|step| k0.wrapping_add(step)) {
@@ -177,7 +206,7 @@ impl<'a> Squares<'a> {
                     (self.items.get(usize::from(next)), columns.get(usize::from(next)))
                 {
                     if squares == 1 || self.square([item.x, item.y]) == [i, k] {
-                        look(usize::from(next), item);
+                        look(usize::from(next), [item.x, item.y]);
                     }
                     next = self.links.next(column);
                 }

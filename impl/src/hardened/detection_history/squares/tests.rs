@@ -4,16 +4,18 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Links, Squares};
-use crate::input::cycle::Detection;
+use crate::input::cycle::{Detection, DetectionList};
+use crate::input::detection_index::{DetectionIndex, Slot};
 use crate::input::scratch::Column;
+use crate::numbers::plane::same_point;
 use crate::random::Random;
 
 #[test]
 fn what_is_in_a_box_is_found_once() {
     let mut random = Random::new(11);
-    let (mut found, mut missed) = (0, 0);
+    let (mut found, mut missed, mut beside) = (0, 0, 0);
     for case in 0..2_000 {
-        let far = [0.0, 16_777_200.0][case % 2];
+        let far = [0.0, 16_777_150.0][case % 2];
         let count = [0, 1, 3, 40, 200][case % 5];
         let mut number = |range: f64| random.below(1 << 20) as f64 / f64::from(1 << 20) * range;
         let items: Vec<_> = (0..count)
@@ -32,10 +34,14 @@ fn what_is_in_a_box_is_found_once() {
             let within = |value: f64, [least, most]: [f64; 2]| least <= value && value <= most;
             within(item.x, area[0]) && within(item.y, area[1])
         };
-        for squares in &lists {
+        let mut slots = vec![Slot::default(); count];
+        let list = DetectionList { stamp_ns: 0, items: &items };
+        let index = DetectionIndex::new(&list, &mut slots).expect("valid");
+        let kept = Squares::of((&items, Some(&index)), 1.0, Links::First, &mut columns);
+        for squares in lists.iter().chain([&kept]) {
             let mut met = Vec::new();
             squares.for_each_in(&columns, area, |index, item| {
-                assert_eq!(item, &items[index]);
+                assert!(same_point(item, [items[index].x, items[index].y]));
                 met.push(index);
             });
             met.sort_unstable();
@@ -45,9 +51,21 @@ fn what_is_in_a_box_is_found_once() {
                 found += 1;
             }
             missed += count - met.len();
+            let mut met = Vec::new();
+            let place = [x + size, y];
+            let away = squares.for_each_beside(&columns, place, |index, _| met.push(index));
+            let near = |item: &Detection| {
+                (item.x - place[0]).hypot(item.y - place[1]) <= away && away > 0.0
+            };
+            for (index, _) in items.iter().enumerate().filter(|(_, item)| near(item)) {
+                assert!(met.contains(&index), "{index} at {place:?}, {away}");
+                beside += 1;
+            }
         }
         let nothing = [[x, x - 100.0], [y, y]];
-        lists[1].for_each_in(&columns, nothing, |index, _| panic!("{index}"));
+        for squares in [&lists[1], &kept] {
+            squares.for_each_in(&columns, nothing, |index, _| panic!("{index}"));
+        }
     }
-    assert!(found > 10_000 && missed > 10_000, "{found} {missed}");
+    assert!(found > 10_000 && missed > 10_000 && beside > 10_000, "{found} {missed} {beside}");
 }

@@ -1,0 +1,161 @@
+//! The items of a list that are one track's own: nearest to where it was at the time of the list,
+//! and of no other track (`spec/3-stages.md#what-the-cav-saw-itself`).
+
+use crate::hardened::detection_history::squares::{CLOSE, Links, Listed, MARGIN, Squares};
+use crate::input::cycle::{Detection, Track};
+use crate::input::scratch::{Column, NONE, Scratch, short};
+use crate::numbers::plane::same_point;
+use crate::numbers::range::smaller;
+use crate::numbers::time::seconds;
+use crate::report::{Rule, Witness};
+
+/// The item of a list that is nearest to where tracks were at its time.
+pub(super) struct Search<'a> {
+    squares: Squares<'a>,
+    /// An item that is farther is none, m.
+    reach: f64,
+    /// Squares: of less than the reach, of more, and of more by 1 m, m^2.
+    near: f64,
+    far: f64,
+    wide: f64,
+    /// From the stamp of the tracks to that of the list, s.
+    since: f64,
+}
+
+/// An item, and how far it and the next one at another place are, m^2.
+#[derive(Clone, Copy)]
+struct Nearest {
+    item: usize,
+    squared: f64,
+    next: f64,
+}
+
+impl Nearest {
+    const NONE: Self = Self { item: 0, squared: f64::MAX, next: f64::MAX };
+
+    /// Another item, at this distance. At the same place as the nearest it is as far; the first of
+    /// several is it then.
+    #[inline]
+    fn compare(&mut self, item: usize, squared: f64, items: &[Detection]) {
+        if squared < self.squared {
+            *self = Self { item, squared, next: self.squared };
+        } else if squared < self.next {
+            if squared > self.squared || !self.is_at_the_place_of(item, items) {
+                self.next = squared;
+            } else {
+                self.item = self.item.min(item);
+            }
+        }
+    }
+
+    #[cold]
+    fn is_at_the_place_of(&self, item: usize, items: &[Detection]) -> bool {
+        let [one, other] = [self.item, item].map(|item| items.get(item).map(|it| [it.x, it.y]));
+        one.zip(other).is_some_and(|(one, other)| same_point(one, other))
+    }
+}
+
+/// An item that more than one track has.
+const SHARED: u16 = NONE - 1;
+
+impl<'a> Search<'a> {
+    pub(super) fn new(list: Listed<'a>, reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
+        let squares = Squares::of(list, 4.0 * (reach + MARGIN), Links::First, columns);
+        let square = |reach: f64| reach * reach;
+        let (near, far) = (square(reach - 2.0 * CLOSE), square(reach + 2.0 * CLOSE));
+        Self { squares, reach, near, far, wide: square(reach + 1.0), since: seconds(since_ns) }
+    }
+
+    /// Writes the item of every track into the row with its index, and the mark into the rows of
+    /// those whose item is that of no other track; fails when it is too close to call. The column
+    /// with the index of an item says whose it is.
+    pub(super) fn mark_own(
+        &self,
+        mark: u16,
+        tracks: &[Track],
+        scratch: &mut Scratch<'_>,
+    ) -> Option<Witness> {
+        let items = self.squares.items().len();
+        scratch.columns.iter_mut().take(items).for_each(|column| column.row = NONE);
+        for (track, index) in tracks.iter().zip(0_u16..) {
+            let nearest = self.nearest(track, scratch.columns);
+            let item = match self.is_near(&nearest) {
+                Some(true) => nearest.item,
+                Some(false) => usize::from(NONE),
+                None => return Some(too_close(track, [libm::sqrt(nearest.squared), self.reach])),
+            };
+            let Some(row) = scratch.rows.get_mut(usize::from(index)) else { break };
+            row.item = short(item);
+            let Some(column) = scratch.columns.get_mut(item) else { continue };
+            if column.row == NONE {
+                column.row = index;
+                row.seen |= mark;
+            } else {
+                if let Some(first) = scratch.rows.get_mut(usize::from(column.row)) {
+                    first.seen &= !mark;
+                }
+                column.row = SHARED;
+            }
+        }
+        None
+    }
+
+    #[inline]
+    fn nearest(&self, track: &Track, columns: &[Column]) -> Nearest {
+        let (dx, dy) = (track.vx * self.since, track.vy * self.since);
+        let place = [track.x + dx, track.y + dy];
+        let items = self.squares.items();
+        let mut nearest = Nearest::NONE;
+        let away = self.squares.for_each_beside(columns, place, |item, [x, y]| {
+            let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
+            nearest.compare(item, to_x * to_x + to_y * to_y, items);
+        });
+        // Whatever is in another square is farther than that.
+        if away > 0.0 && (nearest.squared < away * away || away > self.reach + MARGIN) {
+            return nearest;
+        }
+        self.nearest_around(track, libm::sqrt(nearest.squared), columns)
+    }
+
+    /// The same by all squares that may hold something as near as that, or within reach.
+    #[inline(never)]
+    fn nearest_around(&self, track: &Track, away: f64, columns: &[Column]) -> Nearest {
+        let (dx, dy) = (track.vx * self.since, track.vy * self.since);
+        let (items, reach) = (self.squares.items(), smaller(away, self.reach) + MARGIN);
+        let near = [track.x + dx, track.y + dy].map(|at| [at - reach, at + reach]);
+        let mut nearest = Nearest::NONE;
+        self.squares.for_each_in(columns, near, |item, [x, y]| {
+            let (to_x, to_y) = ((track.x - x) + dx, (track.y - y) + dy);
+            nearest.compare(item, to_x * to_x + to_y * to_y, items);
+        });
+        nearest
+    }
+
+    /// Whether the item is within reach; `None` when that is too close to call, or which item is.
+    #[inline]
+    fn is_near(&self, nearest: &Nearest) -> Option<bool> {
+        if nearest.squared > self.far {
+            return Some(false);
+        }
+        // Roots that are at most `reach` + 1 differ by more than half of this over that.
+        let ahead = smaller(nearest.next, self.wide) - nearest.squared;
+        if nearest.squared < self.near && ahead > 4.0 * CLOSE * self.wide {
+            return Some(true);
+        }
+        self.is_certainly_near(nearest)
+    }
+
+    #[cold]
+    fn is_certainly_near(&self, nearest: &Nearest) -> Option<bool> {
+        let away = libm::sqrt(nearest.squared);
+        if away > self.reach + CLOSE {
+            return Some(false);
+        }
+        let is_clear = away < self.reach - CLOSE && libm::sqrt(nearest.next) - away > CLOSE;
+        is_clear.then_some(true)
+    }
+}
+
+pub(super) fn too_close(track: &Track, compared: [f64; 2]) -> Witness {
+    Witness { track: Some(track.id), ..Witness::of(Rule::Ambiguous, compared) }
+}
