@@ -12,7 +12,10 @@ pub mod bounds;
 pub mod configuration;
 pub mod distances;
 pub mod i_track_validation;
+pub mod group;
 pub mod input;
+pub mod order;
+pub mod plain;
 pub mod quality_of_service;
 pub mod requester;
 pub mod scene;
@@ -47,6 +50,8 @@ harnesses! {
     input:
         verify_bad_number_is_never_safe
         verify_bad_structure_is_never_safe;
+    order:
+        verify_order_is_the_table;
     quality_of_service:
         verify_latency_is_exact
         verify_silence_is_exact
