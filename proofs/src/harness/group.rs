@@ -12,33 +12,69 @@ use super::any::{below, duration_ns, groups, near_integer, option, profile, time
 #[cfg(not(kani))]
 use crate::kani;
 
-/// Whatever happens, and whatever time does, the end of a hold only moves later.
+/// A change of the area keeps every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers, which do not read
-/// the hold.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
 #[cfg_attr(kani, kani::proof)]
-pub fn verify_a_hold_is_never_shortened() {
-    at_any_event(&|step: &Seen| {
-        let (before_ns, after_ns) = (step.before.hold_until_ns, step.after.hold_until_ns);
-        assert!(after_ns >= before_ns);
-        kani::cover!(before_ns.is_some() && after_ns > before_ns, "a hold becomes longer");
-        kani::cover!(
-            before_ns.is_some() && step.is_unsafe() && after_ns == before_ns,
-            "a later hold stays"
-        );
+pub fn verify_every_law_at_areas() {
+    area(&|step: &Seen| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.done[RELEASES][1].is_some(), "a release");
     });
 }
 
-/// No event but a tick asks for a group.
+/// A verdict keeps every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers, for which the
-/// table is looked at.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
 #[cfg_attr(kani, kani::proof)]
-pub fn verify_requests_are_decided_at_ticks_only() {
-    at_any_event(&|step: &Seen| {
-        assert!(step.done[REQUESTS][0].is_none() && step.done[REQUESTS][1].is_none());
-        assert!(step.after.sessions == step.before.sessions);
-        kani::cover!(step.after.groups[0] != step.before.groups[0], "a group changes");
+pub fn verify_every_law_at_verdicts() {
+    verdict(&|step: &Seen| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.stops(1), "local services stop");
+        kani::cover!(step.is_unsafe() && step.has_hold(), "a hold");
+    });
+}
+
+/// A confirmation keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_confirmations() {
+    confirm(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.stops(0), "local services stop");
+        kani::cover!(step.is_remote_now(1), "it becomes remote");
+    });
+}
+
+/// A rejection keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_rejections() {
+    reject(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.leaves(0), "MOT");
+        kani::cover!(step.leaves(1), "PLAN");
+    });
+}
+
+/// Data keep every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_data() {
+    data_of(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.has_hold(), "a hold");
     });
 }
 
@@ -72,10 +108,13 @@ pub fn verify_a_request_goes_to_who_offers() {
     let step = after(EventKind::Tick, &mut table);
     if let Some(Action::Request { station, group, session }) = step.done[REQUESTS][0] {
         assert!(group == Group::Mot && step.before.area.mot);
-        assert!(step.before.groups[0] == GroupRecord::Local);
+        assert!(in_use(step.before.groups[0]).is_none());
         assert!(step.before.sessions.checked_add(1) == Some(session));
         let deadline_ns = step.event.t_ns.saturating_add(step.before.parameters.request_timeout_ns);
-        assert!(step.after.groups[0] == GroupRecord::Requested { station, session, deadline_ns });
+        assert!(same(
+            step.after.groups[0],
+            GroupRecord::Requested { station, session, deadline_ns }
+        ));
         let offers =
             |record: &StationRecord| record.station() == Some(station) && record.offer().mot;
         assert!(offers(&records[0]) || offers(&records[1]));
@@ -184,7 +223,7 @@ pub fn verify_a_group_becomes_remote_by_confirmation() {
             assert!((running.station, running.session) == named);
             assert!(running.last_arrival_ns == step.event.t_ns && running.last_used_ns.is_none());
         } else {
-            assert!(step.after.groups[at] == before);
+            assert!(same(step.after.groups[at], before));
         }
         let release = step.done[RELEASES][at];
         let answered = matches!(release, Some(Action::Release { station, session, .. })
@@ -196,121 +235,39 @@ pub fn verify_a_group_becomes_remote_by_confirmation() {
     });
 }
 
-/// No group becomes remote but by a confirmation.
+/// The frame: a confirmation of one group leaves the other group as it is, and nothing is done about it.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers, for which the
-/// table is looked at.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
 #[cfg_attr(kani, kani::proof)]
-pub fn verify_a_group_becomes_remote_by_nothing_else() {
-    at_any_event(&|step: &Seen| {
-        let is_remote = |group: GroupRecord| matches!(group, GroupRecord::Remote(_));
-        let confirms = matches!(step.event.kind, EventKind::Confirm { .. });
-        assert!(
-            confirms
-                || each(|at| is_remote(step.before.groups[at]) || !is_remote(step.after.groups[at]))
-        );
-        kani::cover!(
-            is_remote(step.before.groups[0]) && !is_remote(step.after.groups[0]),
-            "no more"
-        );
-        kani::cover!(
-            !is_remote(step.before.groups[0]) && is_remote(step.after.groups[0]),
-            "confirmed"
-        );
+pub fn verify_the_other_group_is_untouched_at_confirmations() {
+    confirm(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.is_remote_now(at), "its own group changes");
     });
 }
 
-/// Local services are stopped and started exactly when they stop and start to compute.
+/// The frame: a rejection of one group leaves the other group as it is, and nothing is done about it.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers, for which the
-/// table is looked at.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
 #[cfg_attr(kani, kani::proof)]
-pub fn verify_services_are_told_what_they_do() {
-    at_any_event(&|step: &Seen| {
-        assert!(each(|at| {
-            let (was, is) = (computes(step.before.groups[at]), computes(step.after.groups[at]));
-            match step.done[SERVICES][at] {
-                None => was == is,
-                Some(Action::Activate(group)) => group == GROUPS[at] && !was && is,
-                Some(Action::Deactivate(group)) => group == GROUPS[at] && was && !is,
-                Some(Action::Request { .. } | Action::Release { .. } | Action::Drop(_)) => false,
-            }
-        }));
-        kani::cover!(matches!(step.done[SERVICES][0], Some(Action::Activate(_))), "started");
-        kani::cover!(matches!(step.done[SERVICES][1], Some(Action::Deactivate(_))), "stopped");
+pub fn verify_the_other_group_is_untouched_at_rejections() {
+    reject(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.leaves(at), "its own group changes");
     });
 }
 
-/// Only data of a safe cycle reach control: hardened, local services that compute stop only at a
-/// safe verdict that names the running session after a result was used; paper, only at a
-/// confirmation.
+/// The frame: data of one group leave the other group as it is, and nothing is done about it.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers, for which the
-/// table is looked at.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
 #[cfg_attr(kani, kani::proof)]
-pub fn verify_only_data_of_a_safe_cycle_reach_control() {
-    at_any_event(&|step: &Seen| {
-        let may_stop =
-            |at: usize| match (step.before.profile, step.event.kind, step.before.groups[at]) {
-                (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
-                (
-                    Profile::Hardened,
-                    EventKind::Verdict { safe: true, sessions },
-                    GroupRecord::Remote(running),
-                ) => {
-                    let named = if at == 0 { sessions.mot } else { sessions.plan };
-                    named == Some(running.session) && running.last_used_ns.is_some()
-                }
-                _ => false,
-            };
-        assert!(each(|at| {
-            !computes(step.before.groups[at]) || computes(step.after.groups[at]) || may_stop(at)
-        }));
-        kani::cover!(step.is_hardened() && may_stop(0), "hardened");
-        kani::cover!(
-            !step.is_hardened() && !computes(step.after.groups[1]) && may_stop(1),
-            "paper"
-        );
-    });
-}
-
-/// What a group remembers of its local services stays as the profile allows: paper, none compute
-/// beside remote ones; hardened, none stop before a result was used.
-///
-/// Domain: all states with such groups, all times of 64 bits. Not covered: offers, for which the
-/// table is looked at.
-#[cfg_attr(kani, kani::proof)]
-pub fn verify_every_group_stays_valid() {
-    at_any_event(&|step: &Seen| {
-        let valid = |group: GroupRecord| match (group, step.is_hardened()) {
-            (GroupRecord::Local | GroupRecord::Requested { .. }, _) => true,
-            (GroupRecord::Remote(running), false) => !running.local_computes,
-            (GroupRecord::Remote(running), true) => {
-                running.local_computes || running.last_used_ns.is_some()
-            }
-        };
-        assert!(each(|at| !valid(step.before.groups[at]) || valid(step.after.groups[at])));
-        kani::cover!(
-            valid(step.before.groups[0]) && step.after.groups[0] != step.before.groups[0],
-            "it changes"
-        );
-    });
-}
-
-/// The frame: an answer or data of one group leave the other group as it is, and nothing is done
-/// about it.
-///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
-/// looked at.
-#[cfg_attr(kani, kani::proof)]
-pub fn verify_the_other_group_is_untouched() {
-    of_one_group(&|step: &Seen, at: usize, _| {
-        let other = 1 - at;
-        assert!(step.after.groups[other] == step.before.groups[other]);
-        assert!(step.after.dropped[other] == step.before.dropped[other]);
-        assert!(step.done[DROPS][other].is_none() && step.done[RELEASES][other].is_none());
-        assert!(step.done[SERVICES][other].is_none() && step.done[REQUESTS][other].is_none());
-        kani::cover!(step.after.groups[at] != step.before.groups[at], "its own group changes");
+pub fn verify_the_other_group_is_untouched_at_data() {
+    data_of(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.leaves(at), "its own group changes");
     });
 }
 
@@ -326,10 +283,10 @@ pub fn verify_a_rejection_ends_a_request() {
         let is_meant =
             matches!(before, GroupRecord::Requested { .. }) && in_use(before) == Some(named);
         let expected = if is_meant { GroupRecord::Local } else { before };
-        assert!(step.after.groups[at] == expected);
+        assert!(same(step.after.groups[at], expected));
         assert!(step.done[RELEASES][at].is_none() && step.done[SERVICES][at].is_none());
         kani::cover!(is_meant, "rejected");
-        kani::cover!(!is_meant && before != GroupRecord::Local, "another session");
+        kani::cover!(!is_meant && in_use(before).is_some(), "another session");
     });
 }
 
@@ -343,7 +300,7 @@ pub fn verify_data_of_another_session_are_dropped() {
         let before = step.before.groups[at];
         let runs = matches!(before, GroupRecord::Remote(_)) && in_use(before) == Some(named);
         if !runs {
-            assert!(step.after.groups[at] == before);
+            assert!(same(step.after.groups[at], before));
             assert!(step.done[DROPS][at] == Some(Action::Drop(GROUPS[at])));
             assert!(step.done[RELEASES][at].is_none());
             assert!(step.after.hold_until_ns == step.before.hold_until_ns);
@@ -368,12 +325,15 @@ pub fn verify_a_group_depends_on_itself_alone() {
     let kind = if kani::any() { any_verdict() } else { EventKind::Area { groups: groups() } };
     let event = Event { t_ns, kind };
     let (one, other) = (after_in(one, event, &mut []), after_in(other, event, &mut []));
-    assert!(one.after.groups[0] == other.after.groups[0]);
+    assert!(same(one.after.groups[0], other.after.groups[0]));
     assert!(one.done[DROPS][0] == other.done[DROPS][0]);
     assert!(one.done[RELEASES][0] == other.done[RELEASES][0]);
     assert!(one.done[SERVICES][0] == other.done[SERVICES][0]);
     assert!(one.after.hold_until_ns == other.after.hold_until_ns);
-    kani::cover!(one.after.groups[1] != other.after.groups[1], "the other differs");
+    kani::cover!(
+        one.done[RELEASES][1].is_some() && other.done[RELEASES][1].is_none(),
+        "the other differs"
+    );
     kani::cover!(one.done[RELEASES][0].is_some(), "it is left");
 }
 
@@ -420,7 +380,7 @@ pub fn verify_a_station_below_1_is_refused() {
     let refused = decide(&mut requester, &Event { t_ns: time_ns(), kind });
     assert!(matches!(refused, Err(RequesterError::Station { station: named }) if named == station));
     let after = requester.suspend().parts();
-    assert!(after.groups[0] == before.groups[0] && after.groups[1] == before.groups[1]);
+    assert!(each(|at| same(after.groups[at], before.groups[at])));
     assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
     assert!(after.area == before.area && after.dropped[0] == before.dropped[0]);
     kani::cover!(station == 0, "the CAV itself");
@@ -445,8 +405,118 @@ impl Seen {
         self.before.profile == Profile::Hardened
     }
 
+    /// The laws of a step that is no offer and no tick.
+    fn keeps_every_law(&self) -> bool {
+        self.keeps_the_hold()
+            && self.asks_for_nothing()
+            && each(|at| {
+                self.becomes_remote_by_confirmation(at)
+                    && self.says_what_services_do(at)
+                    && self.stops_services_when_the_profile_says(at)
+                    && self.keeps_the_group_valid(at)
+            })
+    }
+
+    /// The end of a hold only moves later.
+    fn keeps_the_hold(&self) -> bool {
+        match (self.before.hold_until_ns, self.after.hold_until_ns) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(before_ns), Some(after_ns)) => after_ns >= before_ns,
+        }
+    }
+
+    /// Requests are decided at ticks alone.
+    fn asks_for_nothing(&self) -> bool {
+        self.done[REQUESTS][0].is_none()
+            && self.done[REQUESTS][1].is_none()
+            && self.after.sessions == self.before.sessions
+    }
+
+    /// No group becomes remote but by a confirmation that names it.
+    fn becomes_remote_by_confirmation(&self, at: usize) -> bool {
+        let confirms =
+            matches!(self.event.kind, EventKind::Confirm { group, .. } if group == GROUPS[at]);
+        confirms || !self.is_remote_now(at)
+    }
+
+    /// Local services are started and stopped exactly when they start and stop to compute.
+    fn says_what_services_do(&self, at: usize) -> bool {
+        match self.done[SERVICES][at] {
+            None => !self.starts(at) && !self.stops(at),
+            Some(Action::Activate(group)) => group == GROUPS[at] && self.starts(at),
+            Some(Action::Deactivate(group)) => group == GROUPS[at] && self.stops(at),
+            Some(Action::Request { .. } | Action::Release { .. } | Action::Drop(_)) => false,
+        }
+    }
+
+    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop at a safe verdict that
+    /// names the running session after a result was used; paper, at the confirmation.
+    fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
+        let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
+            (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
+            (
+                Profile::Hardened,
+                EventKind::Verdict { safe: true, sessions },
+                GroupRecord::Remote(running),
+            ) => {
+                let named = if at == 0 { sessions.mot } else { sessions.plan };
+                running.last_used_ns.is_some()
+                    && match named {
+                        Some(session) => session == running.session,
+                        None => false,
+                    }
+            }
+            _ => false,
+        };
+        may || !self.stops(at) || !self.is_valid(self.before.groups[at])
+    }
+
+    /// Paper: no local services compute beside remote ones. Hardened: none stop before a result was
+    /// used.
+    fn keeps_the_group_valid(&self, at: usize) -> bool {
+        !self.is_valid(self.before.groups[at]) || self.is_valid(self.after.groups[at])
+    }
+
+    fn is_valid(&self, group: GroupRecord) -> bool {
+        match (group, self.is_hardened()) {
+            (GroupRecord::Local | GroupRecord::Requested { .. }, _) => true,
+            (GroupRecord::Remote(running), false) => !running.local_computes,
+            (GroupRecord::Remote(running), true) => {
+                running.local_computes || running.last_used_ns.is_some()
+            }
+        }
+    }
+
+    fn starts(&self, at: usize) -> bool {
+        !computes(self.before.groups[at]) && computes(self.after.groups[at])
+    }
+
+    fn stops(&self, at: usize) -> bool {
+        computes(self.before.groups[at]) && !computes(self.after.groups[at])
+    }
+
+    fn is_remote_now(&self, at: usize) -> bool {
+        let is_remote = |group: GroupRecord| matches!(group, GroupRecord::Remote(_));
+        !is_remote(self.before.groups[at]) && is_remote(self.after.groups[at])
+    }
+
+    fn has_hold(&self) -> bool {
+        self.before.hold_until_ns.is_none() && self.after.hold_until_ns.is_some()
+    }
+
     fn is_unsafe(&self) -> bool {
         matches!(self.event.kind, EventKind::Verdict { safe: false, .. })
+    }
+
+    /// Nothing is done about the group, and it is as it was.
+    fn leaves_alone(&self, at: usize) -> bool {
+        same(self.before.groups[at], self.after.groups[at])
+            && self.after.dropped[at] == self.before.dropped[at]
+            && self.done[DROPS][at].is_none()
+            && self.done[RELEASES][at].is_none()
+            && self.done[SERVICES][at].is_none()
+            && self.done[REQUESTS][at].is_none()
     }
 
     /// The group does no more use what it used.
@@ -474,6 +544,25 @@ fn each(holds: impl Fn(usize) -> bool) -> bool {
     holds(0) && holds(1)
 }
 
+/// Field by field, so that nothing has to be in memory.
+fn same(one: GroupRecord, other: GroupRecord) -> bool {
+    match (one, other) {
+        (GroupRecord::Local, GroupRecord::Local) => true,
+        (
+            GroupRecord::Requested { station, session, deadline_ns },
+            GroupRecord::Requested { station: s, session: n, deadline_ns: d },
+        ) => station == s && session == n && deadline_ns == d,
+        (GroupRecord::Remote(a), GroupRecord::Remote(b)) => {
+            a.station == b.station
+                && a.session == b.session
+                && a.last_arrival_ns == b.last_arrival_ns
+                && a.last_used_ns == b.last_used_ns
+                && a.local_computes == b.local_computes
+        }
+        (GroupRecord::Local | GroupRecord::Requested { .. } | GroupRecord::Remote(_), _) => false,
+    }
+}
+
 fn in_use(group: GroupRecord) -> Option<(i64, i64)> {
     match group {
         GroupRecord::Local => None,
@@ -487,24 +576,6 @@ fn computes(group: GroupRecord) -> bool {
     match group {
         GroupRecord::Local | GroupRecord::Requested { .. } => true,
         GroupRecord::Remote(running) => running.local_computes,
-    }
-}
-
-/// Any event but offers and ticks.
-fn at_any_event(see: &impl Fn(&Seen)) {
-    match below(3) {
-        0 => area(see),
-        1 => of_one_group(&|step: &Seen, _, _| see(step)),
-        _ => verdict(see),
-    }
-}
-
-/// An answer or data: what is seen, the index of the group, the station and session it names.
-fn of_one_group(see: &impl Fn(&Seen, usize, (i64, i64))) {
-    match below(3) {
-        0 => confirm(see),
-        1 => reject(see),
-        _ => data_of(see),
     }
 }
 

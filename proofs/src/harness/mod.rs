@@ -49,8 +49,11 @@ harnesses! {
         verify_gap_keeps_its_laws
         verify_s_valid_is_s_follow_or_s_b;
     group:
-        verify_a_hold_is_never_shortened
-        verify_requests_are_decided_at_ticks_only
+        verify_every_law_at_areas
+        verify_every_law_at_verdicts
+        verify_every_law_at_confirmations
+        verify_every_law_at_rejections
+        verify_every_law_at_data
         verify_t_wait_bars_requests
         verify_a_request_goes_to_who_offers
         verify_a_session_left_is_released_at_areas
@@ -58,11 +61,9 @@ harnesses! {
         verify_a_session_left_is_released_at_data
         verify_a_session_left_is_released_at_verdicts
         verify_a_group_becomes_remote_by_confirmation
-        verify_a_group_becomes_remote_by_nothing_else
-        verify_services_are_told_what_they_do
-        verify_only_data_of_a_safe_cycle_reach_control
-        verify_every_group_stays_valid
-        verify_the_other_group_is_untouched
+        verify_the_other_group_is_untouched_at_confirmations
+        verify_the_other_group_is_untouched_at_rejections
+        verify_the_other_group_is_untouched_at_data
         verify_a_rejection_ends_a_request
         verify_data_of_another_session_are_dropped
         verify_a_group_depends_on_itself_alone
