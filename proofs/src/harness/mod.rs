@@ -1,10 +1,11 @@
 //! Proof harnesses: plain functions, each a statement about the implementation for every value of
 //! a stated domain.
 //!
-//! Three engines take them. Kani compiles them to a formula (`.github/workflows/kani.yml`). CBMC
-//! checks them compiled to WebAssembly (`scripts/prove-wasm`). `crate::kani` runs them on all or
-//! on random values, which is testing. What is expected of each, and what was measured, is in
-//! `proofs/expected.toml`; what each is good for, in `proofs/HARNESSES.md`.
+//! CBMC and `proofs/compiled` check those that are small enough, compiled to WebAssembly
+//! (`scripts/prove-wasm`); Kani takes those with `kani::proof` (`.github/workflows/kani.yml`).
+//! `crate::kani` runs all of them on all or on random values, which is testing. What is expected of
+//! each, and what was measured, is in `proofs/expected.toml`; what each is good for, in
+//! `proofs/HARNESSES.md`.
 #![allow(clippy::missing_panics_doc, reason = "a harness panics when its statement is false")]
 
 pub mod actions;
