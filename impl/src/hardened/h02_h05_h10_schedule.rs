@@ -12,12 +12,12 @@ pub(crate) fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
 }
 
 /// H-10: in `AllRemote` what stage iii did does not keep stage iv from running.
-pub(crate) fn stage_iii_replaces_iv(given: &Given) -> bool {
+pub(crate) fn stage_iii_replaces_iv(given: Given) -> bool {
     given.profile == Profile::Paper || given.configuration != Configuration::AllRemote
 }
 
 /// H-10: what stages iii and iv did does not keep stage v from running, where it is conditional.
-pub(crate) fn others_replace_stage_v(given: &Given) -> bool {
+pub(crate) fn others_replace_stage_v(given: Given) -> bool {
     given.profile == Profile::Paper
 }
 
@@ -25,7 +25,7 @@ pub(crate) fn others_replace_stage_v(given: &Given) -> bool {
 /// failed. H-02: in `AllRemote` a stage iii on tracks that stage i could not check, because no
 /// detections are current, does not count. `ran`: whether stages iii, iv and v ran.
 pub(crate) fn no_obstacle_check(
-    given: &Given,
+    given: Given,
     [ran_iii, ran_iv, ran_v]: [bool; 3],
 ) -> Option<FailedStage> {
     let all_remote = given.configuration == Configuration::AllRemote;

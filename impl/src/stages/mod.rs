@@ -254,7 +254,7 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     let mut stages = [Outcome::NotScheduled; 5];
     let mut slots = stages.iter_mut();
     let mut ran_iv = false;
-    let failed_stage = in_order(&valid.given(), |stage, turn| {
+    let failed_stage = in_order(valid.given(), |stage, turn| {
         let outcome = match turn {
             Turn::Rest(idle) => idle.into(),
             Turn::Gap(idle) => valid.gap_alone().map_or_else(|| idle.into(), Outcome::Failed),

@@ -10,6 +10,7 @@ use crate::services::configuration::Configuration;
 
 /// What of a cycle decides about the order of its stages. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools, reason = "five independent facts, each asked for by name")]
 pub struct Given {
     /// Profile in force.
     pub profile: Profile,
@@ -72,7 +73,7 @@ pub enum Turn {
 
 /// Goes through the stages of a cycle in their order. `fails`: whether the stage that has its turn
 /// finds a safety issue. What makes the cycle unsafe. Source: `spec/3-stages.md#schedule`.
-pub fn in_order(given: &Given, mut fails: impl FnMut(Stage, Turn) -> bool) -> Option<FailedStage> {
+pub fn in_order(given: Given, mut fails: impl FnMut(Stage, Turn) -> bool) -> Option<FailedStage> {
     let mut past = Past { failed: None, ran_iii: false, ran_iv: false, ran_v: false };
     for stage in Stage::ALL {
         let turn = past.turn(given, stage);
@@ -103,7 +104,7 @@ struct Past {
 }
 
 impl Past {
-    fn turn(&self, given: &Given, stage: Stage) -> Turn {
+    fn turn(self, given: Given, stage: Stage) -> Turn {
         let scheduled = scheduled(given.profile, given.configuration, stage);
         let idle = match (scheduled, missing(given, stage)) {
             (Scheduled::Never, _) => Idle::NotScheduled,
@@ -119,7 +120,7 @@ impl Past {
     }
 
     /// Whether another stage made a conditional one unnecessary.
-    fn replaces(&self, given: &Given, stage: Stage) -> bool {
+    fn replaces(self, given: Given, stage: Stage) -> bool {
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
             Stage::Iv => self.ran_iii && stage_iii_replaces_iv(given),
@@ -129,8 +130,8 @@ impl Past {
 }
 
 /// The first input that the stage lacks. Tracks go to stage i whatever their age.
-const fn missing(given: &Given, stage: Stage) -> Option<Input> {
-    let Given { tracks_of_any_age, tracks, trajectory, detections, grid, .. } = *given;
+const fn missing(given: Given, stage: Stage) -> Option<Input> {
+    let Given { tracks_of_any_age, tracks, trajectory, detections, grid, .. } = given;
     let [first, second] = match stage {
         Stage::I => [(tracks_of_any_age, Input::Tracks), (detections, Input::Detections)],
         Stage::Ii => [(trajectory, Input::Trajectory); 2],

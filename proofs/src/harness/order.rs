@@ -37,14 +37,14 @@ pub fn verify_order_is_the_table() {
     let hardened = given.profile == Profile::Hardened;
     let answers: [bool; 5] = [kani::any(), kani::any(), kani::any(), kani::any(), kani::any()];
     let (mut at, mut failed, mut ran) = (0, None, [false; 5]);
-    let found = in_order(&given, |stage, turn| {
+    let found = in_order(given, |stage, turn| {
         assert!(at < 5 && stage == STAGES[at]);
         let mark = if at == 4 && column == 2 && hardened {
             Conditional
         } else {
             TABLE[at][usize::from(column)]
         };
-        let missing = first_missing(&given, at);
+        let missing = first_missing(given, at);
         // H-10: hardened, stage iii blocks iv in MotRemote and PlanRemote alone, and nothing blocks v.
         let blocked = match at {
             3 => ran[2] && !(hardened && column == 1),
@@ -112,7 +112,7 @@ const TABLE: [[Mark; 4]; 5] = [
 const STAGES: [Stage; 5] = [Stage::I, Stage::Ii, Stage::Iii, Stage::Iv, Stage::V];
 
 /// What the stage reads and is not there. A list goes to stage i whatever its age.
-fn first_missing(given: &Given, at: usize) -> Option<Input> {
+fn first_missing(given: Given, at: usize) -> Option<Input> {
     let reads_second = match at {
         0 if !given.tracks_of_any_age => return Some(Input::Tracks),
         0 => (given.detections, Input::Detections),

@@ -7,7 +7,7 @@ use mufasa::input::profile::Profile;
 use mufasa::parts::{s_b, s_cav, s_follow, s_stop, s_valid};
 use mufasa::services::configuration::Configuration;
 
-use super::any::within;
+use super::any::{same_number, within};
 use super::scene::{EGO, NOW_NS};
 #[cfg(not(kani))]
 use crate::kani;
@@ -23,7 +23,7 @@ const LONGEST_CAV: f64 = 9_000.0;
 #[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_s_b_is_bounded() {
     let s_b = s_b(&parameters(), speed());
-    assert!(0.0 <= s_b && s_b <= LONGEST_BRAKING);
+    assert!((0.0..=LONGEST_BRAKING).contains(&s_b));
     kani::cover!(s_b > 0.0, "braking");
     kani::cover!(s_b <= 0.0, "no way to brake");
 }
@@ -35,7 +35,7 @@ pub fn verify_s_b_is_bounded() {
 #[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_s_cav_is_bounded() {
     let s_cav = s_cav(&parameters(), speed());
-    assert!(0.0 <= s_cav && s_cav <= LONGEST_CAV);
+    assert!((0.0..=LONGEST_CAV).contains(&s_cav));
     kani::cover!(s_cav > 0.0, "some way");
 }
 
@@ -61,7 +61,7 @@ pub fn verify_s_follow_is_at_least_s_cav() {
 #[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_s_follow_is_bounded() {
     let s_follow = s_follow(&parameters(), speed(), speed());
-    assert!(0.0 <= s_follow && s_follow <= LONGEST_BRAKING + LONGEST_CAV);
+    assert!((0.0..=LONGEST_BRAKING + LONGEST_CAV).contains(&s_follow));
     kani::cover!(s_follow > LONGEST_CAV, "behind a slower lead");
 }
 
@@ -74,7 +74,7 @@ pub fn verify_s_follow_is_bounded() {
 pub fn verify_s_follow_is_s_cav_at_equal_speeds() {
     let (parameters, v_now) = (parameters(), speed());
     let (s_follow, s_cav) = (s_follow(&parameters, v_now, v_now), s_cav(&parameters, v_now));
-    assert!(s_follow <= s_cav && s_follow >= s_cav);
+    assert!(same_number(s_follow, s_cav));
     kani::cover!(s_follow > 0.0, "moving");
 }
 
@@ -124,7 +124,7 @@ pub fn verify_s_stop_is_bounded() {
         detection_history: &[],
     };
     let [least, most] = s_stop(&cycle, &FIRST);
-    assert!(0.0 <= least && least <= most && most <= least && most <= 2e8);
+    assert!((0.0..=2e8).contains(&least) && same_number(least, most));
     kani::cover!(least > 0.0, "some way");
     kani::cover!(least <= 0.0, "standing without a reaction");
 }
