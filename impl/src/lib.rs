@@ -42,6 +42,9 @@
 
 pub mod input;
 pub mod offloading;
+#[cfg(feature = "parts")]
+#[doc(hidden)]
+pub mod parts;
 pub mod report;
 pub mod services;
 pub mod stages;

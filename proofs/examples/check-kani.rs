@@ -24,7 +24,9 @@ fn main() -> ExitCode {
 }
 
 fn shard(number: &str) -> ExitCode {
-    let chosen = expected::expected().into_iter().filter(|one| one.shard.to_string() == number);
+    let chosen = expected::expected()
+        .into_iter()
+        .filter(|one| one.shard.is_some_and(|shard| shard.to_string() == number));
     let arguments: Vec<String> = chosen.map(|one| format!("--harness {}", one.id)).collect();
     if arguments.is_empty() {
         eprintln!("no harness is in shard {number}");
@@ -46,7 +48,8 @@ fn judge(files: &[&str]) -> ExitCode {
             }
         }
     }
-    let expected = expected::expected();
+    let expected = expected::expected().into_iter().filter(|one| one.shard.is_some());
+    let expected: Vec<_> = expected.collect();
     let problems = export::problems(&expected, &exports);
     for problem in &problems {
         println!("{problem}");

@@ -42,10 +42,12 @@ fn export(expected: &[Expected]) -> Value {
 
 #[test]
 fn shards_in_which_all_is_well_are_accepted() {
-    let expected = expected::expected();
-    let shards: Vec<Value> = (1..=5)
+    let expected: Vec<_> =
+        expected::expected().into_iter().filter(|one| one.shard.is_some()).collect();
+    let shards: Vec<Value> = (1..=2)
         .map(|shard| {
-            let part: Vec<_> = expected.iter().filter(|one| one.shard == shard).cloned().collect();
+            let of_shard = expected.iter().filter(|one| one.shard == Some(shard));
+            let part: Vec<_> = of_shard.cloned().collect();
             export(&part)
         })
         .collect();

@@ -7,7 +7,7 @@ mod place;
 pub(crate) mod route;
 
 use crate::input::cycle::{
-    Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, TrajectoryPoint,
+    Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 use crate::input::domain::lists::{Seen, detections_are_fine, points_are_fine, tracks_are_fine};
 use crate::input::domain::own::{check_ego, check_parameters};
@@ -46,13 +46,15 @@ pub(crate) fn validate(cycle: &Cycle<'_>, before: &CheckedBefore<'_>) -> Result<
     local(cycle, remote_tracks, before).map_err(Fault::Local)?;
     let mut trajectory = true;
     if !remote_trajectory {
-        trajectory = check_trajectory(cycle, false).map_err(Fault::Local)?;
+        trajectory = check_trajectory(cycle.trajectory.as_ref(), cycle.now_ns, false)
+            .map_err(Fault::Local)?;
     }
     if remote_tracks {
         check_tracks(cycle.tracks.as_ref(), cycle.now_ns, true).map_err(Fault::Remote)?;
     }
     if remote_trajectory {
-        trajectory = check_trajectory(cycle, true).map_err(Fault::Remote)?;
+        trajectory = check_trajectory(cycle.trajectory.as_ref(), cycle.now_ns, true)
+            .map_err(Fault::Remote)?;
     }
     Ok(Usable { trajectory })
 }
@@ -80,14 +82,14 @@ fn local(cycle: &Cycle<'_>, remote_tracks: bool, before: &CheckedBefore<'_>) -> 
     Ok(())
 }
 
-fn check_lead(lead: &Lead, now_ns: i64) -> Check {
+pub(crate) fn check_lead(lead: &Lead, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("lead.stamp_ns", lead.stamp_ns, now_ns, false)?;
     at.f64("lead.gap", lead.gap, [0.0, 1e6])?;
     at.f64("lead.speed", lead.speed, SPEED)
 }
 
-fn check_grid(grid: &Grid<'_>, now_ns: i64) -> Check {
+pub(crate) fn check_grid(grid: &Grid<'_>, now_ns: i64) -> Check {
     let at = Place { index: None };
     at.stamp("grid.stamp_ns", grid.stamp_ns, now_ns, false)?;
     at.f64("grid.x", grid.x, POSITION)?;
@@ -110,7 +112,11 @@ fn check_grid(grid: &Grid<'_>, now_ns: i64) -> Check {
     Ok(())
 }
 
-fn check_detections(list: &DetectionList<'_>, now_ns: i64, before: &CheckedBefore<'_>) -> Check {
+pub(crate) fn check_detections(
+    list: &DetectionList<'_>,
+    now_ns: i64,
+    before: &CheckedBefore<'_>,
+) -> Check {
     let at = Place { index: None };
     at.stamp("detections.stamp_ns", list.stamp_ns, now_ns, false)?;
     if (before.detections)(list.items) {
@@ -196,7 +202,7 @@ fn check_items(items: &[Detection], at: Place, paths: &Paths) -> Check {
     Ok(())
 }
 
-fn check_tracks(list: Option<&TrackList<'_>>, now_ns: i64, remote: bool) -> Check {
+pub(crate) fn check_tracks(list: Option<&TrackList<'_>>, now_ns: i64, remote: bool) -> Check {
     let Some(list) = list else { return Ok(()) };
     let at = Place { index: None };
     at.stamp("tracks.stamp_ns", list.stamp_ns, now_ns, remote)?;
@@ -229,19 +235,23 @@ fn check_track(track: &Track, at: Place) -> Check {
 
 /// Whether the stamp is not more than 60 s before now, or there is no trajectory. The points of a
 /// local trajectory that old may be as old.
-fn check_trajectory(cycle: &Cycle<'_>, remote: bool) -> Result<bool, InvalidInput> {
-    let Some(trajectory) = &cycle.trajectory else { return Ok(true) };
+pub(crate) fn check_trajectory(
+    trajectory: Option<&Trajectory<'_>>,
+    now_ns: i64,
+    remote: bool,
+) -> Result<bool, InvalidInput> {
+    let Some(trajectory) = trajectory else { return Ok(true) };
     let at = Place { index: None };
-    let usable = at.stamp("trajectory.stamp_ns", trajectory.stamp_ns, cycle.now_ns, remote)?;
+    let usable = at.stamp("trajectory.stamp_ns", trajectory.stamp_ns, now_ns, remote)?;
     at.size("trajectory.points", trajectory.points.len(), [1, 1024])?;
-    if usable && points_are_fine(trajectory, cycle.now_ns) {
+    if usable && points_are_fine(trajectory, now_ns) {
         return Ok(usable);
     }
     let mut before: Option<i64> = None;
     for (index, point) in trajectory.points.iter().enumerate() {
         let &TrajectoryPoint { t_ns, x, y, cos, sin } = point;
         let at = Place { index: Some(index) };
-        at.stamp("trajectory.points.t_ns", t_ns, cycle.now_ns, usable)?;
+        at.stamp("trajectory.points.t_ns", t_ns, now_ns, usable)?;
         at.f64("trajectory.points.x", x, POSITION)?;
         at.f64("trajectory.points.y", y, POSITION)?;
         at.f64("trajectory.points.cos", cos, ANY)?;

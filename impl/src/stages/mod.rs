@@ -7,13 +7,10 @@ pub(crate) mod ii_trajectory_to_map;
 mod iii_tracks;
 pub(crate) mod iv_detections;
 pub(crate) mod llcc;
+pub mod order;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::detection_history::{DetectionHistory, Seen};
-use crate::hardened::h02_h05_h10_schedule::{
-    ObstacleChecks, has_stage_v_in_plan_remote, no_obstacle_check, others_replace_stage_v,
-    stage_iii_replaces_iv,
-};
 use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h13_moving::MovingDetections;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
@@ -23,11 +20,12 @@ use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
-use crate::services::configuration::{Configuration, Group};
+use crate::services::configuration::Group;
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
 use crate::stages::iv_detections::trajectory_with_detections;
+use crate::stages::order::{Given, Scheduled, Turn, in_order, scheduled};
 use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data
@@ -82,7 +80,8 @@ pub fn check_with<'a>(
     match indexes.validate(cycle) {
         Err(Fault::Local(problem)) => Err(problem),
         Err(Fault::Remote(problem)) => {
-            let stages = Stage::ALL.map(|stage| match scheduled(cycle, stage) {
+            let by_table = |stage| scheduled(cycle.profile, cycle.configuration, stage);
+            let stages = Stage::ALL.map(|stage| match by_table(stage) {
                 Scheduled::Never => Outcome::NotScheduled,
                 Scheduled::Always | Scheduled::Conditional => {
                     Outcome::Skipped(Reason::AfterFailure)
@@ -155,7 +154,10 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     /// in `AllRemote` stages i and iii. Source: `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
         let found = match stage {
-            Stage::I => self.i(scratch),
+            Stage::I => {
+                let seen = self.look_back(scratch);
+                self.i(seen, scratch)
+            }
             Stage::Ii => self.ii(),
             Stage::Iii | Stage::Iv => match (self.look_back(scratch), stage) {
                 (Seen::Unclear(witness), _) => Ok(Some(witness)),
@@ -164,7 +166,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             },
             Stage::V => self.v(true),
         };
-        found.map_or_else(Outcome::NotApplicable, outcome)
+        outcome(found)
     }
 
     /// What the CAV saw of the received tracks, into the scratch.
@@ -179,9 +181,21 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         tracks.filter(|_| self.cycle.configuration.is_remote(Group::Mot))
     }
 
-    /// Tracks go to stage i whatever their age.
-    fn i(&self, scratch: &mut Scratch<'_>) -> Found {
-        let seen = self.look_back(scratch);
+    /// What the order of the stages depends on.
+    fn given(&self) -> Given {
+        Given {
+            profile: self.cycle.profile,
+            configuration: self.cycle.configuration,
+            tracks_of_any_age: self.cycle.tracks.is_some(),
+            tracks: self.current.tracks.is_some(),
+            trajectory: self.current.trajectory.is_some(),
+            detections: self.current.detections.is_some(),
+            grid: self.current.grid.is_some(),
+        }
+    }
+
+    /// After `look_back`, which says what was seen. Tracks go to stage i whatever their age.
+    fn i(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
         Ok(match seen {
@@ -213,39 +227,16 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         Ok(trajectory_with_detections(self.cycle, trajectory, detections, lead, &moving, scratch))
     }
 
+    /// Why the cycle fails at the place of stage iv, which does not run.
+    fn gap_alone(&self) -> Option<Witness> {
+        let Current { trajectory, lead, .. } = self.current;
+        failure_without_stage_iv(self.cycle, trajectory, lead)
+    }
+
     fn v(&self, ran_iv: bool) -> Found {
         let trajectory = self.current.trajectory()?;
         let grid = self.current.grid.ok_or(Input::Grid)?;
         Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, ran_iv))
-    }
-}
-
-fn outcome(found: Option<Witness>) -> Outcome {
-    found.map_or(Outcome::Passed, Outcome::Failed)
-}
-
-/// How a stage stands in the table of `spec/3-stages.md#schedule`.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Scheduled {
-    Always,
-    Conditional,
-    Never,
-}
-
-/// The table.
-fn scheduled(cycle: &Cycle<'_>, stage: Stage) -> Scheduled {
-    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
-    use Scheduled::{Always, Conditional, Never};
-    match (stage, cycle.configuration) {
-        (Stage::V, PlanRemote) if has_stage_v_in_plan_remote(cycle) => Conditional,
-        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
-        (Stage::I, MotRemote | AllRemote)
-        | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
-        | (Stage::Iii, PlanRemote)
-        | (Stage::V, MotRemote) => Always,
-        (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
-            Conditional
-        }
     }
 }
 
@@ -280,65 +271,34 @@ impl<'c, 'a> Current<'c, 'a> {
     }
 }
 
-/// What is known of the cycle so far.
-struct Decision<'c, 'a> {
-    cycle: &'c Cycle<'a>,
-    failed: Option<FailedStage>,
-    stages: [Outcome; 5],
-}
-
-impl Decision<'_, '_> {
-    /// Settles one stage. `replaced`: another stage made a conditional one unnecessary; `find`:
-    /// what the stage finds, if it runs. Whether it ran.
-    fn settle(&mut self, stage: Stage, replaced: bool, find: impl FnOnce() -> Found) -> bool {
-        let scheduled = scheduled(self.cycle, stage);
-        let outcome = match scheduled {
-            Scheduled::Never => Outcome::NotScheduled,
-            _ if self.failed.is_some() => Outcome::Skipped(Reason::AfterFailure),
-            Scheduled::Conditional if replaced => Outcome::Skipped(Reason::OtherStageRan),
-            Scheduled::Conditional => {
-                find().map_or_else(|input| Outcome::Skipped(Reason::NoCurrent(input)), outcome)
-            }
-            Scheduled::Always => find().map_or_else(Outcome::NotApplicable, outcome),
-        };
-        self.report(stage, outcome);
-        matches!(outcome, Outcome::Passed | Outcome::Failed(_))
-    }
-
-    fn report(&mut self, stage: Stage, outcome: Outcome) {
-        if matches!(outcome, Outcome::Failed(_)) {
-            self.failed = Some(FailedStage::Stage(stage));
-        }
-        for (slot, _) in self.stages.iter_mut().zip(Stage::ALL).filter(|&(_, at)| at == stage) {
-            *slot = outcome;
-        }
-    }
-}
-
 /// Runs the stages on valid input.
 fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
-    let ValidCycle { cycle, ref current, .. } = *valid;
-    let mut decision = Decision { cycle, failed: None, stages: [Outcome::NotScheduled; 5] };
-    decision.settle(Stage::I, false, || valid.i(scratch));
-    decision.settle(Stage::Ii, false, || valid.ii());
-    let ran_iii = decision.settle(Stage::Iii, false, || valid.iii(scratch));
-
-    let replaced = ran_iii && stage_iii_replaces_iv(cycle);
-    let ran_iv = decision.settle(Stage::Iv, replaced, || valid.iv(scratch));
-    if !ran_iv && decision.failed.is_none() {
-        let found = failure_without_stage_iv(cycle, current.trajectory, current.lead);
-        if let Some(witness) = found {
-            decision.report(Stage::Iv, Outcome::Failed(witness));
+    let seen = valid.look_back(scratch);
+    let mut stages = [Outcome::NotScheduled; 5];
+    let mut slots = stages.iter_mut();
+    let mut ran_iv = false;
+    let failed_stage = in_order(valid.given(), |stage, turn| {
+        let outcome = match turn {
+            Turn::Rest(idle) => idle.into(),
+            Turn::Gap(idle) => valid.gap_alone().map_or_else(|| idle.into(), Outcome::Failed),
+            Turn::Run => outcome(match stage {
+                Stage::I => valid.i(seen, scratch),
+                Stage::Ii => valid.ii(),
+                Stage::Iii => valid.iii(scratch),
+                Stage::Iv => valid.iv(scratch),
+                Stage::V => valid.v(ran_iv),
+            }),
+        };
+        ran_iv |= stage == Stage::Iv && turn == Turn::Run;
+        if let Some(slot) = slots.next() {
+            *slot = outcome;
         }
-    }
-    let replaced = (ran_iii || ran_iv) && others_replace_stage_v(cycle);
-    let ran_v = decision.settle(Stage::V, replaced, || valid.v(ran_iv));
+        matches!(outcome, Outcome::Failed(_))
+    });
+    Report { failed_stage, stages, input: None }
+}
 
-    let checks = ObstacleChecks {
-        trajectory: current.trajectory.is_some(),
-        detections: current.detections.is_some(),
-        ran: [ran_iii, ran_iv, ran_v],
-    };
-    let failed_stage = decision.failed.or_else(|| no_obstacle_check(cycle, checks));
-    Report { failed_stage, stages: decision.stages, input: None }
+fn outcome(found: Found) -> Outcome {
+    let decided = |found: Option<Witness>| found.map_or(Outcome::Passed, Outcome::Failed);
+    found.map_or_else(Outcome::NotApplicable, decided)
 }

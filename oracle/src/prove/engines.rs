@@ -31,7 +31,7 @@ pub enum ClaimSource {
     Exploration,
     /// Laws of the implementation over complete finite domains.
     Laws,
-    /// Harnesses of the implementation: compiled code, the stand-in for Kani, Kani.
+    /// Harnesses of the implementation: compiled code, the stand-in for Kani.
     Harnesses,
 }
 

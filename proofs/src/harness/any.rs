@@ -86,3 +86,9 @@ pub fn group() -> Group {
 pub fn groups() -> Groups {
     Groups { mot: kani::any(), plan: kani::any() }
 }
+
+/// Whether both are the same number; no NaN is, and 0 is -0.
+#[allow(clippy::float_cmp, reason = "this is what is asked")]
+pub fn same_number(one: f64, other: f64) -> bool {
+    one == other
+}

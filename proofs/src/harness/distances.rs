@@ -25,9 +25,6 @@ use crate::law::distances::{
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its
 /// value, which differential tests compare with the model.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_s_follow_is_never_below_s_cav() {
     let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
     let s_follow = s_follow(parameters, v_now, v_lead);
@@ -47,9 +44,6 @@ pub fn verify_s_follow_is_never_below_s_cav() {
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: growth
 /// with `v_now`.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_s_follow_falls_with_v_lead() {
     let (parameters, v_now) = (parameters(), speed());
     let (slower, faster) = (speed(), speed());
@@ -69,9 +63,6 @@ pub fn verify_s_follow_falls_with_v_lead() {
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`, gaps to 900 km. Not
 /// covered: larger gaps.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
 pub fn verify_gap_keeps_its_laws() {
     let (parameters, v_now) = (parameters(), speed());
     let (gap, v_lead) = (within(0.0, 9e5), speed());
@@ -97,8 +88,6 @@ pub fn verify_gap_keeps_its_laws() {
 ///
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`, d from 10 m to 1 km,
 /// no lead or one 1000 km ahead, paper profile. Not covered: equality.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_s_valid_is_s_follow_or_s_b() {
     let (parameters, v_now, d) = (parameters(), speed(), within(10.0, 1e3));
     let v_lead: Option<f64> = super::any::option(speed);

@@ -24,8 +24,6 @@ const CLOSER_THAN: u8 = 2;
 ///
 /// Domain: up to 2 tracks and 3 detections on 4 places of a line. Not covered: larger lists,
 /// distances that are no integers.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_mean_cost_is_minimal() {
     let (tracks, detections) = (places::<TRACKS>(), places::<COLUMNS>());
     let (tracks, detections) = (shown(&tracks), shown(&detections));
@@ -51,8 +49,6 @@ pub fn verify_mean_cost_is_minimal() {
 /// Domain: up to 2 standing tracks, 2 detections and 2 items in each of two equal earlier lists on 4
 /// places of a line, a budget of 0 or 1. Not covered: larger lists, tracks that move, distances that
 /// are no integers.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_matched_cost_is_minimal() {
     let (tracks, detections) = (places::<TRACKS>(), places::<DETECTIONS>());
     let (tracks, detections) = (shown(&tracks), shown(&detections));

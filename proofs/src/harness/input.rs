@@ -21,8 +21,6 @@ use crate::kani;
 ///
 /// Domain: each of the 56 numbers of a valid cycle, 5 bad values, all configurations, both
 /// profiles. Not covered: two bad values at once (`stages` has any).
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_bad_number_is_never_safe() {
     const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300];
     let mut lists = Lists::valid();
@@ -38,8 +36,6 @@ pub fn verify_bad_number_is_never_safe() {
 /// input an error to the caller and remote data an unsafe cycle in which no stage ran.
 ///
 /// Domain: 26 such defects, all configurations, both profiles. Not covered: two defects at once.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_bad_structure_is_never_safe() {
     let mut lists = Lists::valid();
     let mut single = Single::valid();

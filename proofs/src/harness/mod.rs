@@ -1,18 +1,24 @@
 //! Proof harnesses: plain functions, each a statement about the implementation for every value of
 //! a stated domain.
 //!
-//! Three engines take them. Kani compiles them to a formula (`.github/workflows/kani.yml`). CBMC
-//! checks them compiled to WebAssembly (`scripts/prove-wasm`). `crate::kani` runs them on all or
-//! on random values, which is testing. What is expected of each, and what was measured, is in
-//! `proofs/expected.toml`; what each is good for, in `proofs/HARNESSES.md`.
+//! CBMC and `proofs/compiled` check those that are small enough, compiled to WebAssembly
+//! (`scripts/prove-wasm`); Kani takes those with `kani::proof` (`.github/workflows/kani.yml`).
+//! `crate::kani` runs all of them on all or on random values, which is testing. What is expected of
+//! each, and what was measured, is in `proofs/expected.toml`; what each is good for, in
+//! `proofs/HARNESSES.md`.
 #![allow(clippy::missing_panics_doc, reason = "a harness panics when its statement is false")]
 
+pub mod actions;
 pub mod any;
 pub mod bounds;
 pub mod configuration;
 pub mod distances;
+pub mod group;
 pub mod i_track_validation;
 pub mod input;
+pub mod lists;
+pub mod order;
+pub mod plain_distances;
 pub mod quality_of_service;
 pub mod requester;
 pub mod scene;
@@ -34,6 +40,8 @@ macro_rules! harnesses {
 }
 
 harnesses! {
+    actions:
+        verify_actions_come_in_their_order;
     configuration:
         verify_configurations_are_the_sets_of_groups;
     distances:
@@ -41,12 +49,50 @@ harnesses! {
         verify_s_follow_falls_with_v_lead
         verify_gap_keeps_its_laws
         verify_s_valid_is_s_follow_or_s_b;
+    group:
+        verify_every_law_at_areas
+        verify_every_law_at_verdicts
+        verify_every_law_at_confirmations
+        verify_every_law_at_rejections
+        verify_every_law_at_data
+        verify_t_wait_bars_requests
+        verify_a_request_goes_to_who_offers
+        verify_a_session_left_is_released_at_areas
+        verify_a_session_left_is_released_at_ticks
+        verify_a_session_left_is_released_at_data
+        verify_a_session_left_is_released_at_verdicts
+        verify_a_group_becomes_remote_by_confirmation
+        verify_the_other_group_is_untouched_at_confirmations
+        verify_the_other_group_is_untouched_at_rejections
+        verify_the_other_group_is_untouched_at_data
+        verify_a_rejection_ends_a_request
+        verify_data_of_another_session_are_dropped
+        verify_a_group_depends_on_itself_alone
+        verify_a_session_left_is_released_at_withdrawals
+        verify_a_station_below_1_is_refused;
     i_track_validation:
         verify_mean_cost_is_minimal
         verify_matched_cost_is_minimal;
     input:
         verify_bad_number_is_never_safe
         verify_bad_structure_is_never_safe;
+    lists:
+        verify_a_route_is_checked
+        verify_tracks_are_checked
+        verify_detections_are_checked
+        verify_a_trajectory_is_checked
+        verify_a_lead_is_checked
+        verify_a_grid_is_checked;
+    order:
+        verify_order_is_the_table;
+    plain_distances:
+        verify_s_b_is_bounded
+        verify_s_cav_is_bounded
+        verify_s_follow_is_at_least_s_cav
+        verify_s_follow_is_bounded
+        verify_s_follow_is_s_cav_at_equal_speeds
+        verify_s_valid_has_two_cases
+        verify_s_stop_is_bounded;
     quality_of_service:
         verify_latency_is_exact
         verify_silence_is_exact

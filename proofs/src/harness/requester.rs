@@ -38,8 +38,6 @@ pub fn verify_requester_starts_valid() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_offers() {
     after_any_event(About::Offers, |step| {
         let left = step.after.states != step.before.states;
@@ -55,8 +53,6 @@ pub fn verify_requester_keeps_every_law_at_offers() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_areas() {
     after_any_event(About::Area, |step| {
         let left = step.after.states != step.before.states;
@@ -70,8 +66,6 @@ pub fn verify_requester_keeps_every_law_at_areas() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_ticks() {
     after_any_event(About::Tick, |step| {
         let was_local = step.before.states == [GroupState::Local; 2];
@@ -89,8 +83,6 @@ pub fn verify_requester_keeps_every_law_at_ticks() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_answers() {
     after_any_event(About::Answer, |step| {
         let is_confirmation = matches!(step.event.kind, EventKind::Confirm { .. });
@@ -106,8 +98,6 @@ pub fn verify_requester_keeps_every_law_at_answers() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_data() {
     after_any_event(About::Data, |step| {
         let left = step.after.states != step.before.states;
@@ -123,8 +113,6 @@ pub fn verify_requester_keeps_every_law_at_data() {
 ///
 /// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
 /// tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_keeps_every_law_at_verdicts() {
     after_any_event(About::Verdict, |step| {
         let is_unsafe = matches!(step.event.kind, EventKind::Verdict { safe: false, .. });
@@ -213,8 +201,6 @@ pub fn verify_a_safety_issue_ends_every_remote_service() {
 ///
 /// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not covered:
 /// larger tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_t_wait_blocks_offloading() {
     let (mut table, aside, _, _) = any_state();
     let mut requester = Requester::resume(aside, &mut table);
@@ -238,8 +224,6 @@ pub fn verify_t_wait_blocks_offloading() {
 ///
 /// Domain: all valid states of a table of two stations, all events but verdicts, all times of 64
 /// bits. Not covered: larger tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_requester_refuses_without_a_trace() {
     let (mut table, aside, _, _) = any_state();
     let records = table;

@@ -23,8 +23,6 @@ const COLUMNS: usize = DETECTIONS + TRACKS;
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `MotRemote`.
 /// Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_i_never_panics() {
     let world = World::any();
     let holds = [Input::Tracks, Input::Detections];
@@ -40,8 +38,6 @@ pub fn verify_stage_i_never_panics() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,
 /// `PlanRemote`. Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_ii_never_panics() {
     let world = World::any();
     let holds = [Input::Trajectory];
@@ -57,8 +53,6 @@ pub fn verify_stage_ii_never_panics() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `AllRemote`.
 /// Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_iii_never_panics() {
     let world = World::any();
     let holds = [Input::Trajectory, Input::Tracks];
@@ -74,8 +68,6 @@ pub fn verify_stage_iii_never_panics() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,
 /// `PlanRemote`. Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_iv_never_panics() {
     let world = World::any();
     let holds = [Input::Trajectory, Input::Detections];
@@ -91,8 +83,6 @@ pub fn verify_stage_iv_never_panics() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `MotRemote`,
 /// up to two disks. Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_v_never_panics() {
     let world = World::any();
     let holds = [Input::Trajectory, Input::Grid];
@@ -109,8 +99,6 @@ pub fn verify_stage_v_never_panics() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, both profiles, `AllRemote` with a
 /// trajectory alone. Not covered: routes with more than one block.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_index_changes_nothing() {
     let world = World::any();
     let cycle = world.cycle(profile(), Configuration::AllRemote, &[Input::Trajectory]);
@@ -139,8 +127,6 @@ pub fn verify_index_changes_nothing() {
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, both profiles, `MotRemote`, stages i, ii
 /// and iv. Not covered: longer lists, other configurations.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_stage_alone_says_the_same() {
     let world = World::any();
     let holds = [Input::Trajectory, Input::Tracks, Input::Detections];

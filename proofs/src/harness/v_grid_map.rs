@@ -28,8 +28,6 @@ const LOW: f64 = -2.0;
 ///
 /// Domain: one occupied cell of 4 by 4, one disk, its centre on a half cell inside or up to half a
 /// cell outside. Not covered: other places, other radii, turned grids.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_paper_cells_include_their_borders() {
     let (cell, place) = (cell(), place());
     let report = judged(Profile::Paper, cell, place);
@@ -60,8 +58,6 @@ pub fn verify_paper_cells_include_their_borders() {
 ///
 /// Domain: one occupied cell of 4 by 4, one disk, its centre on a half cell inside or up to half a
 /// cell outside. Not covered: other places, other radii, turned grids, unknown cells.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(37))]
 pub fn verify_hardened_cells_are_closed_squares() {
     let (cell, place) = (cell(), place());
     let report = judged(Profile::Hardened, cell, place);

@@ -14,13 +14,15 @@ pub struct Written {
     pub domain: String,
     /// The sentence `Not covered:` of its doc.
     pub not_covered: String,
+    /// Whether it has `kani::proof`.
+    pub kani: bool,
     /// The text of `kani::unwind`.
     pub unwind: Option<String>,
     /// The text of `kani::solver`.
     pub solver: Option<String>,
 }
 
-/// All functions with `kani::proof`, and the names of the covers of each module.
+/// All functions of the name `verify_..`, and the names of the covers of each module.
 pub fn written() -> (Vec<Written>, BTreeMap<String, BTreeSet<String>>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/harness");
     let mut files: Vec<_> = std::fs::read_dir(folder)
@@ -49,8 +51,8 @@ fn functions(module: &str, text: &str) -> Vec<Written> {
         } else if let Some(attribute) = line.strip_prefix("#[cfg_attr(kani, kani::") {
             attributes.push(attribute.strip_suffix(")]").unwrap_or(attribute));
         } else if let Some(rest) = line.strip_prefix("pub fn ") {
-            if attributes.contains(&"proof") {
-                let name = rest.split('(').next().unwrap_or_default();
+            let name = rest.split('(').next().unwrap_or_default();
+            if name.starts_with("verify_") {
                 found.push(harness(format!("{module}::{name}"), &doc, &attributes));
             }
             doc.clear();
@@ -77,6 +79,7 @@ fn harness(id: String, doc: &[&str], attributes: &[&str]) -> Written {
         statement,
         domain: domain.strip_prefix("Domain: ").unwrap_or_default().to_owned(),
         not_covered: not_covered.to_owned(),
+        kani: attributes.contains(&"proof"),
         unwind: argument("unwind("),
         solver: argument("solver("),
     }

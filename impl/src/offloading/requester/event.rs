@@ -215,17 +215,24 @@ impl Outbox {
     /// Four kinds of two groups.
     const CAPACITY: usize = 8;
 
-    /// The actions in the order of `spec/2-offloading.md#fallback`.
-    pub(super) fn into_actions(self) -> Actions {
-        let mut actions = Actions { items: [Action::Drop(Group::Mot); Self::CAPACITY], len: 0 };
-        for kind in [self.drops, self.releases, self.services, self.requests] {
-            for group in Group::ALL {
-                if let (Some(action), Some(place)) =
-                    (*kind.get(group), actions.items.get_mut(actions.len))
-                {
-                    *place = action;
-                    actions.len = actions.len.saturating_add(1);
-                }
+    /// The actions of MOT and PLAN, kind by kind in the order of `spec/2-offloading.md#fallback`.
+    pub(super) fn by_kind(&self) -> ByKind {
+        let of = |kind: &PerGroup<Option<Action>>| [*kind.get(Group::Mot), *kind.get(Group::Plan)];
+        [of(&self.drops), of(&self.releases), of(&self.services), of(&self.requests)]
+    }
+}
+
+/// Drops, releases, activations and deactivations, requests; MOT before PLAN within each.
+pub(crate) type ByKind = [[Option<Action>; 2]; 4];
+
+impl Actions {
+    /// The actions there are, in their order.
+    pub(crate) fn of(by_kind: ByKind) -> Self {
+        let mut actions = Self { items: [Action::Drop(Group::Mot); Outbox::CAPACITY], len: 0 };
+        for action in by_kind.into_iter().flatten().flatten() {
+            if let Some(place) = actions.items.get_mut(actions.len) {
+                *place = action;
+                actions.len = actions.len.saturating_add(1);
             }
         }
         actions

@@ -1,6 +1,6 @@
 //! What each event does (`spec/2-offloading.md`).
 
-use super::event::{Action, Actions, Event, EventKind, Outbox, Sessions};
+use super::event::{Action, Actions, ByKind, Event, EventKind, Outbox, Sessions};
 use super::slot::Slot;
 use super::{Requester, RequesterError};
 use crate::offloading::quality_of_service::{Arrivals, Element};
@@ -19,6 +19,11 @@ impl Requester<'_> {
     /// Errors: a station below 1; an offer that the table has no place for. Then nothing has
     /// changed. Source: `spec/2-offloading.md`.
     pub fn step(&mut self, event: &Event) -> Result<Actions, RequesterError> {
+        self.decide(event).map(Actions::of)
+    }
+
+    /// Takes one event and says what has to be done about it, kind by kind.
+    pub(crate) fn decide(&mut self, event: &Event) -> Result<ByKind, RequesterError> {
         if let Some(station) = event.kind.station().filter(|&station| station < 1) {
             return Err(RequesterError::Station { station });
         }
@@ -46,7 +51,7 @@ impl Requester<'_> {
             EventKind::Verdict { safe: true, sessions } => self.safe(sessions, &mut out),
             EventKind::Verdict { safe: false, .. } => self.fall_back(now_ns, &mut out),
         }
-        Ok(out.into_actions())
+        Ok(out.by_kind())
     }
 
     /// From now on `station` offers `groups` and nothing else; what is in use beyond that is left.

@@ -1,0 +1,682 @@
+//! The groups of the requester (`spec/2-offloading.md`), law by law, from any state at all, even one
+//! that no events lead to. What is done is taken kind by kind; `actions` has the list.
+
+use mufasa::input::profile::Profile;
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, Group, GroupRecord, Parameters, Parts, Requester, RequesterError,
+    Running, Sessions, StationRecord, Suspended,
+};
+use mufasa::parts::decide;
+
+use super::any::{below, duration_ns, groups, near_integer, option, profile, time_ns};
+#[cfg(not(kani))]
+use crate::kani;
+
+/// A change of the area keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_areas() {
+    area(&|step: &Seen| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.done[RELEASES][1].is_some(), "a release");
+    });
+}
+
+/// A verdict keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_verdicts() {
+    verdict(&|step: &Seen| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.stops(1), "local services stop");
+        kani::cover!(step.is_unsafe() && step.has_hold(), "a hold");
+    });
+}
+
+/// A confirmation keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_confirmations() {
+    confirm(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.stops(0), "local services stop");
+        kani::cover!(step.is_remote_now(1), "it becomes remote");
+    });
+}
+
+/// A rejection keeps every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_rejections() {
+    reject(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.leaves(0), "MOT");
+        kani::cover!(step.leaves(1), "PLAN");
+    });
+}
+
+/// Data keep every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_data() {
+    data_of(&|step: &Seen, _, _| {
+        assert!(step.keeps_every_law());
+        kani::cover!(step.starts(0), "local services start");
+        kani::cover!(step.has_hold(), "a hold");
+    });
+}
+
+/// At a tick before `hold_until` nothing is asked for, whoever offers, and no session is numbered.
+///
+/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not
+/// covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_t_wait_bars_requests() {
+    let mut table = [any_record(), any_record()];
+    let step = after(EventKind::Tick, &mut table);
+    let asks = step.done[REQUESTS][0].is_some() || step.done[REQUESTS][1].is_some();
+    let held = step.before.hold_until_ns.is_some_and(|until_ns| step.event.t_ns < until_ns);
+    assert!(!held || (!asks && step.after.sessions == step.before.sessions));
+    kani::cover!(held && step.done[RELEASES][0].is_some(), "a group is left during a hold");
+    kani::cover!(asks && step.before.hold_until_ns == Some(step.event.t_ns), "the end of a hold");
+    kani::cover!(asks && step.before.hold_until_ns.is_none(), "no hold");
+}
+
+/// Who is asked offers the group, which was local and is in the area; the session is the next
+/// number; the deadline is now + `request_timeout`.
+///
+/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits, MOT. Not
+/// covered: larger tables, PLAN.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_a_request_goes_to_who_offers() {
+    let records = [any_record(), any_record()];
+    let mut table = records;
+    let step = after(EventKind::Tick, &mut table);
+    if let Some(Action::Request { station, group, session }) = step.done[REQUESTS][0] {
+        assert!(group == Group::Mot && step.before.area.mot);
+        assert!(in_use(step.before.groups[0]).is_none());
+        assert!(step.before.sessions.checked_add(1) == Some(session));
+        let deadline_ns = step.event.t_ns.saturating_add(step.before.parameters.request_timeout_ns);
+        assert!(same(
+            step.after.groups[0],
+            GroupRecord::Requested { station, session, deadline_ns }
+        ));
+        let offers =
+            |record: &StationRecord| record.station() == Some(station) && record.offer().mot;
+        assert!(offers(&records[0]) || offers(&records[1]));
+    } else {
+        assert!(step.done[REQUESTS][0].is_none());
+    }
+    kani::cover!(step.done[REQUESTS][0].is_some(), "asked");
+    kani::cover!(
+        step.done[REQUESTS][0].is_some() && step.done[REQUESTS][1].is_some(),
+        "both asked"
+    );
+    kani::cover!(step.done[REQUESTS][0].is_none(), "not asked");
+}
+
+/// A change of the area leaves exactly the groups outside it: each gets one release of its
+/// session, and nobody else any.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_session_left_is_released_at_areas() {
+    area(&|step: &Seen| {
+        assert!(each(|at| step.releases_what_it_leaves(at)));
+        let outside = [!step.after.area.mot, !step.after.area.plan];
+        assert!(each(
+            |at| step.leaves(at) == (outside[at] && in_use(step.before.groups[at]).is_some())
+        ));
+        kani::cover!(step.done[RELEASES][0].is_some(), "outside the area");
+        kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
+    });
+}
+
+/// A tick leaves exactly the groups that are overdue or silent, with one release of the session;
+/// nobody else gets any.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
+/// anything.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_session_left_is_released_at_ticks() {
+    tick(&|step: &Seen| {
+        assert!(each(|at| step.releases_what_it_leaves(at)));
+        let due = |at: usize| match step.before.groups[at] {
+            GroupRecord::Local => false,
+            GroupRecord::Requested { deadline_ns, .. } => step.event.t_ns >= deadline_ns,
+            GroupRecord::Remote(running) => {
+                let since_ns = i128::from(step.event.t_ns) - i128::from(running.last_arrival_ns);
+                since_ns > i128::from(step.before.parameters.dt_max_ns)
+            }
+        };
+        assert!(each(|at| step.leaves(at) == due(at)));
+        kani::cover!(step.done[RELEASES][0].is_some(), "overdue or silent");
+        kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
+    });
+}
+
+/// Data leave a group only with one release of its session.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_session_left_is_released_at_data() {
+    data(&|step: &Seen| {
+        assert!(each(|at| step.releases_what_it_leaves(at)));
+        kani::cover!(step.done[RELEASES][0].is_some(), "a violation");
+        kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
+    });
+}
+
+/// A safety issue leaves every group, a safe verdict none, with one release of the session for
+/// each.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_session_left_is_released_at_verdicts() {
+    verdict(&|step: &Seen| {
+        assert!(each(|at| step.releases_what_it_leaves(at)));
+        let is_unsafe = step.is_unsafe();
+        assert!(each(
+            |at| step.leaves(at) == (is_unsafe && in_use(step.before.groups[at]).is_some())
+        ));
+        kani::cover!(step.done[RELEASES][0].is_some(), "a safety issue");
+        kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
+    });
+}
+
+/// A confirmation of the requested session before its deadline makes the group remote; any other
+/// but that of the running session is answered with a release of what it names.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_group_becomes_remote_by_confirmation() {
+    confirm(&|step: &Seen, at: usize, named: (i64, i64)| {
+        let before = step.before.groups[at];
+        let names_it = in_use(before) == Some(named);
+        let confirmed = match before {
+            GroupRecord::Requested { deadline_ns, .. } => names_it && step.event.t_ns < deadline_ns,
+            GroupRecord::Local | GroupRecord::Remote(_) => false,
+        };
+        let runs = matches!(before, GroupRecord::Remote(_)) && names_it;
+        if confirmed {
+            let GroupRecord::Remote(running) = step.after.groups[at] else {
+                unreachable!("remote")
+            };
+            assert!((running.station, running.session) == named);
+            assert!(running.last_arrival_ns == step.event.t_ns && running.last_used_ns.is_none());
+        } else {
+            assert!(same(step.after.groups[at], before));
+        }
+        let release = step.done[RELEASES][at];
+        let answered = matches!(release, Some(Action::Release { station, session, .. })
+            if (station, session) == named);
+        assert!(answered == (!confirmed && !runs) && release.is_some() == answered);
+        kani::cover!(confirmed, "confirmed");
+        kani::cover!(answered && names_it, "too late");
+        kani::cover!(runs, "again");
+    });
+}
+
+/// The frame: a confirmation of one group leaves the other group as it is, and nothing is done about it.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_the_other_group_is_untouched_at_confirmations() {
+    confirm(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.is_remote_now(at), "its own group changes");
+    });
+}
+
+/// The frame: a rejection of one group leaves the other group as it is, and nothing is done about it.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_the_other_group_is_untouched_at_rejections() {
+    reject(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.leaves(at), "its own group changes");
+    });
+}
+
+/// The frame: data of one group leave the other group as it is, and nothing is done about it.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is not looked
+/// at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_the_other_group_is_untouched_at_data() {
+    data_of(&|step: &Seen, at: usize, _| {
+        assert!(step.leaves_alone(1 - at));
+        kani::cover!(step.leaves(at), "its own group changes");
+    });
+}
+
+/// A rejection of the requested session makes the group local; any other changes nothing; nobody
+/// hears of it.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_rejection_ends_a_request() {
+    reject(&|step: &Seen, at: usize, named: (i64, i64)| {
+        let before = step.before.groups[at];
+        let is_meant =
+            matches!(before, GroupRecord::Requested { .. }) && in_use(before) == Some(named);
+        let expected = if is_meant { GroupRecord::Local } else { before };
+        assert!(same(step.after.groups[at], expected));
+        assert!(step.done[RELEASES][at].is_none() && step.done[SERVICES][at].is_none());
+        kani::cover!(is_meant, "rejected");
+        kani::cover!(!is_meant && in_use(before).is_some(), "another session");
+    });
+}
+
+/// Data of any but the running session are dropped and counted, and change nothing else.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
+/// looked at.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_data_of_another_session_are_dropped() {
+    data_of(&|step: &Seen, at: usize, named: (i64, i64)| {
+        let before = step.before.groups[at];
+        let runs = matches!(before, GroupRecord::Remote(_)) && in_use(before) == Some(named);
+        if !runs {
+            assert!(same(step.after.groups[at], before));
+            assert!(step.done[DROPS][at] == Some(Action::Drop(GROUPS[at])));
+            assert!(step.done[RELEASES][at].is_none());
+            assert!(step.after.hold_until_ns == step.before.hold_until_ns);
+        }
+        let counted = step.before.dropped[at].saturating_add(u64::from(!runs));
+        assert!(step.after.dropped[at] == counted);
+        kani::cover!(!runs, "dropped");
+        kani::cover!(runs && step.done[DROPS][at].is_none(), "used");
+        kani::cover!(runs && step.done[RELEASES][at].is_some(), "violating");
+    });
+}
+
+/// The composition of the two groups: what a verdict or a change of the area does to one does not
+/// depend on the other.
+///
+/// Domain: all pairs of states, valid or not, that differ in PLAN alone, all times of 64 bits. Not
+/// covered: ticks, where a violation of one bars requests for the other.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_group_depends_on_itself_alone() {
+    let (one, t_ns) = (any_state(), time_ns());
+    let other = Parts { groups: [one.groups[0], any_group()], ..one };
+    let kind = if kani::any() { any_verdict() } else { EventKind::Area { groups: groups() } };
+    let event = Event { t_ns, kind };
+    let (one, other) = (after_in(one, event, &mut []), after_in(other, event, &mut []));
+    assert!(same(one.after.groups[0], other.after.groups[0]));
+    assert!(one.done[DROPS][0] == other.done[DROPS][0]);
+    assert!(one.done[RELEASES][0] == other.done[RELEASES][0]);
+    assert!(one.done[SERVICES][0] == other.done[SERVICES][0]);
+    assert!(one.after.hold_until_ns == other.after.hold_until_ns);
+    kani::cover!(
+        one.done[RELEASES][1].is_some() && other.done[RELEASES][1].is_none(),
+        "the other differs"
+    );
+    kani::cover!(one.done[RELEASES][0].is_some(), "it is left");
+}
+
+/// A withdrawal and a loss leave exactly the groups that use the station, each with one release of
+/// the session after a withdrawal and none after a loss.
+///
+/// Domain: all states, valid or not, without a table, all times of 64 bits. Not covered: offers of
+/// some groups, tables.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_session_left_is_released_at_withdrawals() {
+    let (station, is_loss) = (near_integer(1, 3), kani::any());
+    kani::assume(station >= 1);
+    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    let step = after(kind, &mut []);
+    let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);
+    assert!(each(|at| step.leaves(at) == uses(at)));
+    assert!(each(|at| if is_loss {
+        step.done[RELEASES][at].is_none()
+    } else {
+        step.releases_what_it_leaves(at)
+    }));
+    kani::cover!(is_loss && uses(0), "a loss");
+    kani::cover!(!is_loss && uses(1), "a withdrawal");
+}
+
+/// An event that names a station below 1 is refused and changes nothing.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers that find no place.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_a_station_below_1_is_refused() {
+    let before = any_state();
+    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut []);
+    let station = near_integer(-1, 1);
+    kani::assume(station < 1);
+    let (session, generated_ns) = (near_integer(1, 6), time_ns());
+    let kind = match below(6) {
+        0 => EventKind::Withdraw { station },
+        1 => EventKind::Lost { station },
+        2 => EventKind::Offer { station, groups: groups() },
+        3 => EventKind::Confirm { station, group: Group::Mot, session },
+        4 => EventKind::Reject { station, group: Group::Plan, session },
+        _ => EventKind::Data { station, group: Group::Mot, session, generated_ns },
+    };
+    let refused = decide(&mut requester, &Event { t_ns: time_ns(), kind });
+    assert!(matches!(refused, Err(RequesterError::Station { station: named }) if named == station));
+    let after = requester.suspend().parts();
+    assert!(each(|at| same(after.groups[at], before.groups[at])));
+    assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
+    assert!(after.area == before.area && after.dropped[0] == before.dropped[0]);
+    kani::cover!(station == 0, "the CAV itself");
+}
+
+const DROPS: usize = 0;
+const RELEASES: usize = 1;
+const SERVICES: usize = 2;
+const REQUESTS: usize = 3;
+const GROUPS: [Group; 2] = [Group::Mot, Group::Plan];
+
+/// A step, and what was seen of it.
+struct Seen {
+    event: Event,
+    before: Parts,
+    after: Parts,
+    done: [[Option<Action>; 2]; 4],
+}
+
+impl Seen {
+    fn is_hardened(&self) -> bool {
+        self.before.profile == Profile::Hardened
+    }
+
+    /// The laws of a step that is no offer and no tick.
+    fn keeps_every_law(&self) -> bool {
+        self.keeps_the_hold()
+            && self.asks_for_nothing()
+            && each(|at| {
+                self.becomes_remote_by_confirmation(at)
+                    && self.says_what_services_do(at)
+                    && self.stops_services_when_the_profile_says(at)
+                    && self.keeps_the_group_valid(at)
+            })
+    }
+
+    /// The end of a hold only moves later.
+    fn keeps_the_hold(&self) -> bool {
+        match (self.before.hold_until_ns, self.after.hold_until_ns) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(before_ns), Some(after_ns)) => after_ns >= before_ns,
+        }
+    }
+
+    /// Requests are decided at ticks alone.
+    fn asks_for_nothing(&self) -> bool {
+        self.done[REQUESTS][0].is_none()
+            && self.done[REQUESTS][1].is_none()
+            && self.after.sessions == self.before.sessions
+    }
+
+    /// No group becomes remote but by a confirmation that names it.
+    fn becomes_remote_by_confirmation(&self, at: usize) -> bool {
+        let confirms =
+            matches!(self.event.kind, EventKind::Confirm { group, .. } if group == GROUPS[at]);
+        confirms || !self.is_remote_now(at)
+    }
+
+    /// Local services are started and stopped exactly when they start and stop to compute.
+    fn says_what_services_do(&self, at: usize) -> bool {
+        match self.done[SERVICES][at] {
+            None => !self.starts(at) && !self.stops(at),
+            Some(Action::Activate(group)) => group == GROUPS[at] && self.starts(at),
+            Some(Action::Deactivate(group)) => group == GROUPS[at] && self.stops(at),
+            Some(Action::Request { .. } | Action::Release { .. } | Action::Drop(_)) => false,
+        }
+    }
+
+    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop at a safe verdict that
+    /// names the running session after a result was used; paper, at the confirmation.
+    fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
+        let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
+            (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
+            (
+                Profile::Hardened,
+                EventKind::Verdict { safe: true, sessions },
+                GroupRecord::Remote(running),
+            ) => {
+                let named = if at == 0 { sessions.mot } else { sessions.plan };
+                running.last_used_ns.is_some()
+                    && match named {
+                        Some(session) => session == running.session,
+                        None => false,
+                    }
+            }
+            _ => false,
+        };
+        may || !self.stops(at) || !self.is_valid(self.before.groups[at])
+    }
+
+    /// Paper: no local services compute beside remote ones. Hardened: none stop before a result was
+    /// used.
+    fn keeps_the_group_valid(&self, at: usize) -> bool {
+        !self.is_valid(self.before.groups[at]) || self.is_valid(self.after.groups[at])
+    }
+
+    fn is_valid(&self, group: GroupRecord) -> bool {
+        match (group, self.is_hardened()) {
+            (GroupRecord::Local | GroupRecord::Requested { .. }, _) => true,
+            (GroupRecord::Remote(running), false) => !running.local_computes,
+            (GroupRecord::Remote(running), true) => {
+                running.local_computes || running.last_used_ns.is_some()
+            }
+        }
+    }
+
+    fn starts(&self, at: usize) -> bool {
+        !computes(self.before.groups[at]) && computes(self.after.groups[at])
+    }
+
+    fn stops(&self, at: usize) -> bool {
+        computes(self.before.groups[at]) && !computes(self.after.groups[at])
+    }
+
+    fn is_remote_now(&self, at: usize) -> bool {
+        let is_remote = |group: GroupRecord| matches!(group, GroupRecord::Remote(_));
+        !is_remote(self.before.groups[at]) && is_remote(self.after.groups[at])
+    }
+
+    fn has_hold(&self) -> bool {
+        self.before.hold_until_ns.is_none() && self.after.hold_until_ns.is_some()
+    }
+
+    fn is_unsafe(&self) -> bool {
+        matches!(self.event.kind, EventKind::Verdict { safe: false, .. })
+    }
+
+    /// Nothing is done about the group, and it is as it was.
+    fn leaves_alone(&self, at: usize) -> bool {
+        same(self.before.groups[at], self.after.groups[at])
+            && self.after.dropped[at] == self.before.dropped[at]
+            && self.done[DROPS][at].is_none()
+            && self.done[RELEASES][at].is_none()
+            && self.done[SERVICES][at].is_none()
+            && self.done[REQUESTS][at].is_none()
+    }
+
+    /// The group does no more use what it used.
+    fn leaves(&self, at: usize) -> bool {
+        let used = in_use(self.before.groups[at]);
+        used.is_some() && in_use(self.after.groups[at]) != used
+    }
+
+    /// One release of the session if the group is left, else none.
+    fn releases_what_it_leaves(&self, at: usize) -> bool {
+        match self.done[RELEASES][at] {
+            None => !self.leaves(at),
+            Some(Action::Release { station, group, session }) => {
+                self.leaves(at)
+                    && group == GROUPS[at]
+                    && in_use(self.before.groups[at]) == Some((station, session))
+            }
+            Some(_) => false,
+        }
+    }
+}
+
+/// Whether it holds of both groups.
+fn each(holds: impl Fn(usize) -> bool) -> bool {
+    holds(0) && holds(1)
+}
+
+/// Field by field, so that nothing has to be in memory.
+fn same(one: GroupRecord, other: GroupRecord) -> bool {
+    match (one, other) {
+        (GroupRecord::Local, GroupRecord::Local) => true,
+        (
+            GroupRecord::Requested { station, session, deadline_ns },
+            GroupRecord::Requested { station: s, session: n, deadline_ns: d },
+        ) => station == s && session == n && deadline_ns == d,
+        (GroupRecord::Remote(a), GroupRecord::Remote(b)) => {
+            a.station == b.station
+                && a.session == b.session
+                && a.last_arrival_ns == b.last_arrival_ns
+                && a.last_used_ns == b.last_used_ns
+                && a.local_computes == b.local_computes
+        }
+        (GroupRecord::Local | GroupRecord::Requested { .. } | GroupRecord::Remote(_), _) => false,
+    }
+}
+
+fn in_use(group: GroupRecord) -> Option<(i64, i64)> {
+    match group {
+        GroupRecord::Local => None,
+        GroupRecord::Requested { station, session, .. }
+        | GroupRecord::Remote(Running { station, session, .. }) => Some((station, session)),
+    }
+}
+
+/// Whether the local services of the group compute.
+fn computes(group: GroupRecord) -> bool {
+    match group {
+        GroupRecord::Local | GroupRecord::Requested { .. } => true,
+        GroupRecord::Remote(running) => running.local_computes,
+    }
+}
+
+fn area(see: &impl Fn(&Seen)) {
+    see(&after(EventKind::Area { groups: groups() }, &mut []));
+}
+
+fn tick(see: &impl Fn(&Seen)) {
+    see(&after(EventKind::Tick, &mut []));
+}
+
+fn verdict(see: &impl Fn(&Seen)) {
+    see(&after(any_verdict(), &mut []));
+}
+
+fn data(see: &impl Fn(&Seen)) {
+    data_of(&|step: &Seen, _, _| see(step));
+}
+
+fn confirm(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    naming(see, |station, group, session| EventKind::Confirm { station, group, session });
+}
+
+fn reject(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    naming(see, |station, group, session| EventKind::Reject { station, group, session });
+}
+
+fn data_of(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    let generated_ns = time_ns();
+    naming(see, |station, group, session| EventKind::Data {
+        station,
+        group,
+        session,
+        generated_ns,
+    });
+}
+
+/// The group is chosen last, so that it is a constant in each of the two branches.
+fn naming(see: &impl Fn(&Seen, usize, (i64, i64)), kind: impl Fn(i64, Group, i64) -> EventKind) {
+    let (station, session) = (near_integer(1, 3), near_integer(1, 6));
+    kani::assume(station >= 1);
+    if kani::any() {
+        see(&after(kind(station, Group::Mot, session), &mut []), 0, (station, session));
+    } else {
+        see(&after(kind(station, Group::Plan, session), &mut []), 1, (station, session));
+    }
+}
+
+fn any_verdict() -> EventKind {
+    let (mot, plan) = (option(|| near_integer(1, 6)), option(|| near_integer(1, 6)));
+    EventKind::Verdict { safe: kani::any(), sessions: Sessions { mot, plan } }
+}
+
+fn after(kind: EventKind, table: &mut [StationRecord]) -> Seen {
+    after_in(any_state(), Event { t_ns: time_ns(), kind }, table)
+}
+
+fn after_in(before: Parts, event: Event, table: &mut [StationRecord]) -> Seen {
+    let mut requester = Requester::resume(Suspended::from_parts(&before), table);
+    let Ok(done) = decide(&mut requester, &event) else { unreachable!("no event is refused") };
+    Seen { event, before, after: requester.suspend().parts(), done }
+}
+
+fn any_record() -> StationRecord {
+    let last_request = [option(|| near_integer(1, 6)), option(|| near_integer(1, 6))];
+    StationRecord::from_parts(near_integer(1, 3), groups(), last_request)
+}
+
+fn any_state() -> Parts {
+    let parameters = Parameters {
+        t_wait_ns: duration_ns(),
+        request_timeout_ns: duration_ns(),
+        l_max_ns: duration_ns(),
+        dt_max_ns: duration_ns(),
+        qos_hold: kani::any(),
+    };
+    Parts {
+        profile: profile(),
+        parameters,
+        groups: [any_group(), any_group()],
+        hold_until_ns: option(time_ns),
+        area: groups(),
+        sessions: near_integer(4, 8),
+        dropped: [kani::any(), kani::any()],
+    }
+}
+
+/// Everything is drawn first and chosen from then; see `any::option`.
+fn any_group() -> GroupRecord {
+    let (kind, station, session) = (below(3), near_integer(1, 3), near_integer(1, 6));
+    let (deadline_ns, last_arrival_ns, last_used_ns) = (time_ns(), time_ns(), option(time_ns));
+    let local_computes = kani::any();
+    match kind {
+        0 => GroupRecord::Local,
+        1 => GroupRecord::Requested { station, session, deadline_ns },
+        _ => GroupRecord::Remote(Running {
+            station,
+            session,
+            last_arrival_ns,
+            last_used_ns,
+            local_computes,
+        }),
+    }
+}

@@ -1,0 +1,127 @@
+//! The order of the stages (`spec/3-stages.md#schedule`), with an arbitrary answer for each stage.
+
+use mufasa::input::profile::Profile;
+use mufasa::report::{FailedStage, Input, Reason, Stage};
+use mufasa::services::configuration::Configuration;
+use mufasa::stages::order::{Given, Idle, Turn, in_order};
+
+use super::any::{below, profile};
+#[cfg(not(kani))]
+use crate::kani;
+
+/// Exactly the stages of the table are run, in their order, none after the first failure; every
+/// other one has the right reason; the gap is compared exactly where stage iv does not run although
+/// nothing failed; and the cycle is unsafe exactly when a stage failed or, hardened, nothing
+/// compared a current trajectory with obstacles.
+///
+/// Domain: all configurations, profiles, sets of inputs and answers of the stages. Not covered:
+/// nothing; what the stages answer is for other harnesses.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(6))]
+pub fn verify_order_is_the_table() {
+    let column = below(4);
+    let given = Given {
+        profile: profile(),
+        configuration: match column {
+            0 => Configuration::MotRemote,
+            1 => Configuration::AllRemote,
+            2 => Configuration::PlanRemote,
+            _ => Configuration::Local,
+        },
+        tracks_of_any_age: kani::any(),
+        tracks: kani::any(),
+        trajectory: kani::any(),
+        detections: kani::any(),
+        grid: kani::any(),
+    };
+    let hardened = given.profile == Profile::Hardened;
+    let answers: [bool; 5] = [kani::any(), kani::any(), kani::any(), kani::any(), kani::any()];
+    let (mut at, mut failed, mut ran) = (0, None, [false; 5]);
+    let found = in_order(given, |stage, turn| {
+        assert!(at < 5 && stage == STAGES[at]);
+        let mark = if at == 4 && column == 2 && hardened {
+            Conditional
+        } else {
+            TABLE[at][usize::from(column)]
+        };
+        let missing = first_missing(given, at);
+        // H-10: hardened, stage iii blocks iv in MotRemote and PlanRemote alone, and nothing blocks v.
+        let blocked = match at {
+            3 => ran[2] && !(hardened && column == 1),
+            4 => (ran[2] || ran[3]) && !hardened,
+            _ => false,
+        };
+        let expected = match mark {
+            Dash => Some(Idle::NotScheduled),
+            Always | Conditional if failed.is_some() => Some(Idle::Skipped(Reason::AfterFailure)),
+            Conditional if blocked => Some(Idle::Skipped(Reason::OtherStageRan)),
+            Conditional => missing.map(|input| Idle::Skipped(Reason::NoCurrent(input))),
+            Always => missing.map(Idle::NotApplicable),
+        };
+        let expected = match expected {
+            None => Turn::Run,
+            Some(idle) if at == 3 && failed.is_none() => Turn::Gap(idle),
+            Some(idle) => Turn::Rest(idle),
+        };
+        assert!(turn == expected);
+        ran[at] = turn == Turn::Run;
+        let fails = answers[at] && !matches!(turn, Turn::Rest(_));
+        if fails {
+            failed = Some(stage);
+        }
+        at += 1;
+        fails
+    });
+    assert!(at == 5);
+    // H-02: in AllRemote tracks that stage i could not check are no obstacle check.
+    let iii_counts = ran[2] && (column != 1 || given.detections);
+    let unexamined =
+        hardened && column != 3 && given.trajectory && !(iii_counts || ran[3] || ran[4]);
+    assert!(match found {
+        None => failed.is_none() && !unexamined,
+        Some(FailedStage::Stage(stage)) => failed == Some(stage),
+        Some(FailedStage::NoObstacleCheck) => failed.is_none() && unexamined,
+        Some(FailedStage::Input) => false,
+    });
+    kani::cover!(found.is_none() && ran[4], "all pass");
+    kani::cover!(failed == Some(Stage::V), "stage v fails");
+    kani::cover!(failed == Some(Stage::Iv) && !ran[3], "the gap alone fails");
+    kani::cover!(found == Some(FailedStage::NoObstacleCheck) && ran[2], "no obstacle check");
+    kani::cover!(failed == Some(Stage::Iii) && !ran[3], "nothing runs after a failure");
+}
+
+/// How a stage is marked in the table.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mark {
+    Always,
+    Conditional,
+    Dash,
+}
+
+use Mark::{Always, Conditional, Dash};
+
+/// The table of the text: a row for each stage; `MotRemote`, `AllRemote`, `PlanRemote`, `Local`.
+const TABLE: [[Mark; 4]; 5] = [
+    [Always, Always, Dash, Dash],
+    [Always, Always, Always, Dash],
+    [Dash, Conditional, Always, Dash],
+    [Conditional, Conditional, Conditional, Dash],
+    [Always, Conditional, Dash, Dash],
+];
+
+const STAGES: [Stage; 5] = [Stage::I, Stage::Ii, Stage::Iii, Stage::Iv, Stage::V];
+
+/// What the stage reads and is not there. A list goes to stage i whatever its age.
+fn first_missing(given: Given, at: usize) -> Option<Input> {
+    let reads_second = match at {
+        0 if !given.tracks_of_any_age => return Some(Input::Tracks),
+        0 => (given.detections, Input::Detections),
+        _ if !given.trajectory => return Some(Input::Trajectory),
+        1 => return None,
+        2 => (given.tracks, Input::Tracks),
+        3 => (given.detections, Input::Detections),
+        _ => (given.grid, Input::Grid),
+    };
+    let (is_there, input) = reads_second;
+    if is_there { None } else { Some(input) }
+}
