@@ -47,6 +47,7 @@ pub const FILES: [(&str, &str); 81] = files![
     "findings/F-38",
     "findings/F-39",
     "findings/F-40",
+    "findings/F-41",
     "hardened/H-01",
     "hardened/H-02",
     "hardened/H-03",
