@@ -1,9 +1,16 @@
 //! Stage v of the implementation against the exact model
 //! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-04, H-06).
 
-use mufasa_model::input::cycle::Profile;
-use mufasa_props::differential::{agree, near_threshold};
+use std::collections::BTreeMap;
+
+use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
+use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
+use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages::check;
+use mufasa_props::differential::{agree, hold, near_threshold, runner, same_witness};
+use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::grid;
+use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn paper() {
@@ -13,4 +20,62 @@ fn paper() {
 #[test]
 fn hardened() {
     agree("stage v", Profile::Hardened, grid::cycle, near_threshold).assert_aimed(&["v", "safe"]);
+}
+
+#[test]
+fn the_witness_beside_stage_iv() {
+    hold("witness beside iv", Profile::Hardened, grid::beside_iv, near_threshold, same_witness)
+        .assert_aimed(&["v", "safe"]);
+}
+
+/// What is drawn beside stage iv: a disk reaches an occupied cell, and the CAV's rectangle touches
+/// it or does not, within 1e-5 m; in each configuration, with stage iv and without.
+#[test]
+fn rectangles_touch_and_miss_cells_that_a_disk_reaches() {
+    const DRAWS: u64 = 4000;
+    let mut seen = BTreeMap::new();
+    let mut runner = runner();
+    for _ in 0..DRAWS {
+        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
+        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::Hardened);
+        let rectangle = only_rectangle(&cycle);
+        if collides(&exact(&only_disks(&cycle))) && near_threshold(&rectangle) {
+            let iv = &exact(&cycle).stages[3];
+            let ran_iv = matches!(iv, Outcome::Passed);
+            let touches = collides(&exact(&rectangle));
+            let kind = (format!("{:?}", cycle.configuration), ran_iv, touches);
+            *seen.entry(kind).or_insert(0_u64) += 1;
+        }
+    }
+    println!("(configuration, stage iv ran, rectangle touches): {seen:?} of {DRAWS}");
+    for configuration in ["AllRemote", "MotRemote", "PlanRemote"] {
+        for (ran_iv, touches) in [(true, true), (true, false), (false, true), (false, false)] {
+            let kind = (configuration.to_owned(), ran_iv, touches);
+            let count = seen.get(&kind).copied().unwrap_or(0);
+            assert!(count >= 10, "{kind:?}: only {count} of {DRAWS}");
+        }
+    }
+}
+
+/// The same without stage iv: disks alone decide.
+fn only_disks(cycle: &Cycle) -> Cycle {
+    Cycle { detections: None, tracks: None, ..cycle.clone() }
+}
+
+/// The same with stage iv, which finds nothing, where the rectangle counts, too.
+fn only_rectangle(cycle: &Cycle) -> Cycle {
+    let detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
+    let configuration = Configuration::PlanRemote;
+    Cycle { configuration, detections, tracks: None, ..cycle.clone() }
+}
+
+fn exact(cycle: &Cycle) -> Report {
+    check(cycle, Reading::Exact).expect("the generator draws valid cycles")
+}
+
+/// Whether stage v fails at an occupied cell.
+fn collides(report: &Report) -> bool {
+    let [.., v] = &report.stages;
+    report.failed_stage == Some(FailedStage::Stage(Stage::V))
+        && matches!(v, Outcome::Failed(witness) if witness.rule == Rule::Occupied)
 }

@@ -145,7 +145,7 @@ fn without_stage_iv_the_disks_collide() {
 fn the_witness_is_the_first_cell_that_disk_and_rectangle_touch() {
     let scene = occupied(AllRemote, PLACES[0], &[BESIDE, (104, 98), AHEAD, (106, 100)]);
     assert_eq!(collision(&scene), Some((3, (105, 100))));
-    // The rear disk reaches both; the rectangle only the one in the later row, or just the other, too.
+    // The rear disk reaches both, the rectangle the one in the later row, or just the other, too.
     let mut scene = occupied(AllRemote, PLACES[0], &[(99, 98), (99, 100)]);
     assert_eq!(collision(&scene), Some((0, (99, 100))));
     scene.ego.width = 2.0;

@@ -9,7 +9,7 @@ use super::draw::Draw;
 use super::end;
 use super::obstacle;
 
-mod covered;
+mod rectangle;
 
 /// A grid as it is being made: where a disk centre lies in it.
 struct Plan {
@@ -23,8 +23,31 @@ struct Plan {
     resolution: f64,
 }
 
-/// A cycle that stage v decides; there are no tracks and no detections but for what covers cells.
+/// A cycle that stage v decides; tracks and detections are harmless, if there are any.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    if profile == Profile::Hardened && draw.one_in(4) {
+        return beside_iv(draw, profile);
+    }
+    let mut cycle = without_grid(draw, profile);
+    match draw.below(8) {
+        0..=2 => cell_at_radius(draw, &mut cycle),
+        3 | 4 => border(draw, &mut cycle),
+        5 | 6 if end::is_examined(&cycle) && draw.one_in(2) => beyond(draw, &mut cycle),
+        5 | 6 => horizon(draw, &mut cycle),
+        _ => scattered(draw, &mut cycle),
+    }
+    cycle
+}
+
+/// A cycle that the CAV's rectangle decides at an occupied cell, mostly.
+pub fn beside_iv(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let mut cycle = without_grid(draw, profile);
+    rectangle::cell(draw, &mut cycle);
+    cycle
+}
+
+/// A cycle with a trajectory and nothing around it.
+fn without_grid(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let frame = base::frame(draw);
     let configurations = [
         Configuration::MotRemote,
@@ -44,17 +67,6 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.ego.speed = draw.pick(&[0.0, 1.0, 2.0]);
     let ego = cycle.ego.clone();
     cycle.trajectory = Some(base::straight(&ego, frame, cycle.now_ns, &cycle.parameters));
-    if profile == Profile::Hardened && draw.one_in(4) {
-        covered::cell(draw, &mut cycle);
-        return cycle;
-    }
-    match draw.below(8) {
-        0..=2 => cell_at_radius(draw, &mut cycle),
-        3 | 4 => border(draw, &mut cycle),
-        5 | 6 if end::is_examined(&cycle) && draw.one_in(2) => beyond(draw, &mut cycle),
-        5 | 6 => horizon(draw, &mut cycle),
-        _ => scattered(draw, &mut cycle),
-    }
     cycle
 }
 

@@ -1,0 +1,142 @@
+//! Occupied cells that the CAV's rectangle touches, or just does not, while a disk reaches them
+//! (H-06 of `spec/3-stages.md#hardened-profile`).
+
+use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, TrackList};
+use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+
+use super::super::base::Frame;
+use super::super::draw::Draw;
+use super::super::{end, track_validation};
+use super::{Plan, lay, mark, plan};
+
+/// The CAV's rectangle touches a cell with a corner or a side, or misses it by a little: at the
+/// first point with its rear, its side or a corner, or with its front at a place beyond the end of
+/// the trajectory. At times stage iv does not run, and at times another cell is there, too.
+pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    // There the rectangle does not count.
+    if cycle.configuration == MotRemote && !draw.one_in(3) {
+        cycle.configuration = draw.pick(&[AllRemote, PlanRemote]);
+    }
+    let ego = &cycle.ego;
+    let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
+    let (x, y) = road.at(ego.center_offset, 0.0);
+    let mut place = Frame { x, y, ..road };
+    let ahead = draw.one_in(4);
+    if ahead {
+        let missing = end::missing(draw, &cycle.ego);
+        end::shorten(draw, cycle, missing);
+        place = end::place(draw, cycle);
+    }
+    let plan = plan(draw, cycle);
+    let cav = beside_cell(draw, cycle, &plan, ahead);
+    let mut grid = laid_under(draw, cycle, &plan, (place, cav));
+    let index = |cell: usize| i64::try_from(cell).unwrap_or(0);
+    let (column, row) = (index(plan.cell.0), index(plan.cell.1));
+    mark(&mut grid.occupied, &plan, (column, row));
+    if draw.one_in(4) {
+        let (i, k) = draw.pick(&[(1, 0), (-1, 0), (0, 1), (0, -1), (2, 1), (-1, 2)]);
+        mark(&mut grid.occupied, &plan, (column + i, row + k));
+    }
+    cycle.grid = Some(grid);
+    run_iv_or_not(draw, cycle, road);
+}
+
+/// Mostly stage iv runs and finds nothing.
+fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
+    let stamp_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
+    let items = match draw.below(2) {
+        0 => Vec::new(),
+        _ => vec![track_validation::detection(road, (-20.0, 30.0))],
+    };
+    cycle.detections = Some(DetectionList { stamp_ns, items });
+    match draw.below(8) {
+        0 => cycle.detections = None,
+        // Stage iii runs: in `PlanRemote` in the place of stage iv.
+        1 => cycle.tracks = Some(TrackList { stamp_ns, items: Vec::new() }),
+        _ => (),
+    }
+}
+
+/// The CAV's rectangle in the frame of the cell's centre.
+fn beside_cell(draw: &mut Draw<'_>, cycle: &Cycle, plan: &Plan, ahead: bool) -> Frame {
+    const DIAGONAL: [f64; 2] = [1.0, -1.0];
+    let corner = (draw.pick(&DIAGONAL), draw.pick(&DIAGONAL));
+    let normal = draw.pick(&[(corner.0, 0.0), (0.0, corner.1)]);
+    let side = Side { corner, normal };
+    let (length, width) = (cycle.ego.length, cycle.ego.width);
+    let gap = draw.near(0.0);
+    let sideways = !ahead && draw.below(2) == 0;
+    let size = if sideways { (width, length) } else { (length, width) };
+    let mut cav = against(draw, 0.5 * plan.resolution, &side, size, gap);
+    if sideways {
+        (cav.cos, cav.sin) = (-cav.sin, cav.cos);
+    }
+    // Away from the cell, unless that is in front.
+    let leaves = cav.cos * normal.0 + cav.sin * normal.1 > 0.0;
+    if leaves == ahead {
+        (cav.cos, cav.sin) = (-cav.cos, -cav.sin);
+    }
+    cav
+}
+
+/// The grid of a plan, empty, with the CAV of a place where `cav` says.
+fn laid_under(
+    draw: &mut Draw<'_>,
+    cycle: &Cycle,
+    plan: &Plan,
+    (place, cav): (Frame, Frame),
+) -> Grid {
+    let (cos, sin) = unit(place.turn((cav.cos, -cav.sin)));
+    let middle = |cell: usize| (cell as f64 + 0.5) * plan.resolution;
+    let (x, y) = (middle(plan.cell.0) + cav.x, middle(plan.cell.1) + cav.y);
+    let (x, y) = Frame { cos, sin, ..place }.at(-x, -y);
+    Grid { x, y, cos, sin, ..lay(draw, cycle, plan) }
+}
+
+/// A side of a cell.
+struct Side {
+    /// 1 or -1 along either axis: one of its corners.
+    corner: (f64, f64),
+    /// Its outward normal.
+    normal: (f64, f64),
+}
+
+/// A rectangle on that side of a cell, with a gap, in the frame of the cell's centre.
+fn against(
+    draw: &mut Draw<'_>,
+    half: f64,
+    side: &Side,
+    (length, width): (f64, f64),
+    gap: f64,
+) -> Frame {
+    let ((a, b), normal) = (side.corner, side.normal);
+    let (direction, (x, y)) = if draw.below(2) == 0 {
+        // The cell's corner in the rectangle's side.
+        let angle = draw.range(0.0, std::f64::consts::FRAC_PI_2);
+        let direction = draw.pick(&[(a * angle.cos(), b * angle.sin()), (a, 0.0), (0.0, b)]);
+        let (ahead, aside) = (0.5 * length + gap, draw.pick(&[0.0, 0.4, -0.4]) * width);
+        let corner = Frame { x: a * half, y: b * half, cos: direction.0, sin: direction.1 };
+        (direction, corner.at(ahead, aside))
+    } else {
+        // The rectangle's corner in the cell's side.
+        let direction = draw.direction();
+        let along = normal.0 * direction.0 + normal.1 * direction.1;
+        let across = normal.1 * direction.0 - normal.0 * direction.1;
+        let corner = (0.5 * length * along.signum(), 0.5 * width * across.signum());
+        let (x, y) =
+            Frame { x: 0.0, y: 0.0, cos: direction.0, sin: direction.1 }.at(corner.0, corner.1);
+        let aside = draw.pick(&[0.0, 0.9, -0.9]) * half;
+        let reach = half + gap;
+        (
+            direction,
+            (normal.0 * reach - normal.1 * aside + x, normal.1 * reach + normal.0 * aside + y),
+        )
+    };
+    Frame { x, y, cos: direction.0, sin: direction.1 }
+}
+
+/// Two directions that are not quite unit vectors multiply out of the domain.
+fn unit((cos, sin): (f64, f64)) -> (f64, f64) {
+    let norm = cos.hypot(sin);
+    if (norm - 1.0).abs() > 4e-7 { (cos / norm, sin / norm) } else { (cos, sin) }
+}
