@@ -7,7 +7,7 @@ macro_rules! files {
 }
 
 /// The vectors, by the name of the file that they are published in.
-pub const FILES: [(&str, &str); 81] = files![
+pub const FILES: [(&str, &str); 82] = files![
     "findings/F-01",
     "findings/F-02",
     "findings/F-03",
