@@ -98,7 +98,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("step_max", Cell::Proof, TESTED),
     ("lateral_tolerance", Cell::Proof, TESTED),
     ("work_limit", Cell::Proof, TESTED),
-    ("request_timeout", Cell::Proof, TESTED),
     ("I-01", Cell::Impl, "a number: nothing is computed with it"),
     ("I-01", Cell::Proof, "a number: nothing is claimed of it"),
     ("I-01", Cell::Bench, "a number: nothing is computed with it"),
