@@ -4,7 +4,7 @@
 use crate::input::profile::Profile;
 use crate::report::FailedStage;
 use crate::services::configuration::Configuration;
-use crate::stages::order::Given;
+use crate::stages::given::Given;
 
 /// H-05: stage v is conditional in `PlanRemote`, too.
 pub(crate) fn has_stage_v_in_plan_remote(profile: Profile) -> bool {

@@ -1,5 +1,5 @@
 //! How far the hardened profile looks: way instead of arc length, at least `s_stop`, and beyond the
-//! end of a remote trajectory (H-04 of `spec/3-stages.md#hardened-profile`).
+//! end of the trajectory (H-04 of `spec/3-stages.md#hardened-profile`).
 
 use core::ops::RangeInclusive;
 use core::slice;

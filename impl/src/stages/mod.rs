@@ -1,6 +1,7 @@
 //! Which stages run, in which order, and what the cycle reports (`spec/3-stages.md#schedule`).
 
 pub(crate) mod distances;
+pub mod given;
 pub(crate) mod horizon;
 pub(crate) mod i_track_validation;
 pub(crate) mod ii_trajectory_to_map;
@@ -21,11 +22,12 @@ use crate::input::scratch::Scratch;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
 use crate::services::configuration::Group;
+use crate::stages::given::Given;
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
 use crate::stages::iv_detections::trajectory_with_detections;
-use crate::stages::order::{Given, Scheduled, Turn, in_order, scheduled};
+use crate::stages::order::{Scheduled, Turn, in_order, scheduled};
 use crate::stages::v_grid_map::trajectory_with_grid_map;
 
 /// Decides one cycle. `Err` is invalid local input, an error to the caller; invalid remote data

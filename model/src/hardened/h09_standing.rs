@@ -8,7 +8,7 @@ use crate::services::configuration::Configuration;
 use crate::stages::llcc::first_collision;
 
 /// In `AllRemote` the first collision with a track that is not backed, standing still at its place (at
-/// p without current detections).
+/// x without current detections).
 pub fn collision_standing(
     scene: &Scene,
     points: impl Iterator<Item = Point>,

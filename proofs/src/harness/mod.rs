@@ -23,6 +23,7 @@ pub mod quality_of_service;
 pub mod requester;
 pub mod scene;
 pub mod schedule;
+mod seen;
 pub mod stages;
 pub mod v_grid_map;
 pub mod world;

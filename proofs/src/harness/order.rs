@@ -3,7 +3,8 @@
 use mufasa::input::profile::Profile;
 use mufasa::report::{FailedStage, Input, Reason, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::order::{Given, Idle, Turn, in_order};
+use mufasa::stages::given::Given;
+use mufasa::stages::order::{Idle, Turn, in_order};
 
 use super::any::{below, profile};
 #[cfg(not(kani))]

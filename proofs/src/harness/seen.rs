@@ -1,0 +1,310 @@
+//! A step of the requester from any state, what was seen of it, and what the laws of `group` ask of it.
+
+use mufasa::input::profile::Profile;
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, Group, GroupRecord, Parameters, Parts, Requester, Running, Sessions,
+    StationRecord, Suspended,
+};
+use mufasa::parts::decide;
+
+use super::any::{below, duration_ns, groups, near_integer, option, profile, time_ns};
+#[cfg(not(kani))]
+use crate::kani;
+
+pub(super) const DROPS: usize = 0;
+pub(super) const RELEASES: usize = 1;
+pub(super) const SERVICES: usize = 2;
+pub(super) const REQUESTS: usize = 3;
+pub(super) const GROUPS: [Group; 2] = [Group::Mot, Group::Plan];
+
+/// A step, and what was seen of it.
+pub(super) struct Seen {
+    pub(super) event: Event,
+    pub(super) before: Parts,
+    pub(super) after: Parts,
+    pub(super) done: [[Option<Action>; 2]; 4],
+}
+
+impl Seen {
+    pub(super) fn is_hardened(&self) -> bool {
+        self.before.profile == Profile::Hardened
+    }
+
+    /// The laws of a step that is no offer and no tick.
+    pub(super) fn keeps_every_law(&self) -> bool {
+        self.keeps_the_hold()
+            && self.asks_for_nothing()
+            && each(|at| {
+                self.becomes_remote_by_confirmation(at)
+                    && self.says_what_services_do(at)
+                    && self.stops_services_when_the_profile_says(at)
+                    && self.keeps_the_group_valid(at)
+            })
+    }
+
+    /// The end of a hold only moves later.
+    pub(super) fn keeps_the_hold(&self) -> bool {
+        match (self.before.hold_until_ns, self.after.hold_until_ns) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(before_ns), Some(after_ns)) => after_ns >= before_ns,
+        }
+    }
+
+    /// Requests are decided at ticks alone.
+    pub(super) fn asks_for_nothing(&self) -> bool {
+        self.done[REQUESTS][0].is_none()
+            && self.done[REQUESTS][1].is_none()
+            && self.after.sessions == self.before.sessions
+    }
+
+    /// No group becomes remote but by a confirmation that names it.
+    pub(super) fn becomes_remote_by_confirmation(&self, at: usize) -> bool {
+        let confirms =
+            matches!(self.event.kind, EventKind::Confirm { group, .. } if group == GROUPS[at]);
+        confirms || !self.is_remote_now(at)
+    }
+
+    /// Local services are started and stopped exactly when they start and stop to compute.
+    pub(super) fn says_what_services_do(&self, at: usize) -> bool {
+        match self.done[SERVICES][at] {
+            None => !self.starts(at) && !self.stops(at),
+            Some(Action::Activate(group)) => group == GROUPS[at] && self.starts(at),
+            Some(Action::Deactivate(group)) => group == GROUPS[at] && self.stops(at),
+            Some(Action::Request { .. } | Action::Release { .. } | Action::Drop(_)) => false,
+        }
+    }
+
+    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop at a safe verdict that
+    /// names the running session after a result was used; paper, at the confirmation.
+    pub(super) fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
+        let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
+            (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
+            (
+                Profile::Hardened,
+                EventKind::Verdict { safe: true, sessions },
+                GroupRecord::Remote(running),
+            ) => {
+                let named = if at == 0 { sessions.mot } else { sessions.plan };
+                running.last_used_ns.is_some()
+                    && match named {
+                        Some(session) => session == running.session,
+                        None => false,
+                    }
+            }
+            _ => false,
+        };
+        may || !self.stops(at) || !self.is_valid(self.before.groups[at])
+    }
+
+    /// Paper: no local services compute beside remote ones. Hardened: none stop before a result was
+    /// used.
+    pub(super) fn keeps_the_group_valid(&self, at: usize) -> bool {
+        !self.is_valid(self.before.groups[at]) || self.is_valid(self.after.groups[at])
+    }
+
+    pub(super) fn is_valid(&self, group: GroupRecord) -> bool {
+        match (group, self.is_hardened()) {
+            (GroupRecord::Local | GroupRecord::Requested { .. }, _) => true,
+            (GroupRecord::Remote(running), false) => !running.local_computes,
+            (GroupRecord::Remote(running), true) => {
+                running.local_computes || running.last_used_ns.is_some()
+            }
+        }
+    }
+
+    pub(super) fn starts(&self, at: usize) -> bool {
+        !computes(self.before.groups[at]) && computes(self.after.groups[at])
+    }
+
+    pub(super) fn stops(&self, at: usize) -> bool {
+        computes(self.before.groups[at]) && !computes(self.after.groups[at])
+    }
+
+    pub(super) fn is_remote_now(&self, at: usize) -> bool {
+        let is_remote = |group: GroupRecord| matches!(group, GroupRecord::Remote(_));
+        !is_remote(self.before.groups[at]) && is_remote(self.after.groups[at])
+    }
+
+    pub(super) fn has_hold(&self) -> bool {
+        self.before.hold_until_ns.is_none() && self.after.hold_until_ns.is_some()
+    }
+
+    pub(super) fn is_unsafe(&self) -> bool {
+        matches!(self.event.kind, EventKind::Verdict { safe: false, .. })
+    }
+
+    /// Nothing is done about the group, and it is as it was.
+    pub(super) fn leaves_alone(&self, at: usize) -> bool {
+        same(self.before.groups[at], self.after.groups[at])
+            && self.after.dropped[at] == self.before.dropped[at]
+            && self.done[DROPS][at].is_none()
+            && self.done[RELEASES][at].is_none()
+            && self.done[SERVICES][at].is_none()
+            && self.done[REQUESTS][at].is_none()
+    }
+
+    /// The group does no more use what it used.
+    pub(super) fn leaves(&self, at: usize) -> bool {
+        let used = in_use(self.before.groups[at]);
+        used.is_some() && in_use(self.after.groups[at]) != used
+    }
+
+    /// One release of the session if the group is left, else none.
+    pub(super) fn releases_what_it_leaves(&self, at: usize) -> bool {
+        match self.done[RELEASES][at] {
+            None => !self.leaves(at),
+            Some(Action::Release { station, group, session }) => {
+                self.leaves(at)
+                    && group == GROUPS[at]
+                    && in_use(self.before.groups[at]) == Some((station, session))
+            }
+            Some(_) => false,
+        }
+    }
+}
+
+/// Whether it holds of both groups.
+pub(super) fn each(holds: impl Fn(usize) -> bool) -> bool {
+    holds(0) && holds(1)
+}
+
+/// Field by field, so that nothing has to be in memory.
+pub(super) fn same(one: GroupRecord, other: GroupRecord) -> bool {
+    match (one, other) {
+        (GroupRecord::Local, GroupRecord::Local) => true,
+        (
+            GroupRecord::Requested { station, session, deadline_ns },
+            GroupRecord::Requested { station: s, session: n, deadline_ns: d },
+        ) => station == s && session == n && deadline_ns == d,
+        (GroupRecord::Remote(a), GroupRecord::Remote(b)) => {
+            a.station == b.station
+                && a.session == b.session
+                && a.last_arrival_ns == b.last_arrival_ns
+                && a.last_used_ns == b.last_used_ns
+                && a.local_computes == b.local_computes
+        }
+        (GroupRecord::Local | GroupRecord::Requested { .. } | GroupRecord::Remote(_), _) => false,
+    }
+}
+
+pub(super) fn in_use(group: GroupRecord) -> Option<(i64, i64)> {
+    match group {
+        GroupRecord::Local => None,
+        GroupRecord::Requested { station, session, .. }
+        | GroupRecord::Remote(Running { station, session, .. }) => Some((station, session)),
+    }
+}
+
+/// Whether the local services of the group compute.
+pub(super) fn computes(group: GroupRecord) -> bool {
+    match group {
+        GroupRecord::Local | GroupRecord::Requested { .. } => true,
+        GroupRecord::Remote(running) => running.local_computes,
+    }
+}
+
+pub(super) fn area(see: &impl Fn(&Seen)) {
+    see(&after(EventKind::Area { groups: groups() }, &mut []));
+}
+
+pub(super) fn tick(see: &impl Fn(&Seen)) {
+    see(&after(EventKind::Tick, &mut []));
+}
+
+pub(super) fn verdict(see: &impl Fn(&Seen)) {
+    see(&after(any_verdict(), &mut []));
+}
+
+pub(super) fn data(see: &impl Fn(&Seen)) {
+    data_of(&|step: &Seen, _, _| see(step));
+}
+
+pub(super) fn confirm(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    naming(see, |station, group, session| EventKind::Confirm { station, group, session });
+}
+
+pub(super) fn reject(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    naming(see, |station, group, session| EventKind::Reject { station, group, session });
+}
+
+pub(super) fn data_of(see: &impl Fn(&Seen, usize, (i64, i64))) {
+    let generated_ns = time_ns();
+    naming(see, |station, group, session| EventKind::Data {
+        station,
+        group,
+        session,
+        generated_ns,
+    });
+}
+
+/// The group is chosen last, so that it is a constant in each of the two branches.
+pub(super) fn naming(
+    see: &impl Fn(&Seen, usize, (i64, i64)),
+    kind: impl Fn(i64, Group, i64) -> EventKind,
+) {
+    let (station, session) = (near_integer(1, 3), near_integer(1, 6));
+    kani::assume(station >= 1);
+    if kani::any() {
+        see(&after(kind(station, Group::Mot, session), &mut []), 0, (station, session));
+    } else {
+        see(&after(kind(station, Group::Plan, session), &mut []), 1, (station, session));
+    }
+}
+
+pub(super) fn any_verdict() -> EventKind {
+    let (mot, plan) = (option(|| near_integer(1, 6)), option(|| near_integer(1, 6)));
+    EventKind::Verdict { safe: kani::any(), sessions: Sessions { mot, plan } }
+}
+
+pub(super) fn after(kind: EventKind, table: &mut [StationRecord]) -> Seen {
+    after_in(any_state(), Event { t_ns: time_ns(), kind }, table)
+}
+
+pub(super) fn after_in(before: Parts, event: Event, table: &mut [StationRecord]) -> Seen {
+    let mut requester = Requester::resume(Suspended::from_parts(&before), table);
+    let Ok(done) = decide(&mut requester, &event) else { unreachable!("no event is refused") };
+    Seen { event, before, after: requester.suspend().parts(), done }
+}
+
+pub(super) fn any_record() -> StationRecord {
+    let last_request = [option(|| near_integer(1, 6)), option(|| near_integer(1, 6))];
+    StationRecord::from_parts(near_integer(1, 3), groups(), last_request)
+}
+
+pub(super) fn any_state() -> Parts {
+    let parameters = Parameters {
+        t_wait_ns: duration_ns(),
+        request_timeout_ns: duration_ns(),
+        l_max_ns: duration_ns(),
+        dt_max_ns: duration_ns(),
+        qos_hold: kani::any(),
+    };
+    Parts {
+        profile: profile(),
+        parameters,
+        groups: [any_group(), any_group()],
+        hold_until_ns: option(time_ns),
+        area: groups(),
+        sessions: near_integer(4, 8),
+        dropped: [kani::any(), kani::any()],
+    }
+}
+
+/// Everything is drawn first and chosen from then; see `any::option`.
+pub(super) fn any_group() -> GroupRecord {
+    let (kind, station, session) = (below(3), near_integer(1, 3), near_integer(1, 6));
+    let (deadline_ns, last_arrival_ns, last_used_ns) = (time_ns(), time_ns(), option(time_ns));
+    let local_computes = kani::any();
+    match kind {
+        0 => GroupRecord::Local,
+        1 => GroupRecord::Requested { station, session, deadline_ns },
+        _ => GroupRecord::Remote(Running {
+            station,
+            session,
+            last_arrival_ns,
+            last_used_ns,
+            local_computes,
+        }),
+    }
+}
