@@ -8,6 +8,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// An index needs memory aligned to this many bytes, as `malloc` gives it.
+#define MUFASA_DETECTION_INDEX_ALIGN 8
+
+// No more indexes are looked at.
+#define MUFASA_MAX_DETECTION_INDEXES 64
+
 // Bytes of the texts of MufasaInvalidInput, the closing 0 included.
 #define MUFASA_TEXT_BYTES 96
 
@@ -45,6 +51,8 @@ enum MufasaStatus
   MUFASA_STATUS_INVALID_STATION = 7,
   // An offer of a station for which the table has no place.
   MUFASA_STATUS_TABLE_FULL = 8,
+  // A list of detections of which there is no index, as it is not valid.
+  MUFASA_STATUS_INVALID_LIST = 9,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -200,7 +208,7 @@ enum MufasaRule
   MUFASA_RULE_STEP_FORWARD = 15,
   MUFASA_RULE_STEP_LATERAL = 16,
   MUFASA_RULE_STEP_TURN = 17,
-  MUFASA_RULE_STEP_SLIDE = 18,
+  MUFASA_RULE_SLIDE = 18,
   MUFASA_RULE_TURN_REVERSED = 19,
   MUFASA_RULE_TURN_ON_THE_SPOT = 20,
   MUFASA_RULE_TURN_HARD = 21,
@@ -363,8 +371,32 @@ typedef uint32_t MufasaEventType;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// A list of detections with its index in the memory of the caller; its content may change from
+// version to version.
+typedef struct MufasaDetectionIndex MufasaDetectionIndex;
+
 // A requester in the memory of the caller; its content may change from version to version.
 typedef struct MufasaRequester MufasaRequester;
+
+// A detected object.
+typedef struct MufasaDetection {
+  double x;
+  double y;
+  double cos;
+  double sin;
+  double length;
+  double width;
+} MufasaDetection;
+
+// The detections of all local detectors.
+typedef struct MufasaDetectionList {
+  // Time of measurement.
+  int64_t stamp_ns;
+  // Detections in list order.
+  const struct MufasaDetection *items;
+  // How many.
+  size_t items_len;
+} MufasaDetectionList;
 
 // Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaParameters {
@@ -482,26 +514,6 @@ typedef struct MufasaTrackList {
   size_t items_len;
 } MufasaTrackList;
 
-// A detected object.
-typedef struct MufasaDetection {
-  double x;
-  double y;
-  double cos;
-  double sin;
-  double length;
-  double width;
-} MufasaDetection;
-
-// The detections of all local detectors.
-typedef struct MufasaDetectionList {
-  // Time of measurement.
-  int64_t stamp_ns;
-  // Detections in list order.
-  const struct MufasaDetection *items;
-  // How many.
-  size_t items_len;
-} MufasaDetectionList;
-
 // The leading vehicle.
 typedef struct MufasaLead {
   int64_t stamp_ns;
@@ -561,8 +573,15 @@ typedef struct MufasaCycle {
   const struct MufasaLead *lead;
   // May be null.
   const struct MufasaGrid *grid;
-  // Earlier lists of the CAV's own detections, the youngest first, at most 4. May be null when
-  // there is none.
+  // Earlier lists of the CAV's own detections, the youngest first (stamps strictly decreasing), at
+  // most 4. May be null when there is none. Keep every list that was `detections` for a second.
+  // Used are those that are 200 ms to 1 s older than `detections`: give the lists whose ages are
+  // nearest to 300, 500 and 800 ms, the one nearest to 500 ms being the reference. A cycle that was
+  // not safe leaves its detections in the history like any other; older than 60 s, a list counts
+  // as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
+  // in ALL_REMOTE each counts as standing, too (H-09), and no detection is explained (H-10); with
+  // none of them what moves is not looked for (H-13). The verdict is then valid, but rejects
+  // more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
   const struct MufasaDetectionList *detection_history;
   // How many.
   size_t detection_history_len;
@@ -709,6 +728,30 @@ typedef struct MufasaRequesterState {
 extern "C" {
 #endif // __cplusplus
 
+// Bytes of memory for the index of a list of so many detections; 2048 are enough for every list.
+size_t mufasa_detection_index_bytes(size_t items_len);
+
+// Checks a list of detections, copies and sorts it in `memory`, whose content means nothing before:
+// once for the cycle in which it is `detections` and for those in which it is a list of
+// `detection_history`. `*index` is where the index is; it needs no end, and may not be moved.
+// When the status is not OK there is none, and `*index`, if it can be written to, is null.
+// INVALID_LIST when the detections are not valid: `mufasa_check` says which one.
+//
+// An index is used for the list of a cycle with the same stamp, the same pointer to the items and
+// the same number of them; the items themselves are then not read again. So write no new detections
+// where `list.items` points as long as a cycle names that list, and when you do, make its index
+// anew. What is not indexed is copied, checked and sorted in every cycle: no verdict depends on
+// it, only time.
+//
+// # Safety
+// `list` is null or points to a list, whose items are as many as it says; `memory` points to
+// `bytes` bytes that nobody else uses as long as the index is used; `index` is null or can be
+// written to.
+MufasaStatus mufasa_detection_index_init(const struct MufasaDetectionList *list,
+                                         void *memory,
+                                         size_t bytes,
+                                         const struct MufasaDetectionIndex **index);
+
 // The defaults of spec/3-stages.md.
 struct MufasaParameters mufasa_parameters_default(void);
 
@@ -732,6 +775,20 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
                           void *scratch,
                           size_t scratch_bytes,
                           struct MufasaReport *report);
+
+// As `mufasa_check`, with what the caller keeps of the cycle's lists of detections, in any order: an
+// array of `indexes_len` pointers to indexes, of which each may be null. An index of another list
+// is not used. The answer is the same.
+//
+// # Safety
+// As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
+// from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
+MufasaStatus mufasa_check_with(const struct MufasaCycle *cycle,
+                               const struct MufasaDetectionIndex *const *indexes,
+                               size_t indexes_len,
+                               void *scratch,
+                               size_t scratch_bytes,
+                               struct MufasaReport *report);
 
 // The defaults of spec/2-offloading.md.
 struct MufasaRequesterParameters mufasa_requester_parameters_default(void);

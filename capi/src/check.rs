@@ -1,7 +1,9 @@
 //! `mufasa::stages::check` for C.
 
 use core::ffi::c_void;
+use core::ptr::null;
 
+use mufasa::input::indexes::Indexes;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{InvalidInput, Report};
@@ -9,6 +11,7 @@ use mufasa::stages;
 
 use crate::convert::{self, Counts};
 use crate::cycle::MufasaCycle;
+use crate::detection_index::{Kept, MufasaDetectionIndex};
 use crate::memory::{Arena, put, required};
 use crate::parameters::MufasaParameters;
 use crate::report::{self, MufasaReport};
@@ -55,7 +58,29 @@ pub unsafe extern "C" fn mufasa_check(
     report: *mut MufasaReport,
 ) -> MufasaStatus {
     // SAFETY: the caller's duty.
-    let answer = unsafe { check(cycle, scratch, scratch_bytes) };
+    unsafe { mufasa_check_with(cycle, null(), 0, scratch, scratch_bytes, report) }
+}
+
+/// As `mufasa_check`, with what the caller keeps of the cycle's lists of detections, in any order: an
+/// array of `indexes_len` pointers to indexes, of which each may be null. An index of another list
+/// is not used. The answer is the same.
+///
+/// # Safety
+/// As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
+/// from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_check_with(
+    cycle: *const MufasaCycle,
+    indexes: *const *const MufasaDetectionIndex,
+    indexes_len: usize,
+    scratch: *mut c_void,
+    scratch_bytes: usize,
+    report: *mut MufasaReport,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let kept = unsafe { Kept::new(indexes, indexes_len) };
+    // SAFETY: the caller's duty.
+    let answer = kept.and_then(|kept| unsafe { check(cycle, kept, scratch, scratch_bytes) });
     let (status, told) = match answer {
         Ok(Ok(answer)) => (MufasaStatus::Ok, report::report_of(&answer)),
         Ok(Err(problem)) => (MufasaStatus::Ok, report::error(Some(problem))),
@@ -69,9 +94,10 @@ pub unsafe extern "C" fn mufasa_check(
 }
 
 /// # Safety
-/// As for [`mufasa_check`].
+/// As for [`mufasa_check_with`].
 unsafe fn check(
     raw: *const MufasaCycle,
+    kept: Kept<'_>,
     scratch: *mut c_void,
     scratch_bytes: usize,
 ) -> Result<Result<Report, InvalidInput>, MufasaStatus> {
@@ -80,9 +106,13 @@ unsafe fn check(
     // SAFETY: the caller's duty.
     let mut arena = unsafe { Arena::new(scratch, scratch_bytes) }?;
     // SAFETY: the caller's duty.
-    let cycle = unsafe { convert::cycle(raw, &mut arena) }?;
+    let cycle = unsafe { convert::cycle(raw, kept, &mut arena) }?;
     let sizes = convert::capped(Sizes::for_cycle(&cycle));
     let rows = arena.keep((0..sizes.rows).map(|_| Row::default()))?;
     let columns = arena.keep((0..sizes.columns).map(|_| Column::default()))?;
-    Ok(stages::check(&cycle, &mut Scratch::new(rows, columns)))
+    // SAFETY: the caller's duty.
+    let (indexes, count) = unsafe { convert::indexes(raw, kept) }?;
+    let detections = indexes.get(..count).unwrap_or(&[]);
+    let indexes = Indexes { route: None, detections };
+    Ok(stages::check_with(&cycle, &indexes, &mut Scratch::new(rows, columns)))
 }

@@ -208,8 +208,15 @@ pub struct MufasaCycle {
     pub lead: *const MufasaLead,
     /// May be null.
     pub grid: *const MufasaGrid,
-    /// Earlier lists of the CAV's own detections, the youngest first, at most 4. May be null when
-    /// there is none.
+    /// Earlier lists of the CAV's own detections, the youngest first (stamps strictly decreasing), at
+    /// most 4. May be null when there is none. Keep every list that was `detections` for a second.
+    /// Used are those that are 200 ms to 1 s older than `detections`: give the lists whose ages are
+    /// nearest to 300, 500 and 800 ms, the one nearest to 500 ms being the reference. A cycle that was
+    /// not safe leaves its detections in the history like any other; older than 60 s, a list counts
+    /// as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
+    /// in ALL_REMOTE each counts as standing, too (H-09), and no detection is explained (H-10); with
+    /// none of them what moves is not looked for (H-13). The verdict is then valid, but rejects
+    /// more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
     pub detection_history: *const MufasaDetectionList,
     /// How many.
     pub detection_history_len: usize,

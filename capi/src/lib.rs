@@ -20,6 +20,7 @@
 
 pub mod check;
 pub mod cycle;
+pub mod detection_index;
 pub mod event;
 pub mod parameters;
 pub mod report;

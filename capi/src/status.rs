@@ -23,4 +23,6 @@ pub enum MufasaStatus {
     InvalidStation = 7,
     /// An offer of a station for which the table has no place.
     TableFull = 8,
+    /// A list of detections of which there is no index, as it is not valid.
+    InvalidList = 9,
 }

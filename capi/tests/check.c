@@ -176,6 +176,53 @@ static void history(void) {
   EXPECT(strcmp(report.input.field, "detection_history.stamp_ns") == 0);
 }
 
+/* Lists that are indexed once: the same answers, and the items are not read again. */
+static void indexes(void) {
+  struct scene s;
+  struct MufasaReport report;
+  const struct MufasaDetectionIndex *kept[3] = {NULL, NULL, NULL};
+  set_up(&s);
+  struct MufasaDetection seen[8];
+  for (size_t i = 0; i < 8; ++i) {
+    seen[i] = s.detection_items[0];
+    seen[i].y += 30 + (double)i;
+  }
+  struct MufasaDetectionList list = {s.detections.stamp_ns - 300000000, seen, 8};
+  s.cycle.profile = MUFASA_PROFILE_HARDENED;
+  s.cycle.detection_history = &list;
+  s.cycle.detection_history_len = 1;
+  const struct MufasaReport plain = checked(&s.cycle);
+  size_t bytes = mufasa_detection_index_bytes(8), enough = mufasa_scratch_bytes(&s.cycle);
+  char *memory = malloc(bytes), *more = malloc(bytes);
+  EXPECT(mufasa_detection_index_init(&list, memory, bytes, &kept[0]) == MUFASA_STATUS_OK);
+  EXPECT(mufasa_detection_index_init(&s.detections, more, bytes, &kept[2]) == MUFASA_STATUS_OK);
+  for (size_t len = 0; len <= 3; ++len) {
+    EXPECT(mufasa_check_with(&s.cycle, kept, len, scratch, enough, &report) == MUFASA_STATUS_OK);
+    EXPECT(report.verdict == plain.verdict && report.failed_stage == plain.failed_stage);
+  }
+  const double y = seen[5].y;
+  seen[5].y = 1e300; /* not to be done: it shows what is read */
+  EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
+  EXPECT(report.verdict == plain.verdict && checked(&s.cycle).verdict == MUFASA_VERDICT_ERROR);
+  list.stamp_ns -= 1; /* another list in the same memory */
+  EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
+  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  EXPECT(mufasa_detection_index_init(&list, memory, bytes, kept) == MUFASA_STATUS_INVALID_LIST);
+  EXPECT(kept[0] == NULL);
+  seen[5].y = y;
+  EXPECT(mufasa_detection_index_init(NULL, memory, bytes, &kept[0]) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_detection_index_init(&list, NULL, bytes, &kept[0]) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_detection_index_init(&list, memory, bytes, NULL) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_detection_index_init(&list, memory + 1, bytes, kept) == MUFASA_STATUS_MISALIGNED);
+  EXPECT(mufasa_detection_index_init(&list, memory, bytes - 32, &kept[0]) ==
+         MUFASA_STATUS_MEMORY_TOO_SMALL);
+  EXPECT(mufasa_check_with(&s.cycle, NULL, 1, scratch, enough, &report) ==
+         MUFASA_STATUS_NULL_POINTER);
+  EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
+  free(memory);
+  free(more);
+}
+
 static void faults_of_the_call(void) {
   struct scene s;
   struct MufasaReport report;
@@ -343,6 +390,7 @@ int main(void) {
   verdicts();
   invalid_input();
   history();
+  indexes();
   faults_of_the_call();
   trace();
   faults_of_the_requester();

@@ -44,7 +44,7 @@ fn the_header_is_the_one_of_the_sources() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let config = cbindgen::Config::from_file(here.join("cbindgen.toml")).expect("cbindgen.toml");
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for source in ["status", "cycle", "report", "check", "event", "requester"] {
+    for source in ["status", "cycle", "detection_index", "report", "check", "event", "requester"] {
         builder = builder.with_src(here.join("src").join(source).with_extension("rs"));
     }
     let structs = Path::new(env!("CARGO_TARGET_TMPDIR")).join("parameters.rs");

@@ -8,9 +8,10 @@ from stopping import places, s_stop
 
 def stage_v(cycle, ran_iv):
     """H-06: disks against the squares of cells; the unknown counts unless stage iv ran. Where that
-    ran, and not in MotRemote, the CAV's rectangle against the occupied ones."""
+    ran on a detection, and not in MotRemote, the CAV's rectangle against the occupied ones."""
     grid, r = cycle["grid"], disk_radius(cycle) + EPS
-    is_exact = ran_iv and cycle["configuration"] != "MotRemote"
+    is_exact = (ran_iv and cycle["detections"]["items"]
+                and cycle["configuration"] != "MotRemote")
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
     bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]

@@ -9,7 +9,7 @@ from stopping import between, cross, dot, s_stop, ways
 
 def stage_ii(cycle):
     return (starts_at_the_cav(cycle) and on_the_route(cycle) and steps_are_driven(cycle)
-            and turns_are_driven(cycle) and times_are_driven(cycle))
+            and way_aside_is_driven(cycle) and turns_are_driven(cycle) and times_are_driven(cycle))
 
 
 def starts_at_the_cav(cycle):
@@ -38,13 +38,15 @@ def on_the_route(cycle):
 
 
 def steps_are_driven(cycle):
-    """H-11, each step: not too long, forward, and along its headings."""
+    """H-11, each step: not too long, forward, and without a turn on the spot."""
     points, parameters = cycle["trajectory"]["points"], cycle["parameters"]
     length, width = cycle["ego"]["length"], cycle["ego"]["width"]
     for a, b in zip(points, points[1:]):
         dt_ns = b["t_ns"] - a["t_ns"]
         dt, step = dt_ns / S, distance(a, b)
         if dt_ns > parameters["step_max_ns"] or dot(a, b) < 0.866 + EPS:
+            return False
+        if abs(cross(a, b)) > 0.1 + 0.1 * dt + 0.5 * step - EPS:
             return False
         if step > min(length, parameters["v_max"] * dt) - EPS:
             return False
@@ -55,10 +57,21 @@ def steps_are_driven(cycle):
             return False
         if max(abs(across_a), abs(across_b)) > width / 2 - EPS:
             return False
+    return True
+
+
+def way_aside_is_driven(cycle):
+    """H-11, each point: where the headings lead a vehicle with any reference in its front half."""
+    points, half = cycle["trajectory"]["points"], cycle["ego"]["length"] / 2
+    aside = turned = way = 0.0
+    for a, b in zip(points, points[1:]):
+        (along_a, across_a), (along_b, across_b) = between(a, b, a), between(a, b, b)
         # u x h = -across
-        turn = length * cross(a, b) / 2
-        slide = abs(turn - across_a - across_b)
-        if slide > abs(turn) + 0.1 * (along_a + along_b) + 0.4 * dt - EPS:
+        aside -= across_a + across_b
+        turned += half * cross(a, b)
+        way += along_a + along_b
+        t = (b["t_ns"] - points[0]["t_ns"]) / S
+        if abs(aside + turned) > abs(turned) + 0.1 * way + 0.1 + 0.02 * t - EPS:
             return False
     return True
 

@@ -1,6 +1,8 @@
 //! Parts of the stages as functions of their own, for the proofs of `proofs/` alone: with the feature
 //! `parts`, and no part of the interface.
 
+use core::cmp::Ordering;
+
 use crate::hardened::h04_horizon::plain_s_stop;
 use crate::input::cycle::{
     Cycle, DetectionList, Grid, Lead, Route, TrackList, Trajectory, TrajectoryPoint,
@@ -10,6 +12,7 @@ use crate::input::domain::{
     CheckedBefore, check_detections, check_grid, check_lead, check_tracks, check_trajectory,
 };
 use crate::input::parameters::Parameters;
+use crate::numbers::exact::limbs;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
 use crate::stages::distances;
 
@@ -47,9 +50,12 @@ pub fn decide(
     requester.decide(event)
 }
 
-/// The list that `Requester::step` makes of it. Source: `spec/2-offloading.md#fallback`.
-pub fn actions_of(by_kind: [[Option<Action>; 2]; 4]) -> Actions {
-    Actions::of(by_kind)
+/// Of the list that `Requester::step` makes of it: how long it is, and what is at a place. Source:
+/// `spec/2-offloading.md#fallback`.
+pub fn action_at(by_kind: [[Option<Action>; 2]; 4], at: usize) -> (usize, Option<Action>) {
+    let mut actions = Actions::NONE;
+    actions.extend(&by_kind);
+    (actions.len(), actions.get(at).copied())
 }
 
 /// Whether the route is valid. Source: `spec/4-arithmetic.md#domain`.
@@ -86,4 +92,15 @@ pub fn trajectory_is_usable(
     remote: bool,
 ) -> Option<bool> {
     check_trajectory(Some(trajectory), now_ns, remote).ok()
+}
+
+/// total + summand or total - summand of integers of three limbs, and the sign of it, as `exact` has
+/// them for 36. Source: `spec/4-arithmetic.md#strict-and-lax`.
+pub fn sum_of_limbs(
+    mut total: [u64; 3],
+    summand: &[u64; 3],
+    negative: bool,
+) -> ([u64; 3], Ordering) {
+    limbs::add(&mut total, summand, negative);
+    (total, limbs::sign(&total))
 }

@@ -28,6 +28,18 @@ impl Random {
         f64::from_bits(self.0.random::<u64>() & (1 << 63 | 0x000f_ffff_ffff_ffff) | exponent << 52)
     }
 
+    /// From -size to size, in steps of a millionth of it.
+    pub(crate) fn number(&mut self, size: f64) -> f64 {
+        (self.below(2_000_001) as f64 / 1e6 - 1.0) * size
+    }
+
+    /// As far from a unit vector as the domain allows.
+    pub(crate) fn direction(&mut self) -> [f64; 2] {
+        let (sin, cos) = self.number(3.2).sin_cos();
+        let stretch = 1.0 + self.number(4.9e-7);
+        [cos * stretch, sin * stretch]
+    }
+
     /// Some doubles, of which later ones may be equal or next to earlier ones.
     pub(crate) fn related(&mut self, count: usize) -> Vec<f64> {
         let mut values = std::vec![self.double()];

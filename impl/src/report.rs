@@ -108,10 +108,10 @@ pub enum Rule {
     StepForward,
     /// H-11: step sideways by more than W/2.
     StepLateral,
-    /// H-11: headings of a step differ too much.
+    /// H-11: headings of a step differ too much, or more than its length and time allow.
     StepTurn,
-    /// H-11: the step does not lie along its headings.
-    StepSlide,
+    /// H-11: the point is not where the headings lead.
+    Slide,
     /// H-11: heading against that of the mark.
     TurnReversed,
     /// H-11: turned farther since the mark than the way and the time allow.

@@ -145,7 +145,7 @@ const RULES: [Rule; 29] = [
     Rule::StepForward,
     Rule::StepLateral,
     Rule::StepTurn,
-    Rule::StepSlide,
+    Rule::Slide,
     Rule::TurnReversed,
     Rule::TurnOnTheSpot,
     Rule::TurnHard,

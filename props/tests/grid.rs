@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Ego, Profile};
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_model::stages::check;
@@ -64,7 +64,9 @@ fn only_disks(cycle: &Cycle) -> Cycle {
 
 /// The same with stage iv, which finds nothing, where the rectangle counts, too.
 fn only_rectangle(cycle: &Cycle) -> Cycle {
-    let detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
+    let Ego { x, y, cos, sin, .. } = cycle.ego;
+    let far = Detection { x: x - 30.0 * cos, y: y - 30.0 * sin, cos, sin, length: 1.0, width: 1.0 };
+    let detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: vec![far] });
     let configuration = Configuration::PlanRemote;
     Cycle { configuration, detections, tracks: None, ..cycle.clone() }
 }

@@ -141,7 +141,7 @@ words! {
         Rule::StepForward => "step_forward",
         Rule::StepLateral => "step_lateral",
         Rule::StepTurn => "step_turn",
-        Rule::StepSlide => "step_slide",
+        Rule::Slide => "slide",
         Rule::TurnReversed => "turn_reversed",
         Rule::TurnOnTheSpot => "turn_on_the_spot",
         Rule::TurnHard => "turn_hard",

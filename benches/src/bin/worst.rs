@@ -59,6 +59,8 @@ fn main() {
     let cycle = Cycle { detections: Some(list(&near)), ..still };
     report("iv", "2048 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
 
+    history(&base, &still);
+
     // A cell in the corner of the square around each disk, which only looking at the disk excludes.
     let mut corner = grid.clone();
     corner[(4 * 4096 + 520) / 8] = 1;
@@ -75,6 +77,64 @@ fn main() {
         report("v", name, &cycle, Stage::V);
     }
 
+    assignments(&base, &crowd, &line);
+    moving(&still);
+}
+
+/// Tracks and detections in a row of 0.2 m that look like one place to every index, as there is
+/// one thing far off; the same with earlier lists of them.
+fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
+    let places = |count: u32, from: f64| (0..count).map(move |i| (f64::from(i) + from) * 1e-4);
+    let far = detection(1e5, 1e5);
+    let row: Vec<_> =
+        places(2047, 0.0).map(|x| detection(x, 0.0)).chain(std::iter::once(far)).collect();
+    let beside: Vec<_> = places(1024, 0.3).zip(0..).map(|(x, id)| track(id, x, 0.01)).collect();
+    let cycle = Cycle { tracks: Some(tracks(&beside)), detections: Some(list(&row)), ..*base };
+    report("i", "1024 tracks along a row of 2048 detections 0.1 mm apart", &cycle, Stage::I);
+    let earlier = [300, 500, 800, 900].map(|ms| earlier(&row, ms));
+    let cycle = Cycle { detection_history: &earlier, ..cycle };
+    report("i", "the same with 4 earlier lists like that", &cycle, Stage::I);
+
+    let (_, beside) = neighbours(still, 48);
+    let cycle = Cycle { detections: Some(list(&beside)), ..*still };
+    report("iv", "48 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
+    let earlier = [300, 500, 800].map(|ms| self::earlier(&beside, ms));
+    let cycle = Cycle { detection_history: &earlier, ..cycle };
+    report("iv", "the same with 3 earlier lists like that (H-13)", &cycle, Stage::Iv);
+}
+
+/// H-13: what it takes for each detection and each item of the reference list, and at each point.
+fn moving(still: &Cycle<'_>) {
+    println!("\n| detections | earlier items, each at 1024 points | work of H-13 | ms |");
+    println!("|---|---|---|---|");
+    for count in [4, 8, 16, 32, 64] {
+        let (touching, beside) = neighbours(still, count);
+        let earlier = [earlier(&beside, 500)];
+        let cycle = Cycle {
+            profile: Profile::Hardened,
+            detections: Some(list(&beside)),
+            detection_history: &earlier,
+            ..*still
+        };
+        let (ms, passes) = mean(&mut Contestant::new(&cycle), Stage::Iv);
+        assert!(passes, "nothing touches at {touching} m");
+        let work = f64::from(count) * f64::from(count) * 1024.0;
+        println!("| {count} | {count} | {work:.1e} | {ms:.3} |");
+    }
+}
+
+/// So many detections at the same place, 1 nm beside the CAV where it stands; how far that is aside.
+fn neighbours(still: &Cycle<'_>, count: u32) -> (f64, Vec<Detection>) {
+    let touching = 0.5 * (still.ego.width + 1.8) + 1e-9;
+    (touching, (0..count).map(|_| detection(0.0, touching)).collect())
+}
+
+/// A list so many ms before now.
+fn earlier(items: &[Detection], ms: i64) -> DetectionList<'_> {
+    DetectionList { stamp_ns: NOW_NS - ms * 1_000_000, items }
+}
+
+fn assignments(base: &Cycle<'_>, crowd: &[Track], line: &[Detection]) {
     println!(
         "\n| tracks a millimetre apart | detections in a row across | work of the assignment | ms |"
     );
@@ -82,7 +142,7 @@ fn main() {
     for count in [16, 32, 64, 128, 256, 512, 1024_usize] {
         let (crowd, line) = (&crowd[..count], &line[..2 * count]);
         let parameters = Parameters { theta_tr: 0.2, ..base.parameters };
-        let lists = Cycle { tracks: Some(tracks(crowd)), detections: Some(list(line)), ..base };
+        let lists = Cycle { tracks: Some(tracks(crowd)), detections: Some(list(line)), ..*base };
         let cycle = Cycle { parameters, ..lists };
         let (ms, _) = mean(&mut Contestant::new(&cycle), Stage::I);
         println!("| {count} | {} | {:.1e} | {ms:.3} |", 2 * count, work(count));

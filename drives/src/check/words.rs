@@ -116,7 +116,7 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         Rule::StepForward => (format!("step to {point} goes backwards"), "", "<"),
         Rule::StepLateral => (format!("step to {point} goes sideways"), "m", ">"),
         Rule::StepTurn => (format!("heading turns too much at {point}"), "", "<"),
-        Rule::StepSlide => (format!("step to {point} slides off its headings"), "m", ">"),
+        Rule::Slide => (format!("{point} is beside where the headings lead"), "m", ">"),
         Rule::TurnReversed => (format!("heading at {point} against an earlier one"), "", "<"),
         Rule::TurnOnTheSpot => (format!("turn to {point} is tighter than a vehicle's"), "", ">"),
         Rule::TurnHard => (format!("turn to {point} is harder than tyres hold"), "m", ">"),

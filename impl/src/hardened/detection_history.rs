@@ -15,8 +15,10 @@ use crate::hardened::h01_matched_pairs::pair_limits;
 use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use crate::input::detection_index::DetectionIndex;
 use crate::input::indexes::Indexes;
+use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
 use crate::input::scratch::{Row, Scratch};
+use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::Witness;
 use crate::stages::i_track_validation::gate::Gate;
@@ -57,8 +59,10 @@ impl UsableList<'_> {
 pub(crate) struct DetectionHistory<'c, 'a> {
     pub(crate) detections: Option<&'c DetectionList<'a>>,
     /// Of the current detections.
-    index: Option<&'c DetectionIndex<'a>>,
+    pub(crate) index: Option<&'c DetectionIndex<'a>>,
     pub(crate) usable: [Option<UsableList<'c>>; 4],
+    /// The places of the usable lists, that whose age is nearest to 500 ms first, the younger of two.
+    by_reference_age: [Option<u8>; 4],
 }
 
 impl<'c, 'a> DetectionHistory<'c, 'a> {
@@ -85,7 +89,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
             }
         }
         let index = detections.and_then(|list| indexes.of(list.items));
-        Self { detections, index, usable }
+        Self { detections, index, usable, by_reference_age: by_reference_age(&usable) }
     }
 
     /// The place of the reference list.
@@ -95,12 +99,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
 
     /// The places of the usable lists, that whose age is nearest to 500 ms first, the younger of two.
     pub(crate) fn by_reference_age(&self) -> impl Iterator<Item = usize> {
-        let order = |place: usize| Some(self.usable.get(place).copied().flatten()?.order());
-        let rank = move |place: usize| {
-            let own = order(place)?;
-            Some((0..4).filter(|&other| order(other).is_some_and(|other| other < own)).count())
-        };
-        (0..4).filter_map(move |wanted| (0..4).find(|&place| rank(place) == Some(wanted)))
+        self.by_reference_age.into_iter().flatten().map(usize::from)
     }
 
     /// Finds for every received track whether it is backed, whether it is confirmed, and its
@@ -121,7 +120,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         let since_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
         for (number, place) in self.by_reference_age().enumerate() {
             let Some(list) = self.usable.get(place).copied().flatten() else { continue };
-            if number >= 2 && scratch.rows.iter().take(count).all(|row| row.own_origins() >= 2) {
+            if number >= 2 && scratch.rows.iter().take(count).all(Row::has_own_origins) {
                 break;
             }
             let then_ns = since_ns.saturating_sub(list.age_ns);
@@ -138,13 +137,32 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
             return Seen::Unclear(witness);
         }
         let mut pairs = tracks.items.iter().zip(scratch.rows.iter_mut());
-        let unclear = pairs.find_map(|(track, row)| judge(cycle, track, row, detections.items));
+        let judge = Judge::new(cycle, detections.items);
+        let unclear = pairs.find_map(|(track, row)| judge.judge(track, row));
         match unclear {
             Some(witness) => Seen::Unclear(witness),
             None if own_detections_pass(cycle, tracks, detections, scratch.rows) => Seen::Paired,
             None => Seen::Open,
         }
     }
+}
+
+/// The places of usable lists in the order of `UsableList::order`, then of place.
+fn by_reference_age(usable: &[Option<UsableList<'_>>; 4]) -> [Option<u8>; 4] {
+    if usable.iter().all(Option::is_none) {
+        return [None; 4];
+    }
+    let mut sorted = [None; 4];
+    for (place, list) in (0_u8..).zip(usable) {
+        let Some(list) = list else { continue };
+        let mut next = Some((list.order(), place));
+        for other in &mut sorted {
+            if other.is_none() || next < *other {
+                next = core::mem::replace(other, next);
+            }
+        }
+    }
+    sorted.map(|entry| entry.map(|(_, place)| place))
 }
 
 /// What looking back says of stage i.
@@ -178,9 +196,10 @@ const fn own_origin(place: usize) -> u16 {
 }
 
 impl Row {
-    /// In how many lists the track with the index of this row has an own origin.
-    const fn own_origins(&self) -> u32 {
-        (self.seen & OWN_ORIGINS).count_ones()
+    /// Whether the track with the index of this row has an own origin in at least two lists.
+    const fn has_own_origins(&self) -> bool {
+        let origins = self.seen & OWN_ORIGINS;
+        origins & origins.wrapping_sub(1) != 0
     }
 
     /// The lists in which it has one, a bit for each place of the history.
@@ -204,35 +223,73 @@ impl Row {
     }
 }
 
-/// Whether a track is backed and confirmed; the witness when that is too close to call.
-fn judge(
-    cycle: &Cycle<'_>,
-    track: &Track,
-    row: &mut Row,
-    detections: &[Detection],
-) -> Option<Witness> {
-    let speed = libm::sqrt(track.vx * track.vx + track.vy * track.vy);
-    let v_object = cycle.parameters.v_object;
-    if (speed - v_object).abs() <= CLOSE {
-        return Some(too_close(track, [speed, v_object]));
+/// Which tracks are backed and confirmed.
+struct Judge<'a> {
+    parameters: &'a Parameters,
+    detections: &'a [Detection],
+    /// The square of a speed that is certainly below `v_object`, m^2/s^2.
+    slow: f64,
+    /// Below the bound on the velocity across of every track, m/s.
+    straight: f64,
+}
+
+impl<'a> Judge<'a> {
+    fn new(cycle: &'a Cycle<'_>, detections: &'a [Detection]) -> Self {
+        let parameters = &cycle.parameters;
+        let slow = larger(parameters.v_object - 2.0 * CLOSE, 0.0);
+        let straight = parameters.theta_velocity - 2.0 * CLOSE;
+        Self { parameters, detections, slow: slow * slow, straight }
     }
-    if speed > v_object || row.own_origins() < 2 {
-        return None;
-    }
-    row.seen |= BACKED;
-    let detection = detections.get(usize::from(row.own_detection()?))?;
-    if detection.length > 1.0 {
-        let across = (track.vx * detection.sin - track.vy * detection.cos).abs();
-        let most = cycle.parameters.theta_velocity + speed * 0.1;
-        if (across - most).abs() <= CLOSE {
-            return Some(too_close(track, [across, most]));
+
+    /// Whether a track is backed and confirmed; the witness when that is too close to call.
+    #[inline]
+    fn judge(&self, track: &Track, row: &mut Row) -> Option<Witness> {
+        let squared = track.vx * track.vx + track.vy * track.vy;
+        if squared >= self.slow {
+            return self.judge_closely(track, row);
         }
-        if across > most {
+        if !row.has_own_origins() {
             return None;
         }
+        row.seen |= BACKED;
+        let detection = self.detections.get(usize::from(row.own_detection()?))?;
+        if detection.length > 1.0 && across(track, detection) >= self.straight {
+            return self.judge_closely(track, row);
+        }
+        row.seen |= CONFIRMED;
+        None
     }
-    row.seen |= CONFIRMED;
-    None
+
+    #[inline(never)]
+    fn judge_closely(&self, track: &Track, row: &mut Row) -> Option<Witness> {
+        let speed = libm::sqrt(track.vx * track.vx + track.vy * track.vy);
+        let v_object = self.parameters.v_object;
+        if (speed - v_object).abs() <= CLOSE {
+            return Some(too_close(track, [speed, v_object]));
+        }
+        if speed > v_object || !row.has_own_origins() {
+            return None;
+        }
+        row.seen |= BACKED;
+        let detection = self.detections.get(usize::from(row.own_detection()?))?;
+        if detection.length > 1.0 {
+            let across = across(track, detection);
+            let most = self.parameters.theta_velocity + speed * 0.1;
+            if (across - most).abs() <= CLOSE {
+                return Some(too_close(track, [across, most]));
+            }
+            if across > most {
+                return None;
+            }
+        }
+        row.seen |= CONFIRMED;
+        None
+    }
+}
+
+/// The part of a velocity across the direction of a detection, m/s.
+fn across(track: &Track, detection: &Detection) -> f64 {
+    (track.vx * detection.sin - track.vy * detection.cos).abs()
 }
 
 /// Whether stage i certainly passes with the pairs of tracks and their own detections: as

@@ -10,6 +10,7 @@ use crate::report::{Rule, Witness};
 use crate::services::configuration::Configuration;
 use crate::stages::horizon::PointsExamined;
 use crate::stages::llcc::footprint;
+use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
@@ -23,19 +24,25 @@ pub(crate) fn closed_cells(
     examined: &PointsExamined<'_, '_>,
     ran_iv: bool,
 ) -> Option<Witness> {
-    let everywhere = |find: &dyn Fn(&DiskSearch<'_, '_>) -> Option<Witness>| {
-        let found = find(&DiskSearch::new(cycle, grid, examined.points));
+    let everywhere = |find: &dyn Fn(DiskSearch<'_, '_>) -> Option<Witness>| {
+        let found = find(DiskSearch::new(cycle, grid, examined.points));
         let beyond =
-            || examined.first_beyond(|cycle, points| find(&DiskSearch::new(cycle, grid, points)));
+            || examined.first_beyond(|cycle, points| find(DiskSearch::new(cycle, grid, points)));
         found.or_else(beyond)
     };
-    let asks_rectangle = ran_iv && rectangle_counts_beside_iv(cycle.configuration);
+    let asks_rectangle = ran_iv && rectangle_counts_beside_iv(cycle);
     let touched = |rule, cells: &Bitmap<'_>| {
         everywhere(&|search| {
-            search.cells(rule, cells, |grid, disk| {
-                grid.touched(disk, cells, |i, k| {
-                    let cav = || footprint(&search.cycle.ego, disk.at);
-                    !asks_rectangle || possibly_touch(&cav(), &grid.cell(i, k))
+            let search = if asks_rectangle { search.with_rectangle() } else { search };
+            search.cells(rule, cells, |geometry, disk| {
+                let ego = &search.cycle.ego;
+                let cav = MovingRectangle::footprint(ego, disk.at);
+                geometry.touched(disk, cells, |i, k| {
+                    if asks_rectangle && cav.certainly_apart(&plain_cell(grid, i, k), 0.0) {
+                        return None;
+                    }
+                    let touches = || possibly_touch(&footprint(ego, disk.at), &geometry.cell(i, k));
+                    geometry.hit(disk, i, k).filter(|_| !asks_rectangle || touches())
                 })
             })
         })
@@ -54,22 +61,36 @@ pub(crate) fn closed_cells(
 }
 
 /// Where the paper does not examine the grid beside stage iv, a cell has to touch the CAV's
-/// rectangle, too.
-const fn rectangle_counts_beside_iv(configuration: Configuration) -> bool {
-    match configuration {
-        Configuration::AllRemote | Configuration::PlanRemote => true,
+/// rectangle, too; where nothing is detected, the disks are all that is left.
+fn rectangle_counts_beside_iv(cycle: &Cycle<'_>) -> bool {
+    let detects = cycle.detections.is_some_and(|list| !list.items.is_empty());
+    match cycle.configuration {
+        Configuration::AllRemote | Configuration::PlanRemote => detects,
         Configuration::Local | Configuration::MotRemote => false,
     }
 }
 
+/// The closed square of a cell in plain doubles: its centre is rounded five times, which leaves it
+/// as near as `sweep` needs it.
+fn plain_cell(grid: &Grid<'_>, i: i64, k: i64) -> MovingRectangle {
+    let &Grid { x, y, cos, sin, resolution, .. } = grid;
+    let [along, across] = [i, k].map(|index| (float(index) + 0.5) * resolution);
+    MovingRectangle {
+        centre: [x + along * cos - across * sin, y + along * sin + across * cos],
+        direction: [cos, sin],
+        velocity: [0.0, 0.0],
+        size: [resolution, resolution],
+    }
+}
+
 impl GridGeometry {
-    /// The first cell of the bitmap whose closed square may be at distance <= r, of those that
-    /// count.
+    /// The first set cell of the rows and columns that the disk may touch at which `hit` finds
+    /// something.
     fn touched(
         &self,
         disk: &Disk<'_>,
         cells: &Bitmap<'_>,
-        counts: impl Fn(i64, i64) -> bool,
+        hit: impl Fn(i64, i64) -> Option<Hit>,
     ) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {
@@ -79,9 +100,9 @@ impl GridGeometry {
             let (from, to) = self.reach_in_row(disk, k);
             let mut next = cells.first_in_row(k, from, to);
             while let Some(i) = next {
-                let hit = self.hit(disk, i, k);
-                if hit.is_some() && counts(i, k) {
-                    return hit;
+                let found = hit(i, k);
+                if found.is_some() {
+                    return found;
                 }
                 next = cells.first_in_row(k, i.saturating_add(1), to);
             }

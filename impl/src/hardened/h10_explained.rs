@@ -5,44 +5,54 @@ use crate::hardened::detection_history::DetectionHistory;
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
 use crate::input::profile::Profile;
 use crate::input::scratch::{Column, Row, Scratch};
+use crate::numbers::range::larger;
 use crate::services::configuration::Configuration;
 use crate::stages::horizon::{Horizon, PointsExamined};
 
-/// In `Column::potential`, which stage i does not use any more: whether the detection with the
-/// index of the column is explained.
-const UNEXPLAINED: i64 = 0;
-const EXPLAINED: i64 = 1;
-
-impl Column {
-    /// Whether the detection with the index of this column is explained, after `mark_explained`.
-    pub(crate) const fn is_explained(&self) -> bool {
-        self.potential == EXPLAINED
-    }
+/// The current detections that confirmed tracks of a current list explain.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Explained {
+    /// How many they are.
+    pub(crate) count: usize,
+    /// Of these tracks, whose rows say whether they are confirmed.
+    tracks: usize,
+    /// The square of the speed of the fastest, m^2/s^2.
+    pub(crate) fastest: f64,
 }
 
-/// Marks the current detections that confirmed tracks of a current list explain; how many they are.
-/// Without a usable list there is none, and nothing is marked. `tracks`: the received ones when they
-/// are current.
-pub(crate) fn mark_explained(
-    history: &DetectionHistory<'_, '_>,
-    tracks: Option<&TrackList<'_>>,
-    scratch: &mut Scratch<'_>,
-) -> usize {
-    if history.reference().is_none() {
-        return 0;
-    }
-    let count = history.detections.map_or(0, |list| list.items.len());
-    scratch.columns.iter_mut().take(count).for_each(|column| column.potential = UNEXPLAINED);
-    let tracks = tracks.map_or(0, |list| list.items.len());
-    let mut explained = 0_usize;
-    for item in scratch.rows.iter().take(tracks).filter_map(Row::confirmed_by) {
-        if let Some(column) = scratch.columns.get_mut(usize::from(item)) {
-            // A detection confirms one track at most.
-            column.potential = EXPLAINED;
-            explained = explained.saturating_add(1);
+impl Explained {
+    /// Without a usable list there is none. `tracks`: the received ones when they are current. In
+    /// `Column::potential`, which stage i does not use any more, stands which track may explain the
+    /// detection with the index of the column; whether it does, its row says.
+    pub(crate) fn new(
+        history: &DetectionHistory<'_, '_>,
+        tracks: Option<&TrackList<'_>>,
+        scratch: &mut Scratch<'_>,
+    ) -> Self {
+        let tracks = match (history.reference(), tracks) {
+            (Some(_), Some(list)) => list.items,
+            (_, _) => &[],
+        };
+        let mut found = Self { count: 0, tracks: tracks.len(), fastest: 0.0 };
+        for ((track, row), index) in tracks.iter().zip(scratch.rows.iter()).zip(0_i64..) {
+            let Some(item) = row.confirmed_by() else { continue };
+            if let Some(column) = scratch.columns.get_mut(usize::from(item)) {
+                // A detection confirms one track at most.
+                column.potential = index;
+                found.count = found.count.saturating_add(1);
+                found.fastest = larger(found.fastest, track.vx * track.vx + track.vy * track.vy);
+            }
         }
+        found
     }
-    explained
+
+    /// The track that explains a detection.
+    #[inline]
+    pub(crate) fn by(&self, detection: usize, rows: &[Row], columns: &[Column]) -> Option<usize> {
+        let track = usize::try_from(columns.get(detection)?.potential).ok()?;
+        let row = rows.get(track).filter(|_| track < self.tracks)?;
+        (usize::from(row.confirmed_by()?) == detection).then_some(track)
+    }
 }
 
 /// At how many points of the trajectory stage iv examines explained detections as standing; `None`
@@ -51,11 +61,11 @@ pub(crate) fn mark_explained(
 pub(crate) fn points_of_explained(
     cycle: &Cycle<'_>,
     trajectory: &Trajectory<'_>,
-    explained: usize,
+    explained: &Explained,
 ) -> Option<usize> {
     let beside_stage_iii = cycle.profile == Profile::Hardened
         && cycle.configuration == Configuration::AllRemote
-        && explained > 0;
+        && explained.count > 0;
     let examined = || PointsExamined::new(cycle, trajectory.points, Horizon::Stop);
     beside_stage_iii.then(|| examined().points.len())
 }

@@ -10,7 +10,7 @@ use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::{Rule, Witness};
 
 /// The first rule that some point does not certainly keep, and the first such point: of its step,
-/// then against its mark.
+/// of where its headings lead, then against its mark.
 pub(crate) fn step_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let mut first: Option<Witness> = None;
     let mut keep_first = |index: usize, (rule, compared): (Rule, [f64; 2])| {
@@ -18,14 +18,20 @@ pub(crate) fn step_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Opt
             first = Some(Witness::of(rule, compared).at_point(index));
         }
     };
-    for ((from, to), index) in points.iter().zip(points.iter().skip(1)).zip(1_usize..) {
+    for ((from, to), index) in steps(points).zip(1_usize..) {
         if !step_is_fine(cycle, from, to) {
             first_broken(cycle, from, to).into_iter().for_each(|broken| keep_first(index, broken));
         }
     }
     let Some(start) = points.first() else { return first };
+    let mut slide = Slide::new(cycle.ego.length, start, points.len());
     let mut turn = Turn::since(0, start);
-    for ((from, to), index) in points.iter().zip(points.iter().skip(1)).zip(1_usize..) {
+    for ((from, to), index) in steps(points).zip(1_usize..) {
+        slide.step_plainly(from, to);
+        if !slide.is_fine() {
+            slide.drive_on(points, index);
+            slide.broken(to).into_iter().for_each(|broken| keep_first(index, broken));
+        }
         turn.plain_way += plain_way(from, to);
         if !turn.is_fine(to) {
             turn.drive_on(points, index);
@@ -38,6 +44,11 @@ pub(crate) fn step_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Opt
     first
 }
 
+/// Each point with the next one.
+fn steps(points: &[TrajectoryPoint]) -> impl Iterator<Item = (&TrajectoryPoint, &TrajectoryPoint)> {
+    points.iter().zip(points.iter().skip(1))
+}
+
 /// More than plain doubles err in the comparisons of one step, m: its numbers are below 2^26 m,
 /// those that are compared below 2^19 m.
 const STEP_ERROR: f64 = 1e-9;
@@ -47,33 +58,29 @@ const STEP_ERROR: f64 = 1e-9;
 fn step_is_fine(cycle: &Cycle<'_>, from: &TrajectoryPoint, to: &TrajectoryPoint) -> bool {
     let dt_ns = elapsed_ns(from.t_ns, to.t_ns);
     let (x, y) = (to.x - from.x, to.y - from.y);
-    let size = libm::sqrt(x * x + y * y) + STEP_ERROR;
+    let moved = libm::sqrt(x * x + y * y);
+    let size = moved + STEP_ERROR;
     let (dt, length) = (seconds(dt_ns), cycle.ego.length);
     let split =
         |point: &TrajectoryPoint| [x * point.cos + y * point.sin, x * point.sin - y * point.cos];
     let ([along, aside], [along_next, aside_next]) = (split(from), split(to));
+    let turned = (from.cos * to.sin - from.sin * to.cos).abs();
     let fits = |along: f64, aside: f64| {
         along >= STEP_ERROR - BACK * dt && aside.abs() + STEP_ERROR <= 0.5 * cycle.ego.width
     };
-    let bent = 0.5 * length * (from.cos * to.sin - from.sin * to.cos);
-    let slide = (aside + aside_next + bent).abs();
     dt_ns <= cycle.parameters.step_max_ns
         && size <= length
         && size <= cycle.parameters.v_max * dt
         && fits(along, aside)
         && fits(along_next, aside_next)
         && from.cos * to.cos + from.sin * to.sin >= LEAST_COSINE + STEP_ERROR
-        && slide + STEP_ERROR <= bent.abs() + SLIDE * (along + along_next) + DRIFT * dt
+        && turned + STEP_ERROR <= STEP_TURN + NOISE * dt + TIGHTEST * (moved - STEP_ERROR)
 }
 
 /// m/s: a standing vehicle seems to move back so fast.
 const BACK: f64 = 0.1;
 /// Of a turn of a step: 30 degrees.
 const LEAST_COSINE: f64 = 0.866;
-/// What a step may lie beside its headings, both together, for each m along them.
-const SLIDE: f64 = 0.1;
-/// The same for each s, m.
-const DRIFT: f64 = 0.4;
 
 /// The first rule that the step does not certainly keep, and the two numbers.
 fn first_broken(
@@ -95,11 +102,6 @@ fn first_broken(
     let moves = !same_point(at, next);
     let back = -(Real::new(BACK) * dt);
     let aside = |heading| at_most(u.cross(heading).abs(), Real::new(0.5 * cycle.ego.width));
-    let (both, bent) = (before + after, length * before.cross(after) * Real::new(0.5));
-    let slide = at_most(
-        (u.cross(both) + bent).abs(),
-        bent.abs() + Real::new(SLIDE) * u.dot(both) + Real::new(DRIFT) * dt,
-    );
     let rules = [
         (Rule::StepLength, true, at_most(size, length)),
         (Rule::StepSpeed, true, at_most(size, Real::new(v_max) * dt)),
@@ -108,9 +110,111 @@ fn first_broken(
         (Rule::StepLateral, true, aside(before)),
         (Rule::StepLateral, true, aside(after)),
         (Rule::StepTurn, true, at_least(before.dot(after), Real::new(LEAST_COSINE))),
-        (Rule::StepSlide, moves, slide),
+        (
+            Rule::StepTurn,
+            true,
+            at_most(before.cross(after).abs(), most_turned(STEP_TURN, dt, size)),
+        ),
     ];
     first_of(rules)
+}
+
+/// Where headings lead from the first point on.
+struct Slide<'p> {
+    start: &'p TrajectoryPoint,
+    /// L/2, m.
+    half_length: f64,
+    /// In plain doubles, and more than their comparison errs after the last step, m.
+    plain: Sums<f64>,
+    error: f64,
+    /// The same with their errors, up to the point with this index.
+    exact: Sums<Real>,
+    driven: usize,
+}
+
+/// Over steps u with headings h1 and h2.
+#[derive(Clone, Copy, Debug)]
+struct Sums<N> {
+    /// Of u x (h1 + h2), m.
+    aside: N,
+    /// Of u . (h1 + h2), m.
+    along: N,
+    /// Of h1 x h2.
+    bent: N,
+}
+
+/// What a point may lie beside where the headings lead, both together, for each m along them.
+const SLIDE: f64 = 0.1;
+/// The same anywhere, m.
+const SLIDE_STILL: f64 = 0.1;
+/// The same for each s, m.
+const SLIDE_DRIFT: f64 = 0.02;
+
+/// By this times (n + 4)^2 (L + 1) plain doubles err less in the comparison after n steps, if all
+/// of them keep the rules before it; else one of those is broken, and this one does not matter.
+///
+/// With e = 2^-53: abs(u) <= L, headings are at most 1 + 5e-7 long, so that a term of `aside` or
+/// `along` is at most 2.1 L and rounded four times (both factors, their product, the sum of two),
+/// and each sum so far is at most 2.1 L n: n terms and n additions err by at most
+/// 2.1 L n (n + 4) e, those of `bent` by 1.1 n (n + 4) e. In the comparison `aside` counts once,
+/// `along` a tenth, `bent` L/2 on either side: 3.5 L n (n + 4) e. Its own at most ten roundings are
+/// of numbers up to 3 L n + 1: (30 L + 10) n e. Together less than 8 (n + 4)^2 (L + 1) e, and 8 e is
+/// less than 1e-15.
+const SLIDE_ERROR: f64 = 1e-15;
+
+impl<'p> Slide<'p> {
+    fn new(length: f64, start: &'p TrajectoryPoint, count: usize) -> Self {
+        let n = f64::from(i32::try_from(count).unwrap_or(i32::MAX)) + 4.0;
+        let error = SLIDE_ERROR * n * n * (length + 1.0);
+        let plain = Sums { aside: 0.0, along: 0.0, bent: 0.0 };
+        let exact = Sums { aside: Real::ZERO, along: Real::ZERO, bent: Real::ZERO };
+        Self { start, half_length: 0.5 * length, plain, error, exact, driven: 0 }
+    }
+
+    #[inline]
+    fn step_plainly(&mut self, from: &TrajectoryPoint, to: &TrajectoryPoint) {
+        let (x, y) = (to.x - from.x, to.y - from.y);
+        let (cos, sin) = (from.cos + to.cos, from.sin + to.sin);
+        self.plain.aside += x * sin - y * cos;
+        self.plain.along += x * cos + y * sin;
+        self.plain.bent += from.cos * to.sin - from.sin * to.cos;
+    }
+
+    /// Whether the point, up to which the plain sums go, keeps the rule by more than they err, even
+    /// without what the time leaves open, which is little.
+    #[inline]
+    fn is_fine(&self) -> bool {
+        let Sums { aside, along, bent } = self.plain;
+        let bent = self.half_length * bent;
+        let most = bent.abs() + SLIDE * along + SLIDE_STILL;
+        (aside + bent).abs() + self.error <= most
+    }
+
+    /// Brings the sums with their errors up to a point.
+    fn drive_on(&mut self, points: &[TrajectoryPoint], index: usize) {
+        for (from, to) in steps(points.get(self.driven..=index).unwrap_or_default()) {
+            let u = Vector::between([from.x, from.y], [to.x, to.y]);
+            let [before, after] = [from, to].map(heading);
+            let (both, Sums { aside, along, bent }) = (before + after, self.exact);
+            self.exact = Sums {
+                aside: aside + u.cross(both),
+                along: along + u.dot(both),
+                bent: bent + before.cross(after),
+            };
+        }
+        self.driven = index;
+    }
+
+    /// The rule and the two numbers, if the point, up to which the sums go, does not certainly keep
+    /// it.
+    fn broken(&self, point: &TrajectoryPoint) -> Option<(Rule, [f64; 2])> {
+        let Sums { aside, along, bent } = self.exact;
+        let t = Real::seconds(elapsed_ns(self.start.t_ns, point.t_ns));
+        let bent = Real::new(self.half_length) * bent;
+        let left_open = Real::new(SLIDE_STILL) + Real::new(SLIDE_DRIFT) * t;
+        let most = bent.abs() + Real::new(SLIDE) * along + left_open;
+        first_of([(Rule::Slide, true, at_most((aside + bent).abs(), most))])
+    }
 }
 
 /// The way from a mark on: the last mark before a point, marks being the first point and each first
@@ -126,8 +230,10 @@ struct Turn<'p> {
 
 const BETWEEN_MARKS_NS: i64 = 500_000_000;
 
-/// What measuring leaves open of a turn, whatever the time and the way.
+/// What measuring leaves open of a turn against the mark, whatever the time and the way.
 const STILL_TURN: f64 = 0.05;
+/// The same of a step, from one end of that to the other.
+const STEP_TURN: f64 = 0.1;
 /// What it leaves open for each s, or where a vehicle drives.
 const NOISE: f64 = 0.1;
 /// For each m of the way: no vehicle has a smaller turning circle.
@@ -156,8 +262,7 @@ impl<'p> Turn<'p> {
 
     /// Brings the way with its error up to a point.
     fn drive_on(&mut self, points: &[TrajectoryPoint], index: usize) {
-        let steps = points.iter().zip(points.iter().skip(1));
-        let new = steps.take(index).skip(self.driven);
+        let new = steps(points.get(self.driven..=index).unwrap_or_default());
         self.way = new.fold(self.way, |sum, (from, to)| sum + way(from, to));
         self.driven = index;
     }
@@ -168,15 +273,19 @@ impl<'p> Turn<'p> {
         let [before, after] = [self.mark, point].map(heading);
         let t = Real::seconds(elapsed_ns(self.mark.t_ns, point.t_ns));
         let (w, turned, noise) = (self.way, before.cross(after).abs(), Real::new(NOISE));
-        let most = Real::new(STILL_TURN) + noise * t + Real::new(TIGHTEST) * w;
         let is_hard = !turned.certainly_at_most(noise);
         let held = noise * w + Real::new(TYRES) * t.squared();
         first_of([
             (Rule::TurnReversed, true, at_least(before.dot(after), Real::ZERO)),
-            (Rule::TurnOnTheSpot, true, at_most(turned, most)),
+            (Rule::TurnOnTheSpot, true, at_most(turned, most_turned(STILL_TURN, t, w))),
             (Rule::TurnHard, is_hard, at_most(turned * w, held)),
         ])
     }
+}
+
+/// The bound on the sine of a turn in this time and on this way, in a step or from a mark on.
+fn most_turned(still: f64, t: Real, w: Real) -> Real {
+    Real::new(still) + Real::new(NOISE) * t + Real::new(TIGHTEST) * w
 }
 
 fn heading(point: &TrajectoryPoint) -> Vector {

@@ -7,6 +7,7 @@
 
 use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::hardened::h10_explained::Explained;
 use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList, Trajectory};
 use crate::input::scratch::{Column, Scratch};
 use crate::numbers::plane::Vector;
@@ -16,6 +17,7 @@ use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
+use crate::stages::llcc::pursuit::{Passing, Pursuit};
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::llcc::{CavMotion, Moving};
 
@@ -28,38 +30,64 @@ pub(crate) struct MovingDetections<'c, 'a> {
 }
 
 impl MovingDetections<'_, '_> {
-    /// Why stage iv fails, if it does. `explained`: how many detections are marked as explained.
+    /// Why stage iv fails, if it does.
     pub(crate) fn failure(
         &self,
         cycle: &Cycle<'_>,
         trajectory: &Trajectory<'_>,
-        explained: usize,
+        explained: &Explained,
         scratch: &mut Scratch<'_>,
     ) -> Option<Witness> {
         let detections = self.history.detections?;
         let reference = self.history.reference()?;
         let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Motion);
+        let unexplained = detections.items.len().saturating_sub(explained.count);
+        let work = self.work(unexplained, reference, examined.points.len());
+        let limit = cycle.parameters.work_limit;
+        if unexplained > 0 && work > limit {
+            let compared = [work, limit].map(|steps| Real::integer(steps).value());
+            return Some(Witness::of(Rule::WorkLimit, compared));
+        }
         let motion = CavMotion::with_beyond(&examined, detections.stamp_ns);
-        let unexplained = detections.items.len().saturating_sub(explained);
+        let pasts = self.pasts(cycle);
         let mut search = Search {
             cycle,
             moving: self,
             detections,
+            explained,
+            reference,
+            off: pasts.iter().flatten().map(|past| past.off).fold(0.0, larger),
+            pasts,
             motion: &motion,
+            pursuit: &motion.pursuit(),
             lists: [None; 4],
             first: None,
         };
-        search.confirmed(scratch);
-        if unexplained > 0 {
-            let work = search.work(unexplained, reference, examined.points.len());
-            let limit = cycle.parameters.work_limit;
-            if work > limit {
-                let compared = [work, limit].map(|steps| Real::integer(steps).value());
-                return Some(Witness::of(Rule::WorkLimit, compared));
-            }
-            search.unexplained(reference, scratch);
-        }
+        search.all(scratch);
         search.first.map(|found| found.witness(&self.history))
+    }
+
+    /// Detections times items of the reference list times (items of the other lists + points).
+    fn work(&self, unexplained: usize, reference: usize, points: usize) -> i64 {
+        let list = |list: usize| self.history.usable.get(list).copied().flatten();
+        let items = |place: usize| list(place).map_or(0, |list| list.items.len());
+        let others =
+            (0..4).filter(|&list| list != reference).map(items).fold(0, usize::saturating_add);
+        let each = items(reference).saturating_mul(others.saturating_add(points));
+        i64::try_from(unexplained.saturating_mul(each)).unwrap_or(i64::MAX)
+    }
+
+    /// The lists in which the past of a confirmed track is looked for, the first one first.
+    fn pasts(&self, cycle: &Cycle<'_>) -> [Option<Past<'_>>; 4] {
+        let mut pasts = [None; 4];
+        for (past, list) in pasts.iter_mut().zip(self.history.by_reference_age()) {
+            *past = self.history.usable.get(list).copied().flatten().map(|usable| {
+                let reach = usable.reach(cycle) + CLOSE;
+                let off = (cycle.parameters.theta_track_max + reach) / usable.age;
+                Past { list, usable, reach, off }
+            });
+        }
+        pasts
     }
 }
 
@@ -125,13 +153,10 @@ impl Found {
 
 /// A pair that is examined: of a detection and an item of a list.
 #[derive(Clone, Copy)]
-struct Pair<'a> {
+struct Pair {
     order: usize,
     detection: usize,
-    now: &'a Detection,
     item: usize,
-    /// Where the item is, m.
-    before: [f64; 2],
     list: usize,
 }
 
@@ -152,13 +177,58 @@ struct Search<'m, 'c, 'a> {
     cycle: &'m Cycle<'a>,
     moving: &'m MovingDetections<'c, 'a>,
     detections: &'c DetectionList<'a>,
+    explained: &'m Explained,
+    /// The place of the reference list.
+    reference: usize,
+    pasts: [Option<Past<'m>>; 4],
+    /// The most of `Past::off`.
+    off: f64,
     motion: &'m CavMotion<'m, 'a>,
+    pursuit: &'m Pursuit,
     /// The usable lists by squares, once they are needed.
     lists: [Option<Squares<'c>>; 4],
     first: Option<Found>,
 }
 
 impl<'c> Search<'_, 'c, '_> {
+    /// All detections that may reach the CAV. No other order finds another first collision.
+    fn all(&mut self, scratch: &mut Scratch<'_>) {
+        let items = self.detections.items;
+        let Some(index) = self.moving.history.index else {
+            for (detection, now) in items.iter().enumerate() {
+                match self.explained.by(detection, scratch.rows, scratch.columns) {
+                    Some(track) => self.confirmed(track, (detection, now), scratch),
+                    None => self.unexplained((detection, now), scratch.columns),
+                }
+            }
+            return;
+        };
+        let speed = libm::sqrt(self.explained.fastest) * (1.0 + 1e-9) + self.off;
+        let [across, up] = self.motion.sweep.surroundings(index.reach, speed);
+        let is_within = |[least, most]: [f64; 2], at: f64| least <= at && at <= most;
+        let fastest = larger(speed, self.cycle.parameters.v_object + self.more());
+        let near = self.motion.sweep.surroundings(index.reach, fastest);
+        index.for_each_in(near, |detection, [x, y]| {
+            match self.explained.by(detection, scratch.rows, scratch.columns) {
+                Some(track) if is_within(across, x) && is_within(up, y) => {
+                    let Some(now) = items.get(detection) else { return };
+                    self.confirmed(track, (detection, now), scratch);
+                }
+                Some(_) => {}
+                None => {
+                    let Some(now) = items.get(detection) else { return };
+                    self.unexplained((detection, now), scratch.columns);
+                }
+            }
+        });
+    }
+
+    /// By how much what moves at most `CLOSE` more than `v_object` at the age of the reference list is
+    /// faster, m/s.
+    fn more(&self) -> f64 {
+        self.usable(self.reference).map_or(0.0, |list| CLOSE / list.age)
+    }
+
     fn usable(&self, list: usize) -> Option<UsableList<'c>> {
         self.moving.history.usable.get(list).copied().flatten()
     }
@@ -180,50 +250,44 @@ impl<'c> Search<'_, 'c, '_> {
         self.lists.get(list).copied().flatten()
     }
 
-    /// (a): the detections of confirmed tracks, from every item that may have been the track.
-    fn confirmed(&mut self, scratch: &mut Scratch<'_>) {
+    /// (a): the detection of a confirmed track, from every item that may have been the track.
+    fn confirmed(
+        &mut self,
+        order: usize,
+        (detection, now): (usize, &Detection),
+        scratch: &mut Scratch<'_>,
+    ) {
         let Some(tracks) = self.moving.tracks else { return };
-        let pasts = self.pasts();
-        for (order, track) in tracks.items.iter().enumerate() {
-            let Some(row) = scratch.rows.get(order) else { continue };
-            let Some(detection) = row.confirmed_by().map(usize::from) else { continue };
-            let Some(now) = self.detections.items.get(detection) else { continue };
-            let Some(Some(past)) = pasts.get(row.origins()) else { continue };
-            let &Past { list, usable, reach, off } = past;
-            let velocity = [track.vx, track.vy];
-            let about = MovingRectangle { velocity, ..MovingRectangle::detection(now) };
-            if self.motion.sweep.misses_all_near(&about, off) {
-                continue;
+        let Some((track, row)) = tracks.items.get(order).zip(scratch.rows.get(order)) else {
+            return;
+        };
+        let velocity = [track.vx, track.vy];
+        let about = MovingRectangle { velocity, ..MovingRectangle::detection(now) };
+        if self.motion.sweep.misses_all_near(&about, self.off) {
+            return;
+        }
+        let origins = row.origins();
+        let is_held = |past: &&Past<'_>| origins & [1, 2, 4, 8].get(past.list).unwrap_or(&0) != 0;
+        let Some(&Past { list, usable, reach, off }) = self.pasts.iter().flatten().find(is_held)
+        else {
+            return;
+        };
+        if off < self.off && self.motion.sweep.misses_all_near(&about, off) {
+            return;
+        }
+        let passing = self.pursuit.passing(&about);
+        let Some(squares) = self.by_squares(list, scratch.columns) else { return };
+        let (dx, dy) = self.moved_since(tracks, track, &usable);
+        let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
+        let near = [around(track.x + dx), around(track.y + dy)];
+        squares.for_each_in(scratch.columns, near, |item, before| {
+            let [before_x, before_y] = before;
+            let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
+            let seen = SeenTwice::new(now, before, &usable);
+            if x * x + y * y <= reach * reach && !passing.misses(seen.now.velocity) {
+                self.examine(&Pair { order, detection, item, list }, &seen, &passing);
             }
-            let Some(squares) = self.by_squares(list, scratch.columns) else { continue };
-            let (dx, dy) = self.moved_since(tracks, track, &usable);
-            let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-            let near = [around(track.x + dx), around(track.y + dy)];
-            squares.for_each_in(scratch.columns, near, |item, before| {
-                let [before_x, before_y] = before;
-                let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
-                if x * x + y * y <= reach * reach {
-                    self.examine(&Pair { order, detection, now, item, before, list });
-                }
-            });
-        }
-    }
-
-    /// The list in which the past of a confirmed track is looked for, for each set of lists that
-    /// hold its own origin: a bit for each place of the history.
-    fn pasts(&self) -> [Option<Past<'c>>; 16] {
-        let mut pasts = [None; 16];
-        for (origins, past) in pasts.iter_mut().enumerate() {
-            let mut lists = self.moving.history.by_reference_age();
-            let list = lists.find(|&list| origins & [1, 2, 4, 8].get(list).unwrap_or(&0) != 0);
-            *past = list.and_then(|list| {
-                let usable = self.usable(list)?;
-                let reach = usable.reach(self.cycle) + CLOSE;
-                let off = (self.cycle.parameters.theta_track_max + reach) / usable.age;
-                Some(Past { list, usable, reach, off })
-            });
-        }
-        pasts
+        });
     }
 
     /// From the position of a track to its past, m.
@@ -238,72 +302,69 @@ impl<'c> Search<'_, 'c, '_> {
         (track.vx * since, track.vy * since)
     }
 
-    /// Detections times items of the reference list times (items of the other lists + points).
-    fn work(&self, unexplained: usize, reference: usize, points: usize) -> i64 {
-        let items = |list: usize| self.usable(list).map_or(0, |list| list.items.len());
-        let others =
-            (0..4).filter(|&list| list != reference).map(items).fold(0, usize::saturating_add);
-        let each = items(reference).saturating_mul(others.saturating_add(points));
-        i64::try_from(unexplained.saturating_mul(each)).unwrap_or(i64::MAX)
-    }
-
-    /// (b): the other detections, from every item that some other list supports.
-    fn unexplained(&mut self, reference: usize, scratch: &mut Scratch<'_>) {
+    /// (b): another detection, from every item that some other list supports.
+    fn unexplained(&mut self, (detection, now): (usize, &Detection), columns: &mut [Column]) {
+        let reference = self.reference;
         let Some(list) = self.usable(reference) else { return };
         let (v_object, age) = (self.cycle.parameters.v_object, list.age);
-        let farthest = v_object * age + CLOSE;
+        let (farthest, rate) = (v_object * age + CLOSE, 1.0 / age);
+        let standing = MovingRectangle::detection(now);
+        // Rounded up: what moves as fast as that in an instant more.
+        let speed = v_object + self.more();
+        let from = self.pursuit.comes_from(&standing, speed, age);
+        if from.iter().any(|[least, greatest]| least > greatest) {
+            return;
+        }
+        let Some(squares) = self.by_squares(reference, columns) else { return };
         let tracks = self.moving.tracks.map_or(0, |list| list.items.len());
-        for (detection, now) in self.detections.items.iter().enumerate() {
-            let column = scratch.columns.get(detection);
-            let standing = MovingRectangle::detection(now);
-            // Rounded up: what moves as fast as that in an instant more.
-            let speed = v_object + CLOSE / age;
-            if column.is_none_or(Column::is_explained)
-                || self.motion.sweep.misses_all_near(&standing, speed)
+        let order = tracks.saturating_add(detection);
+        let passing = self.pursuit.passing(&standing);
+        squares.for_each_in(columns, from, |item, before| {
+            let [before_x, before_y] = before;
+            let (x, y) = (now.x - before_x, now.y - before_y);
+            if !passing.misses_on_line([x * rate, y * rate]) && x * x + y * y <= farthest * farthest
             {
-                continue;
+                let pair = Pair { order, detection, item, list: reference };
+                self.unexplained_from(before, now, &pair, &passing, columns);
             }
-            let Some(squares) = self.by_squares(reference, scratch.columns) else { continue };
-            let order = tracks.saturating_add(detection);
-            let from = self.motion.sweep.comes_from(&standing, speed, age);
-            squares.for_each_in(scratch.columns, from, |item, before| {
-                let [before_x, before_y] = before;
-                let (x, y) = (now.x - before_x, now.y - before_y);
-                let pair = Pair { order, detection, now, item, before, list: reference };
-                if x * x + y * y <= farthest * farthest
-                    && self.may_collide(&pair)
-                    && self.is_supported(&pair, scratch.columns)
-                {
-                    self.examine(&pair);
-                }
-            });
+        });
+    }
+
+    #[inline(never)]
+    fn unexplained_from(
+        &mut self,
+        before: [f64; 2],
+        now: &Detection,
+        pair: &Pair,
+        passing: &Passing<'_>,
+        columns: &[Column],
+    ) {
+        let Some(list) = self.usable(pair.list) else { return };
+        let seen = SeenTwice::new(now, before, &list);
+        if !passing.misses(seen.now.velocity) && self.is_supported(now, before, columns) {
+            self.examine(pair, &seen, passing);
         }
     }
 
-    fn may_collide(&self, pair: &Pair<'_>) -> bool {
-        self.usable(pair.list).is_some_and(|list| {
-            let seen = SeenTwice::new(pair.now, pair.before, &list);
-            !self.motion.sweep.misses(seen.plainly())
-        })
-    }
-
     /// Whether an item of another list is where the object was then, when there are other lists.
-    fn is_supported(&self, pair: &Pair<'_>, columns: &[Column]) -> bool {
-        let Some(own) = self.usable(pair.list) else { return true };
+    fn is_supported(&self, now: &Detection, before: [f64; 2], columns: &[Column]) -> bool {
+        let Some(own) = self.usable(self.reference) else { return true };
         let reach = self.cycle.parameters.theta_track_max + CLOSE;
+        let [before_x, before_y] = before;
         let mut alone = true;
-        for (list, squares) in self.lists.iter().enumerate().filter(|&(list, _)| list != pair.list)
-        {
+        for (list, squares) in self.lists.iter().enumerate() {
             let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
+            if list == self.reference {
+                continue;
+            }
             alone = false;
             let mut supported = false;
             let share = other.age / own.age;
-            let [before_x, before_y] = pair.before;
-            let (dx, dy) = ((before_x - pair.now.x) * share, (before_y - pair.now.y) * share);
+            let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);
             let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-            let near = [around(pair.now.x + dx), around(pair.now.y + dy)];
+            let near = [around(now.x + dx), around(now.y + dy)];
             squares.for_each_in(columns, near, |_, [item_x, item_y]| {
-                let (x, y) = ((pair.now.x - item_x) + dx, (pair.now.y - item_y) + dy);
+                let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
                 supported |= x * x + y * y <= reach * reach;
             });
             if supported {
@@ -314,15 +375,13 @@ impl<'c> Search<'_, 'c, '_> {
     }
 
     /// Looks for a collision that is earlier than the first so far.
-    fn examine(&mut self, pair: &Pair<'_>) {
-        let &Pair { order, detection, now, item, before, list } = pair;
-        let Some(usable) = self.usable(list) else { return };
-        let seen = SeenTwice::new(now, before, &usable);
-        if self.motion.sweep.misses(seen.plainly()) {
-            return;
-        }
+    fn examine(&mut self, pair: &Pair, seen: &SeenTwice, passing: &Passing<'_>) {
+        let &Pair { order, detection, item, list } = pair;
+        let window = passing.window(seen.now.velocity);
         let end = self.first.map_or(usize::MAX, |first| first.point.saturating_add(1));
-        let Some((point, compared)) = self.motion.collision_with(&seen, end) else { return };
+        let Some((point, compared)) = self.motion.collision_within(window, seen, end) else {
+            return;
+        };
         let found = Found { point, order, item, detection, list, compared };
         if self.first.is_none_or(|first| found.key() < first.key()) {
             self.first = Some(found);

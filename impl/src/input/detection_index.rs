@@ -5,6 +5,8 @@
 //! Plain doubles: coordinates are below 2^25 m, so that a place and its cell err by less than 1e-7 m;
 //! whoever searches makes what is searched larger by `MARGIN` of `squares`.
 
+use core::ops::Range;
+
 use crate::input::cycle::{Detection, DetectionList};
 use crate::input::domain::check_detection_items;
 use crate::input::scratch::short;
@@ -16,6 +18,9 @@ use crate::report::{InvalidInput, Problem};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slot {
     place: [f64; 2],
+    /// What is nearer to the item than the root of this is nearer to no other one, m^2; below 0 where
+    /// nothing is known.
+    clear: f64,
     item: u16,
     /// Of the cell with the index of this slot: its first slot, and the first one behind it.
     start: u16,
@@ -36,11 +41,25 @@ pub struct DetectionIndex<'a> {
     /// The last column and the last row.
     last: [f64; 2],
     columns: usize,
+    /// No item reaches farther from its centre, m.
+    pub(crate) reach: f64,
 }
 
 impl<'a> DetectionIndex<'a> {
+    /// Of an empty list. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    pub const EMPTY: Self = Self {
+        items: &[],
+        slots: &[],
+        least: [0.0; 2],
+        side: 0.0,
+        scale: 0.0,
+        last: [0.0; 2],
+        columns: 1,
+        reach: 0.0,
+    };
+
     /// Checks the detections and sorts them in the caller's memory, at least a slot for each. Time:
-    /// linear in the detections.
+    /// linear in the detections, some hundred operations for each.
     ///
     /// Errors: the first invalid value; too little memory. Source:
     /// `spec/3-stages.md#invalid-input`.
@@ -55,19 +74,21 @@ impl<'a> DetectionIndex<'a> {
         items.iter().for_each(|item| extend(&mut extent, [item.x, item.y], [0.0; 2]));
         let [[left, right], [bottom, top]] = if items.is_empty() { [[0.0; 2]; 2] } else { extent };
         let size = [right - left, top - bottom];
-        let mut index = Self {
-            items,
-            slots: &[],
-            least: [left, bottom],
-            side: 0.0,
-            scale: 0.0,
-            last: [0.0; 2],
-            columns: 1,
-        };
+        let reach = items.iter().map(|item| item.length + item.width).fold(0.0, larger);
+        let mut index = Self { items, least: [left, bottom], reach, ..Self::EMPTY };
         index.choose_cells(size);
         index.sort(slots);
+        for at in 0..slots.len() {
+            let clear = index.clear(slots, at);
+            slots.get_mut(at).into_iter().for_each(|slot| slot.clear = clear);
+        }
         index.slots = slots;
         Ok(index)
+    }
+
+    /// The detections. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    pub const fn items(&self) -> &'a [Detection] {
+        self.items
     }
 
     /// About as many cells as items, and not more.
@@ -76,7 +97,7 @@ impl<'a> DetectionIndex<'a> {
         let mut side = larger(libm::sqrt(width * height / count), larger(width, height) / count);
         side = larger(side, 1e-3);
         // Each time there are fewer; after at most so many times one.
-        for _ in 0..64 {
+        for _ in 0..128 {
             let last = [width, height].map(|extent| libm::floor(extent / side + 0.5));
             let [columns, rows] = last.map(|last| last + 1.0);
             if columns * rows <= count {
@@ -84,7 +105,7 @@ impl<'a> DetectionIndex<'a> {
                 self.columns = whole(columns);
                 return;
             }
-            side *= 1.25;
+            side *= 1.03;
         }
     }
 
@@ -112,6 +133,30 @@ impl<'a> DetectionIndex<'a> {
         }
     }
 
+    /// What is nearer to an item than half of its distance to the next one is nearer to no other
+    /// one, not even by rounding errors; of an item in a crowd nothing is said.
+    fn clear(&self, slots: &[Slot], at: usize) -> f64 {
+        let Some(&Slot { place: [x, y], .. }) = slots.get(at) else { return UNCLEAR };
+        // Whatever is in none of these cells is farther than a side.
+        let (mut nearest, side) = (self.side * self.side, self.side + MARGIN);
+        let [first, low] = self.square([x - side, y - side]).map(whole);
+        let [last, high] = self.square([x + side, y + side]).map(whole);
+        for row in low..high.saturating_add(1) {
+            let start = row.wrapping_mul(self.columns);
+            let range = range_of(slots, start.wrapping_add(first), start.wrapping_add(last));
+            if range.len() > CROWD {
+                return UNCLEAR;
+            }
+            for (other, slot) in range.clone().zip(slots.get(range).unwrap_or(&[])) {
+                let [to_x, to_y] = [slot.place[0] - x, slot.place[1] - y];
+                let squared = to_x * to_x + to_y * to_y;
+                nearest = if other == at { nearest } else { smaller(nearest, squared) };
+            }
+        }
+        let clear = 0.5 * libm::sqrt(nearest) - MARGIN;
+        if clear > 0.0 { clear * clear } else { UNCLEAR }
+    }
+
     /// Whether this is the index of these very detections: they are borrowed, so that they have not
     /// changed since.
     pub(crate) fn is_of(&self, items: &[Detection]) -> bool {
@@ -135,9 +180,31 @@ impl<'a> DetectionIndex<'a> {
     /// The items of some cells of a row.
     #[inline]
     fn between(&self, first: usize, last: usize) -> &'a [Slot] {
+        self.slots.get(range_of(self.slots, first, last)).unwrap_or(&[])
+    }
+
+    /// An item to which a place, moved on, is nearer than to any other one by more than `MARGIN`, and
+    /// the square of their distance, m^2; `None` when the cell of the place does not tell.
+    #[inline]
+    pub(crate) fn clearly_nearest(
+        &self,
+        [x, y]: [f64; 2],
+        [dx, dy]: [f64; 2],
+    ) -> Option<(u16, f64)> {
         let slots = self.slots;
-        let (Some(first), Some(last)) = (slots.get(first), slots.get(last)) else { return &[] };
-        slots.get(usize::from(first.start)..usize::from(last.end)).unwrap_or(&[])
+        let &Slot { start, end, .. } = slots.get(self.cell([x + dx, y + dy]))?;
+        let (mut at, end) = (usize::from(start), usize::from(end));
+        while at < end {
+            let slot = slots.get(at)?;
+            let [at_x, at_y] = slot.place;
+            let (to_x, to_y) = ((x - at_x) + dx, (y - at_y) + dy);
+            let squared = to_x * to_x + to_y * to_y;
+            if squared < slot.clear {
+                return Some((slot.item, squared));
+            }
+            at = at.wrapping_add(1);
+        }
+        None
     }
 
     /// Calls `look` for some items, at least those within `away` of the place, when these are
@@ -174,6 +241,23 @@ impl<'a> DetectionIndex<'a> {
         }
     }
 }
+
+/// The slots of some cells of a row.
+#[inline]
+fn range_of(slots: &[Slot], first: usize, last: usize) -> Range<usize> {
+    let (Some(first), Some(last)) = (slots.get(first), slots.get(last)) else { return 0..0 };
+    usize::from(first.start)..usize::from(last.end)
+}
+
+/// m, more than distances err.
+const MARGIN: f64 = 1e-6;
+
+/// m^2
+const UNCLEAR: f64 = -1.0;
+
+/// With more items in three cells next to each other, none of them is compared with the others, so
+/// that the time stays linear.
+const CROWD: usize = 16;
 
 /// The nearest whole number, for numbers from 0 to 2^16.
 #[inline]

@@ -7,7 +7,10 @@
 
 use core::cmp::Ordering;
 
+use self::limbs::{add, halves, sign};
 use crate::numbers::rounding::Real;
+
+pub(crate) mod limbs;
 
 /// One summand (a - b) * (c - d) of doubles; differences stay below 2^40 in size.
 #[derive(Clone, Copy, Debug)]
@@ -131,13 +134,7 @@ impl Wide {
     }
 
     fn sign(&self) -> Ordering {
-        if self.0.last().is_some_and(|&top| top >> 63 == 1) {
-            Ordering::Less
-        } else if self.0.iter().any(|&limb| limb != 0) {
-            Ordering::Greater
-        } else {
-            Ordering::Equal
-        }
+        sign(&self.0)
     }
 }
 
@@ -195,24 +192,6 @@ fn fixed(value: f64) -> [u64; NARROW] {
         *limb = part;
     }
     limbs
-}
-
-/// total += summand or total -= summand, in two's complement.
-fn add<const N: usize>(total: &mut [u64; N], summand: &[u64; N], negative: bool) {
-    let mut carry = u128::from(negative);
-    for (digit, &part) in total.iter_mut().zip(summand) {
-        let part = if negative { !part } else { part };
-        let full = u128::from(*digit).wrapping_add(u128::from(part)).wrapping_add(carry);
-        let high;
-        (*digit, high) = halves(full);
-        carry = u128::from(high);
-    }
-}
-
-/// Low and high half.
-#[allow(clippy::cast_possible_truncation, reason = "the halves are what is wanted")]
-fn halves(full: u128) -> (u64, u64) {
-    (full as u64, (full >> 64) as u64)
 }
 
 #[cfg(test)]

@@ -9,7 +9,11 @@
 //! correctly rounded square root are used, never a fused operation. Comparisons answer "certainly"
 //! or "possibly"; a NaN is never certain.
 
+mod error_free;
+
 use core::ops::{Add, Mul, Neg, Sub};
+
+use self::error_free::{two_product, two_sum};
 
 /// Bound on the relative error of one rounding: 2^-53.
 const ROUNDING: f64 = f64::from_bits((1023 - 53) << 52);
@@ -224,29 +228,6 @@ impl Mul for Real {
 /// Upper bound on a quotient of bounds, 0 only for 0.
 fn quotient_up(bound: f64, divisor: f64) -> f64 {
     if bound > 0.0 { (bound / divisor + UNDERFLOW) * BOUND_UP } else { bound }
-}
-
-/// The rounded sum and its error, exactly (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-/// The rounded product and its error, exactly unless it underflows (Dekker). The factors stay far
-/// below 2^996, where the splitting would overflow.
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    let (a1, a2) = split(a);
-    let (b1, b2) = split(b);
-    (product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
-}
-
-/// Two halves of at most 26 bits each that add up to `a` (Veltkamp).
-fn split(a: f64) -> (f64, f64) {
-    let shifted = 134_217_729.0 * a;
-    let high = shifted - (shifted - a);
-    (high, a - high)
 }
 
 fn abs(value: f64) -> f64 {

@@ -1,9 +1,9 @@
 //! Stage iv: trajectory with detections (`spec/3-stages.md#stage-iv-trajectory-with-detections`).
 
-use crate::hardened::h10_explained::{mark_explained, points_of_explained};
+use crate::hardened::h10_explained::{Explained, points_of_explained};
 use crate::hardened::h13_moving::MovingDetections;
 use crate::input::cycle::{Cycle, DetectionList, Lead, Trajectory, TrajectoryPoint};
-use crate::input::scratch::{Column, Scratch};
+use crate::input::scratch::Scratch;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_follow;
@@ -22,14 +22,14 @@ pub(crate) fn trajectory_with_detections(
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
     gap_failure(cycle, lead).or_else(|| {
-        let explained = mark_explained(&moving.history, moving.tracks, scratch);
-        let points = points_of_explained(cycle, trajectory, explained);
+        let explained = Explained::new(&moving.history, moving.tracks, scratch);
+        let points = points_of_explained(cycle, trajectory, &explained);
         let up_to = |detection: usize| {
-            let column = scratch.columns.get(detection);
-            points.filter(|_| column.is_some_and(Column::is_explained)).unwrap_or(usize::MAX)
+            let by = |_: &usize| explained.by(detection, scratch.rows, scratch.columns).is_some();
+            points.filter(by).unwrap_or(usize::MAX)
         };
         collision(cycle, trajectory, detections, lead, up_to)
-            .or_else(|| moving.failure(cycle, trajectory, explained, scratch))
+            .or_else(|| moving.failure(cycle, trajectory, &explained, scratch))
     })
 }
 

@@ -1,5 +1,6 @@
 //! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
+pub(crate) mod pursuit;
 pub(crate) mod sweep;
 
 use crate::hardened::h03_circumradii::examined_up_to;
@@ -11,6 +12,7 @@ use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
 use crate::stages::horizon::PointsExamined;
+use crate::stages::llcc::pursuit::Pursuit;
 use crate::stages::llcc::sweep::{MovingRectangle, Sweep};
 
 /// A collision: the point, the object, both as indices, and the distance of the centres with the
@@ -137,16 +139,35 @@ impl<'c, 'a> CavMotion<'c, 'a> {
         found
     }
 
+    /// The CAV as seen by someone who moves along with it.
+    pub(crate) fn pursuit(&self) -> Pursuit {
+        let poses = poses(self.cycle, self.points, self.beyond);
+        Pursuit::new(poses.map(|(ego, at)| (ego, at, seconds(self.clock.elapsed_ns(at)))))
+    }
+
     /// The first point with an index below `before` at which the check may find a collision.
-    pub(crate) fn collision_with(
-        &self,
-        object: &impl Moving,
-        before: usize,
-    ) -> Option<(usize, [f64; 2])> {
+    fn collision_with(&self, object: &impl Moving, before: usize) -> Option<(usize, [f64; 2])> {
         let poses = poses(self.cycle, self.points, self.beyond).enumerate().take(before);
         poses
             .into_iter()
             .find_map(|(point, (ego, at))| Some((point, self.collision(&ego, at, object)?)))
+    }
+
+    /// The same for an object that touches the CAV at no other times than these, s.
+    pub(crate) fn collision_within(
+        &self,
+        [from, to]: [f64; 2],
+        object: &impl Moving,
+        before: usize,
+    ) -> Option<(usize, [f64; 2])> {
+        let poses = poses(self.cycle, self.points, self.beyond).enumerate().take(before);
+        poses.into_iter().find_map(|(point, (ego, at))| {
+            let time = seconds(self.clock.elapsed_ns(at));
+            if time < from || time > to {
+                return None;
+            }
+            Some((point, self.collision(&ego, at, object)?))
+        })
     }
 
     /// Whether the check may find a collision at a point.

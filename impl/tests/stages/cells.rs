@@ -3,7 +3,8 @@
 //! the cell (100, 100); its disks reach 1.104 m to the side, its rectangle 0.95 m. To the front the
 //! disks reach 4.19 m, the rectangle 3.65 m.
 
-use crate::scene::{Scene, scene};
+use crate::scene::{Scene, detection, scene};
+use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
@@ -16,6 +17,8 @@ const HIT_BESIDE: Option<(i64, i64)> = Some((102, 101));
 
 /// On the road, 5 m ahead.
 const AHEAD: (usize, usize) = (105, 100);
+
+type Change = fn(&mut Cycle<'_>);
 
 /// The scene at a place with these cells occupied and without tracks, so that stage iv runs.
 fn occupied(configuration: Configuration, place: [f64; 2], cells: &[(usize, usize)]) -> Scene {
@@ -138,6 +141,46 @@ fn without_stage_iv_the_disks_collide() {
         }
     };
     assert_eq!(hit(&scene), HIT_BESIDE);
+}
+
+/// Stage iv runs on an empty list, too, but the grid is all that is left then.
+#[test]
+fn without_detections_the_disks_collide() {
+    for place in PLACES {
+        for configuration in [AllRemote, PlanRemote] {
+            let mut scene = occupied(configuration, place, &[BESIDE]);
+            assert_eq!(hit(&scene), None, "{place:?} {configuration:?}");
+            scene.detections = Some(Vec::new());
+            assert!(matches!(scene.report().stages[3], Outcome::Passed));
+            assert_eq!(hit(&scene), HIT_BESIDE, "{place:?} {configuration:?}");
+            scene.detections = Some(vec![detection(place[0] + 3.0, place[1] + 50.1)]);
+            assert_eq!(hit(&scene), None, "{place:?} {configuration:?}");
+        }
+    }
+}
+
+/// What is unknown or outside counts only where stage iv did not run, which it did on an empty list.
+#[test]
+fn without_detections_only_occupied_cells_collide() {
+    const UNKNOWN: &[u8] = &[255; 5000];
+    for (change, rule) in [
+        (
+            (|cycle| cycle.grid.iter_mut().for_each(|grid| grid.unknown = Some(UNKNOWN))) as Change,
+            Rule::Unknown,
+        ),
+        (
+            (|cycle| cycle.grid.iter_mut().for_each(|grid| grid.x = cycle.ego.x)) as Change,
+            Rule::Outside,
+        ),
+    ] {
+        for configuration in [AllRemote, PlanRemote] {
+            let mut scene = occupied(configuration, PLACES[0], &[]);
+            (scene.detections, scene.change) = (Some(Vec::new()), change);
+            assert_eq!(scene.rule(), None, "{rule:?} {configuration:?}");
+            scene.detections = None;
+            assert_eq!(scene.rule(), Some(rule), "{configuration:?}");
+        }
+    }
 }
 
 /// Disks reach the cells beside the road at the first points; the one behind it is the witness.

@@ -11,5 +11,7 @@ mod history;
 mod input;
 mod moving;
 mod scene;
+mod slide;
+mod step_turn;
 mod steps;
 mod thresholds;

@@ -1,6 +1,6 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
 //! grid counts as occupied, unless stage iv ran in this cycle. Where it ran in `AllRemote` or `PlanRemote`, where
-//! the paper does not examine the grid, the CAV's rectangle has to reach the cell, too.
+//! the paper does not examine the grid, on at least one detection, the CAV's rectangle has to reach the cell, too.
 
 use crate::input::scene::{Grid, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
@@ -16,7 +16,8 @@ pub type Test<'a> = Box<dyn Fn(&Rectangle, &Vector, &Real) -> Option<Hit> + 'a>;
 
 /// The rules in the order in which they are asked of all disks.
 pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid, stage_iv_ran: bool) -> Vec<(Rule, Test<'a>)> {
-    let is_exact = stage_iv_ran && scene.configuration != Configuration::MotRemote;
+    let is_detected = scene.detections.as_ref().is_some_and(|list| !list.items.is_empty());
+    let is_exact = stage_iv_ran && is_detected && scene.configuration != Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
         Box::new(move |cav, centre, r| {
             touched_cells(scene, grid, centre, r, is_kind).find(|hit| {

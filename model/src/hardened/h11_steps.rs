@@ -1,5 +1,5 @@
-//! H-11: every step of the trajectory, and every turn over half a second, is one that a vehicle of
-//! this size can drive.
+//! H-11: every step of the trajectory, its way aside, and every turn over half a second are such that a
+//! vehicle of this size can drive them.
 
 use crate::hardened::h04_horizon::ways;
 use crate::input::scene::{Point, Scene};
@@ -10,21 +10,20 @@ use crate::report::{Rule, Witness};
 /// From a mark to the next one at least, ns.
 const MARK_NS: i128 = 500_000_000;
 
-/// Every step and every turn is one that a vehicle of this size can drive: the first rule that some
+/// A vehicle of this size can drive every step, the way aside and every turn: the first rule that some
 /// step or some point breaks.
 pub fn step_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    const OF_STEPS: [fn(&Scene, &Step) -> Option<Witness>; 7] =
-        [step_time, step_length, step_speed, step_forward, step_lateral, step_turn, step_slide];
+    const OF_STEPS: [fn(&Scene, &Step) -> Option<Witness>; 6] =
+        [step_time, step_length, step_speed, step_forward, step_lateral, step_turn];
     const OF_TURNS: [fn(&Scene, &Turn) -> Option<Witness>; 3] =
         [turn_reversed, turn_on_the_spot, turn_hard];
-    let steps: Vec<Step> =
-        trajectory.windows(2).map(|pair| Step::new(&pair[0], &pair[1])).collect();
+    let steps: Vec<Step> = steps(trajectory).collect();
     let turns = turns(trajectory);
     let at = |i: usize, failure: Option<Witness>| failure.map(|witness| witness.at_point(i + 1));
     let of_steps = OF_STEPS
         .iter()
         .find_map(|rule| steps.iter().enumerate().find_map(|(i, step)| at(i, rule(scene, step))));
-    of_steps.or_else(|| {
+    of_steps.or_else(|| slide_failure(scene, trajectory)).or_else(|| {
         OF_TURNS.iter().find_map(|rule| {
             turns.iter().enumerate().find_map(|(i, turn)| at(i, rule(scene, turn)))
         })
@@ -93,24 +92,68 @@ fn step_lateral(scene: &Scene, step: &Step) -> Option<Witness> {
     })
 }
 
-/// h1 . h2 >= 0.866
+/// h1 . h2 >= 0.866 and abs(h1 x h2) <= 0.1 + 0.1 dt + 0.5 abs(u)
 fn step_turn(scene: &Scene, step: &Step) -> Option<Witness> {
-    let limit = Real::from_double(0.866);
-    let product = step.headings[0].dot(step.headings[1]);
-    Witness::unless(scene.reads.at_least(&product, &limit), Rule::StepTurn, &product, &limit)
+    let [h1, h2] = step.headings;
+    let (product, least) = (h1.dot(h2), Real::from_double(0.866));
+    let turned = h1.cross(h2).abs();
+    let [still, drift, tightest] = [0.1, 0.1, 0.5].map(Real::from_double);
+    let most = still + drift * Real::seconds(step.dt_ns) + tightest * step.u.length();
+    let far =
+        Witness::unless(scene.reads.at_least(&product, &least), Rule::StepTurn, &product, &least);
+    far.or_else(|| {
+        Witness::unless(scene.reads.at_most(&turned, &most), Rule::StepTurn, &turned, &most)
+    })
 }
 
-/// abs(u x (h1 + h2) + L (h1 x h2)/2) <= L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.4 dt: the step lies
-/// along its headings; one of length 0 passes in every reading.
-fn step_slide(scene: &Scene, step: &Step) -> Option<Witness> {
-    let ([h1, h2], u) = (step.headings, &step.u);
-    let (sum, [share, drift]) = (h1 + h2, [0.1, 0.4].map(Real::from_double));
-    let turned = &scene.ego.length * h1.cross(h2) / Real::from_integer(2);
-    let sideways = (u.cross(&sum) + &turned).abs();
-    let along = share * u.dot(&sum) + drift * Real::seconds(step.dt_ns);
-    let limit = turned.abs() + along;
-    let passes = step.stands() || scene.reads.at_most(&sideways, &limit);
-    Witness::unless(passes, Rule::StepSlide, &sideways, &limit)
+/// The steps one after the other.
+fn steps(trajectory: &[Point]) -> impl Iterator<Item = Step<'_>> {
+    trajectory.windows(2).map(|pair| Step::new(&pair[0], &pair[1]))
+}
+
+/// Where the headings do not lead: the first such point.
+pub fn slide_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let mut aside = ways_aside(trajectory).enumerate();
+    aside.find_map(|(i, aside)| Some(slide(scene, &aside)?.at_point(i + 1)))
+}
+
+/// From the first point to another one: time t, and the sums over the steps of u x (h1 + h2), of
+/// h1 x h2, and of u . (h1 + h2).
+#[derive(Clone)]
+struct WayAside {
+    t_ns: i128,
+    across: Real,
+    turned: Real,
+    along: Real,
+}
+
+/// Those of every point after the first.
+fn ways_aside(trajectory: &[Point]) -> impl Iterator<Item = WayAside> {
+    let none =
+        WayAside { t_ns: 0, across: Real::zero(), turned: Real::zero(), along: Real::zero() };
+    steps(trajectory).scan(none, |aside, step| {
+        let ([h1, h2], u) = (step.headings, &step.u);
+        let sum = h1 + h2;
+        *aside = WayAside {
+            t_ns: aside.t_ns + step.dt_ns,
+            across: &aside.across + u.cross(&sum),
+            turned: &aside.turned + h1.cross(h2),
+            along: &aside.along + u.dot(&sum),
+        };
+        Some(aside.clone())
+    })
+}
+
+/// abs(sum of u x (h1 + h2) + L/2 sum of h1 x h2)
+///     <= L/2 abs(sum of h1 x h2) + 0.1 sum of u . (h1 + h2) + 0.1 + 0.02 t: the headings lead there.
+fn slide(scene: &Scene, aside: &WayAside) -> Option<Witness> {
+    let [share, still, drift] = [0.1, 0.1, 0.02].map(Real::from_double);
+    let turned = &scene.ego.length * &aside.turned / Real::from_integer(2);
+    let sideways = (&aside.across + &turned).abs();
+    let slack = share * &aside.along + still + drift * Real::seconds(aside.t_ns);
+    let limit = turned.abs() + slack;
+    let passes = scene.reads.at_most(&sideways, &limit);
+    Witness::unless(passes, Rule::Slide, &sideways, &limit)
 }
 
 /// From its mark to a point: time t and way w, headings hm and h.

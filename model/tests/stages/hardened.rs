@@ -2,7 +2,6 @@
 
 mod history;
 mod left_out;
-mod lost_way;
 mod moving;
 mod places;
 mod records;

@@ -13,6 +13,7 @@ pub mod any;
 pub mod bounds;
 pub mod configuration;
 pub mod distances;
+pub mod exact;
 pub mod group;
 pub mod i_track_validation;
 pub mod input;
@@ -50,6 +51,8 @@ harnesses! {
         verify_s_follow_falls_with_v_lead
         verify_gap_keeps_its_laws
         verify_s_valid_is_s_follow_or_s_b;
+    exact:
+        verify_limbs_add_like_integers;
     group:
         verify_every_law_at_areas
         verify_every_law_at_verdicts
@@ -68,9 +71,9 @@ harnesses! {
         verify_the_other_group_is_untouched_at_data
         verify_a_rejection_ends_a_request
         verify_data_of_another_session_are_dropped
-        verify_a_group_depends_on_itself_alone
-        verify_a_session_left_is_released_at_withdrawals
-        verify_a_station_below_1_is_refused;
+        verify_a_group_depends_on_itself_alone_at_areas
+        verify_a_group_depends_on_itself_alone_at_verdicts
+        verify_a_session_left_is_released_at_withdrawals;
     i_track_validation:
         verify_mean_cost_is_minimal
         verify_matched_cost_is_minimal;
@@ -100,15 +103,12 @@ harnesses! {
         verify_arrivals_take_an_element;
     requester:
         verify_requester_starts_valid
-        verify_requester_keeps_every_law_at_offers
-        verify_requester_keeps_every_law_at_areas
-        verify_requester_keeps_every_law_at_ticks
-        verify_requester_keeps_every_law_at_answers
-        verify_requester_keeps_every_law_at_data
-        verify_requester_keeps_every_law_at_verdicts
-        verify_a_safety_issue_ends_every_remote_service
-        verify_t_wait_blocks_offloading
-        verify_requester_refuses_without_a_trace;
+        verify_a_station_below_1_is_refused
+        verify_every_law_at_ticks
+        verify_every_law_at_withdrawals
+        verify_every_law_at_offers
+        verify_an_offer_is_taken_or_leaves_no_trace
+        verify_the_station_asked_last_waits;
     schedule:
         verify_schedule_is_the_table;
     stages:

@@ -1,20 +1,20 @@
-//! The requester (`spec/2-offloading.md`) by induction: from every valid state every event keeps
-//! all laws and leads to a valid state, so they hold after any number of events.
+//! The requester with its table (`spec/2-offloading.md`): its first state, offers, and whose turn it
+//! is. What holds of one group at a time, from any state at all, is in `group`.
 
-use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, GroupRecord, GroupState, Parameters, Parts, Requester,
-    RequesterError, Running, Sessions, StationRecord, Suspended,
+    Event, EventKind, Group, GroupRecord, GroupState, Groups, Parts, Requester, RequesterError,
+    StationRecord, Suspended,
 };
-use mufasa::services::configuration::{Group, Source};
+use mufasa::parts::decide;
 
-use super::any::{
-    below, duration_ns, group, groups, index, near_integer, option, profile, time_ns,
-};
+use super::any::{below, groups, near_integer, profile, time_ns};
 use super::bounds::CROSS_SECTIONS;
+use super::seen::{
+    REQUESTS, after, after_in, any_parameters, any_record, any_state, any_state_with, each, in_use,
+    same,
+};
 #[cfg(not(kani))]
 use crate::kani;
-use crate::law::requester::{self as law, Seen, Step};
 
 /// The first state is valid: the base of the induction.
 ///
@@ -22,340 +22,165 @@ use crate::law::requester::{self as law, Seen, Step};
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_requester_starts_valid() {
-    let parameters = parameters();
+    let parameters = any_parameters();
     let mut table = [(); CROSS_SECTIONS].map(|()| any_record());
     let requester = Requester::new(profile(), parameters, &mut table);
     let Ok(requester) = requester else { unreachable!("times are >= 0") };
     assert!(requester.is_valid());
-    assert!(Seen::of(&requester).states == [GroupState::Local; 2]);
+    assert!(requester.state(Group::Mot) == GroupState::Local);
+    assert!(requester.state(Group::Plan) == GroupState::Local);
     assert!(requester.hold_until_ns().is_none() && requester.sessions() == 0);
     kani::cover!(parameters.qos_hold, "a violation starts a hold");
     kani::cover!(!parameters.qos_hold, "a violation starts no hold");
 }
 
-/// From every valid state an offer, a withdrawal and a loss keep every law of `law::requester` and
-/// lead to a valid state.
+/// An event that names a station below 1 is refused and changes nothing.
 ///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_offers() {
-    after_any_event(About::Offers, |step| {
-        let left = step.after.states != step.before.states;
-        let is_loss = matches!(step.event.kind, EventKind::Lost { .. });
-        kani::cover!(left && !is_loss, "a group in use is left with a release");
-        kani::cover!(left && is_loss, "a group in use is left without a release");
-        kani::cover!(!left, "nothing is left");
-    });
-}
-
-/// From every valid state a change of the area keeps every law of `law::requester` and leads to a
-/// valid state.
-///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_areas() {
-    after_any_event(About::Area, |step| {
-        let left = step.after.states != step.before.states;
-        kani::cover!(left && step.after.states == [GroupState::Local; 2], "a group in use is left");
-        kani::cover!(!left, "nothing is left");
-    });
-}
-
-/// From every valid state a tick keeps every law of `law::requester` and leads to a valid state: no
-/// request before `hold_until`, whatever time does.
-///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_ticks() {
-    after_any_event(About::Tick, |step| {
-        let was_local = step.before.states == [GroupState::Local; 2];
-        let is_local = step.after.states == [GroupState::Local; 2];
-        let held_ns = step.before.hold_until_ns;
-        kani::cover!(was_local && !is_local, "a request");
-        kani::cover!(held_ns == Some(step.event.t_ns) && was_local && !is_local, "a hold ends");
-        kani::cover!(!was_local && is_local, "what is overdue or silent ends");
-        kani::cover!(step.after.hold_until_ns != held_ns, "silence starts a hold");
-    });
-}
-
-/// From every valid state a confirmation and a rejection keep every law of `law::requester` and lead
-/// to a valid state.
-///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_answers() {
-    after_any_event(About::Answer, |step| {
-        let is_confirmation = matches!(step.event.kind, EventKind::Confirm { .. });
-        let changed = step.after.states != step.before.states;
-        kani::cover!(is_confirmation && changed, "a confirmation");
-        kani::cover!(!is_confirmation && changed, "a rejection");
-        kani::cover!(is_confirmation && !step.actions.is_empty() && !changed, "another session");
-        kani::cover!(step.after.sources != step.before.sources, "break before make");
-    });
-}
-
-/// From every valid state data keep every law of `law::requester` and lead to a valid state.
-///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_data() {
-    after_any_event(About::Data, |step| {
-        let left = step.after.states != step.before.states;
-        kani::cover!(left, "a violation of quality of service");
-        kani::cover!(!left && step.actions.is_empty(), "an element that is used");
-        kani::cover!(!left && !step.actions.is_empty(), "an element that is dropped");
-        kani::cover!(step.after.hold_until_ns != step.before.hold_until_ns, "a violation holds");
-    });
-}
-
-/// From every valid state a verdict keeps every law of `law::requester` and leads to a valid state:
-/// a safety issue makes every group local and holds, and no hold is ever shortened.
-///
-/// Domain: all valid states of a table of two stations, all times of 64 bits. Not covered: larger
-/// tables.
-pub fn verify_requester_keeps_every_law_at_verdicts() {
-    after_any_event(About::Verdict, |step| {
-        let is_unsafe = matches!(step.event.kind, EventKind::Verdict { safe: false, .. });
-        let left = step.after.states != step.before.states;
-        kani::cover!(is_unsafe && left, "a fallback");
-        kani::cover!(is_unsafe && step.after.hold_until_ns == Some(i64::MAX), "a hold saturates");
-        kani::cover!(
-            is_unsafe && step.after.hold_until_ns == step.before.hold_until_ns,
-            "a later hold stays"
-        );
-        kani::cover!(!is_unsafe && !step.actions.is_empty(), "local services stop");
-    });
-}
-
-/// Kinds of events.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum About {
-    Offers,
-    Area,
-    Tick,
-    Answer,
-    Data,
-    Verdict,
-}
-
-/// Asserts all laws of any event of these kinds in any valid state.
-fn after_any_event(about: About, see: impl FnOnce(&Step<'_>)) {
-    let (mut table, aside, profile, parameters) = any_state();
-    let mut requester = Requester::resume(aside, &mut table);
-    kani::assume(requester.is_valid());
-    let before = Seen::of(&requester);
-    let event = any_event(&before, about);
-    let Ok(actions) = requester.step(&event) else { return };
-    let after = Seen::of(&requester);
-    let step = Step { profile, parameters, before, event, actions: &actions, after };
-    assert!(law::every_reachable_state_is_valid(&step));
-    assert!(law::t_wait_blocks_offloading(&step));
-    assert!(law::requests_are_decided_at_ticks_only(&step));
-    assert!(law::a_safety_issue_ends_every_remote_service(&step));
-    assert!(law::a_hold_is_never_shortened(&step));
-    assert!(law::a_session_left_is_released_exactly_once(&step));
-    assert!(law::actions_come_in_their_order(&step));
-    assert!(law::local_services_stop_when_the_profile_says(&step));
-    assert!(law::a_group_becomes_remote_by_confirmation_only(&step));
-    see(&step);
-}
-
-/// A safety issue makes every group local, its source too, releases what was in use, and holds until
-/// now + t_wait or longer: from any state at all, even one that no events lead to.
-///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: nothing; the table is not
-/// looked at.
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers that find no place.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
-pub fn verify_a_safety_issue_ends_every_remote_service() {
-    let (mut table, aside, _, parameters) = any_state();
-    let mut requester = Requester::resume(aside, &mut table);
-    let before = Group::ALL.map(|group| requester.state(group));
-    let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());
-    let kind = EventKind::Verdict {
-        safe: false,
-        sessions: Sessions { mot: option(session), plan: option(session) },
+pub fn verify_a_station_below_1_is_refused() {
+    let before = any_state();
+    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut []);
+    let station = near_integer(-1, 1);
+    kani::assume(station < 1);
+    let (session, generated_ns) = (near_integer(1, 6), time_ns());
+    let kind = match below(6) {
+        0 => EventKind::Withdraw { station },
+        1 => EventKind::Lost { station },
+        2 => EventKind::Offer { station, groups: groups() },
+        3 => EventKind::Confirm { station, group: Group::Mot, session },
+        4 => EventKind::Reject { station, group: Group::Plan, session },
+        _ => EventKind::Data { station, group: Group::Mot, session, generated_ns },
     };
-    let Ok(actions) = requester.step(&Event { t_ns, kind }) else {
-        unreachable!("a verdict names no station")
-    };
-    for (group, before) in Group::ALL.into_iter().zip(before) {
-        assert!(requester.state(group) == GroupState::Local);
-        assert!(requester.source(group) == Source::Local);
-        let released = actions.iter().any(
-            |action| matches!(action, Action::Release { group: released, .. } if *released == group),
-        );
-        assert!(released == (before != GroupState::Local));
-    }
-    let end_ns = t_ns.saturating_add(parameters.t_wait_ns);
-    let Some(until_ns) = requester.hold_until_ns() else { unreachable!("there is a hold") };
-    assert!(until_ns == end_ns.max(held_ns.unwrap_or(end_ns)));
-    kani::cover!(before[0] != GroupState::Local && before[1] != GroupState::Local, "both leave");
-    kani::cover!(before == [GroupState::Local; 2], "both are local already");
-    kani::cover!(until_ns > end_ns, "a later hold stays");
-    kani::cover!(until_ns == i64::MAX && t_ns < i64::MAX, "a hold saturates");
+    let refused = decide(&mut requester, &Event { t_ns: time_ns(), kind });
+    assert!(matches!(refused, Err(RequesterError::Station { station: named }) if named == station));
+    let after = requester.suspend().parts();
+    assert!(each(|at| same(after.groups[at], before.groups[at])));
+    assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
+    assert!(after.area == before.area && after.dropped[0] == before.dropped[0]);
+    kani::cover!(station == 0, "the CAV itself");
 }
 
-/// At a tick before `hold_until` nothing is asked for, and the hold does not end sooner: from any
-/// state at all.
+/// A tick keeps every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not covered:
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
+/// anything.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_ticks() {
+    let step = after(EventKind::Tick, &mut []);
+    assert!(step.keeps_every_law());
+    kani::cover!(step.starts(0), "local services start");
+    kani::cover!(step.has_hold(), "a hold");
+}
+
+/// A withdrawal and a loss keep every law of a step: see `keeps_every_law`.
+///
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is empty.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_every_law_at_withdrawals() {
+    let station = any_station();
+    let is_loss = kani::any();
+    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    let step = after(kind, &mut []);
+    assert!(step.keeps_every_law());
+    kani::cover!(is_loss && step.starts(0), "a loss");
+    kani::cover!(!is_loss && step.starts(1), "a withdrawal");
+}
+
+/// An offer keeps every law of a step (see `keeps_every_law`) and leaves exactly what is in use of its
+/// station and no longer offered, with one release for each.
+///
+/// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
 /// larger tables.
-pub fn verify_t_wait_blocks_offloading() {
-    let (mut table, aside, _, _) = any_state();
-    let mut requester = Requester::resume(aside, &mut table);
-    let (t_ns, held_ns) = (time_ns(), requester.hold_until_ns());
-    let sessions = requester.sessions();
-    let Ok(actions) = requester.step(&Event { t_ns, kind: EventKind::Tick }) else {
-        unreachable!("a tick names no station")
-    };
-    // Requests come last.
-    let asks = matches!(actions.last(), Some(Action::Request { .. }));
-    let held = held_ns.is_some_and(|until_ns| t_ns < until_ns);
-    assert!(!held || (!asks && requester.sessions() == sessions));
-    assert!(requester.hold_until_ns() >= held_ns);
-    kani::cover!(held && !actions.is_empty(), "a group is left during a hold");
-    kani::cover!(asks && held_ns == Some(t_ns), "a request at the end of a hold");
-    kani::cover!(asks && held_ns.is_none(), "a request without a hold");
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_every_law_at_offers() {
+    let (station, groups) = (any_station(), groups());
+    let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
+    assert!(step.keeps_every_law());
+    let lacks = [!groups.mot, !groups.plan];
+    let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);
+    assert!(each(|at| step.leaves(at) == (lacks[at] && uses(at))));
+    assert!(each(|at| step.releases_what_it_leaves(at)));
+    kani::cover!(step.leaves(0) && !step.leaves(1), "a group is left");
+    kani::cover!(uses(0) && !step.leaves(0), "a group stays");
 }
 
-/// An event that is refused changes nothing, and only a station below 1 or an offer without a
-/// place is refused.
+/// An offer replaces what its station offered and no other station's; it is refused exactly when its
+/// station is in no place, no place is free, and it is not empty, and then nothing changes.
 ///
-/// Domain: all valid states of a table of two stations, all events but verdicts, all times of 64
-/// bits. Not covered: larger tables.
-pub fn verify_requester_refuses_without_a_trace() {
-    let (mut table, aside, _, _) = any_state();
-    let records = table;
-    let mut requester = Requester::resume(aside, &mut table);
-    kani::assume(requester.is_valid());
-    let before = Seen::of(&requester);
-    let about = [About::Offers, About::Area, About::Tick, About::Answer, About::Data];
-    let event = any_event(&before, about[index(about.len())]);
-    let Err(error) = requester.step(&event) else {
-        kani::cover!(true, "an event that is taken");
-        return;
-    };
-    assert!(requester.suspend().parts() == aside.parts());
-    assert!(requester.stations() == records.as_slice());
-    let station = event.kind.station();
-    let known = records.iter().any(|record| record.station() == station);
-    match error {
-        RequesterError::Station { station: named } => {
-            assert!(station == Some(named) && named < 1);
+/// Domain: tables of two stations, nothing in use, all times of 64 bits. Not covered: larger tables;
+/// for groups in use see `verify_every_law_at_offers`.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
+    let records = [any_record(), any_record()];
+    let [a, b] = records;
+    let mut table = records;
+    let (station, groups) = (any_station(), groups());
+    let known = [a.station() == Some(station), b.station() == Some(station)];
+    let full = a.station().is_some() && b.station().is_some() && !known[0] && !known[1];
+    let local = any_state_with([GroupRecord::Local; 2]);
+    let mut requester = Requester::resume(Suspended::from_parts(&local), &mut table);
+    let event = Event { t_ns: time_ns(), kind: EventKind::Offer { station, groups } };
+    let found = decide(&mut requester, &event);
+    let refused = full && groups != Groups::NONE;
+    assert!(match found {
+        Ok(_) => !refused,
+        Err(RequesterError::TableFull { station: named, capacity }) => {
+            refused && named == station && capacity == 2
         }
-        RequesterError::TableFull { station: named, capacity } => {
-            assert!(station == Some(named) && capacity == CROSS_SECTIONS && !known);
-            assert!(matches!(event.kind, EventKind::Offer { .. }));
-        }
-        RequesterError::NegativeParameter { .. } => unreachable!("times are >= 0"),
+        Err(RequesterError::Station { .. } | RequesterError::NegativeParameter { .. }) => false,
+    });
+    assert!(requester.sessions() == local.sessions);
+    assert!(requester.hold_until_ns() == local.hold_until_ns);
+    let [c, d] = table;
+    assert!(known[0] || c == a || (a.station().is_none() && !refused));
+    assert!(known[1] || known[0] || d == b || (b.station().is_none() && !refused));
+    assert!(!known[0] || (c.offer() == groups && d == b));
+    assert!(!known[1] || known[0] || (d.offer() == groups && c == a));
+    kani::cover!(refused, "a full table");
+    kani::cover!(!refused && !known[0] && !known[1] && groups.mot, "a new station");
+    kani::cover!(known[1] && !known[0], "a known station");
+}
+
+/// Among two stations that offer a group the one is asked whose last request for it is older, never
+/// being the oldest; the smaller id of two never asked. After the last session nobody is.
+///
+/// Domain: tables of two different stations that both offer MOT, without a hold, both groups local
+/// and in the area, all sessions. Not covered: larger tables, PLAN.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_the_station_asked_last_waits() {
+    let records = [any_record(), any_record()];
+    let [a, b] = records;
+    kani::assume(a.offer().mot && b.offer().mot);
+    let mut table = records;
+    let (Some(one), Some(other)) = (a.station(), b.station()) else { return };
+    let asked = [a, b].map(|record| record.last_request(Group::Mot).unwrap_or(0));
+    kani::assume(one != other && (asked[0] != asked[1] || asked[0] == 0));
+    let local = any_state_with([GroupRecord::Local; 2]);
+    let state = Parts { hold_until_ns: None, area: Groups::ALL, ..local };
+    let event = Event { t_ns: time_ns(), kind: EventKind::Tick };
+    let step = after_in(state, event, &mut table);
+    let first = asked[0] < asked[1] || (asked[0] == asked[1] && one < other);
+    let expected = if first { one } else { other };
+    let found = in_use(step.after.groups[0]);
+    if step.before.sessions == i64::MAX {
+        assert!(found.is_none() && step.done[REQUESTS][0].is_none());
+    } else {
+        let session = step.before.sessions + 1;
+        assert!(found == Some((expected, session)));
+        let asked = if first { table[0] } else { table[1] };
+        assert!(asked.last_request(Group::Mot) == Some(session) || session == 0);
     }
-    kani::cover!(matches!(error, RequesterError::Station { .. }), "a station below 1");
-    kani::cover!(matches!(error, RequesterError::TableFull { .. }), "a full table");
+    kani::cover!(asked[0] == asked[1] && found.is_some(), "never asked");
+    kani::cover!(asked[0] > asked[1] && found.is_some(), "asked longer ago");
+    kani::cover!(found.is_none(), "after the last session");
 }
 
-fn parameters() -> Parameters {
-    Parameters {
-        t_wait_ns: duration_ns(),
-        request_timeout_ns: duration_ns(),
-        l_max_ns: duration_ns(),
-        dt_max_ns: duration_ns(),
-        qos_hold: kani::any(),
-    }
-}
-
-fn station() -> i64 {
-    near_integer(1, 3)
-}
-
-fn session() -> i64 {
-    near_integer(1, 6)
-}
-
-fn any_record() -> StationRecord {
-    let last_request = [option(session), option(session)];
-    StationRecord::from_parts(station(), groups(), last_request)
-}
-
-/// Any state at all; `is_valid` has to be assumed. That a group in use names a station of the
-/// table and its last request is only one of the choices.
-fn any_state() -> ([StationRecord; CROSS_SECTIONS], Suspended, Profile, Parameters) {
-    let table = [(); CROSS_SECTIONS].map(|()| any_record());
-    let (profile, parameters) = (profile(), parameters());
-    let parts = Parts {
-        profile,
-        parameters,
-        groups: [any_group(&table, Group::Mot), any_group(&table, Group::Plan)],
-        hold_until_ns: option(time_ns),
-        area: groups(),
-        sessions: near_integer(4, 8),
-        dropped: [kani::any(), kani::any()],
-    };
-    (table, Suspended::from_parts(&parts), profile, parameters)
-}
-
-/// Everything is drawn first and chosen from then; see `any::option`.
-fn any_group(table: &[StationRecord; CROSS_SECTIONS], group: Group) -> GroupRecord {
-    let ids = |place: &StationRecord| {
-        (place.station().unwrap_or(0), place.last_request(group).unwrap_or(0))
-    };
-    let (first, last, free) =
-        (ids(&table[0]), ids(&table[CROSS_SECTIONS - 1]), (station(), session()));
-    let (kind, place, deadline_ns) = (below(3), below(4), time_ns());
-    let (last_arrival_ns, last_used_ns) = (time_ns(), option(time_ns));
-    let local_computes = kani::any();
-    let (station, session) = match place {
-        0 => free,
-        1 => first,
-        _ => last,
-    };
-    match kind {
-        0 => GroupRecord::Local,
-        1 => GroupRecord::Requested { station, session, deadline_ns },
-        _ => GroupRecord::Remote(Running {
-            station,
-            session,
-            last_arrival_ns,
-            last_used_ns,
-            local_computes,
-        }),
-    }
-}
-
-/// Any event of these kinds; that it names what is in use is only one of the choices.
-fn any_event(before: &Seen, about: About) -> Event {
-    let (group, t_ns, generated_ns) = (group(), time_ns(), time_ns());
-    let (free, groups) = ((station(), session()), groups());
-    let (kind, named): (u8, bool) = (below(3), kani::any());
-    let [mot, plan] = before.states;
-    let state = if group == Group::Mot { mot } else { plan };
-    let (station, session) = match state {
-        GroupState::Requested { station, session, .. }
-        | GroupState::Remote { station, session }
-            if named =>
-        {
-            (station, session)
-        }
-        GroupState::Local | GroupState::Requested { .. } | GroupState::Remote { .. } => free,
-    };
-    let kind = match about {
-        About::Offers => match kind {
-            0 => EventKind::Offer { station, groups },
-            1 => EventKind::Withdraw { station },
-            _ => EventKind::Lost { station },
-        },
-        About::Area => EventKind::Area { groups },
-        About::Tick => EventKind::Tick,
-        About::Answer if kind == 0 => EventKind::Confirm { station, group, session },
-        About::Answer => EventKind::Reject { station, group, session },
-        About::Data => EventKind::Data { station, group, session, generated_ns },
-        About::Verdict => EventKind::Verdict {
-            safe: kind == 0,
-            sessions: Sessions {
-                mot: groups.mot.then_some(session),
-                plan: groups.plan.then_some(free.1),
-            },
-        },
-    };
-    Event { t_ns, kind }
+fn any_station() -> i64 {
+    let station = near_integer(1, 3);
+    kani::assume(station >= 1);
+    station
 }

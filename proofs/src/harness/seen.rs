@@ -2,8 +2,8 @@
 
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, Group, GroupRecord, Parameters, Parts, Requester, Running, Sessions,
-    StationRecord, Suspended,
+    Action, Event, EventKind, Group, GroupRecord, Groups, Parameters, Parts, Requester, Running,
+    Sessions, StationRecord, Suspended,
 };
 use mufasa::parts::decide;
 
@@ -39,16 +39,32 @@ impl Seen {
                     && self.says_what_services_do(at)
                     && self.stops_services_when_the_profile_says(at)
                     && self.keeps_the_group_valid(at)
+                    && self.keeps_the_group_in_order(at)
             })
     }
 
-    /// The end of a hold only moves later.
+    /// A safety issue holds, and with `qos_hold` a violation, until now + `t_wait` or later; nothing
+    /// else changes the hold, which so never ends sooner.
     pub(super) fn keeps_the_hold(&self) -> bool {
-        match (self.before.hold_until_ns, self.after.hold_until_ns) {
-            (None, _) => true,
-            (Some(_), None) => false,
-            (Some(before_ns), Some(after_ns)) => after_ns >= before_ns,
-        }
+        let violates = match self.event.kind {
+            EventKind::Data { .. } => self.leaves(0) || self.leaves(1),
+            EventKind::Tick => self.is_silent(0) || self.is_silent(1),
+            _ => false,
+        };
+        let end_ns = self.event.t_ns.saturating_add(self.before.parameters.t_wait_ns);
+        let later_ns = match self.before.hold_until_ns {
+            Some(until_ns) if until_ns > end_ns => until_ns,
+            Some(_) | None => end_ns,
+        };
+        let holds = self.is_unsafe() || (violates && self.before.parameters.qos_hold);
+        self.after.hold_until_ns == if holds { Some(later_ns) } else { self.before.hold_until_ns }
+    }
+
+    /// Nothing has come for longer than `dt_max`.
+    pub(super) fn is_silent(&self, at: usize) -> bool {
+        let GroupRecord::Remote(running) = self.before.groups[at] else { return false };
+        let since_ns = i128::from(self.event.t_ns) - i128::from(running.last_arrival_ns);
+        since_ns > i128::from(self.before.parameters.dt_max_ns)
     }
 
     /// Requests are decided at ticks alone.
@@ -101,6 +117,14 @@ impl Seen {
     /// used.
     pub(super) fn keeps_the_group_valid(&self, at: usize) -> bool {
         !self.is_valid(self.before.groups[at]) || self.is_valid(self.after.groups[at])
+    }
+
+    /// What is in use is in the area, and its session is one of those so far.
+    pub(super) fn keeps_the_group_in_order(&self, at: usize) -> bool {
+        let (before, after) = (self.before.groups[at], self.after.groups[at]);
+        let area = |area: Groups| if at == 0 { area.mot } else { area.plan };
+        !is_in_order(before, area(self.before.area), self.before.sessions)
+            || is_in_order(after, area(self.after.area), self.after.sessions)
     }
 
     pub(super) fn is_valid(&self, group: GroupRecord) -> bool {
@@ -196,6 +220,13 @@ pub(super) fn in_use(group: GroupRecord) -> Option<(i64, i64)> {
     }
 }
 
+fn is_in_order(group: GroupRecord, in_area: bool, sessions: i64) -> bool {
+    match in_use(group) {
+        None => true,
+        Some((_, session)) => in_area && 1 <= session && session <= sessions,
+    }
+}
+
 /// Whether the local services of the group compute.
 pub(super) fn computes(group: GroupRecord) -> bool {
     match group {
@@ -273,17 +304,14 @@ pub(super) fn any_record() -> StationRecord {
 }
 
 pub(super) fn any_state() -> Parts {
-    let parameters = Parameters {
-        t_wait_ns: duration_ns(),
-        request_timeout_ns: duration_ns(),
-        l_max_ns: duration_ns(),
-        dt_max_ns: duration_ns(),
-        qos_hold: kani::any(),
-    };
+    any_state_with([any_group(), any_group()])
+}
+
+pub(super) fn any_state_with(groups_in_use: [GroupRecord; 2]) -> Parts {
     Parts {
         profile: profile(),
-        parameters,
-        groups: [any_group(), any_group()],
+        parameters: any_parameters(),
+        groups: groups_in_use,
         hold_until_ns: option(time_ns),
         area: groups(),
         sessions: near_integer(4, 8),
@@ -291,11 +319,27 @@ pub(super) fn any_state() -> Parts {
     }
 }
 
-/// Everything is drawn first and chosen from then; see `any::option`.
+pub(super) fn any_parameters() -> Parameters {
+    Parameters {
+        t_wait_ns: duration_ns(),
+        request_timeout_ns: duration_ns(),
+        l_max_ns: duration_ns(),
+        dt_max_ns: duration_ns(),
+        qos_hold: kani::any(),
+    }
+}
+
 pub(super) fn any_group() -> GroupRecord {
-    let (kind, station, session) = (below(3), near_integer(1, 3), near_integer(1, 6));
+    any_group_of(|free| free)
+}
+
+/// Everything is drawn first and chosen from then; see `any::option`. Station and session are chosen
+/// by `named`, of free ones.
+pub(super) fn any_group_of(named: impl FnOnce((i64, i64)) -> (i64, i64)) -> GroupRecord {
+    let (kind, free) = (below(3), (near_integer(1, 3), near_integer(1, 6)));
     let (deadline_ns, last_arrival_ns, last_used_ns) = (time_ns(), time_ns(), option(time_ns));
     let local_computes = kani::any();
+    let (station, session) = named(free);
     match kind {
         0 => GroupRecord::Local,
         1 => GroupRecord::Requested { station, session, deadline_ns },

@@ -66,7 +66,7 @@ same_variants! {
     fn rule_from_impl(twin::Rule) -> Rule {
         Ambiguous, MeanCost, WorkLimit, NoAssignment,
         ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
-        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, StepSlide,
+        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,
         TurnReversed, TurnOnTheSpot, TurnHard,
         ArcTooShort, ArcTooLong, EndsTooSoon,
         Gap, Collision, CollisionStanding, CollisionMoving,

@@ -10,10 +10,11 @@ use super::draw::Draw;
 pub fn cycle(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.route = base::road(frame, 40.0);
     cycle.parameters.start_tolerance = 20.0;
-    if draw.below(3) == 0 {
-        turn(draw, frame, cycle);
-    } else {
-        step(draw, frame, cycle);
+    match draw.below(7) {
+        0 | 1 => turn(draw, frame, cycle),
+        2 => slide(draw, frame, cycle),
+        3 => turn_of_a_step(draw, frame, cycle),
+        _ => step(draw, frame, cycle),
     }
 }
 
@@ -41,13 +42,13 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
             (along, aside) = (1.0, side * draw.near(0.5 * cycle.ego.width));
         }
         5 => {
-            // u x (h1 + h2) + L (h1 x h2)/2 = +-(L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.4 dt)
+            // u x (h1 + h2) + L (h1 x h2)/2 = +-(L abs(h1 x h2)/2 + 0.1 u . (h1 + h2) + 0.1 + 0.02 dt)
             let turn: f64 = draw.pick(&[0.0, 0.1, -0.2, 0.3]);
             turned = (turn.cos(), turn.sin());
             along = draw.pick(&[0.5, 1.0, 1.5]);
             let side = draw.pick(&[1.0, -1.0]);
             let (sum, sine) = (1.0 + turned.0, turned.1);
-            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.08;
+            let slack = 0.5 * length * sine.abs() + 0.1 * along * sum + 0.104;
             aside = (along * sine + 0.5 * length * sine - side * slack) / (sum + side * 0.1 * sine);
             aside = draw.near(aside);
         }
@@ -71,6 +72,71 @@ fn step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         t_ns += 200_000_000;
     }
     cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// A metre straight on, then one step at the limit of its own turn; the CAV stays where it leads.
+fn turn_of_a_step(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[2.0, 5.0]);
+    let dt_ns = draw.pick(&[50_000_000, 100_000_000, 200_000_000]);
+    let length = draw.pick(&[0.0, 0.1, 0.3]);
+    let sine: f64 = draw.near(0.1 + 0.1 * seconds(dt_ns) + 0.5 * length);
+    let angle = sine.asin() * draw.pick(&[1.0, -1.0]);
+    let at = (1.0 + length * (0.5 * angle).cos(), length * (0.5 * angle).sin());
+    let last = (at.0, at.1, angle.cos(), angle.sin());
+    let mut points = vec![(0, (0.0, 0.0, 1.0, 0.0)), (200_000_000, (1.0, 0.0, 1.0, 0.0))];
+    let more = stop_time_ns(cycle) / dt_ns + 1;
+    points.extend((1..=more).map(|index| (200_000_000 + index * dt_ns, last)));
+    put(frame, cycle, points);
+}
+
+/// The trajectory of these times from now and places in the frame.
+fn put(frame: Frame, cycle: &mut Cycle, points: Vec<(i64, (f64, f64, f64, f64))>) {
+    let point = |(t_ns, (x, y, cos, sin)): (i64, (f64, f64, f64, f64))| {
+        let ((x, y), (cos, sin)) = (frame.at(x, y), frame.turn((cos, sin)));
+        TrajectoryPoint { t_ns: cycle.now_ns + t_ns, x, y, cos, sin }
+    };
+    let points = points.into_iter().map(point).collect();
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points });
+}
+
+/// Turns to and fro, the way aside of the last of them at the limit of the sums; the CAV stays where
+/// it leads.
+fn slide(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
+    cycle.ego.speed = draw.pick(&[2.0, 5.0]);
+    let steps = draw.between(2, 5);
+    let (dt_ns, turn) = (draw.pick(&[50_000_000, 100_000_000]), draw.pick(&[0.0, 0.02, 0.05]));
+    let (along, side) = (draw.pick(&[0.2, 0.5]), draw.pick(&[1.0, -1.0]));
+    let half_length = 0.5 * cycle.ego.length;
+    let (mut at, mut before) = ((0.0, 0.0), (1.0_f64, 0.0_f64));
+    // Sums of u x (h1 + h2), h1 x h2 and u . (h1 + h2).
+    let (mut across, mut turned, mut way) = (0.0, 0.0, 0.0);
+    let mut points = vec![(0.0, 0.0, 1.0, 0.0)];
+    for index in 1..=steps {
+        let angle: f64 = if index % 2 == 1 { side * turn } else { -side * turn };
+        let after = (angle.cos(), angle.sin());
+        let sum = (before.0 + after.0, before.1 + after.1);
+        turned += before.0 * after.1 - before.1 * after.0;
+        let aside = if index < steps {
+            draw.pick(&[0.0, 0.03, -0.03])
+        } else {
+            // across + along sum.1 - aside sum.0 + half_length turned = -side limit, the limit
+            // being 0.1 (way + along sum.0 + aside sum.1) and what is left.
+            let t = seconds(dt_ns) * steps as f64;
+            let rest = half_length * f64::abs(turned) + 0.1 + 0.02 * t;
+            let limit = rest + 0.1 * (way + along * sum.0);
+            let above = across + along * sum.1 + half_length * turned + side * limit;
+            draw.near(above / (sum.0 - side * 0.1 * sum.1))
+        };
+        across += along * sum.1 - aside * sum.0;
+        way += along * sum.0 + aside * sum.1;
+        at = (at.0 + along, at.1 + aside);
+        points.push((at.0, at.1, after.0, after.1));
+        before = after;
+    }
+    let (last, stop) = (points[points.len() - 1], stop_time_ns(cycle));
+    let more = stop / dt_ns + 1;
+    points.extend((0..more).map(|_| last));
+    put(frame, cycle, (0..).zip(points).map(|(index, at)| (index * dt_ns, at)).collect());
 }
 
 /// An even turn of a few steps, then straight on: from the mark to its last point at a limit of

@@ -55,8 +55,9 @@ impl Nearest {
     }
 }
 
-/// An item that more than one track has.
-const SHARED: u16 = NONE - 1;
+/// In `Column::row`: one track has the item with the index of the column, or more have it.
+const OWN: u16 = 0;
+const SHARED: u16 = 1;
 
 impl<'a> Search<'a> {
     pub(super) fn new(list: Listed<'a>, reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
@@ -67,37 +68,59 @@ impl<'a> Search<'a> {
     }
 
     /// Writes the item of every track into the row with its index, and the mark into the rows of
-    /// those whose item is that of no other track; fails when it is too close to call. The column
-    /// with the index of an item says whose it is.
+    /// those whose item is that of no other track; fails when it is too close to call.
     pub(super) fn mark_own(
         &self,
         mark: u16,
         tracks: &[Track],
         scratch: &mut Scratch<'_>,
     ) -> Option<Witness> {
+        let (rows, columns) = (&mut *scratch.rows, &mut *scratch.columns);
         let items = self.squares.items().len();
-        scratch.columns.iter_mut().take(items).for_each(|column| column.row = NONE);
-        for (track, index) in tracks.iter().zip(0_u16..) {
-            let nearest = self.nearest(track, scratch.columns);
-            let item = match self.is_near(&nearest) {
-                Some(true) => nearest.item,
-                Some(false) => usize::from(NONE),
-                None => return Some(too_close(track, [libm::sqrt(nearest.squared), self.reach])),
+        columns.iter_mut().take(items).for_each(|column| column.row = NONE);
+        let mut is_shared = false;
+        for (track, row) in tracks.iter().zip(rows.iter_mut()) {
+            let item = match self.item_of(track, columns) {
+                Ok(item) => item,
+                Err(away) => return Some(too_close(track, [away, self.reach])),
             };
-            let Some(row) = scratch.rows.get_mut(usize::from(index)) else { break };
-            row.item = short(item);
-            let Some(column) = scratch.columns.get_mut(item) else { continue };
-            if column.row == NONE {
-                column.row = index;
-                row.seen |= mark;
-            } else {
-                if let Some(first) = scratch.rows.get_mut(usize::from(column.row)) {
-                    first.seen &= !mark;
+            row.item = item;
+            let Some(column) = columns.get_mut(usize::from(item)) else { continue };
+            is_shared |= column.row != NONE;
+            column.row = if column.row == NONE { OWN } else { SHARED };
+            row.seen |= mark;
+        }
+        if is_shared {
+            for row in rows.iter_mut().take(tracks.len()) {
+                let column = columns.get(usize::from(row.item));
+                if column.is_some_and(|column| column.row == SHARED) {
+                    row.seen &= !mark;
                 }
-                column.row = SHARED;
             }
         }
         None
+    }
+
+    /// The item of a track, or `NONE`; when it is too close to call, how far the nearest one is, m.
+    #[inline]
+    fn item_of(&self, track: &Track, columns: &[Column]) -> Result<u16, f64> {
+        let moved = [track.vx * self.since, track.vy * self.since];
+        let index = self.squares.index();
+        match index.and_then(|index| index.clearly_nearest([track.x, track.y], moved)) {
+            Some((item, squared)) if squared < self.near => Ok(item),
+            Some((_, squared)) if squared > self.far => Ok(NONE),
+            Some(_) | None => self.item_by_squares(track, columns),
+        }
+    }
+
+    #[inline(never)]
+    fn item_by_squares(&self, track: &Track, columns: &[Column]) -> Result<u16, f64> {
+        let nearest = self.nearest(track, columns);
+        match self.is_near(&nearest) {
+            Some(true) => Ok(short(nearest.item)),
+            Some(false) => Ok(NONE),
+            None => Err(libm::sqrt(nearest.squared)),
+        }
     }
 
     #[inline]

@@ -137,6 +137,10 @@ impl<'a> Squares<'a> {
         self.items
     }
 
+    pub(crate) const fn index(&self) -> Option<&'a DetectionIndex<'a>> {
+        self.index
+    }
+
     /// Column and row, both counted from far off. Never decreases with a coordinate.
     fn square(&self, place: [f64; 2]) -> Square {
         place.map(|value| (value * self.scale + INTEGER).to_bits())

@@ -226,15 +226,27 @@ impl Outbox {
 pub(crate) type ByKind = [[Option<Action>; 2]; 4];
 
 impl Actions {
+    pub(crate) const NONE: Self =
+        Self { items: [Action::Drop(Group::Mot); Outbox::CAPACITY], len: 0 };
+
     /// The actions there are, in their order.
     pub(crate) fn of(by_kind: ByKind) -> Self {
-        let mut actions = Self { items: [Action::Drop(Group::Mot); Outbox::CAPACITY], len: 0 };
-        for action in by_kind.into_iter().flatten().flatten() {
-            if let Some(place) = actions.items.get_mut(actions.len) {
-                *place = action;
-                actions.len = actions.len.saturating_add(1);
-            }
-        }
+        let mut actions = Self::NONE;
+        actions.extend(&by_kind);
         actions
+    }
+
+    pub(crate) fn extend(&mut self, by_kind: &ByKind) {
+        for &[mot, plan] in by_kind {
+            self.append(mot);
+            self.append(plan);
+        }
+    }
+
+    fn append(&mut self, action: Option<Action>) {
+        if let (Some(action), Some(place)) = (action, self.items.get_mut(self.len)) {
+            *place = action;
+            self.len = self.len.saturating_add(1);
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
 use crate::numbers::range::{EMPTY, extend, larger};
 
 /// m
-const MARGIN: f64 = 1e-6;
+pub(super) const MARGIN: f64 = 1e-6;
 
 /// A rectangle that moves with constant velocity.
 #[derive(Clone, Copy, Debug)]
@@ -55,13 +55,13 @@ impl MovingRectangle {
     }
 
     /// At least half the extent along any direction.
-    fn reach(&self) -> f64 {
+    pub(super) fn reach(&self) -> f64 {
         let [length, width] = self.size;
         (length + width) * (0.5 * (1.0 + 1e-6))
     }
 
     /// Half the extents along a direction and across it.
-    fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
+    pub(super) fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
         let ([length, width], [along, across]) = (self.size, split(axis, self.direction));
         let (along, across) = (0.5 * along.abs(), 0.5 * across.abs());
         [length * along + width * across, length * across + width * along]
@@ -172,32 +172,13 @@ impl Sweep {
         self.misses_turned(&MovingRectangle { size, ..*object })
     }
 
-    /// The box in which an item of an earlier list has to be, of that age in s, so that an object
-    /// that comes from there, no faster than `speed` in m/s, may touch the CAV at one of the
-    /// points. `object`: where it is at the time 0. Along each axis: what is before the CAV's
-    /// places, `gap` m away, comes from at least `gap` age / t farther behind, t being the last
-    /// time.
-    pub(crate) fn comes_from(
-        &self,
-        object: &MovingRectangle,
-        speed: f64,
-        age: f64,
-    ) -> [[f64; 2]; 2] {
+    /// The box in which the centre of an object is at the time 0 that may touch the CAV at one of the
+    /// points, when it reaches so far, in m, and moves at most so fast, in m/s.
+    pub(crate) fn surroundings(&self, reach: f64, speed: f64) -> [[f64; 2]; 2] {
         let [middle, spread] = self.seconds;
-        let (first, last) = (middle - spread, middle + spread);
-        // Before the time 0 an object moves back, but not far.
-        let reach = object.reach() + MARGIN + speed * larger(-first, 0.0);
-        let rate = if last > 0.0 { age / last } else { 0.0 };
-        let most = speed * age + MARGIN;
+        let away = reach + speed * (middle.abs() + spread) * (1.0 + 1e-6) + MARGIN;
         let ([cx, cy], [hx, hy]) = (self.upright[0], self.upright[1]);
-        let range = |at: f64, centre: f64, half: f64| {
-            let (below, above) = (centre - half - reach - at, at - centre - half - reach);
-            let least = at - most + if above > 0.0 { most + above * rate - MARGIN } else { 0.0 };
-            let greatest = at + most - if below > 0.0 { most + below * rate - MARGIN } else { 0.0 };
-            [least, greatest]
-        };
-        let [x, y] = object.centre;
-        [range(x, cx, hx), range(y, cy, hy)]
+        [[cx - hx - away, cx + hx + away], [cy - hy - away, cy + hy + away]]
     }
 
     #[inline(never)]
@@ -212,12 +193,12 @@ impl Sweep {
     }
 }
 
-fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
+pub(super) fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
     [ax - bx, ay - by]
 }
 
 /// The components of a vector along an axis and to the left of it.
-fn split([cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+pub(super) fn split([cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
     [x * cos + y * sin, y * cos - x * sin]
 }
 

@@ -1,6 +1,7 @@
 //! Stage v decided for many trajectory points at once: a turned rectangle that contains all their
-//! disks, and by so much more that a cell whose centre is outside collides in neither profile. When
-//! no cell in it is set, none of these points collides; else half of the points are tried.
+//! disks, or the CAV's rectangles where these have to be touched, too (H-06), and by so much more
+//! that a cell whose centre is outside collides in neither profile. When no cell in it is set, none
+//! of these points collides; else half of the points are tried.
 //!
 //! Plain doubles: within the grid coordinates are below 2^21 cells, and each is rounded less than
 //! 16 times; `MARGIN` is more than that. Farther off, errors stay below 2^-14 cells up to the
@@ -13,15 +14,17 @@ use crate::stages::v_grid_map::bitmap::Bitmap;
 /// In cells.
 const MARGIN: f64 = 1e-3;
 
-/// The frame of the grid in cells, with the disks at a pose.
+/// The frame of the grid in cells, with the disks or the CAV's rectangle at a pose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellFrame {
     origin: [f64; 2],
     /// (cos, sin) / (cos^2 + sin^2) / resolution.
     axis: [f64; 2],
-    /// From a pose to the centres of the last and of the first disk, m.
+    /// From a pose to the centres of the last and of the first disk, or to the rear and the front, m.
     ends: [f64; 2],
-    /// As far as a disk reaches: its radius and half the diagonal of a cell.
+    /// Half the width of a rectangle, 0 for disks, m.
+    beside: f64,
+    /// As far as a disk reaches: its radius (0 for a rectangle) and half the diagonal of a cell.
     reach: f64,
 }
 
@@ -37,11 +40,32 @@ impl CellFrame {
             origin: [grid.x, grid.y],
             axis: [grid.cos * scale, grid.sin * scale],
             ends: [ego.center_offset - half, ego.center_offset + half],
+            beside: 0.0,
             reach: radius / grid.resolution + core::f64::consts::FRAC_1_SQRT_2 + MARGIN,
         }
     }
 
-    /// The centres of the last and of the first disk, in cells.
+    /// With the CAV's rectangle, which in this frame is as wide as on the ground: both are given by
+    /// directions that are not normalised.
+    pub(crate) fn with_rectangle(cycle: &Cycle<'_>, grid: &Grid<'_>) -> Self {
+        let ego = &cycle.ego;
+        let half = 0.5 * ego.length;
+        Self {
+            ends: [ego.center_offset - half, ego.center_offset + half],
+            beside: 0.5 * ego.width,
+            reach: core::f64::consts::FRAC_1_SQRT_2 + MARGIN,
+            ..Self::new(cycle, grid)
+        }
+    }
+
+    /// From the middle of an end to its corner on the left, in cells.
+    fn aside(&self, point: &TrajectoryPoint) -> [f64; 2] {
+        let (x, y) = (-self.beside * point.sin, self.beside * point.cos);
+        let [cos, sin] = self.axis;
+        [x * cos + y * sin, y * cos - x * sin]
+    }
+
+    /// The centres of the last and of the first disk, or of rear and front, in cells.
     fn centres(&self, point: &TrajectoryPoint) -> [[f64; 2]; 2] {
         let ([gx, gy], [cos, sin]) = (self.origin, self.axis);
         self.ends.map(|along| {
@@ -51,7 +75,7 @@ impl CellFrame {
     }
 }
 
-/// A turned rectangle around all disks at some points.
+/// A turned rectangle around all disks, or all rectangles, at some points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Band {
     origin: [f64; 2],
@@ -70,11 +94,14 @@ impl Band {
         let length = libm::sqrt(dx * dx + dy * dy);
         let along = if length > 1e-3 { [dx / length, dy / length] } else { [1.0, 0.0] };
         let (mut ranges, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
-        for [x, y] in points.iter().flat_map(|point| frame.centres(point)) {
-            let (dx, dy) = (x - origin[0], y - origin[1]);
-            let turned = [dx * along[0] + dy * along[1], dy * along[0] - dx * along[1]];
-            extend(&mut ranges, turned, [0.0; 2]);
-            extend(&mut upright, [x, y], [0.0; 2]);
+        let turn = |[x, y]: [f64; 2]| [x * along[0] + y * along[1], y * along[0] - x * along[1]];
+        for point in points {
+            let aside = if frame.beside > 0.0 { frame.aside(point) } else { [0.0; 2] };
+            for [x, y] in frame.centres(point) {
+                let turned = turn([x - origin[0], y - origin[1]]);
+                extend(&mut ranges, turned, turn(aside).map(f64::abs));
+                extend(&mut upright, [x, y], aside.map(f64::abs));
+            }
         }
         let widen = |[least, most]: [f64; 2]| [least - frame.reach, most + frame.reach];
         Self { origin, along, ranges: ranges.map(widen), upright: upright.map(widen) }
@@ -97,7 +124,8 @@ impl Band {
         if right < 0.0 || top < 0.0 || left > width || bottom > height {
             return true;
         }
-        let rows = integer(larger(bottom, 1.0) - 1.0)..integer(smaller(top, height));
+        // The rows whose centres are between.
+        let rows = integer(larger(bottom, 0.0))..integer(smaller(top, height));
         rows.into_iter().all(|row| {
             let dy = float(row) + 0.5 - y;
             let (mut from, mut to) = (left, right);

@@ -24,6 +24,11 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
         Self { cycle, grid, points, frame: CellFrame::new(cycle, grid) }
     }
 
+    /// For cells that the CAV's rectangle has to touch, too.
+    pub(crate) fn with_rectangle(self) -> Self {
+        Self { frame: CellFrame::with_rectangle(self.cycle, self.grid), ..self }
+    }
+
     /// The first disk that `hit` says collides with a cell of the bitmap.
     pub(crate) fn cells(
         &self,
@@ -35,7 +40,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
     }
 
     /// The first hit in the order of points, then disks. As many points as possible are passed at
-    /// once; `is_free`: no disk in the band can hit.
+    /// once; `is_free`: nothing in the band can hit.
     pub(crate) fn first(
         &self,
         rule: Rule,

@@ -25,16 +25,23 @@ const NEAR: &[Near] = &[
         c.parameters.step_max_ns = 400_000_000;
         turn(c, 0.866 - e);
     }),
+    ("turn of a step <= bound - m", PlanRemote, HARDENED, |c, e| {
+        // 0.28 <= 0.1 + 0.01 + 0.5 abs(u), after a metre straight on
+        two_points(c, 100, [1.0, 0.0]);
+        let [x, y] = BETWEEN.map(|part| part * (0.34 - 2.0 * e) / BETWEEN[0].hypot(BETWEEN[1]));
+        let last = TrajectoryPoint { cos: 0.96, sin: 0.28, ..at_time(200_000_000, 1.0 + x, y) };
+        points(c).push(last);
+    }),
     ("slide <= bound - m", PlanRemote, HARDENED, |c, e| {
-        // Both headings along x: 2 y <= 0.1 * 2 + 0.4 * 0.1.
-        two_points(c, 100, [1.0, 0.12 + e / 2.0]);
+        // Both headings along x: 2 y <= 0.1 * 2 + 0.1 + 0.02 * 0.1.
+        two_points(c, 100, [1.0, 0.151 + e / 2.0]);
     }),
     ("slide of a turn <= bound - m", PlanRemote, HARDENED, |c, e| {
         // u x (h1 + h2) = 0.56 - 1.96 y, L (h1 x h2)/2 = 0.56: the CAV turns left about a point to
-        // its right. 1.12 - 1.96 y <= 0.56 + 0.1 (3.92 + 0.28 y) + 0.08
+        // its right. 1.12 - 1.96 y <= 0.56 + 0.1 (3.92 + 0.28 y) + 0.104
         two_points(c, 200, [2.0, 0.0]);
         turn(c, 0.96);
-        points(c)[1].y = (0.56 - 0.472 - e) / 1.988;
+        points(c)[1].y = (0.56 - 0.496 - e) / 1.988;
     }),
     ("turn reversed: hm . h >= m", PlanRemote, HARDENED, |c, e| {
         quarter_turn(c, e);
@@ -120,8 +127,9 @@ fn each_bound_is_that_of_its_rule() {
         Rule::StepForward,
         Rule::StepLateral,
         Rule::StepTurn,
-        Rule::StepSlide,
-        Rule::StepSlide,
+        Rule::StepTurn,
+        Rule::Slide,
+        Rule::Slide,
         Rule::TurnReversed,
         Rule::TurnOnTheSpot,
         Rule::TurnHard,
@@ -154,7 +162,31 @@ fn a_slide_is_no_step_along_its_headings() {
         (points[i].t_ns, points[i].y) =
             (NOW + 20_000_000 * i64::try_from(i).expect("small"), aside);
     }
-    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StepSlide));
+    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::Slide));
+}
+
+/// H-11, F-41: turns of 0.05 rad to the right and back, each way back 0.05 m to the left.
+#[test]
+fn ways_aside_of_turns_to_and_fro_add_up() {
+    let fails_at = |turns: i32| {
+        let mut cycle = base(HARDENED, PlanRemote);
+        let turned = TrajectoryPoint { cos: 0.998_749, sin: -0.05, ..at_time(0, 0.0, 0.0) };
+        let point = |i: i32| TrajectoryPoint {
+            t_ns: NOW + i64::from(i) * 10_000_000,
+            x: 0.01 * f64::from(i),
+            y: 0.05 * f64::from(i / 2),
+            ..if i % 2 == 1 { turned.clone() } else { at_time(0, 0.0, 0.0) }
+        };
+        let points = (0..=2 * turns).map(point).collect();
+        cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+        match outcome(&cycle, Stage::Ii) {
+            Outcome::Failed(witness) if witness.rule == Rule::Slide => witness.point,
+            _ => None,
+        }
+    };
+    // 2 y is 0.1 m of 0.104 m after one turn, 0.2 m of 0.109 m after two.
+    assert_eq!(fails_at(1), None);
+    assert_eq!(fails_at(2), Some(4));
 }
 
 /// A mark is at least 0.5 s after the mark before it, and a point is compared with the last mark before
@@ -187,7 +219,7 @@ fn marks_are_half_a_second_apart() {
     let late = turning(99_999_999, &[0.0, 0.0, 0.0, 0.0, 0.0, 0.099, 0.15]);
     assert_eq!(late, on_the_spot(6));
     // The order of the rules comes before that of the points.
-    let reversed = turning(100_000_000, &[0.0, 0.4, 0.0]);
+    let reversed = turning(100_000_000, &[0.0, 0.1, 0.0]);
     assert_eq!(reversed, on_the_spot(1));
 }
 

@@ -178,6 +178,12 @@ pub const THEOREMS: &[Theorem] = &[
         "y from -2 to below -1/2",
         Some(Stage::Ii)
     ),
+    closure!(
+        "F-41",
+        "a turn to the right and back to the left, which end more than 0.2 m to the left: rejected by H-11",
+        "but for those of the second and the third point, turned by 0.05 rad; y above 0.2 to 1 m",
+        Some(Stage::Ii)
+    ),
 ];
 
 fn is_rejected(finding: &str, profile: Profile, by: Option<Stage>) -> Formula {

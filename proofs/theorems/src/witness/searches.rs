@@ -15,7 +15,7 @@ use crate::theorem::base::NOW_NS;
 
 /// All searches. Objects are as large as the CAV and along x, so that two of them meet when their
 /// centres on the x axis are at most 4 m apart.
-pub const SEARCHES: [Search; 25] = [
+pub const SEARCHES: [Search; 26] = [
     Search {
         finding: "F-02",
         cycle: |profile| {
@@ -317,5 +317,20 @@ pub const SEARCHES: [Search; 25] = [
             cycle
         },
         conditions: |_| [within("y", -2, 0), less(&Real::named("y"), &Real::ratio(-1, 2))],
+    },
+    Search {
+        finding: "F-41",
+        cycle: |profile| {
+            let mut cycle = bare(profile, PlanRemote);
+            let mut wiggle = every(3_000_000, &[0.0, 0.001, 0.012]);
+            for (point, sin) in wiggle.points[1..].iter_mut().zip([-0.05, 0.05]) {
+                (point.cos, point.sin) = (0.998_749_217_771_909, sin);
+            }
+            wiggle.points[2].y = open_number("y");
+            cycle.trajectory = Some(wiggle);
+            cycle.tracks = Some(tracks(Vec::new()));
+            cycle
+        },
+        conditions: |_| [within("y", 0, 1), less(&Real::ratio(1, 5), &Real::named("y"))],
     },
 ];

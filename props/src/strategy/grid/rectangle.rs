@@ -44,7 +44,8 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
 /// Mostly stage iv runs and finds nothing.
 fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
     let stamp_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
-    let items = match draw.below(2) {
+    // Without a detection the disks alone count.
+    let items = match draw.below(16) {
         0 => Vec::new(),
         _ => vec![track_validation::detection(road, (-20.0, 30.0))],
     };

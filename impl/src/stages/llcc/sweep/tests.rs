@@ -17,23 +17,12 @@ fn rectangle(moving: &MovingRectangle, t_ns: i64) -> Rectangle {
     Rectangle { centre: vector(moving.centre) + moved, direction, length, width }
 }
 
-fn number(random: &mut Random, size: f64) -> f64 {
-    (random.below(2_000_001) as f64 / 1e6 - 1.0) * size
-}
-
-fn direction(random: &mut Random) -> [f64; 2] {
-    let (sin, cos) = number(random, 3.2).sin_cos();
-    // As far from a unit vector as the domain allows.
-    let stretch = 1.0 + number(random, 4.9e-7);
-    [cos * stretch, sin * stretch]
-}
-
 fn object(random: &mut Random, far: f64) -> MovingRectangle {
     MovingRectangle {
-        centre: [number(random, 12.0) + far, number(random, 12.0) - far],
-        direction: direction(random),
-        velocity: [number(random, 20.0), number(random, 20.0)],
-        size: [3.0 + number(random, 2.9), 2.0 + number(random, 1.9)],
+        centre: [random.number(12.0) + far, random.number(12.0) - far],
+        direction: random.direction(),
+        velocity: [random.number(20.0), random.number(20.0)],
+        size: [3.0 + random.number(2.9), 2.0 + random.number(1.9)],
     }
 }
 
@@ -51,12 +40,12 @@ fn what_is_certainly_apart_does_not_touch() {
             speed: 5.0,
             length: 4.8,
             width: 1.9,
-            center_offset: number(&mut random, 2.0),
+            center_offset: random.number(2.0),
         };
-        let (sin, cos) = number(&mut random, 3.2).sin_cos();
+        let (sin, cos) = random.number(3.2).sin_cos();
         let points: Vec<TrajectoryPoint> = (0..4_i64)
             .map(|i| {
-                let turn = number(&mut random, 0.3);
+                let turn = random.number(0.3);
                 let [x, y] = [far + cos * i as f64, -far + sin * i as f64];
                 let (sin, cos) = (sin + turn, cos - turn);
                 let norm = sin.hypot(cos);

@@ -1,4 +1,4 @@
-//! A cell within reach of a disk is in the band.
+//! A cell within reach of a disk, or touched by a rectangle, is in the band.
 
 use std::vec::Vec;
 
@@ -6,18 +6,17 @@ use super::{Band, CellFrame};
 use crate::input::cycle::{Cycle, Ego, Grid, Route, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
+use crate::numbers::plane::Vector;
+use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::random::Random;
 use crate::services::configuration::Configuration;
+use crate::stages::llcc::footprint;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 
-fn number(random: &mut Random, size: f64) -> f64 {
-    (random.below(2_000_001) as f64 / 1e6 - 1.0) * size
-}
-
 fn grid(random: &mut Random, occupied: &'static [u8]) -> Grid<'static> {
-    let (sin, cos) = number(random, 3.2).sin_cos();
-    let (x, y) = (number(random, 100.0), number(random, 100.0));
-    let resolution = 0.3 + number(random, 0.2);
+    let (sin, cos) = random.number(3.2).sin_cos();
+    let (x, y) = (random.number(100.0), random.number(100.0));
+    let resolution = 0.3 + random.number(0.2);
     Grid { stamp_ns: 0, x, y, cos, sin, resolution, width: 90, height: 70, occupied, unknown: None }
 }
 
@@ -28,9 +27,9 @@ fn cycle(random: &mut Random, grid: Grid<'static>) -> Cycle<'static> {
         cos: 1.0,
         sin: 0.0,
         speed: 1.0,
-        length: 4.0 + number(random, 2.0),
-        width: 2.0 + number(random, 1.0),
-        center_offset: number(random, 2.0),
+        length: 4.0 + random.number(2.0),
+        width: 2.0 + random.number(1.0),
+        center_offset: random.number(2.0),
     };
     let n = 1 + random.below(6) as i64;
     Cycle {
@@ -74,7 +73,7 @@ fn try_cell(
     let all: Vec<_> = points.iter().flat_map(|point| disks(cycle, grid, point)).collect();
     let [x, y] = all[random.below(all.len() as u64) as usize];
     let mut around = |at: f64, count: i64| {
-        (at + number(random, 12.0)).floor().clamp(0.0, (count - 1) as f64) as i64
+        (at + random.number(12.0)).floor().clamp(0.0, (count - 1) as f64) as i64
     };
     let (column, row) = (around(x, 90), around(y, 70));
     let mut bits = [0; 90 * 70 / 8 + 1];
@@ -103,12 +102,12 @@ fn what_a_disk_can_reach_is_in_the_band() {
         let grid = grid(&mut random, &[]);
         let cycle = cycle(&mut random, grid);
         let side = grid.resolution * 60.0;
-        let (a, b) = (side * (0.5 + number(&mut random, 0.8)), side * 0.5);
+        let (a, b) = (side * (0.5 + random.number(0.8)), side * 0.5);
         let start = [grid.x + a * grid.cos - b * grid.sin, grid.y + a * grid.sin + b * grid.cos];
         let points: Vec<TrajectoryPoint> = (0..=random.below(4))
             .map(|i| {
-                let (sin, cos) = (0.3 * i as f64 + number(&mut random, 0.2)).sin_cos();
-                let (x, y) = (start[0] + i as f64 * 1.3, start[1] + number(&mut random, 0.5));
+                let (sin, cos) = (0.3 * i as f64 + random.number(0.2)).sin_cos();
+                let (x, y) = (start[0] + i as f64 * 1.3, start[1] + random.number(0.5));
                 TrajectoryPoint { t_ns: i as i64, x, y, cos, sin }
             })
             .collect();
@@ -117,6 +116,49 @@ fn what_a_disk_can_reach_is_in_the_band() {
         near += u32::from(reached);
     }
     assert!(free > 1_000 && near > 200, "{free} {near}");
+}
+
+#[test]
+fn what_a_rectangle_can_touch_is_in_the_band() {
+    let mut random = Random::new(23);
+    let (mut free, mut touched) = (0, 0);
+    for _ in 0..20_000 {
+        let mut grid = grid(&mut random, &[]);
+        // As far from a unit vector as the domain allows.
+        let stretch = 1.0 + random.number(4.9e-7);
+        (grid.cos, grid.sin) = (grid.cos * stretch, grid.sin * stretch);
+        let cycle = cycle(&mut random, grid);
+        let cell = |column: i64, row: i64| {
+            let [a, b] = [column, row].map(|index| (index as f64 + 0.5) * grid.resolution);
+            let (cos, sin) = (grid.cos, grid.sin);
+            let centre = Vector::new(grid.x + a * cos - b * sin, grid.y + a * sin + b * cos);
+            let side = grid.resolution;
+            Rectangle { centre, direction: Vector::new(cos, sin), length: side, width: side }
+        };
+        let start = cell(random.below(90) as i64, random.below(70) as i64).centre;
+        let [x, y] = [start.x, start.y].map(|it| it.value() + random.number(3.0));
+        let points: Vec<TrajectoryPoint> = (0..=random.below(3))
+            .map(|i| {
+                let (sin, cos) = (0.2 * i as f64 + random.number(3.2)).sin_cos();
+                TrajectoryPoint { t_ns: i as i64, x: x + i as f64, y, cos, sin }
+            })
+            .collect();
+        let band = Band::new(&CellFrame::with_rectangle(&cycle, &grid), &points);
+        for _ in 0..20 {
+            let (column, row) = (random.below(90) as i64, random.below(70) as i64);
+            let mut bits = [0; 90 * 70 / 8 + 1];
+            let bit = (row * 90 + column) as usize;
+            bits[bit / 8] |= 1 << (bit % 8);
+            let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
+            let square = cell(column, row);
+            let touches = |point| possibly_touch(&footprint(&cycle.ego, point), &square);
+            let touches = points.iter().any(touches);
+            assert!(!(touches && is_free), "{column} {row} {band:?}");
+            free += u32::from(is_free);
+            touched += u32::from(touches);
+        }
+    }
+    assert!(free > 1_000 && touched > 1_000, "{free} {touched}");
 }
 
 /// Bands almost along a row or a column, where a small component divides, of which one end is in
@@ -129,13 +171,12 @@ fn a_band_almost_upright_is_wide_enough() {
         let grid = Grid { cos: 1.0, sin: 0.0, ..grid(&mut random, &[]) };
         let cycle = cycle(&mut random, grid);
         let (slope, length) = (
-            [3e-7, 1.1e-6, 1e-5, 1e-3][case % 4] * (1.0 + number(&mut random, 0.5)),
+            [3e-7, 1.1e-6, 1e-5, 1e-3][case % 4] * (1.0 + random.number(0.5)),
             [3.0, 1e2, 1e4, 1e7][random.below(4) as usize],
         );
         let swap = |[x, y]: [f64; 2]| if case % 8 < 4 { [x, y] } else { [y, x] };
         let [cos, sin] = swap([slope, 1.0]);
-        let inside =
-            [grid.x, grid.y].map(|at| at + grid.resolution * (30.0 + number(&mut random, 20.0)));
+        let inside = [grid.x, grid.y].map(|at| at + grid.resolution * (30.0 + random.number(20.0)));
         let ends = [[0.0, 0.0], swap([length * slope, length])];
         let mut points = ends.map(|[x, y]| {
             let [x, y] = [inside[0] - x, inside[1] - y];
