@@ -99,15 +99,15 @@ def times_are_driven(cycle):
     d = abs(late_ns) / S
     brakes, gains = (a_max, a_b) if late_ns >= 0 else (a_b, a_max)
     v_lo, v_hi = max(v_now - brakes * d, 0.0), v_now + gains * d
-    tolerance, way, arc = parameters["start_tolerance"], ways(points), 0.0
+    way, arc = ways(points), 0.0
     for k, point in enumerate(points):
         t = (point["t_ns"] - points[0]["t_ns"]) / S
         arc += distance(points[k - 1], point) if k else 0.0
         # A CAV that brakes stands from v_lo / a_b on.
         t_b = min(t, v_lo / a_b)
-        if way[k] < v_lo * t_b - a_b * t_b * t_b / 2 - tolerance + EPS:
+        if way[k] < v_lo * t_b - a_b * t_b * t_b / 2 - parameters["lag_tolerance"] + EPS:
             return False
-        if arc > v_hi * t + a_max * t * t / 2 + tolerance - EPS:
+        if arc > v_hi * t + a_max * t * t / 2 + parameters["start_tolerance"] - EPS:
             return False
     if way[-1] < s_stop(cycle) - cycle["ego"]["length"] + EPS:
         return False

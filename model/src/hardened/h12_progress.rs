@@ -11,7 +11,7 @@ use crate::stages::horizon::arc_lengths;
 /// No trajectory needs to be longer than this, s.
 const LONGEST_NEEDED: i128 = 50;
 
-/// b(t) - start_tolerance <= way, s_stop - L <= last way,
+/// b(t) - lag_tolerance <= way, s_stop - L <= last way,
 /// arc length <= v_hi t + a_max t^2 / 2 + start_tolerance, and last t >= min(v_lo / a_b, 50 s).
 pub fn progress_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let p = &scene.parameters;
@@ -23,7 +23,7 @@ pub fn progress_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> 
     let last = times.len() - 1;
     let end = s_stop_along(scene, trajectory) - &scene.ego.length;
     let too_short = times.iter().zip(ways(trajectory)).enumerate().find_map(|(i, (t, way))| {
-        let limit = braking(&v_lo, &p.a_b, t) - &p.start_tolerance;
+        let limit = braking(&v_lo, &p.a_b, t) - &p.lag_tolerance;
         let limit = if i < last { limit } else { limit.max(end.clone()) };
         let passes = scene.reads.at_least(&way, &limit);
         Witness::unless(passes, Rule::ArcTooShort, &way, &limit).map(|w| w.at_point(i))

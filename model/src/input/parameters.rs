@@ -30,8 +30,11 @@ macro_rules! parameters {
             tau: f64 = 0.1 in 0.0..=60.0;
             /// H-04, H-12: largest acceleration of the CAV, m/s^2.
             a_max: f64 = 3.0 in 0.1..=100.0;
-            /// H-07, H-12: distance by which a trajectory may start off the CAV, m.
+            /// H-07, H-12: distance by which a trajectory may start off the CAV, and by which it may be ahead
+            /// of an accelerating one, m.
             start_tolerance: f64 = 2.0 in 1e-3..=1e3;
+            /// H-12: distance by which a trajectory may lag behind a CAV that brakes, m.
+            lag_tolerance: f64 = 0.2 in 1e-3..=1e3;
             /// H-11: largest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in f64::from_bits(1)..=1000.0;
             /// H-11: longest time between trajectory points, ns.

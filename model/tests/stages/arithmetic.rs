@@ -29,6 +29,7 @@ fn defaults_are_the_nearest_doubles() {
         ("tau", parameters.tau),
         ("a_max", parameters.a_max),
         ("start_tolerance", parameters.start_tolerance),
+        ("lag_tolerance", parameters.lag_tolerance),
         ("v_max", parameters.v_max),
         ("theta_velocity", parameters.theta_velocity),
         ("v_object", parameters.v_object),

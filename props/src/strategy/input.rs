@@ -170,6 +170,7 @@ fn numbers(cycle: &mut Cycle) -> Vec<(&mut f64, Limits)> {
         (&mut p.theta_obj, THRESHOLD),
         (&mut p.theta_track_max, THRESHOLD),
         (&mut p.start_tolerance, THRESHOLD),
+        (&mut p.lag_tolerance, THRESHOLD),
         (&mut p.a_b, ACCELERATION),
         (&mut p.a_max, ACCELERATION),
         (&mut p.safety_time, DURATION),

@@ -294,7 +294,7 @@ fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         } else {
             v_lo * v_lo / (2.0 * p.a_b)
         };
-        let least = (braking - p.start_tolerance).max(0.0);
+        let least = (braking - p.lag_tolerance).max(0.0);
         let most = v_hi * t + p.a_max * t * t / 2.0 + p.start_tolerance;
         let along = match aim {
             _ if i == 0 => 0.0,
@@ -319,7 +319,7 @@ fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
         let last = trajectory.points[trajectory.points.len() - 1].clone();
         trajectory.points.push(TrajectoryPoint { t_ns: last.t_ns + dt_ns, ..last });
     }
-    let braking = ego.speed * ego.speed / (2.0 * p.a_b) - p.start_tolerance;
+    let braking = ego.speed * ego.speed / (2.0 * p.a_b) - p.lag_tolerance;
     let stop = draw.near(braking.max(base::s_stop(cycle) - ego.length)).max(0.0);
     for point in &mut trajectory.points {
         let along = (ego.speed * seconds(point.t_ns - cycle.now_ns)).min(stop);

@@ -91,6 +91,7 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("theta_map", Cell::Proof, TESTED),
     ("v_max", Cell::Proof, TESTED),
     ("step_max", Cell::Proof, TESTED),
+    ("lag_tolerance", Cell::Proof, TESTED),
     ("lateral_tolerance", Cell::Proof, TESTED),
     ("work_limit", Cell::Proof, TESTED),
     ("I-01", Cell::Impl, "a number: nothing is computed with it"),

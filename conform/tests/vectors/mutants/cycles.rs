@@ -34,6 +34,7 @@ fn scale(parameters: &mut Parameters, factor: f64) {
         &mut parameters.theta_obj,
         &mut parameters.theta_track_max,
         &mut parameters.start_tolerance,
+        &mut parameters.lag_tolerance,
         &mut parameters.v_max,
         &mut parameters.theta_velocity,
     ] {

@@ -236,6 +236,7 @@ fn motion_is_examined_beyond_the_end() {
         moving(cycle)
     };
     cycle.trajectory = Some(straight(14, 0.5));
+    cycle.parameters.lag_tolerance = 2.0;
     // 13 points to 6.5 m, s_stop = 7.65: places at 6.75 to 7.75 m, all 1.3 s from now, when it is at 2.7.
     let witness = with(&mut cycle, 10.2).expect("the front reaches 9.75");
     assert_eq!(witness.point, Some(14 + 2));

@@ -46,7 +46,7 @@ const NEAR: &[Near] = &[
     }),
     ("way of the last point < s_stop + m", MotRemote, HARDENED, |c, e| {
         // s_stop = 6.25: beyond the end the CAV is at 6.5, which the car reaches.
-        c.parameters.tau = 0.0;
+        (c.parameters.tau, c.parameters.lag_tolerance) = (0.0, 2.0);
         let place = |i: u32| at_time(i64::from(i) * 200_000_000, f64::from(i), 0.0);
         let mut points: Vec<_> = (0..=7).map(place).collect();
         points[7].x = 6.25 - e;
@@ -124,6 +124,7 @@ fn every_configuration_looks_beyond_the_end() {
     for configuration in [MotRemote, AllRemote, PlanRemote] {
         let mut cycle = base(HARDENED, configuration);
         cycle.trajectory = Some(straight(14, 0.5));
+        cycle.parameters.lag_tolerance = 2.0;
         standing(&mut cycle, 11.6);
         assert!(failed(&cycle).is_some(), "{configuration:?}");
         standing(&mut cycle, 11.8);
