@@ -424,6 +424,8 @@ typedef struct MufasaParameters {
   double a_max;
   // H-07, H-12: how far off the CAV a trajectory may start, m.
   double start_tolerance;
+  // H-12: how far a trajectory may lag behind a CAV that brakes at a_b, m.
+  double lag_tolerance;
   // H-11: greatest speed of a trajectory, m/s.
   double v_max;
   // H-11: longest time between two trajectory points, ns.

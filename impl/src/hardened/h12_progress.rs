@@ -65,7 +65,7 @@ fn arcs_are_fine(
     let (slower, faster) = rates(cycle, first);
     let d = seconds(elapsed_ns(first.t_ns, cycle.now_ns)).abs();
     let (v_lo, v_hi) = ((v_now - slower * d).max(0.0), v_now + faster * d);
-    let tolerance = parameters.start_tolerance - 1e-6;
+    let (behind, ahead) = (parameters.lag_tolerance - 1e-6, parameters.start_tolerance - 1e-6);
     let (mut arc, mut driven, mut error, mut before) = (0.0, 0.0, 0.0, first);
     let all = points.iter().all(|point| {
         let (x, y) = (point.x - before.x, point.y - before.y);
@@ -77,7 +77,7 @@ fn arcs_are_fine(
         let left = (v_lo - a_b * t).max(0.0);
         let least = (v_lo * v_lo - left * left) / (2.0 * a_b);
         let most = v_hi * t + 0.5 * a_max * t * t;
-        least - tolerance <= driven - error && arc + error <= most + tolerance
+        least - behind <= driven - error && arc + error <= most + ahead
     });
     all && end.value() + 1e-6 <= driven - error
 }
@@ -89,14 +89,15 @@ fn rates(cycle: &Cycle<'_>, first: &TrajectoryPoint) -> (f64, f64) {
     if first.t_ns <= cycle.now_ns { (a_max, a_b) } else { (a_b, a_max) }
 }
 
-/// How far the CAV gets at least and at most, with the tolerance.
+/// How far the CAV gets at least and at most, with the tolerances.
 struct Bounds {
     v_lo: Real,
     v_hi: Real,
     a_b: Real,
     a_max: Real,
     stopping: Real,
-    tolerance: Real,
+    behind: Real,
+    ahead: Real,
 }
 
 impl Bounds {
@@ -108,20 +109,21 @@ impl Bounds {
         let (slower, faster) = rates(cycle, first);
         let v_lo = (v_now - Real::new(slower) * d).max(Real::ZERO);
         let (v_hi, stopping) = (v_now + Real::new(faster) * d, s_b(parameters, v_lo));
-        let tolerance = Real::new(parameters.start_tolerance);
-        Self { v_lo, v_hi, a_b, a_max, stopping, tolerance }
+        let behind = Real::new(parameters.lag_tolerance);
+        let ahead = Real::new(parameters.start_tolerance);
+        Self { v_lo, v_hi, a_b, a_max, stopping, behind, ahead }
     }
 
-    /// b(t) - tolerance: with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both branches of H-12 are
-    /// `s_b(v_lo)` - w^2 / (2 `a_b`).
+    /// b(t) - `lag_tolerance`: with w = max(`v_lo` - `a_b` t, 0), the speed that is left, both
+    /// branches of H-12 are `s_b(v_lo)` - w^2 / (2 `a_b`).
     fn braking(&self, t: Real) -> Real {
         let left = (self.v_lo - self.a_b * t).max(Real::ZERO);
-        self.stopping - left.squared().over(self.a_b + self.a_b) - self.tolerance
+        self.stopping - left.squared().over(self.a_b + self.a_b) - self.behind
     }
 
-    /// `v_hi` t + `a_max` t^2/2 + tolerance.
+    /// `v_hi` t + `a_max` t^2/2 + `start_tolerance`.
     fn accelerating(&self, t: Real) -> Real {
-        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5) + self.tolerance
+        self.v_hi * t + self.a_max * t.squared() * Real::new(0.5) + self.ahead
     }
 }
 

@@ -105,7 +105,7 @@ fn beyond_the_end_the_cav_is_where_it_is_moved_to() {
         let mut scene = occupied(configuration, PLACES[0], &[AHEAD]);
         scene.points.truncate(8);
         scene.points.iter_mut().skip(1).for_each(|point| point.x = 0.5);
-        scene.ego.length = length;
+        (scene.ego.length, scene.parameters.lag_tolerance) = (length, 2.0);
         collision(&scene)
     };
     for configuration in [AllRemote, PlanRemote] {

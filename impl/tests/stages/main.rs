@@ -9,6 +9,7 @@ mod cells;
 mod explained;
 mod history;
 mod input;
+mod lag;
 mod moving;
 mod scene;
 mod slide;

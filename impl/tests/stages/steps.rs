@@ -294,10 +294,15 @@ fn the_speed_at_the_first_point_is_from_now_on_or_since() {
         // v_hi = 5 m/s + rate * 0.05 s; after 1.2 s, with 3 m/s^2 and 2 m.
         let v_hi = 5.0 + most * 0.05;
         let farthest = v_hi * 1.2 + 1.5 * 1.44 + 2.0;
-        for (off, rule) in [(-1e-6, None), (1e-6, Some(Rule::ArcTooLong))] {
+        for (off, lag, rule) in [
+            (-1e-6, 1e-3, None),
+            (-1e-6, 1e3, None),
+            (1e-6, 1e-3, Some(Rule::ArcTooLong)),
+            (1e-6, 1e3, Some(Rule::ArcTooLong)),
+        ] {
             let mut scene = base();
             let speed = (farthest + off) / 1.2;
-            scene.parameters.start_tolerance = 2.0;
+            (scene.parameters.start_tolerance, scene.parameters.lag_tolerance) = (2.0, lag);
             let at = |i: u32| {
                 let t = 0.1 * f64::from(i);
                 (
@@ -309,7 +314,7 @@ fn the_speed_at_the_first_point_is_from_now_on_or_since() {
             };
             scene.points = points(&(0..20).map(at).collect::<Vec<_>>());
             scene.points.iter_mut().for_each(|point| point.t_ns += shift_ns);
-            assert_eq!(scene.rule(), rule, "{shift_ns} {off}");
+            assert_eq!(scene.rule(), rule, "{shift_ns} {off} {lag}");
         }
     }
 }

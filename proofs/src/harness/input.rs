@@ -19,7 +19,7 @@ use crate::kani;
 /// A number that is NaN, infinite or outside every domain makes local input an error to the caller
 /// and remote data an unsafe cycle in which no stage ran.
 ///
-/// Domain: each of the 56 numbers of a valid cycle, 5 bad values, all configurations, both
+/// Domain: each of the 57 numbers of a valid cycle, 5 bad values, all configurations, both
 /// profiles. Not covered: two bad values at once (`stages` has any).
 pub fn verify_bad_number_is_never_safe() {
     const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1e300];
@@ -162,7 +162,7 @@ impl Single {
 }
 
 /// Places of `number`.
-const NUMBERS: u8 = 56;
+const NUMBERS: u8 = 57;
 
 /// The number at a place, and whose it is.
 fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a mut f64, Owner) {
@@ -228,7 +228,8 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
         52 => &mut before.cos,
         53 => &mut p.lateral_tolerance,
         54 => &mut p.v_object,
-        _ => &mut p.tau_motion,
+        55 => &mut p.tau_motion,
+        _ => &mut p.lag_tolerance,
     };
     let owner = match place {
         40..=47 => Owner::Group(Group::Mot),

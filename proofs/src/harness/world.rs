@@ -189,6 +189,7 @@ fn parameters() -> Parameters {
         tau: near(0.0, 1.0),
         a_max: near(0.1, 10.0),
         start_tolerance: near(0.1, 1e3),
+        lag_tolerance: near(0.1, 1e3),
         v_max: near(1.0, 1e3),
         step_max_ns: near_integer(0, 60_000_000_000),
         theta_velocity: near(0.1, 1e3),
