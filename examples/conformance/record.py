@@ -20,7 +20,7 @@ PARAMETERS = {
     "max_age_ns": (100_000_000, (0, S60)), "n": (4, (1, 64)),
     "theta_track_max": (1.0, THRESHOLD), "miss_budget": (4, (0, 64)), "tau": (0.1, (0.0, 60.0)),
     "a_max": (3.0, (0.1, 100.0)), "start_tolerance": (2.0, THRESHOLD),
-    "lag_tolerance": (0.2, THRESHOLD), "v_max": (150.0, POSITIVE),
+    "lag_tolerance": (0.5, THRESHOLD), "v_max": (150.0, POSITIVE),
     "step_max_ns": (200_000_000, (0, S60)), "theta_velocity": (2.0, POSITIVE),
     "v_object": (70.0, POSITIVE), "tau_motion": (0.3, (0.0, 60.0)),
     "lateral_tolerance": (0.5, THRESHOLD),

@@ -34,7 +34,7 @@ macro_rules! parameters {
             /// H-07, H-12: how far off the CAV a trajectory may start, m.
             start_tolerance: f64 = 2.0 in [1e-3, 1e3];
             /// H-12: how far a trajectory may lag behind a CAV that brakes at a_b, m.
-            lag_tolerance: f64 = 0.2 in [1e-3, 1e3];
+            lag_tolerance: f64 = 0.5 in [1e-3, 1e3];
             /// H-11: greatest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in [f64::from_bits(1), 1e3];
             /// H-11: longest time between two trajectory points, ns.

@@ -38,13 +38,13 @@ fn judged(
 }
 
 #[test]
-fn the_default_is_a_fifth_of_a_metre() {
+fn the_default_is_half_a_metre() {
     let parameters = scene(Hardened, MotRemote, [0.0, 0.0]).parameters;
     let tolerances = [parameters.start_tolerance, parameters.lag_tolerance];
     let b = braking(5.0);
     for off in OFF {
-        assert_eq!(judged(tolerances, 0, |i| (b(i) - 0.2 + off).max(0.0)), None);
-        assert!(judged(tolerances, 0, |i| (b(i) - 0.2 - off).max(0.0)).is_some());
+        assert_eq!(judged(tolerances, 0, |i| (b(i) - 0.5 + off).max(0.0)), None);
+        assert!(judged(tolerances, 0, |i| (b(i) - 0.5 - off).max(0.0)).is_some());
     }
 }
 

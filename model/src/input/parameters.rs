@@ -34,7 +34,7 @@ macro_rules! parameters {
             /// of an accelerating one, m.
             start_tolerance: f64 = 2.0 in 1e-3..=1e3;
             /// H-12: distance by which a trajectory may lag behind a CAV that brakes, m.
-            lag_tolerance: f64 = 0.2 in 1e-3..=1e3;
+            lag_tolerance: f64 = 0.5 in 1e-3..=1e3;
             /// H-11: largest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in f64::from_bits(1)..=1000.0;
             /// H-11: longest time between trajectory points, ns.

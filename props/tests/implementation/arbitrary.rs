@@ -14,7 +14,7 @@ use mufasa_props::strategy::draw::Draw;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-const CYCLES: u64 = 60_000;
+const CYCLES: u64 = 70_000;
 
 /// Numbers for one cycle from a seed.
 pub fn tape(seed: u64) -> Vec<u32> {
