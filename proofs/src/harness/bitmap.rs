@@ -41,7 +41,7 @@ pub fn verify_a_free_row_has_no_set_cell() {
         for from in 0..SIDE {
             for end in 0..=SIDE {
                 let found = row_is_free(&bits, [SIDE; 2], row, [from, end]);
-                assert!(found == !(from..end).any(|column| is_set(bits, column, row)));
+                assert!(found == (from..end).all(|column| !is_set(bits, column, row)));
             }
         }
     }

@@ -25,7 +25,7 @@ use crate::kani;
 #[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_points_examined_are_points() {
     let examined = points_examined(&cycle(Profile::Paper), &points());
-    assert!(examined >= 1 && examined <= POINTS);
+    assert!((1..=POINTS).contains(&examined));
     kani::cover!(examined == 1, "the first alone");
     kani::cover!(examined == POINTS, "all");
 }
