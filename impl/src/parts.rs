@@ -4,6 +4,7 @@
 use core::cmp::Ordering;
 
 use crate::hardened::h04_horizon::plain_s_stop;
+use crate::hardened::h07_start;
 use crate::input::cycle::{
     Cycle, DetectionList, Grid, Lead, Route, TrackList, Trajectory, TrajectoryPoint,
 };
@@ -12,9 +13,15 @@ use crate::input::domain::{
     CheckedBefore, check_detections, check_grid, check_lead, check_tracks, check_trajectory,
 };
 use crate::input::parameters::Parameters;
+use crate::input::scratch::Row;
 use crate::numbers::exact::limbs;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
+use crate::report::Witness;
 use crate::stages::distances;
+use crate::stages::horizon::{Horizon, PointsExamined};
+use crate::stages::i_track_validation::gate;
+use crate::stages::i_track_validation::places::Places;
+use crate::stages::v_grid_map::bitmap::Bitmap;
 
 /// `s_b(v)` in plain doubles, m. Source: `spec/3-stages.md#distances`.
 pub fn s_b(parameters: &Parameters, v: f64) -> f64 {
@@ -103,4 +110,62 @@ pub fn sum_of_limbs(
 ) -> ([u64; 3], Ordering) {
     limbs::add(&mut total, summand, negative);
     (total, limbs::sign(&total))
+}
+
+/// The first set cell of a row from one column to another, in a bitmap of so many columns and rows.
+/// Source: `spec/5-interfaces.md#cycle`.
+pub fn first_in_row(
+    bits: &[u8],
+    [width, height]: [i64; 2],
+    row: i64,
+    [from, to]: [i64; 2],
+) -> Option<i64> {
+    Bitmap { bits, width, height }.first_in_row(row, from, to)
+}
+
+/// Whether no cell of a row is set from one column to before another. Source:
+/// `spec/5-interfaces.md#cycle`.
+pub fn row_is_free(
+    bits: &[u8],
+    [width, height]: [i64; 2],
+    row: i64,
+    [from, end]: [i64; 2],
+) -> bool {
+    Bitmap { bits, width, height }.row_is_free(row, from, end)
+}
+
+/// Column and row of the first set cell around another one, and the square of their distance, which is
+/// at most `most`. Source: `spec/3-stages.md#stage-v-trajectory-with-grid-map`.
+pub fn cell_within(
+    bits: &[u8],
+    [width, height]: [i64; 2],
+    [column, row]: [i64; 2],
+    most: i64,
+) -> Option<[i64; 3]> {
+    let found = Bitmap { bits, width, height }.within(column, row, most);
+    found.map(|near| [near.column, near.row, near.squared])
+}
+
+/// How many points of the trajectory stage v examines. Source: `spec/3-stages.md#distances`.
+pub fn points_examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> usize {
+    PointsExamined::new(cycle, points, Horizon::Braking).points.len()
+}
+
+/// What the start of a trajectory breaks. Source: `spec/3-stages.md#hardened-profile`, H-07.
+pub fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    h07_start::start_failure(cycle, points)
+}
+
+/// The indices of the first two gated tracks. Source: `spec/3-stages.md#stage-i-track-validation`.
+pub fn gated_tracks(
+    cycle: &Cycle<'_>,
+    tracks: &TrackList<'_>,
+    detections: &DetectionList<'_>,
+) -> [Option<u16>; 2] {
+    let mut rows = [Row::default(); 2];
+    let places = Places::new(cycle, tracks, detections);
+    let p = [cycle.ego.x, cycle.ego.y];
+    let count = gate::gated_tracks(p, &places, detections.items, &mut rows);
+    let [first, second] = rows.map(|row| row.track);
+    [(count > 0).then_some(first), (count > 1).then_some(second)]
 }

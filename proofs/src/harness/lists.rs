@@ -11,8 +11,13 @@ use mufasa::parts::{
 };
 
 use super::any::{near, near_integer, same_number};
+use super::items::{detection, point, track};
 #[cfg(not(kani))]
 use crate::kani;
+
+const EAST: [f64; 2] = [1.0, 0.0];
+/// Around now.
+const TIMES_NS: [i64; 2] = [8, 24];
 
 /// A route of two cross sections is valid exactly when every number is within its domain and the
 /// reference points differ; no NaN is.
@@ -47,7 +52,7 @@ pub fn verify_a_route_is_checked() {
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_tracks_are_checked() {
-    let items = [track(), track()];
+    let items = [track(EAST), track(EAST)];
     let (stamp_ns, now_ns, remote) = (near_integer(0, 12), near_integer(0, 12), kani::any());
     let valid = tracks_are_valid(&TrackList { stamp_ns, items: &items }, now_ns, remote);
     let within = |it: Track| {
@@ -76,7 +81,7 @@ pub fn verify_tracks_are_checked() {
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_detections_are_checked() {
-    let items = [detection(), detection()];
+    let items = [detection(EAST), detection(EAST)];
     let (stamp_ns, now_ns) = (near_integer(0, 12), near_integer(0, 12));
     let valid = detections_are_valid(&DetectionList { stamp_ns, items: &items }, now_ns);
     let within = |it: Detection| {
@@ -97,7 +102,7 @@ pub fn verify_detections_are_checked() {
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_a_trajectory_is_checked() {
-    let points = [point(), point()];
+    let points = [point(EAST, TIMES_NS), point(EAST, TIMES_NS)];
     let (stamp_ns, now_ns, remote) = (near_integer(0, 12), near_integer(0, 12), kani::any());
     let found = trajectory_is_usable(&Trajectory { stamp_ns, points: &points }, now_ns, remote);
     let usable = is_time(stamp_ns, now_ns, true);
@@ -187,28 +192,4 @@ fn cross_section() -> CrossSection {
     let place = || [near(-8.0, 8.0), near(-8.0, 8.0)];
     let ([x, y], left, right) = (place(), place(), place());
     CrossSection { x, y, left, right }
-}
-
-fn track() -> Track {
-    Track {
-        id: near_integer(1, 3),
-        x: near(-8.0, 8.0),
-        y: near(-8.0, 8.0),
-        cos: 1.0,
-        sin: 0.0,
-        vx: near(-30.0, 30.0),
-        vy: near(-30.0, 30.0),
-        length: near(0.01, 12.0),
-        width: near(0.01, 3.0),
-    }
-}
-
-fn detection() -> Detection {
-    let Track { x, y, cos, sin, length, width, .. } = track();
-    Detection { x, y, cos, sin, length, width }
-}
-
-fn point() -> TrajectoryPoint {
-    let t_ns = near_integer(8, 24);
-    TrajectoryPoint { t_ns, x: near(-8.0, 8.0), y: near(-8.0, 8.0), cos: 1.0, sin: 0.0 }
 }

@@ -10,6 +10,7 @@
 
 pub mod actions;
 pub mod any;
+pub mod bitmap;
 pub mod bounds;
 pub mod configuration;
 pub mod distances;
@@ -17,8 +18,10 @@ pub mod exact;
 pub mod group;
 pub mod i_track_validation;
 pub mod input;
+mod items;
 pub mod lists;
 pub mod order;
+pub mod pieces;
 pub mod plain_distances;
 pub mod quality_of_service;
 pub mod requester;
@@ -44,6 +47,10 @@ macro_rules! harnesses {
 harnesses! {
     actions:
         verify_actions_come_in_their_order;
+    bitmap:
+        verify_the_first_set_cell_of_a_row_is_found
+        verify_a_free_row_has_no_set_cell
+        verify_the_first_near_cell_is_found;
     configuration:
         verify_configurations_are_the_sets_of_groups;
     distances:
@@ -89,6 +96,10 @@ harnesses! {
         verify_a_grid_is_checked;
     order:
         verify_order_is_the_table;
+    pieces:
+        verify_points_examined_are_points
+        verify_the_start_breaks_rules_of_the_start
+        verify_gated_tracks_are_tracks;
     plain_distances:
         verify_s_b_is_bounded
         verify_s_cav_is_bounded

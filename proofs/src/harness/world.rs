@@ -11,11 +11,9 @@ use mufasa::services::configuration::Configuration;
 
 use super::any::{index, near, near_integer, option};
 use super::bounds::{DETECTIONS, DISKS, GRID, GRID_BYTES, POINTS, ROUTE, TRACKS};
+use super::items::{self, FAR, detection, position, track};
 #[cfg(not(kani))]
 use crate::kani;
-
-/// Largest position that a sampling engine prefers, m: near enough for lists to meet.
-const FAR: f64 = 8.0;
 
 /// The items of all lists.
 #[derive(Debug)]
@@ -32,8 +30,8 @@ impl World {
     /// Any items.
     pub fn any() -> Self {
         Self {
-            tracks: [(); TRACKS].map(|()| track()),
-            detections: [(); DETECTIONS].map(|()| detection()),
+            tracks: [(); TRACKS].map(|()| track(direction())),
+            detections: [(); DETECTIONS].map(|()| detection(direction())),
             points: core::array::from_fn(point),
             cross_sections: core::array::from_fn(cross_section),
             occupied: [kani::any(), kani::any()],
@@ -120,36 +118,10 @@ fn direction() -> [f64; 2] {
     if kani::any() { UNIT[index(UNIT.len())] } else { [near(0.8, 0.8), near(0.6, 0.6)] }
 }
 
-fn position() -> f64 {
-    near(-FAR, FAR)
-}
-
-fn track() -> Track {
-    let [cos, sin] = direction();
-    Track {
-        id: near_integer(1, 3),
-        x: position(),
-        y: position(),
-        cos,
-        sin,
-        vx: near(-30.0, 30.0),
-        vy: near(-30.0, 30.0),
-        length: near(0.01, 12.0),
-        width: near(0.01, 3.0),
-    }
-}
-
-fn detection() -> Detection {
-    let Track { x, y, cos, sin, length, width, .. } = track();
-    Detection { x, y, cos, sin, length, width }
-}
-
 /// The times of consecutive points increase, or are any.
 fn point(at: usize) -> TrajectoryPoint {
     const FIRST_NS: [i64; POINTS] = [8, 16, 24];
-    let [cos, sin] = direction();
-    let t_ns = near_integer(FIRST_NS[at], FIRST_NS[at] + 7);
-    TrajectoryPoint { t_ns, x: position(), y: position(), cos, sin }
+    items::point(direction(), [FIRST_NS[at], FIRST_NS[at] + 7])
 }
 
 /// Consecutive cross sections go on, or are anywhere.
@@ -161,7 +133,8 @@ fn cross_section(at: usize) -> CrossSection {
     CrossSection { x, y: near(-1.0, 1.0), left, right }
 }
 
-fn ego() -> Ego {
+/// Any CAV.
+pub fn ego() -> Ego {
     let [cos, sin] = direction();
     Ego {
         x: position(),
@@ -175,7 +148,8 @@ fn ego() -> Ego {
     }
 }
 
-fn parameters() -> Parameters {
+/// Any parameters.
+pub fn parameters() -> Parameters {
     Parameters {
         theta_tr: near(0.1, 10.0),
         theta_map: near(0.1, 10.0),
