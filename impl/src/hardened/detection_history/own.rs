@@ -3,7 +3,7 @@
 
 use crate::hardened::detection_history::squares::{CLOSE, Links, Listed, MARGIN, Squares};
 use crate::input::cycle::{Detection, Track};
-use crate::input::scratch::{Column, NONE, Scratch, short};
+use crate::input::scratch::{Column, NONE, Row, Scratch, short};
 use crate::numbers::plane::same_point;
 use crate::numbers::range::smaller;
 use crate::numbers::time::seconds;
@@ -55,9 +55,16 @@ impl Nearest {
     }
 }
 
-/// In `Column::row`: one track has the item with the index of the column, or more have it.
-const OWN: u16 = 0;
-const SHARED: u16 = 1;
+/// In `Column::row`: more than one track has the item with the index of the column; else which one.
+const SHARED: u16 = NONE - 1;
+
+/// The item is nobody's own.
+#[cold]
+fn share(column: &mut Column, mark: u16, rows: &mut [Row]) {
+    let owner = rows.get_mut(usize::from(column.row));
+    owner.into_iter().for_each(|row| row.seen &= !mark);
+    column.row = SHARED;
+}
 
 impl<'a> Search<'a> {
     pub(super) fn new(list: Listed<'a>, reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
@@ -67,8 +74,8 @@ impl<'a> Search<'a> {
         Self { squares, reach, near, far, wide: square(reach + 1.0), since: seconds(since_ns) }
     }
 
-    /// Writes the item of every track into the row with its index, and the mark into the rows of
-    /// those whose item is that of no other track; fails when it is too close to call.
+    /// Writes the item and the mark into the rows of the tracks whose item is that of no other track;
+    /// fails when it is too close to call.
     pub(super) fn mark_own(
         &self,
         mark: u16,
@@ -78,24 +85,20 @@ impl<'a> Search<'a> {
         let (rows, columns) = (&mut *scratch.rows, &mut *scratch.columns);
         let items = self.squares.items().len();
         columns.iter_mut().take(items).for_each(|column| column.row = NONE);
-        let mut is_shared = false;
-        for (track, row) in tracks.iter().zip(rows.iter_mut()) {
+        for (index, track) in tracks.iter().enumerate() {
             let item = match self.item_of(track, columns) {
                 Ok(item) => item,
                 Err(away) => return Some(too_close(track, [away, self.reach])),
             };
-            row.item = item;
             let Some(column) = columns.get_mut(usize::from(item)) else { continue };
-            is_shared |= column.row != NONE;
-            column.row = if column.row == NONE { OWN } else { SHARED };
-            row.seen |= mark;
-        }
-        if is_shared {
-            for row in rows.iter_mut().take(tracks.len()) {
-                let column = columns.get(usize::from(row.item));
-                if column.is_some_and(|column| column.row == SHARED) {
-                    row.seen &= !mark;
-                }
+            if column.row != NONE {
+                share(column, mark, rows);
+                continue;
+            }
+            column.row = short(index);
+            if let Some(row) = rows.get_mut(index) {
+                row.item = item;
+                row.seen |= mark;
             }
         }
         None
