@@ -3,7 +3,12 @@
 //! is what H-11 and H-12 leave open. Simulated annealing; each seed is one run.
 //!
 //! `cargo run --release -p mufasa-props --example nearest_car -- [v_now, m/s [seconds [center_offset, m]]]`
-#![allow(clippy::print_stdout, reason = "a program")]
+#![allow(
+    clippy::print_stdout,
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "a program with small numbers"
+)]
 
 use std::time::{Duration, Instant};
 
