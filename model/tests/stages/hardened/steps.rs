@@ -57,17 +57,17 @@ const NEAR: &[Near] = &[
         turn(c, 0.96);
     }),
     // H-12: b(0.5) = s_b(10) = 2.5, 10 * 0.5 + 3 * 0.125 + 0.5.
-    ("arc length >= b - lag_tolerance + m", PlanRemote, HARDENED, |c, e| arc(c, 2.25 - e)),
+    ("way >= b - lag_tolerance + m", PlanRemote, HARDENED, |c, e| arc(c, 2.25 - e)),
     ("arc length <= ... + start_tolerance - m", PlanRemote, HARDENED, |c, e| arc(c, 5.875 + e)),
     // 0.1 s before now: v_lo = 10 - 0.3, v_hi = 10 + 2.
-    ("arc length >= b(v_lo), t0 before now", PlanRemote, HARDENED, |c, e| {
+    ("way >= b(v_lo), t0 before now", PlanRemote, HARDENED, |c, e| {
         shifted_arc(c, -1, 2.102_25 - e);
     }),
     ("arc length <= v_hi t + ..., t0 before now", PlanRemote, HARDENED, |c, e| {
         shifted_arc(c, -1, 6.875 + e);
     }),
     // 0.1 s after now: v_lo = 10 - 2, v_hi = 10 + 0.3.
-    ("arc length >= b(v_lo), t0 after now", PlanRemote, HARDENED, |c, e| {
+    ("way >= b(v_lo), t0 after now", PlanRemote, HARDENED, |c, e| {
         shifted_arc(c, 1, 1.35 - e);
     }),
     ("arc length <= v_hi t + ..., t0 after now", PlanRemote, HARDENED, |c, e| {
