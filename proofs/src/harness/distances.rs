@@ -11,7 +11,7 @@ use mufasa::services::configuration::Configuration;
 use mufasa::stages::check;
 
 use super::any::within;
-use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS, alone};
 #[cfg(not(kani))]
 use crate::kani;
 use crate::law::distances::{
@@ -140,18 +140,12 @@ fn behind(parameters: Parameters, v_now: f64, lead: Lead) -> Cycle<'static> {
     let mut ego = EGO;
     ego.speed = v_now;
     Cycle {
-        profile: Profile::Paper,
-        parameters,
-        now_ns: NOW_NS,
         configuration: Configuration::PlanRemote,
-        ego,
         trajectory: Some(Trajectory { stamp_ns: NOW_NS, points: &HERE }),
-        tracks: None,
         detections: Some(DetectionList { stamp_ns: NOW_NS, items: &[] }),
         lead: Some(lead),
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
-        grid: None,
-        detection_history: &[],
+        ..alone(Profile::Paper, parameters, ego, NOW_NS)
     }
 }
 

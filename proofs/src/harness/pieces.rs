@@ -2,16 +2,16 @@
 //! they go on whatever `exact`, `rounding` and `libm` answer.
 
 use mufasa::input::cycle::{
-    Cycle, Detection, DetectionList, Ego, Route, Track, TrackList, TrajectoryPoint,
+    Cycle, Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint,
 };
 use mufasa::input::profile::Profile;
 use mufasa::parts::{gated_tracks, points_examined, start_failure};
 use mufasa::report::{Rule, Witness};
-use mufasa::services::configuration::Configuration;
 
 use super::any::{near, near_integer, profile};
 use super::bounds::{DETECTIONS, POINTS, TRACKS};
 use super::items::{detection, point, track};
+use super::scene::alone;
 use super::world::{ego, parameters};
 #[cfg(not(kani))]
 use crate::kani;
@@ -80,21 +80,8 @@ fn direction() -> [f64; 2] {
     [near(1.0, 1.0), near(0.0, 0.0)]
 }
 
-/// The CAV and its parameters alone. No list of it depends on a choice, or places in memory would.
+/// Any CAV and its parameters alone.
 fn cycle(profile: Profile) -> Cycle<'static> {
     let [cos, sin] = direction();
-    Cycle {
-        profile,
-        parameters: parameters(),
-        now_ns: near_integer(10, 12),
-        configuration: Configuration::AllRemote,
-        ego: Ego { cos, sin, ..ego() },
-        trajectory: None,
-        tracks: None,
-        detections: None,
-        lead: None,
-        route: Route { closed: false, cross_sections: &[] },
-        grid: None,
-        detection_history: &[],
-    }
+    alone(profile, parameters(), Ego { cos, sin, ..ego() }, near_integer(10, 12))
 }

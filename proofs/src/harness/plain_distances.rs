@@ -1,14 +1,13 @@
 //! The distances in plain doubles (`spec/3-stages.md#distances`). That the bounds of `impl` on its
 //! double-doubles hold is for other tests.
 
-use mufasa::input::cycle::{Cycle, Ego, Route, TrajectoryPoint};
+use mufasa::input::cycle::{Ego, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::parts::{s_b, s_cav, s_follow, s_stop, s_valid};
-use mufasa::services::configuration::Configuration;
 
 use super::any::{same_number, within};
-use super::scene::{EGO, NOW_NS};
+use super::scene::{EGO, NOW_NS, alone};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -109,20 +108,7 @@ pub fn verify_s_stop_is_bounded() {
         TrajectoryPoint { t_ns: NOW_NS, x: EGO.x, y: EGO.y, cos: 1.0, sin: 0.0 };
     let parameters =
         Parameters { tau: within(0.0, 60.0), a_max: within(0.1, 100.0), ..parameters() };
-    let cycle = Cycle {
-        profile: Profile::Hardened,
-        parameters,
-        now_ns: NOW_NS,
-        configuration: Configuration::AllRemote,
-        ego: Ego { speed: speed(), ..EGO },
-        trajectory: None,
-        tracks: None,
-        detections: None,
-        lead: None,
-        route: Route { closed: false, cross_sections: &[] },
-        grid: None,
-        detection_history: &[],
-    };
+    let cycle = alone(Profile::Hardened, parameters, Ego { speed: speed(), ..EGO }, NOW_NS);
     let [least, most] = s_stop(&cycle, &FIRST);
     assert!((0.0..=2e8).contains(&least) && same_number(least, most));
     kani::cover!(least > 0.0, "some way");

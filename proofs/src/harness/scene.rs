@@ -128,3 +128,22 @@ pub fn cycle(profile: Profile, configuration: Configuration, given: [Given; 5]) 
         detection_history: &[],
     }
 }
+
+/// The CAV and its parameters alone, in `AllRemote`. No list of it depends on a choice, or places in memory
+/// would.
+pub fn alone(profile: Profile, parameters: Parameters, ego: Ego, now_ns: i64) -> Cycle<'static> {
+    Cycle {
+        profile,
+        parameters,
+        now_ns,
+        configuration: Configuration::AllRemote,
+        ego,
+        trajectory: None,
+        tracks: None,
+        detections: None,
+        lead: None,
+        route: Route { closed: false, cross_sections: &[] },
+        grid: None,
+        detection_history: &[],
+    }
+}
