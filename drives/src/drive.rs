@@ -9,6 +9,9 @@ pub struct Drive {
     pub name: String,
     /// Files that it was read from.
     pub source: String,
+    /// How far the CAV's own sensor sees the leading vehicle, m; an attack under which the CAV
+    /// drives elsewhere measures it anew.
+    pub lead_range_m: f64,
     /// Cycles: of recordings and maps in order of time, of records in the order of their lines,
     /// whatever times they have.
     pub cycles: Vec<DriveCycle>,

@@ -64,6 +64,8 @@ pub enum Tail {
 pub struct Sensor {
     /// Range, m.
     pub range_m: f64,
+    /// Range of the sensor of the leading vehicle, m; 0 for none.
+    pub lead_range_m: f64,
     /// Standard deviation of a detected position, per axis, m.
     pub sigma_m: f64,
     /// Probability that an object within range is detected.
@@ -76,7 +78,14 @@ pub struct Sensor {
 
 impl Default for Sensor {
     fn default() -> Self {
-        Self { range_m: 80.0, sigma_m: 0.05, probability: 1.0, clutter: 0.5, seed: 1 }
+        Self {
+            range_m: 80.0,
+            lead_range_m: 80.0,
+            sigma_m: 0.05,
+            probability: 1.0,
+            clutter: 0.5,
+            seed: 1,
+        }
     }
 }
 

@@ -20,6 +20,7 @@ fn drive(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
     Drive {
         name: "straight".to_owned(),
         source: "test".to_owned(),
+        lead_range_m: 80.0,
         cycles: (0..count).map(cycle).collect(),
         notes: Vec::new(),
     }

@@ -92,7 +92,7 @@ struct Ride {
 impl Ride {
     /// A variant of a cycle, with what it is called.
     fn variant(&self, index: usize, variant: usize) -> (String, Cycle) {
-        let Drive { name, cycles, .. } = &self.drive;
+        let Drive { name, lead_range_m, cycles, .. } = &self.drive;
         let found = &cycles[index];
         let name = format!("{name}#{}", found.id);
         match variant.checked_sub(CONFIGURATIONS.len()) {
@@ -101,9 +101,10 @@ impl Ride {
                 let attack = Attack::ALL[attack];
                 let from = index.saturating_sub(ATTACKED_BEFORE);
                 let mut part = Drive {
-                    cycles: cycles[from..=index].to_vec(),
                     name: name.clone(),
                     source: String::new(),
+                    lead_range_m: *lead_range_m,
+                    cycles: cycles[from..=index].to_vec(),
                     notes: Vec::new(),
                 };
                 let clean = self.clean(index, 0);

@@ -45,7 +45,7 @@ pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError
         let in_span = (injection.from_s..=injection.to_s).contains(&since_s(cycle));
         if in_span && injection.attack.reaches(cycle) {
             if onset.is_none() {
-                onset = Onset::new(cycle, injection.attack);
+                onset = Onset::new(cycle, injection.attack, drive.lead_range_m);
             }
             let Some(onset) = &mut onset else { continue };
             attack(cycle, injection.attack, onset);
@@ -103,6 +103,7 @@ struct Onset {
     scan_ns: i64,
     trajectory: Option<Trajectory>,
     planner: Planner,
+    lead_range_m: f64,
     /// The object that the attack is on, as long as it is received.
     target: Option<i64>,
 }
@@ -110,12 +111,13 @@ struct Onset {
 impl Onset {
     /// The attack begins with this cycle; an attack that would have the CAV drive what it is sent
     /// begins when there is something to hide.
-    fn new(cycle: &Cycle, attack: Attack) -> Option<Self> {
+    fn new(cycle: &Cycle, attack: Attack, lead_range_m: f64) -> Option<Self> {
         let onset = || Self {
             now_ns: cycle.now_ns,
             scan_ns: cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns),
             trajectory: cycle.trajectory.clone(),
             planner: Planner::new(cycle),
+            lead_range_m,
             target: None,
         };
         let mut told = cycle.clone();
@@ -140,7 +142,7 @@ fn attack(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
     if attack.is_driven() {
         let time_s = seconds(cycle.now_ns.saturating_sub(onset.now_ns));
         let objects = cycle.tracks.as_ref().map_or_else(Vec::new, |t| t.items.clone());
-        onset.planner.execute(cycle, time_s, &objects);
+        onset.planner.execute(cycle, time_s, &objects, onset.lead_range_m);
         Planner::new(cycle).replan(cycle, false, 0.0);
     }
     change(cycle, attack, onset);

@@ -18,8 +18,6 @@ const CRUISE: f64 = 8.0;
 const ASIDE: [f64; 2] = [15.0, 2.0];
 /// Ghosts: ahead along the path and to the left, m; ids count down from the first.
 const GHOSTS: [(i64, Point); 3] = [(-1, [15.0, 0.0]), (-2, [10.0, 4.0]), (-3, [20.0, -4.0])];
-/// How far a lead is measured, m.
-const LEAD_RANGE: f64 = 80.0;
 
 /// The planner at one instant.
 pub(crate) struct Planner {
@@ -102,7 +100,13 @@ impl Planner {
 
     /// Moves the CAV to where it is `time_s` after this instant if it drives as planned, and
     /// measures its lead anew, from the true objects.
-    pub(crate) fn execute(&self, cycle: &mut Cycle, time_s: f64, objects: &[Track]) {
+    pub(crate) fn execute(
+        &self,
+        cycle: &mut Cycle,
+        time_s: f64,
+        objects: &[Track],
+        lead_range_m: f64,
+    ) {
         let (driven, speed) = self.after(time_s);
         let (here, next) = (self.s + driven, self.s + driven + 0.5);
         let places = [self.place(here, self.lateral), self.place(next, self.lateral)];
@@ -115,7 +119,7 @@ impl Planner {
         let seen: Vec<Seen> = objects.iter().map(seen).collect();
         let cav = Cav { position: [x, y], length: cycle.ego.length, width: cycle.ego.width };
         let stamp_ns = cycle.lead.as_ref().map_or(cycle.now_ns, |l| l.stamp_ns);
-        cycle.lead = leading_vehicle(&cycle.route, stamp_ns, &cav, &seen, LEAD_RANGE);
+        cycle.lead = leading_vehicle(&cycle.route, stamp_ns, &cav, &seen, lead_range_m);
     }
 
     /// Standing cars where there are none.

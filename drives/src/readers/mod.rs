@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::drive::{Drive, DriveCycle};
-use crate::options::Options;
+use crate::options::{Options, Sensor};
 use error::ReadError;
 use scenario::Scenario;
 
@@ -143,7 +143,8 @@ fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
         let notes = vec![format!("{} cycles as recorded", cycles.len())];
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let source = path.display().to_string();
-        results.push(Ok(Drive { name, source, cycles, notes }));
+        let lead_range_m = Sensor::default().lead_range_m;
+        results.push(Ok(Drive { name, source, lead_range_m, cycles, notes }));
     }
     results
 }

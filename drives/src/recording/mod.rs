@@ -69,10 +69,11 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
              takes (v / a_b), so that there is no plan to judge"
         ));
     }
-    let Sensor { range_m, sigma_m, probability, clutter, seed } = &options.sensor;
+    let Sensor { range_m, lead_range_m, sigma_m, probability, clutter, seed } = &options.sensor;
     notes.push(format!(
-        "detectors: range {range_m} m, deviation {sigma_m} m, probability {probability}, {clutter} \
-         clutter detections a scan, seed {seed}; tracks exact, {} ms old",
+        "detectors: range {range_m} m (of the lead {lead_range_m} m), deviation {sigma_m} m, \
+         probability {probability}, {clutter} clutter detections a scan, seed {seed}; tracks exact, \
+         {} ms old",
         options.track_age_ns / 1_000_000
     ));
     if let Some(first) = recording.ego.first()
@@ -91,7 +92,8 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
         ));
     }
     let Recording { name, source, .. } = recording;
-    Drive { name, source, cycles, notes }
+    let lead_range_m = *lead_range_m;
+    Drive { name, source, lead_range_m, cycles, notes }
 }
 
 /// States of a recording that give a cycle: all, or those up to the last that is followed by as
@@ -162,7 +164,7 @@ impl Maker<'_> {
                 items: self.objects(state.step, options.track_age_ns).iter().map(track).collect(),
             }),
             detections: Some(self.scan(i, 0)),
-            lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.range_m),
+            lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.lead_range_m),
             route: route.clone(),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
             detection_history: self.history(i),

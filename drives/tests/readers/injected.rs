@@ -3,7 +3,9 @@
 use std::str::FromStr;
 
 use mufasa_drives::check::checked::Checked;
-use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, inject};
+use mufasa_drives::{
+    Attack, Drive, InjectError, Injection, Options, ParseInjectionError, Sensor, inject,
+};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Rule, Stage};
@@ -100,6 +102,23 @@ fn false_velocities_are_found_at_the_impact_or_in_time() {
     let lead = attacked.cycles[found].cycle.lead.as_ref().unwrap();
     let speed = attacked.cycles[found].cycle.ego.speed;
     assert!(lead.gap > speed * speed / 16.0, "it can still stop: {lead:?}");
+}
+
+/// Where the CAV drives what it is sent, its own sensor of the lead keeps its range.
+#[test]
+fn the_range_of_the_lead_holds_under_attack() {
+    let sensor = Sensor { lead_range_m: 15.0, ..Sensor::default() };
+    let drive = demo(&Options { sensor, ..options(Profile::Paper) });
+    let injection = "empty-tracks@2..".parse::<Injection>().unwrap();
+    let attacked = inject(&drive, &injection).unwrap();
+    let gaps =
+        |d: &Drive| d.cycles.iter().filter_map(|c| Some(c.cycle.lead.as_ref()?.gap)).collect();
+    let (clean, attacked): (Vec<f64>, Vec<f64>) = (gaps(&drive), gaps(&attacked));
+    assert!(clean.len() < drive.cycles.len(), "the lead is farther now and then");
+    assert!(!attacked.is_empty() && attacked.iter().chain(&clean).all(|gap| *gap <= 15.0));
+    let none = Sensor { lead_range_m: 0.0, ..Sensor::default() };
+    let drive = inject(&demo(&Options { sensor: none, ..options(Profile::Paper) }), &injection);
+    assert!(drive.unwrap().cycles.iter().all(|c| c.cycle.lead.is_none()));
 }
 
 /// F-14 as an accident: the CAV drives what is planned from empty lists. The hardened monitor

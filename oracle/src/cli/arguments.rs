@@ -69,6 +69,9 @@ pub(super) struct RecordingArguments {
     /// Range of the local detectors, m.
     #[arg(long, value_name = "M", default_value = "80", value_parser = number(0.0, 1e4))]
     pub(super) sensor_range: f64,
+    /// Range of the sensor of the leading vehicle, m; 0 for none [default: that of the detectors].
+    #[arg(long, value_name = "M", value_parser = number(0.0, 1e4))]
+    pub(super) lead_range: Option<f64>,
     /// Standard deviation of detected positions per axis, m.
     #[arg(long, value_name = "M", default_value = "0.05", value_parser = number(0.0, 100.0))]
     pub(super) sensor_sigma: f64,
@@ -261,6 +264,7 @@ impl CheckArguments {
             tail: if recording.keep_tail { Tail::Keep } else { Tail::Stop },
             sensor: Sensor {
                 range_m: recording.sensor_range,
+                lead_range_m: recording.lead_range.unwrap_or(recording.sensor_range),
                 sigma_m: recording.sensor_sigma,
                 probability: recording.sensor_probability,
                 clutter: recording.sensor_clutter,
