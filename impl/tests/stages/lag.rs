@@ -44,7 +44,8 @@ fn the_default_is_half_a_metre() {
     let b = braking(5.0);
     for off in OFF {
         assert_eq!(judged(tolerances, 0, |i| (b(i) - 0.5 + off).max(0.0)), None);
-        assert!(judged(tolerances, 0, |i| (b(i) - 0.5 - off).max(0.0)).is_some());
+        let witness = judged(tolerances, 0, |i| (b(i) - 0.5 - off).max(0.0)).expect("a lag");
+        assert_eq!((witness.rule, witness.point), (Rule::ArcTooShort, Some(2)));
     }
 }
 
