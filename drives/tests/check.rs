@@ -7,6 +7,7 @@ use mufasa_drives::check::fallback::{Hold, RequesterRun};
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::{Findings, records, report};
 use mufasa_drives::{Drive, DriveCycle};
+use mufasa_model::input::cycle::DetectionList;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Stage};
 use mufasa_props::conformance::Disagreement;
@@ -92,6 +93,18 @@ fn late_data_end_offloading_without_a_wait() {
     assert_eq!(run.late, 8);
     assert_eq!(run, &checked.requesters[1]);
     assert!(text(&checked).contains("data too late 8 times"));
+    // Where no cycle is unsafe, too, the summary and the exit code tell.
+    let mut late = self::drive(12, |_| false);
+    for cycle in &mut late.cycles[8..] {
+        cycle.cycle.tracks.as_mut().unwrap().stamp_ns -= 60_000_000;
+    }
+    let mut findings = Findings::default();
+    findings.add(&Checked::new(late, &Parameters::default(), false, || {}));
+    assert_eq!(
+        (findings.tally.unsafe_cycles(), findings.offloaded, findings.exit_code()),
+        (0, 12, 1)
+    );
+    assert!(findings.summary().contains("4 times back to local for late data or silence"));
 }
 
 #[test]
@@ -148,6 +161,24 @@ fn a_difference_of_the_requesters_is_a_disagreement() {
     checked.protocol = Some("the requesters differ: here".to_owned());
     assert_eq!(checked.disagreements(), 1);
     assert!(text(&checked).contains("DISAGREEMENT: the requesters differ: here"));
+}
+
+/// A cycle that needs more than 10^10 comparisons is left out: the model does not answer, and no
+/// answer of the implementation disagrees with that.
+#[test]
+fn a_cycle_too_large_for_the_model_is_an_error_and_no_disagreement() {
+    let mut drive = drive(1, |_| false);
+    let cycle = &mut drive.cycles[0].cycle;
+    let list = cycle.detections.as_mut().unwrap();
+    list.items = vec![list.items[0].clone(); 2048];
+    let earlier = |age_ns| DetectionList { stamp_ns: list.stamp_ns - age_ns, ..list.clone() };
+    cycle.detection_history = vec![earlier(300_000_000), earlier(500_000_000)];
+    let checked = checked(&drive);
+    assert_eq!(checked.judged[0].model.as_ref().unwrap_err().field, "work");
+    assert!(checked.judged[0].implementation.is_ok());
+    let mut findings = Findings::default();
+    findings.add(&checked);
+    assert_eq!((findings.disagreements, findings.exit_code()), (0, 2));
 }
 
 #[test]

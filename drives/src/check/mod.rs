@@ -60,20 +60,24 @@ pub struct Findings {
     pub disagreements: usize,
     /// Fallbacks that the model's requester started.
     pub fallbacks: usize,
+    /// Cycles whose remote data the model's requester used.
+    pub offloaded: usize,
+    /// Elements too late and silences that ended offloading without an unsafe cycle.
+    pub lost: usize,
     /// Pictures written.
     pub pictures: Vec<PathBuf>,
 }
 
 impl Findings {
-    /// 0 all safe, 1 some cycle unsafe, 2 bad input, 3 model and implementation disagree; the
-    /// highest that applies.
+    /// 0 all safe, 1 some cycle unsafe or offloading lost to late data or silence, 2 bad input,
+    /// 3 model and implementation disagree; the highest that applies.
     pub fn exit_code(&self) -> u8 {
         if self.disagreements > 0 {
             3
         } else if self.unreadable > 0 || self.tally.errors > 0 {
             2
         } else {
-            u8::from(self.tally.unsafe_cycles() > 0)
+            u8::from(self.tally.unsafe_cycles() > 0 || self.lost > 0)
         }
     }
 
@@ -82,12 +86,16 @@ impl Findings {
         self.drives += 1;
         self.tally.merge(&checked.tallies()[0]);
         self.disagreements += checked.disagreements();
-        self.fallbacks += checked.requesters[0].fallbacks();
+        let run = &checked.requesters[0];
+        self.fallbacks += run.fallbacks();
+        self.offloaded += run.offloaded;
+        self.lost += run.late + run.silent;
     }
 
     /// One sentence over the run.
     pub fn summary(&self) -> String {
-        let Self { drives, unreadable, tally, disagreements, fallbacks, pictures } = self;
+        let Self { drives, unreadable, tally, disagreements, fallbacks, offloaded, lost, pictures } =
+            self;
         let agreement = match disagreements {
             // Of nothing there is nothing to agree on.
             0 if tally.cycles == 0 => String::new(),
@@ -95,7 +103,7 @@ impl Findings {
             count => format!("; model and implementation DISAGREE {count} times"),
         };
         let mut text = format!(
-            "{}, {}: {} safe, {} unsafe, {}{agreement}",
+            "{}, {}: {} safe, {} unsafe, {}, {offloaded} offloaded{agreement}",
             counted(*drives, "drive"),
             counted(tally.cycles, "cycle"),
             tally.safe,
@@ -103,6 +111,7 @@ impl Findings {
             counted(*fallbacks, "fallback"),
         );
         for (count, what) in [
+            (*lost, "time back to local for late data or silence"),
             (tally.errors, "cycle with invalid local input"),
             (*unreadable, "file that could not be read or written"),
             (pictures.len(), "picture"),
@@ -229,6 +238,8 @@ mod tests {
         assert_eq!(findings.exit_code(), 0);
         (findings.tally.cycles, findings.tally.safe) = (3, 2);
         assert_eq!(findings.exit_code(), 1);
+        (findings.tally.safe, findings.lost) = (3, 1);
+        assert_eq!(findings.exit_code(), 1);
         findings.unreadable = 1;
         assert_eq!(findings.exit_code(), 2);
         findings.unreadable = 0;
@@ -242,7 +253,10 @@ mod tests {
     fn the_summary_counts() {
         let findings = Findings { drives: 1, unreadable: 2, ..Findings::default() };
         let text = findings.summary();
-        assert!(text.starts_with("1 drive, 0 cycles: 0 safe, 0 unsafe, 0 fallbacks; "), "{text}");
-        assert!(text.ends_with("fallbacks; 2 files that could not be read or written"), "{text}");
+        assert!(
+            text.starts_with("1 drive, 0 cycles: 0 safe, 0 unsafe, 0 fallbacks, 0 offloaded; "),
+            "{text}"
+        );
+        assert!(text.ends_with("offloaded; 2 files that could not be read or written"), "{text}");
     }
 }

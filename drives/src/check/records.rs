@@ -110,6 +110,8 @@ struct LastRecord {
     r#unsafe: usize,
     errors: usize,
     disagreements: usize,
+    offloaded: usize,
+    lost: usize,
 }
 
 /// The records of a drive, each on a line: its cycles, then the drive.
@@ -150,6 +152,8 @@ pub fn last(findings: &Findings) -> serde_json::Result<String> {
         r#unsafe: findings.tally.unsafe_cycles(),
         errors: findings.tally.errors,
         disagreements: findings.disagreements,
+        offloaded: findings.offloaded,
+        lost: findings.lost,
     })
 }
 

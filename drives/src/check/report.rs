@@ -51,6 +51,7 @@ pub fn line(checked: &Checked) -> table::Line {
         name: checked.drive.name.clone(),
         tally,
         fallbacks: checked.requesters[0].fallbacks(),
+        offloaded: checked.requesters[0].offloaded,
         otherwise: checked.otherwise(),
         disagreements: checked.disagreements(),
     }

@@ -29,6 +29,8 @@ pub struct Line {
     pub tally: Tally,
     /// Fallbacks that the model's requester started.
     pub fallbacks: usize,
+    /// Cycles whose remote data it used.
+    pub offloaded: usize,
     /// Cycles that the implementation decides otherwise, within the rules or not.
     pub otherwise: usize,
     /// Cycles on which the two disagree beyond the rules.
@@ -51,6 +53,7 @@ pub fn by_drive(lines: &[Line]) -> String {
         "other",
         "errors",
         "fallbacks",
+        "offloaded",
         "implementation",
     ];
     table.set_header(head);
@@ -58,6 +61,7 @@ pub fn by_drive(lines: &[Line]) -> String {
         name: format!("all {} drives", lines.len()),
         tally: Tally::default(),
         fallbacks: 0,
+        offloaded: 0,
         otherwise: 0,
         disagreements: 0,
     };
@@ -65,13 +69,14 @@ pub fn by_drive(lines: &[Line]) -> String {
         table.add_row(cells(line));
         sum.tally.merge(&line.tally);
         sum.fallbacks += line.fallbacks;
+        sum.offloaded += line.offloaded;
         sum.otherwise += line.otherwise;
         sum.disagreements += line.disagreements;
     }
     if lines.len() > 1 {
         table.add_row(cells(&sum));
     }
-    numbers_right(&mut table, 1..12);
+    numbers_right(&mut table, 1..13);
     finished(&table)
 }
 
@@ -81,7 +86,7 @@ fn cells(line: &Line) -> Row {
     let counts = [tally.cycles, tally.safe, tally.unsafe_cycles()]
         .into_iter()
         .chain(tally.stages.iter().map(|stage| stage.failed))
-        .chain([other, tally.errors, line.fallbacks])
+        .chain([other, tally.errors, line.fallbacks, line.offloaded])
         .map(|count| count.to_string());
     let agreement = match (line.otherwise, line.disagreements) {
         (0, 0) => "the same".to_owned(),
@@ -185,6 +190,7 @@ mod tests {
             name: name.to_owned(),
             tally: tally(failed),
             fallbacks: 1,
+            offloaded: 10,
             otherwise: disagreements,
             disagreements,
         };

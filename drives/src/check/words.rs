@@ -1,5 +1,7 @@
 //! Verdicts and witnesses in words.
 
+use std::cmp::Ordering;
+
 use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa_props::conformance::{Answer, name};
 
@@ -68,15 +70,22 @@ fn report_in_words(report: &Report) -> String {
     }
 }
 
-/// A witness in words, with the two numbers compared.
+/// A witness in words, with the two numbers compared; a reader sees that the relation holds.
 pub fn witness(witness: &Witness) -> String {
     let (what, unit, relation) = phrase(witness);
+    let equal = witness.compared[0].partial_cmp(&witness.compared[1]) == Some(Ordering::Equal);
     // The circumradius limit of H-03 includes equality, theta_obj does not.
-    let [left, right] = witness.compared;
-    let relation = if relation == "<" && left >= right { "<=" } else { relation };
+    let meets =
+        matches!(witness.rule, Rule::Collision | Rule::CollisionStanding | Rule::CollisionMoving);
+    let relation = if meets && equal { "<=" } else { relation };
+    let by_less = if equal && matches!(relation, "<" | ">") {
+        ", by less than the nearest doubles show"
+    } else {
+        ""
+    };
     let [left, right] = numbers(witness.compared);
     let (left, right) = (with_unit(&left, unit), with_unit(&right, unit));
-    format!("{what} ({left} {relation} {right})")
+    format!("{what} ({left} {relation} {right}{by_less})")
 }
 
 /// What happened, the unit of the numbers compared, and how they compare.
@@ -104,7 +113,13 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         }
         Rule::StartTime => ("time of the first point is far from now".to_owned(), "s", ">"),
         Rule::StartPosition => ("first point is far from the CAV".to_owned(), "m", ">"),
-        Rule::StartHeading => ("first heading is not the CAV's".to_owned(), "", ">"),
+        // Of the two bounds of this rule the first is 0.
+        Rule::StartHeading if witness.compared[1] == 0.0 => {
+            ("first heading is against the CAV's, by their dot product".to_owned(), "", "<=")
+        }
+        Rule::StartHeading => {
+            ("first heading is not the CAV's, by their cross product".to_owned(), "", ">")
+        }
         Rule::StartOffset => ("trajectory starts aside of the CAV".to_owned(), "m", ">"),
         Rule::Corridor => {
             (format!("{point} outside the corridor, off the reference path"), "m", ">")
@@ -115,7 +130,17 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
         Rule::StepSpeed => (format!("step to {point} is faster than v_max"), "m", ">"),
         Rule::StepForward => (format!("step to {point} goes backwards"), "", "<"),
         Rule::StepLateral => (format!("step to {point} goes sideways"), "m", ">"),
-        Rule::StepTurn => (format!("heading turns too much at {point}"), "", "<"),
+        // Of the two bounds of this rule only the first is below its limit.
+        Rule::StepTurn if witness.compared[0] < witness.compared[1] => (
+            format!("heading turns by more than 30 degrees at {point}, by the dot product"),
+            "",
+            "<",
+        ),
+        Rule::StepTurn => (
+            format!("heading turns more than the step allows at {point}, by the cross product"),
+            "",
+            ">",
+        ),
         Rule::Slide => (format!("{point} is beside where the headings lead"), "m", ">"),
         Rule::TurnReversed => (format!("heading at {point} against an earlier one"), "", "<"),
         Rule::TurnOnTheSpot => (format!("turn to {point} is tighter than a vehicle's"), "", ">"),

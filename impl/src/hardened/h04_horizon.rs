@@ -89,6 +89,11 @@ impl PlacesBeyond {
         Self { multiples: first..=last, length }
     }
 
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.multiples.clone().count()
+    }
+
     /// The CAV at each of the places, if it is at the last point.
     pub(crate) fn moved_on(&self, ego: Ego) -> impl Iterator<Item = Ego> + Clone + use<> {
         let length = self.length;

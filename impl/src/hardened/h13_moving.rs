@@ -41,10 +41,9 @@ impl MovingDetections<'_, '_> {
         let detections = self.history.detections?;
         let reference = self.history.reference()?;
         let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Motion);
-        let unexplained = detections.items.len().saturating_sub(explained.count);
-        let work = self.work(unexplained, reference, examined.points.len());
+        let work = self.work(detections.items.len(), examined.count());
         let limit = cycle.parameters.work_limit;
-        if unexplained > 0 && work > limit {
+        if work > limit {
             let compared = [work, limit].map(|steps| Real::integer(steps).value());
             return Some(Witness::of(Rule::WorkLimit, compared));
         }
@@ -67,14 +66,12 @@ impl MovingDetections<'_, '_> {
         search.first.map(|found| found.witness(&self.history))
     }
 
-    /// Detections times items of the reference list times (items of the other lists + points).
-    fn work(&self, unexplained: usize, reference: usize, points: usize) -> i64 {
-        let list = |list: usize| self.history.usable.get(list).copied().flatten();
-        let items = |place: usize| list(place).map_or(0, |list| list.items.len());
-        let others =
-            (0..4).filter(|&list| list != reference).map(items).fold(0, usize::saturating_add);
-        let each = items(reference).saturating_mul(others.saturating_add(points));
-        i64::try_from(unexplained.saturating_mul(each)).unwrap_or(i64::MAX)
+    /// Detections times items of the longest usable list times (items of all usable lists + places).
+    fn work(&self, detections: usize, places: usize) -> i64 {
+        let items = || self.history.usable.iter().flatten().map(|list| list.items.len());
+        let longest = items().fold(0, usize::max);
+        let each = longest.saturating_mul(items().fold(places, usize::saturating_add));
+        i64::try_from(detections.saturating_mul(each)).unwrap_or(i64::MAX)
     }
 
     /// The lists in which the past of a confirmed track is looked for, the first one first.

@@ -52,10 +52,14 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   each occupied cell that a disk reaches is compared with the CAV's rectangle, too, where stage
 ///   iv ran in `AllRemote` or `PlanRemote`.
 ///
-/// Only stage i has a limit. The default of `work_limit`, 10^10, is above the most work there is,
-/// 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it. To bound the run
-/// time, choose a smaller one (`docs/speed.md` has the time for a work) and limit lists, disks and
-/// cells: the other stages do what the sizes say.
+/// * what the CAV saw itself (hardened, with U items in all usable lists of the history): a few times
+///   T U distances, and in iv D times the items of the longest list times (U + P) (H-13).
+///
+/// Stage i and H-13 have a limit. The default of `work_limit`, 10^10, is above the most work of
+/// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-13 takes up to
+/// 4e10, and a step of it up to a thousand times as long. To bound the run time, choose a smaller
+/// one (`docs/speed.md` has the time for a work) and limit lists, disks and cells: the other stages
+/// do what the sizes say.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
     check_with(cycle, &Indexes::default(), scratch)
 }

@@ -206,7 +206,6 @@ fn a_confirmed_track_may_come_from_every_item_near_its_past() {
 
 #[test]
 fn its_work_is_limited() {
-    // One unexplained detection of one item and the other list's one, and the points: at most 8.
     let mut scene = crossing(MotRemote);
     scene.detections = Some(vec![detection(3.0, 50.1), detection(5.0, -60.0)]);
     scene.tracks = Some(vec![]);
@@ -217,4 +216,15 @@ fn its_work_is_limited() {
         scene.failure().map(|(stage, it)| (stage, it.rule)),
         Some((Stage::Iv, Rule::WorkLimit))
     );
+    // Two detections, one item in each of two lists, 9 places: the points up to 3.8 m and the next.
+    scene.parameters.work_limit = 2 * (2 + 9);
+    assert_eq!(scene.rule(), None);
+    scene.parameters.work_limit -= 1;
+    assert_eq!(scene.rule(), Some(Rule::WorkLimit));
+    // A detection that a confirmed track explains is work, too (a).
+    let mut scene = confirmed(3.0);
+    scene.parameters.work_limit = i64::MAX;
+    assert_eq!(scene.rule(), None);
+    scene.parameters.work_limit = 1;
+    assert_eq!(scene.rule(), Some(Rule::WorkLimit));
 }

@@ -58,14 +58,13 @@ pub fn places<'a>(scene: &'a Scene, trajectory: &'a [Point]) -> Places<'a> {
     places_within(scene, trajectory, &horizon, &horizon)
 }
 
-/// Detections times items of the reference list times (items of the other usable lists + places);
+/// Detections times items of the longest usable list times (items of all usable lists + places);
 /// none without a usable list.
 pub fn work(lists: &[Usable], detections: &Detections, places: &Places) -> Option<i128> {
-    let (reference, list) = nearest_to_reference(lists.iter().enumerate())?;
-    let others = lists.iter().enumerate().filter(|(k, _)| *k != reference);
-    let others: usize = others.map(|(_, list)| list.items.len()).sum();
-    let pairs = detections.items.len() as i128 * list.items.len() as i128;
-    Some(pairs * (others as i128 + places.count()))
+    let items = || lists.iter().map(|list| list.items.len());
+    let longest = items().max()?;
+    let pairs = detections.items.len() as i128 * longest as i128;
+    Some(pairs * (items().sum::<usize>() as i128 + places.count()))
 }
 
 /// w = (d - d') / dt, m/s.

@@ -17,8 +17,8 @@ use mufasa_records::names;
 
 #[derive(Args)]
 #[command(after_help = "\
-Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are still checked),
-3 model and implementation disagree; the highest that applies.")]
+Exit codes: 0 all cycles safe, 1 some unsafe or offloading lost (data too late, silence), 2 bad
+input (the other files are still checked), 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
     /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
     /// as .npy; recognised by their content.

@@ -103,7 +103,8 @@ pub fn no_trajectory_is_accepted_unexamined(cycle: &Cycle<'_>, report: &Report) 
     ran(iv) || ran(v) || (ran(iii) && iii_counts)
 }
 
-/// What the paper profile rejects the hardened one rejects too.
+/// What the paper profile rejects the hardened one rejects too, where stage i does not tell places from
+/// positions and leaves no track out (H-01): as in the scene.
 pub fn hardened_accepts_nothing_that_paper_rejects(paper: &Report, hardened: &Report) -> bool {
     paper.failed_stage.is_none() || hardened.failed_stage.is_some()
 }

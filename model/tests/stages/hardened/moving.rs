@@ -243,7 +243,7 @@ fn motion_is_examined_beyond_the_end() {
     assert_eq!(with(&mut cycle, 10.9), None, "it begins at 9.9");
 }
 
-/// Detections times items of the reference list times (items of the other lists + places).
+/// Detections times items of the longest usable list times (items of all usable lists + places).
 #[test]
 fn work_above_the_limit_fails_stage_iv_of_the_strict_reading() {
     let with = |work_limit: i64| {
@@ -255,8 +255,8 @@ fn work_above_the_limit_fails_stage_iv_of_the_strict_reading() {
         cycle
     };
     // 12 points: up to 10.65 m, and the next one.
-    assert_eq!(safe(&with(2 * 3 * (3 + 12))), YES);
-    assert_eq!(safe(&with(2 * 3 * (3 + 12) - 1)), NEAR_SAFE);
+    assert_eq!(safe(&with(2 * 3 * (6 + 12))), YES);
+    assert_eq!(safe(&with(2 * 3 * (6 + 12) - 1)), NEAR_SAFE);
     let mut without = with(0);
     without.detection_history.clear();
     assert_eq!(safe(&without), YES);
