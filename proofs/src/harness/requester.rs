@@ -57,7 +57,8 @@ pub fn verify_a_station_below_1_is_refused() {
     let after = requester.suspend().parts();
     assert!(each(|at| same(after.groups[at], before.groups[at])));
     assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
-    assert!(after.area == before.area && after.dropped[0] == before.dropped[0]);
+    assert!(after.area == before.area && after.profile == before.profile);
+    assert!(each(|at| after.dropped[at] == before.dropped[at]));
     kani::cover!(station == 0, "the CAV itself");
 }
 

@@ -30,7 +30,7 @@ impl Seen {
         self.before.profile == Profile::Hardened
     }
 
-    /// The laws of a step that is no offer and no tick.
+    /// The laws of a step that asks for nothing.
     pub(super) fn keeps_every_law(&self) -> bool {
         self.keeps_the_hold()
             && self.asks_for_nothing()
@@ -174,12 +174,18 @@ impl Seen {
         used.is_some() && in_use(self.after.groups[at]) != used
     }
 
-    /// One release of the session if the group is left, else none.
+    /// The group is local after the step, or the step asks for it.
+    fn is_free(&self, at: usize) -> bool {
+        matches!(self.after.groups[at], GroupRecord::Local) || self.done[REQUESTS][at].is_some()
+    }
+
+    /// One release of the session if the group is left, which is local then or asked for anew, else none.
     pub(super) fn releases_what_it_leaves(&self, at: usize) -> bool {
         match self.done[RELEASES][at] {
             None => !self.leaves(at),
             Some(Action::Release { station, group, session }) => {
                 self.leaves(at)
+                    && self.is_free(at)
                     && group == GROUPS[at]
                     && in_use(self.before.groups[at]) == Some((station, session))
             }
