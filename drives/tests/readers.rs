@@ -7,6 +7,7 @@ mod readers {
     pub mod history;
     pub mod injected;
     pub mod objects;
+    pub mod piped;
     pub mod shared;
     pub mod small;
 }

@@ -11,6 +11,7 @@ use crate::readers::lanes::{Change, Network, Run};
 use crate::readers::route::route_along;
 use crate::readers::scenario::Scenario;
 use crate::readers::solution::Solution;
+use crate::readers::source::stem;
 use crate::recording::object::{Motion, Object, State};
 use crate::recording::{self, Recording};
 
@@ -39,9 +40,7 @@ pub(crate) fn solved(
         "CAV: solution {}, {length} m by {width} m around the position of each state",
         solution.model
     ));
-    let name = files[1]
-        .file_stem()
-        .map_or_else(|| scenario.name.clone(), |stem| stem.to_string_lossy().into_owned());
+    let name = stem(files[1]);
     let source = format!("{} + {}", files[0].display(), files[1].display());
     let parts = Parts { name, source, ego: solution.states.clone(), size: solution.size };
     parts.drive(scenario, scenario.objects.clone(), notes, files[1], options)
@@ -76,9 +75,7 @@ pub(crate) fn recorded(
     ));
     let others = scenario.objects.iter().filter(|o| o.id != object.id).cloned().collect();
     let parts = Parts {
-        name: file
-            .file_stem()
-            .map_or_else(|| scenario.name.clone(), |stem| stem.to_string_lossy().into_owned()),
+        name: stem(file),
         source: file.display().to_string(),
         ego,
         size: [object.footprint.length, object.footprint.width],

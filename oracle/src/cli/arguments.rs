@@ -21,7 +21,7 @@ Exit codes: 0 all cycles safe, 1 some unsafe, 2 bad input (the other files are s
 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
     /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
-    /// as .npy; recognised by their content.
+    /// as .npy; recognised by their content, each also as .gz or from a pipe such as /dev/stdin.
     #[arg(required = true)]
     pub(super) files: Vec<PathBuf>,
     /// Profile of recorded drives; records name their own.
