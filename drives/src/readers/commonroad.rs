@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::drive::Drive;
 use crate::geometry::{Point, distance};
 use crate::options::Options;
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Change, Network, Run};
 use crate::readers::route::route_along;
 use crate::readers::scenario::Scenario;
@@ -29,8 +29,9 @@ pub(crate) fn solved(
 ) -> Result<Drive, ReadError> {
     if solution.scenario != scenario.name {
         let message = format!(
-            "a solution of {}, but the scenario before it is {}",
-            solution.scenario, scenario.name
+            "a solution of {}, but the scenario before it is {}; name the solution's own",
+            quoted(&solution.scenario),
+            quoted(&scenario.name)
         );
         return Err(ReadError::file(files[1], message).at("CommonRoadSolution", "benchmark_id"));
     }

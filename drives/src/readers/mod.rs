@@ -14,6 +14,7 @@ mod scenario;
 mod solution;
 mod source;
 mod xml;
+mod xml_limits;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

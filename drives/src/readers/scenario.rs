@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::geometry::{Point, Rectangle, add, cross, mix, sub};
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::{Footprint, Motion, Object, State};
@@ -29,7 +29,10 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
     with_root(file, text, |root| {
         let version = root.attribute("commonRoadVersion")?;
         if !matches!(version, "2018b" | "2020a") {
-            let message = format!("version {version} is not read; 2018b and 2020a are");
+            let message = format!(
+                "version {} is not read; 2018b and 2020a are: write it as one of them",
+                quoted(version)
+            );
             return Err(root.error("commonRoadVersion", message));
         }
         let mut reader = Reader::default();
@@ -63,7 +66,7 @@ fn time_step(root: Element<'_>) -> Result<i64, ReadError> {
     let text = root.attribute("timeStepSize")?;
     let seconds: f64 = text.trim().parse().unwrap_or(f64::NAN);
     if !(0.001..=10.0).contains(&seconds) {
-        let message = format!("`{text}` is no time step between 0.001 and 10 s");
+        let message = format!("{} is no time step between 0.001 and 10 s", quoted(text));
         return Err(root.error("timeStepSize", message));
     }
     #[expect(clippy::cast_possible_truncation, reason = "within 1e6 and 1e10")]
@@ -168,7 +171,12 @@ impl Reader {
         let is_static = match role {
             "static" => true,
             "dynamic" => false,
-            other => return Err(element.error("role", format!("`{other}` is no role"))),
+            other => {
+                return Err(element.error(
+                    "role",
+                    format!("{} is no role; `static` and `dynamic` are", quoted(other)),
+                ));
+            }
         };
         let initial = self.state(element.get("initialState")?, is_static)?;
         let motion = if is_static {
@@ -330,6 +338,9 @@ fn outline(shape: Element<'_>) -> Result<(Vec<Point>, Option<Footprint>), ReadEr
             Ok((corners.to_vec(), None))
         }
         "polygon" => Ok((shape.points()?, None)),
-        other => Err(shape.error("", format!("shape `{other}` is not read"))),
+        other => Err(shape.error(
+            "",
+            format!("shape {} is not read; rectangle, circle and polygon are", quoted(other)),
+        )),
     }
 }

@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::State;
 
@@ -34,11 +34,12 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
         let id = root.attribute("benchmark_id")?;
         let parts: Vec<&str> = id.split(':').collect();
         let [model, cost, scenario, _version] = parts[..] else {
-            let message = format!("`{id}` is not of the form model:cost:scenario:version");
+            let message = format!("{} is not of the form model:cost:scenario:version", quoted(id));
             return Err(root.error("benchmark_id", message));
         };
         let size = size(model).ok_or_else(|| {
-            let message = format!("`{model}` names no KS, ST or MB model of vehicle 1, 2 or 3");
+            let message =
+                format!("{} names no KS, ST or MB model of vehicle 1, 2 or 3", quoted(model));
             root.error("benchmark_id", message)
         })?;
         let mut trajectories = root.children();
@@ -65,7 +66,7 @@ fn states(trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
         "stTrajectory" => "stState",
         "mbTrajectory" => "mbState",
         other => {
-            let message = format!("`{other}` is not read; KS, ST and MB trajectories are");
+            let message = format!("{} is not read; KS, ST and MB trajectories are", quoted(other));
             return Err(trajectory.error("", message));
         }
     };
