@@ -6,6 +6,7 @@ mod readers {
     pub mod files;
     pub mod history;
     pub mod injected;
+    pub mod left_out;
     pub mod objects;
     pub mod piped;
     pub mod shared;

@@ -8,6 +8,7 @@ use crate::geometry::{Point, distance};
 use crate::options::Options;
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Change, Network, Run};
+use crate::readers::left_out::needed;
 use crate::readers::route::route_along;
 use crate::readers::scenario::Scenario;
 use crate::readers::solution::Solution;
@@ -103,6 +104,9 @@ impl Parts {
         let Self { name, source, ego, size } = self;
         let poses: Vec<(Point, f64)> = ego.iter().map(|s| (s.position, s.heading)).collect();
         let runs = scenario.network.follow(&poses);
+        if let Some(error) = needed(&scenario.left_out, &scenario.network, &poses, &runs) {
+            return Err(error);
+        }
         notes.extend(route_notes(&runs));
         let places: Vec<(Point, f64)> = ego.iter().map(|s| (s.position, s.speed.abs())).collect();
         let route = route_along(&scenario.network, &runs, &places).ok_or_else(|| {

@@ -6,6 +6,7 @@ mod content;
 pub mod error;
 mod formats;
 mod lanes;
+mod left_out;
 mod map;
 mod npy;
 mod order;

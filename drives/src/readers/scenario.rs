@@ -3,12 +3,13 @@
 //! Interval values (`intervalStart`, positions given as a shape) are taken at their middle, and
 //! counted in a note: the middle is what a tracker would report of an uncertain measurement.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::geometry::{Point, Rectangle, add, cross, mix, sub};
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
+use crate::readers::left_out::{self, LeftOut};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::{Footprint, Motion, Object, State};
 
@@ -19,6 +20,7 @@ pub(crate) struct Scenario {
     /// Duration of a time step, ns.
     pub dt_ns: i64,
     pub network: Network,
+    pub left_out: Vec<LeftOut>,
     /// In the order of the file.
     pub objects: Vec<Object>,
     pub notes: Vec<String>,
@@ -36,7 +38,7 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
             return Err(root.error("commonRoadVersion", message));
         }
         let mut reader = Reader::default();
-        let network = lanelets(root)?;
+        let (network, left_out) = lanelets(root)?;
         let mut objects = Vec::new();
         for element in root.children() {
             let role = match element.name() {
@@ -57,7 +59,8 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
             dt_ns: time_step(root)?,
             network,
             objects,
-            notes: reader.notes(),
+            notes: left_out::note(&left_out).into_iter().chain(reader.notes()).collect(),
+            left_out,
         })
     })
 }
@@ -74,22 +77,46 @@ fn time_step(root: Element<'_>) -> Result<i64, ReadError> {
 }
 
 fn distinct_ids(root: Element<'_>, objects: &[Object]) -> Result<(), ReadError> {
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     match objects.iter().find(|o| !seen.insert(o.id)) {
         Some(o) => Err(root.error("id", format!("two obstacles have the id {}", o.id))),
         None => Ok(()),
     }
 }
 
-fn lanelets(root: Element<'_>) -> Result<Network, ReadError> {
+/// The lanelets, and those that are left out of them because their bounds are on the wrong sides.
+fn lanelets(root: Element<'_>) -> Result<(Network, Vec<LeftOut>), ReadError> {
     let mut map = BTreeMap::new();
+    let mut left_out = Vec::new();
+    let mut ids = BTreeSet::new();
     for element in root.all("lanelet") {
         let id = element.integer_attribute("id")?;
-        if map.insert(id, lanelet(element, id)?).is_some() {
+        if !ids.insert(id) {
             return Err(element.error("id", "two lanelets have this id"));
         }
+        let lanelet = lanelet(element, id)?;
+        if leads(&lanelet) {
+            map.insert(id, lanelet);
+        } else {
+            let error = element.error("leftBound", "the left bound is not left of the right one");
+            left_out.push(LeftOut { lanelet, error });
+        }
     }
-    Ok(Network { lanelets: map })
+    // Where there is no other, the file has its bounds the wrong way round.
+    match left_out.first() {
+        Some(first) if map.is_empty() => Err(first.error.clone()),
+        _ => Ok((Network { lanelets: map }, left_out)),
+    }
+}
+
+/// Whether the left bound is left of the right one in the direction from start to end.
+fn leads(lanelet: &Lanelet) -> bool {
+    let Lanelet { left, right, center, .. } = lanelet;
+    // Twice the signed area between the bounds, direction by direction.
+    let side: f64 = (1..center.len())
+        .map(|i| cross(sub(center[i], center[i - 1]), sub(left[i], right[i])))
+        .sum();
+    side > 0.0
 }
 
 fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
@@ -104,13 +131,6 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         return Err(element.error("leftBound", message));
     }
     let center: Vec<Point> = left.iter().zip(&right).map(|(l, r)| mix(*l, *r, 0.5)).collect();
-    // Twice the signed area between the bounds, direction by direction.
-    let side: f64 = (1..center.len())
-        .map(|i| cross(sub(center[i], center[i - 1]), sub(left[i], right[i])))
-        .sum();
-    if side <= 0.0 {
-        return Err(element.error("leftBound", "the left bound is not left of the right one"));
-    }
     let references = |name: &'static str| -> Result<Vec<i64>, ReadError> {
         element.all(name).map(|e| e.integer_attribute("ref")).collect()
     };
