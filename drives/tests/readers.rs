@@ -11,4 +11,5 @@ mod readers {
     pub mod piped;
     pub mod shared;
     pub mod small;
+    pub mod vehicle;
 }

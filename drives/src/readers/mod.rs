@@ -14,6 +14,7 @@ pub mod route;
 mod scenario;
 mod solution;
 mod source;
+mod vehicle;
 mod xml;
 mod xml_limits;
 

@@ -17,6 +17,8 @@ use crate::recording::object::{Footprint, Motion, Object, State};
 pub(crate) struct Scenario {
     /// `benchmarkID`.
     pub name: String,
+    /// `commonRoadVersion`.
+    pub version: String,
     /// Duration of a time step, ns.
     pub dt_ns: i64,
     pub network: Network,
@@ -56,6 +58,7 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
         distinct_ids(root, &objects)?;
         Ok(Scenario {
             name: root.attribute("benchmarkID")?.to_owned(),
+            version: version.to_owned(),
             dt_ns: time_step(root)?,
             network,
             objects,

@@ -15,6 +15,8 @@ use crate::recording::object::State;
 pub(crate) struct Solution {
     /// Name of the scenario in the benchmark id.
     pub scenario: String,
+    /// Version of the scenario that it is for, the last part of the benchmark id.
+    pub version: String,
     /// The part of the benchmark id before the scenario, such as `KS2:SM1`.
     pub model: String,
     /// Length and width of the vehicle, m.
@@ -33,7 +35,7 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
     with_root(file, text, |root| {
         let id = root.attribute("benchmark_id")?;
         let parts: Vec<&str> = id.split(':').collect();
-        let [model, cost, scenario, _version] = parts[..] else {
+        let [model, cost, scenario, version] = parts[..] else {
             let message = format!("{} is not of the form model:cost:scenario:version", quoted(id));
             return Err(root.error("benchmark_id", message));
         };
@@ -48,6 +50,7 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
         };
         Ok(Solution {
             scenario: scenario.to_owned(),
+            version: version.to_owned(),
             model: format!("{model}:{cost}"),
             size,
             states: states(trajectory)?,

@@ -57,7 +57,7 @@ pub(super) struct CheckArguments {
 #[derive(Args)]
 #[command(next_help_heading = "Recorded drives")]
 pub(super) struct RecordingArguments {
-    /// Recorded vehicle that is the CAV; by default one is picked.
+    /// Recorded vehicle that is the CAV; by default the car that goes farthest on the lanelets.
     #[arg(long, value_name = "ID")]
     pub(super) ego: Option<i64>,
     /// Length of the planned trajectories, s.
