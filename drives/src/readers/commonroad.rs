@@ -97,7 +97,8 @@ impl Parts {
         notes.extend(route_notes(&runs));
         let places: Vec<(Point, f64)> = ego.iter().map(|s| (s.position, s.speed.abs())).collect();
         let route = route_along(&scenario.network, &runs, &places).ok_or_else(|| {
-            let message = "no lanelet is near the CAV in its direction: there is no route";
+            let message = "no lanelet is near the CAV in its direction, so that there is no route; are \
+                           these the lanelets that it drives on?";
             ReadError::file(file, message).at("commonRoad", "lanelet")
         })?;
         let dt_ns = scenario.dt_ns;

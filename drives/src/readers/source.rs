@@ -31,7 +31,9 @@ impl Source {
 
     /// The first bytes, unpacked; fewer, or none, where the file cannot be read.
     pub(crate) fn head(&mut self, most: u64) -> Vec<u8> {
-        if fs::metadata(&self.path).is_ok_and(|it| it.is_file()) {
+        // Opened again, /dev/stdin goes on where it is on some systems, even if it is a file.
+        let is_file = fs::metadata(&self.path).is_ok_and(|it| it.is_file());
+        if is_file && !self.path.starts_with("/dev") {
             return File::open(&self.path).map_or_else(|_| Vec::new(), |file| first(file, most));
         }
         let path = &self.path;
