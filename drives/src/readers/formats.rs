@@ -59,10 +59,12 @@ fn is_protobuf(bytes: &[u8]) -> bool {
 
 /// Whether the first two lines have equally many values, two at least.
 fn is_csv(bytes: &[u8]) -> bool {
-    if bytes.starts_with(b"<") || bytes.starts_with(b"{") {
+    // A byte order mark is no content.
+    let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    if content.starts_with(b"<") || content.starts_with(b"{") {
         return false;
     }
-    let mut lines = bytes.splitn(3, |b| *b == b'\n');
+    let mut lines = content.splitn(3, |b| *b == b'\n');
     let (Some(first), Some(second)) = (lines.next(), lines.next()) else { return false };
     [b',', b';', b'\t'].iter().any(|separator| {
         let [n, m] = [first, second].map(|line| line.split(|b| b == separator).count());

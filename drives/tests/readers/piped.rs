@@ -131,6 +131,12 @@ fn other_formats_are_named_with_what_to_do() {
         let message = refused(&folder, content);
         assert!(message.contains(name) && message.contains(advice), "{name}: {message}");
     }
+    // Records behind a byte order mark or a blank have as many commas on every line.
+    let (drive, text) = lines(4096);
+    for before in ["\u{feff}", " "] {
+        let path = folder.write("marked", [before.as_bytes(), &text].concat());
+        assert_eq!(one(&[path], &Options::default()).unwrap().cycles, drive.cycles);
+    }
     // Neither is told of what is something else.
     for other in [&b"hello\nworld\n"[..], b"{\"a\": [1, 2],\n\"b\": 3, }", b"<a b='1,2'>,\n,</a>"] {
         assert!(!refused(&folder, other).contains("which is not read"));
