@@ -6,7 +6,10 @@ mod readers {
     pub mod files;
     pub mod history;
     pub mod injected;
+    pub mod left_out;
     pub mod objects;
+    pub mod piped;
     pub mod shared;
     pub mod small;
+    pub mod vehicle;
 }

@@ -314,6 +314,22 @@ fn a_reader_that_goes_away_ends_the_program_quietly() {
     assert_eq!(code(&output), 141);
 }
 
+/// The look at what a file is once took the first bytes of a pipe away.
+#[test]
+fn standard_input_is_checked_from_its_first_byte() {
+    let folder = folder("standard_input");
+    let file = lines(&folder, "a", 3, &[0]);
+    let mut cat = Command::new("cat").arg(&file).stdout(Stdio::piped()).spawn().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
+        .args(["check", "--summary", "/dev/stdin"])
+        .stdin(cat.stdout.take().unwrap())
+        .output()
+        .unwrap();
+    assert!(cat.wait().unwrap().success());
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(stdout(&output).contains("3 cycles: 2 safe, 1 unsafe"), "{}", stdout(&output));
+}
+
 /// `spec/5-interfaces.md#programs-under-test.1`
 #[test]
 fn the_oracle_answers_standard_input() {

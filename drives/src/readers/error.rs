@@ -33,6 +33,27 @@ pub struct OtherLines {
 
 /// Errors of one file that are told one by one.
 const LINES_MAX: usize = 10;
+/// Characters of a value, and of a place or a message, that are told of longer ones.
+const VALUE_MAX: usize = 80;
+const TEXT_MAX: usize = 480;
+
+/// A value of a file for a message; of a long one the beginning, and how long it is.
+pub(crate) fn quoted(value: &str) -> String {
+    match value.char_indices().nth(VALUE_MAX) {
+        None => format!("`{value}`"),
+        Some((end, _)) => format!("`{}...` ({} bytes)", &value[..end], value.len()),
+    }
+}
+
+/// A text without the middle of one that is too long: who refuses a file does not repeat it.
+fn cut(text: String) -> String {
+    let half = TEXT_MAX / 2;
+    if text.len() <= TEXT_MAX {
+        return text;
+    }
+    let (start, end) = (text.floor_char_boundary(half), text.ceil_char_boundary(text.len() - half));
+    format!("{}... ({} bytes left out) ...{}", &text[..start], end - start, &text[end..])
+}
 
 impl ReadError {
     /// An error about a file as a whole.
@@ -43,15 +64,15 @@ impl ReadError {
             element: String::new(),
             field: String::new(),
             index: None,
-            message: message.into(),
+            message: cut(message.into()),
             others: None,
         }
     }
 
     /// The error of a recording, or of a drive along a map, that gives no cycle.
     pub(crate) fn no_cycle(file: &Path) -> Self {
-        let message = "the drive of the CAV is shorter than braking takes (v / a_b); keep the \
-                       tail to have its cycles all the same";
+        let message = "the drive of the CAV is shorter than braking takes (v / a_b); --keep-tail \
+                       has its cycles all the same";
         Self::file(file, message)
     }
 
@@ -71,8 +92,8 @@ impl ReadError {
     /// The same error at an element of the file.
     #[must_use]
     pub fn at(mut self, element: impl Into<String>, field: impl Into<String>) -> Self {
-        self.element = element.into();
-        self.field = field.into();
+        self.element = cut(element.into());
+        self.field = cut(field.into());
         self
     }
 

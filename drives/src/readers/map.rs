@@ -58,7 +58,10 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     ));
     let name = file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let recording = Recording {
-        name: name.trim_end_matches(".npy").trim_end_matches(".control_points").to_owned(),
+        name: [".gz", ".npy", ".control_points"]
+            .iter()
+            .fold(&*name, |name, end| name.strip_suffix(end).unwrap_or(name))
+            .to_owned(),
         source: file.display().to_string(),
         dt_ns: DT_NS,
         ego,

@@ -2,27 +2,36 @@
 //! saw, how old the data are) comes from [`Options`] and is written down in [`Drive::notes`].
 
 mod commonroad;
+mod content;
 pub mod error;
+mod formats;
 mod lanes;
+mod left_out;
 mod map;
 mod npy;
 mod order;
 pub mod route;
 mod scenario;
 mod solution;
+mod source;
+mod vehicle;
 mod xml;
+mod xml_limits;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::drive::{Drive, DriveCycle};
 use crate::options::{Options, Sensor};
+use content::Content;
 use error::ReadError;
 use scenario::Scenario;
+use source::Source;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
 /// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines
-/// (`spec/5-interfaces.md#cycle`; the options do not touch them).
+/// (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, up to
+/// 1 GiB unpacked, and may be a pipe.
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
 /// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark
@@ -32,16 +41,17 @@ use scenario::Scenario;
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
-    let mut scenario: Option<(&Path, Scenario, bool)> = None;
-    let paths = order::solutions_behind_scenarios(paths);
-    for path in &paths {
-        let content = load(path);
+    let mut scenario: Option<(PathBuf, Scenario, bool)> = None;
+    let sources = paths.iter().map(|path| Source::new(path)).collect();
+    for mut source in order::solutions_behind_scenarios(sources) {
+        let content = source.bytes().and_then(|bytes| Content::of(&source.path, bytes));
+        let path = &source.path;
         if !matches!(content, Ok(Content::Solution(_))) {
             drives.extend(unsolved(scenario.take(), options));
         }
         match content {
             Ok(Content::Scenario(text)) => match scenario::read(path, &text) {
-                Ok(read) => scenario = Some((path, read, false)),
+                Ok(read) => scenario = Some((source.path, read, false)),
                 Err(error) => drives.push(Err(error)),
             },
             Ok(Content::Solution(text)) => drives.push(match &mut scenario {
@@ -50,7 +60,10 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
                     solution::read(path, &text)
                         .and_then(|s| commonroad::solved(scenario, &s, [file, path], options))
                 }
-                None => Err(ReadError::file(path, "no scenario that can be read is before it")),
+                None => Err(ReadError::file(
+                    path,
+                    "no scenario that can be read is before it; name its scenario as well",
+                )),
             }),
             Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
             Ok(Content::Lines(text)) => drives.extend(lines(path, &text)),
@@ -75,44 +88,12 @@ fn name_apart(drives: &mut [Result<Drive, ReadError>]) {
 }
 
 fn unsolved(
-    scenario: Option<(&Path, Scenario, bool)>,
+    scenario: Option<(PathBuf, Scenario, bool)>,
     options: &Options,
 ) -> Option<Result<Drive, ReadError>> {
     match scenario {
-        Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, file, options)),
+        Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, &file, options)),
         Some((_, _, true)) | None => None,
-    }
-}
-
-/// A file by what it holds.
-enum Content {
-    Scenario(String),
-    Solution(String),
-    Map(Vec<u8>),
-    Lines(String),
-}
-
-fn load(path: &Path) -> Result<Content, ReadError> {
-    let bytes = std::fs::read(path).map_err(|e| ReadError::file(path, e.to_string()))?;
-    if bytes.starts_with(npy::MAGIC) {
-        return Ok(Content::Map(bytes));
-    }
-    let text = String::from_utf8(bytes)
-        .map_err(|e| ReadError::file(path, format!("neither text nor a map: {e}")))?;
-    // A byte order mark is no content.
-    let text = text.trim_start_matches('\u{feff}').to_owned();
-    match text.trim_start().chars().next() {
-        Some('{') => return Ok(Content::Lines(text)),
-        Some('<') => {}
-        _ => return Err(ReadError::file(path, "neither XML, nor JSON Lines, nor a map")),
-    }
-    match xml::with_root(path, &text, |root| Ok(root.name().to_owned()))?.as_str() {
-        "commonRoad" => Ok(Content::Scenario(text)),
-        "CommonRoadSolution" => Ok(Content::Solution(text)),
-        other => {
-            let message = format!("`{other}` is neither `commonRoad` nor `CommonRoadSolution`");
-            Err(ReadError::file(path, message))
-        }
     }
 }
 
@@ -141,7 +122,7 @@ fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
     let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
     if !cycles.is_empty() {
         let notes = vec![format!("{} cycles as recorded", cycles.len())];
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = source::stem(path);
         let source = path.display().to_string();
         let lead_range_m = Sensor::default().lead_range_m;
         results.push(Ok(Drive { name, source, lead_range_m, cycles, notes }));

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 
 /// First bytes of every such file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -23,12 +23,12 @@ pub(crate) fn table<const N: usize>(file: &Path, bytes: &[u8]) -> Result<Vec<[f6
     let header: String =
         header.ok_or_else(broken)?.chars().filter(|c| !c.is_whitespace()).collect();
     if !header.contains("'descr':'<f8'") {
-        return Err(error("descr", format!("`<f8` is needed: {header}")));
+        return Err(error("descr", format!("`<f8` is needed: {}", quoted(&header))));
     }
     if !header.contains("'fortran_order':False") {
         return Err(error(
             "fortran_order",
-            format!("rows one after the other are needed: {header}"),
+            format!("rows one after the other are needed: {}", quoted(&header)),
         ));
     }
     let shape = header.split("'shape':(").nth(1).and_then(|rest| rest.split(')').next());
@@ -39,7 +39,7 @@ pub(crate) fn table<const N: usize>(file: &Path, bytes: &[u8]) -> Result<Vec<[f6
         .map(|part| part.parse().ok())
         .collect();
     let [Some(rows), Some(columns)] = sizes[..] else {
-        return Err(error("shape", format!("two sizes are needed: {header}")));
+        return Err(error("shape", format!("two sizes are needed: {}", quoted(&header))));
     };
     if columns != N {
         return Err(error("shape", format!("{columns} columns; {N} are needed")));

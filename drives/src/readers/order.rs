@@ -1,9 +1,7 @@
 //! Files in the order in which they belong together: `check *.xml` names a solution before its
 //! scenario.
 
-use std::fs::File;
-use std::io::Read;
-use std::path::{Path, PathBuf};
+use crate::readers::source::Source;
 
 /// The root element of a benchmark file, with its attributes, is in its first bytes.
 const HEAD: u64 = 4096;
@@ -14,36 +12,43 @@ enum Benchmark {
     Solution(String),
 }
 
-/// The paths with every solution moved behind the scenario of its benchmark id, where that is
+/// The files with every solution moved behind the scenario of its benchmark id, where that is
 /// among them and not before it already; everything else stays where it is.
-pub(crate) fn solutions_behind_scenarios(paths: &[PathBuf]) -> Vec<PathBuf> {
-    let files: Vec<_> = paths.iter().map(|path| (path, benchmark(path))).collect();
+pub(crate) fn solutions_behind_scenarios(mut files: Vec<Source>) -> Vec<Source> {
+    if files.len() < 2 {
+        return files;
+    }
+    let benchmarks: Vec<_> = files.iter_mut().map(|file| benchmark(&file.head(HEAD))).collect();
+    let order = order(&benchmarks);
+    let mut files: Vec<_> = files.into_iter().map(Some).collect();
+    order.into_iter().filter_map(|index| files[index].take()).collect()
+}
+
+/// Every index once.
+fn order(files: &[Option<Benchmark>]) -> Vec<usize> {
     let is_scenario = |file: &Option<Benchmark>, id: &str| matches!(file, Some(Benchmark::Scenario(scenario)) if scenario == id);
     let home = |index: usize| {
-        let Some(Benchmark::Solution(id)) = &files[index].1 else { return None };
+        let Some(Benchmark::Solution(id)) = &files[index] else { return None };
         let before = files[..index].iter().rev();
-        let mut scenarios = before.filter(|(_, file)| matches!(file, Some(Benchmark::Scenario(_))));
-        if scenarios.next().is_some_and(|(_, scenario)| is_scenario(scenario, id)) {
+        let mut scenarios = before.filter(|file| matches!(file, Some(Benchmark::Scenario(_))));
+        if scenarios.next().is_some_and(|scenario| is_scenario(scenario, id)) {
             return None;
         }
-        files.iter().position(|(_, file)| is_scenario(file, id))
+        files.iter().position(|file| is_scenario(file, id))
     };
     let homes: Vec<Option<usize>> = (0..files.len()).map(home).collect();
-    let mut order = Vec::with_capacity(paths.len());
-    for (index, (path, _)) in files.iter().enumerate() {
+    let mut order = Vec::with_capacity(files.len());
+    for index in 0..files.len() {
         if homes[index].is_none() {
-            order.push((*path).clone());
+            order.push(index);
         }
-        let moved = homes.iter().zip(paths).filter(|(home, _)| **home == Some(index));
-        order.extend(moved.map(|(_, solution)| solution.clone()));
+        order.extend((0..files.len()).filter(|moved| homes[*moved] == Some(index)));
     }
     order
 }
 
-fn benchmark(path: &Path) -> Option<Benchmark> {
-    let mut head = Vec::new();
-    File::open(path).ok()?.take(HEAD).read_to_end(&mut head).ok()?;
-    let head = String::from_utf8_lossy(&head);
+fn benchmark(head: &[u8]) -> Option<Benchmark> {
+    let head = String::from_utf8_lossy(head);
     if let Some(id) = attribute(&head, "benchmarkID=") {
         return Some(Benchmark::Scenario(id.to_owned()));
     }
@@ -60,38 +65,25 @@ fn attribute<'a>(head: &'a str, name: &str) -> Option<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    use super::solutions_behind_scenarios;
-    use std::path::PathBuf;
+    use super::{benchmark, order};
 
     #[test]
     fn solutions_move_behind_their_scenarios_only_where_they_must() {
-        let folder = std::env::temp_dir().join(format!("mufasa-order-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a temporary folder");
-        let file = |name: &str, text: &str| {
-            let path = folder.join(name);
-            std::fs::write(&path, text).expect("a temporary file");
-            path
-        };
-        let scenario = |id: &str| {
-            file(&format!("{id}.xml"), &format!("<commonRoad benchmarkID=\"{id}\" x=\"1\">"))
-        };
-        let solution = |id: &str, n: u8| {
-            let text = format!("<CommonRoadSolution benchmark_id='KS2:SM1:{id}:2020a'>");
-            file(&format!("{id}.solution{n}.xml"), &text)
-        };
-        let (a, b) = (scenario("A"), scenario("B"));
-        let (a1, a2, b1, c1) =
-            (solution("A", 1), solution("A", 2), solution("B", 1), solution("C", 1));
-        let other = file("map.npy", "\u{93}NUMPY");
-        let order = |paths: &[&PathBuf]| {
-            solutions_behind_scenarios(&paths.iter().map(|p| (*p).clone()).collect::<Vec<_>>())
+        let order = |names: &[&'static str]| {
+            let file = |name: &&str| match name.split_at(1) {
+                (id, "") => format!("<commonRoad benchmarkID=\"{id}\" x=\"1\">"),
+                ("?", _) => String::from("\u{93}NUMPY"),
+                (id, _) => format!("<CommonRoadSolution benchmark_id='KS2:SM1:{id}:2020a'>"),
+            };
+            let files: Vec<_> =
+                names.iter().map(file).map(|text| benchmark(text.as_bytes())).collect();
+            order(&files).into_iter().map(|index| names[index]).collect::<Vec<_>>()
         };
         assert_eq!(
-            order(&[&a1, &a2, &a, &other, &b1, &b]),
-            [&a, &a1, &a2, &other, &b, &b1].map(Clone::clone)
+            order(&["A1", "A2", "A", "?map", "B1", "B"]),
+            ["A", "A1", "A2", "?map", "B", "B1"]
         );
-        assert_eq!(order(&[&a, &a1, &b, &b1, &a]), [&a, &a1, &b, &b1, &a].map(Clone::clone));
-        assert_eq!(order(&[&c1, &a, &c1]), [&c1, &a, &c1].map(Clone::clone));
-        std::fs::remove_dir_all(&folder).expect("the folder is ours");
+        assert_eq!(order(&["A", "A1", "B", "B1", "A"]), ["A", "A1", "B", "B1", "A"]);
+        assert_eq!(order(&["C1", "A", "C1"]), ["C1", "A", "C1"]);
     }
 }

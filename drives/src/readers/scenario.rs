@@ -3,12 +3,13 @@
 //! Interval values (`intervalStart`, positions given as a shape) are taken at their middle, and
 //! counted in a note: the middle is what a tracker would report of an uncertain measurement.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::geometry::{Point, Rectangle, add, cross, mix, sub};
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
+use crate::readers::left_out::{self, LeftOut};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::{Footprint, Motion, Object, State};
 
@@ -16,9 +17,12 @@ use crate::recording::object::{Footprint, Motion, Object, State};
 pub(crate) struct Scenario {
     /// `benchmarkID`.
     pub name: String,
+    /// `commonRoadVersion`.
+    pub version: String,
     /// Duration of a time step, ns.
     pub dt_ns: i64,
     pub network: Network,
+    pub left_out: Vec<LeftOut>,
     /// In the order of the file.
     pub objects: Vec<Object>,
     pub notes: Vec<String>,
@@ -29,11 +33,14 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
     with_root(file, text, |root| {
         let version = root.attribute("commonRoadVersion")?;
         if !matches!(version, "2018b" | "2020a") {
-            let message = format!("version {version} is not read; 2018b and 2020a are");
+            let message = format!(
+                "version {} is not read; 2018b and 2020a are: write it as one of them",
+                quoted(version)
+            );
             return Err(root.error("commonRoadVersion", message));
         }
         let mut reader = Reader::default();
-        let network = lanelets(root)?;
+        let (network, left_out) = lanelets(root)?;
         let mut objects = Vec::new();
         for element in root.children() {
             let role = match element.name() {
@@ -51,10 +58,12 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
         distinct_ids(root, &objects)?;
         Ok(Scenario {
             name: root.attribute("benchmarkID")?.to_owned(),
+            version: version.to_owned(),
             dt_ns: time_step(root)?,
             network,
             objects,
-            notes: reader.notes(),
+            notes: left_out::note(&left_out).into_iter().chain(reader.notes()).collect(),
+            left_out,
         })
     })
 }
@@ -63,7 +72,7 @@ fn time_step(root: Element<'_>) -> Result<i64, ReadError> {
     let text = root.attribute("timeStepSize")?;
     let seconds: f64 = text.trim().parse().unwrap_or(f64::NAN);
     if !(0.001..=10.0).contains(&seconds) {
-        let message = format!("`{text}` is no time step between 0.001 and 10 s");
+        let message = format!("{} is no time step between 0.001 and 10 s", quoted(text));
         return Err(root.error("timeStepSize", message));
     }
     #[expect(clippy::cast_possible_truncation, reason = "within 1e6 and 1e10")]
@@ -71,22 +80,46 @@ fn time_step(root: Element<'_>) -> Result<i64, ReadError> {
 }
 
 fn distinct_ids(root: Element<'_>, objects: &[Object]) -> Result<(), ReadError> {
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     match objects.iter().find(|o| !seen.insert(o.id)) {
         Some(o) => Err(root.error("id", format!("two obstacles have the id {}", o.id))),
         None => Ok(()),
     }
 }
 
-fn lanelets(root: Element<'_>) -> Result<Network, ReadError> {
+/// The lanelets, and those that are left out of them because their bounds are on the wrong sides.
+fn lanelets(root: Element<'_>) -> Result<(Network, Vec<LeftOut>), ReadError> {
     let mut map = BTreeMap::new();
+    let mut left_out = Vec::new();
+    let mut ids = BTreeSet::new();
     for element in root.all("lanelet") {
         let id = element.integer_attribute("id")?;
-        if map.insert(id, lanelet(element, id)?).is_some() {
+        if !ids.insert(id) {
             return Err(element.error("id", "two lanelets have this id"));
         }
+        let lanelet = lanelet(element, id)?;
+        if leads(&lanelet) {
+            map.insert(id, lanelet);
+        } else {
+            let error = element.error("leftBound", "the left bound is not left of the right one");
+            left_out.push(LeftOut { lanelet, error });
+        }
     }
-    Ok(Network { lanelets: map })
+    // Where there is no other, the file has its bounds the wrong way round.
+    match left_out.first() {
+        Some(first) if map.is_empty() => Err(first.error.clone()),
+        _ => Ok((Network { lanelets: map }, left_out)),
+    }
+}
+
+/// Whether the left bound is left of the right one in the direction from start to end.
+fn leads(lanelet: &Lanelet) -> bool {
+    let Lanelet { left, right, center, .. } = lanelet;
+    // Twice the signed area between the bounds, direction by direction.
+    let side: f64 = (1..center.len())
+        .map(|i| cross(sub(center[i], center[i - 1]), sub(left[i], right[i])))
+        .sum();
+    side > 0.0
 }
 
 fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
@@ -101,13 +134,6 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         return Err(element.error("leftBound", message));
     }
     let center: Vec<Point> = left.iter().zip(&right).map(|(l, r)| mix(*l, *r, 0.5)).collect();
-    // Twice the signed area between the bounds, direction by direction.
-    let side: f64 = (1..center.len())
-        .map(|i| cross(sub(center[i], center[i - 1]), sub(left[i], right[i])))
-        .sum();
-    if side <= 0.0 {
-        return Err(element.error("leftBound", "the left bound is not left of the right one"));
-    }
     let references = |name: &'static str| -> Result<Vec<i64>, ReadError> {
         element.all(name).map(|e| e.integer_attribute("ref")).collect()
     };
@@ -168,7 +194,12 @@ impl Reader {
         let is_static = match role {
             "static" => true,
             "dynamic" => false,
-            other => return Err(element.error("role", format!("`{other}` is no role"))),
+            other => {
+                return Err(element.error(
+                    "role",
+                    format!("{} is no role; `static` and `dynamic` are", quoted(other)),
+                ));
+            }
         };
         let initial = self.state(element.get("initialState")?, is_static)?;
         let motion = if is_static {
@@ -330,6 +361,9 @@ fn outline(shape: Element<'_>) -> Result<(Vec<Point>, Option<Footprint>), ReadEr
             Ok((corners.to_vec(), None))
         }
         "polygon" => Ok((shape.points()?, None)),
-        other => Err(shape.error("", format!("shape `{other}` is not read"))),
+        other => Err(shape.error(
+            "",
+            format!("shape {} is not read; rectangle, circle and polygon are", quoted(other)),
+        )),
     }
 }

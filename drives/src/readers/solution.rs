@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use crate::readers::error::ReadError;
+use crate::readers::error::{ReadError, quoted};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::State;
 
@@ -15,6 +15,8 @@ use crate::recording::object::State;
 pub(crate) struct Solution {
     /// Name of the scenario in the benchmark id.
     pub scenario: String,
+    /// Version of the scenario that it is for, the last part of the benchmark id.
+    pub version: String,
     /// The part of the benchmark id before the scenario, such as `KS2:SM1`.
     pub model: String,
     /// Length and width of the vehicle, m.
@@ -33,12 +35,13 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
     with_root(file, text, |root| {
         let id = root.attribute("benchmark_id")?;
         let parts: Vec<&str> = id.split(':').collect();
-        let [model, cost, scenario, _version] = parts[..] else {
-            let message = format!("`{id}` is not of the form model:cost:scenario:version");
+        let [model, cost, scenario, version] = parts[..] else {
+            let message = format!("{} is not of the form model:cost:scenario:version", quoted(id));
             return Err(root.error("benchmark_id", message));
         };
         let size = size(model).ok_or_else(|| {
-            let message = format!("`{model}` names no KS, ST or MB model of vehicle 1, 2 or 3");
+            let message =
+                format!("{} names no KS, ST or MB model of vehicle 1, 2 or 3", quoted(model));
             root.error("benchmark_id", message)
         })?;
         let mut trajectories = root.children();
@@ -47,6 +50,7 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
         };
         Ok(Solution {
             scenario: scenario.to_owned(),
+            version: version.to_owned(),
             model: format!("{model}:{cost}"),
             size,
             states: states(trajectory)?,
@@ -65,7 +69,7 @@ fn states(trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
         "stTrajectory" => "stState",
         "mbTrajectory" => "mbState",
         other => {
-            let message = format!("`{other}` is not read; KS, ST and MB trajectories are");
+            let message = format!("{} is not read; KS, ST and MB trajectories are", quoted(other));
             return Err(trajectory.error("", message));
         }
     };

@@ -139,6 +139,57 @@ fn files_of_no_known_kind_are_refused() {
     assert!(one(&[own("no such file")], &Options::default()).is_err());
 }
 
+/// Files of a few megabytes that a parser would ponder for minutes.
+#[test]
+fn attributes_and_namespaces_without_end_are_refused_by_their_limit() {
+    let folder = Scratch::new();
+    let head = "<commonRoad commonRoadVersion='2020a' benchmarkID='A' timeStepSize='0.1'";
+    let many = |count: u32, one: &str| -> String {
+        (0..count).map(|i| one.replace('N', &i.to_string())).collect()
+    };
+    for (content, limit) in [
+        (many(300_000, " aN=''"), "more than 256 attributes"),
+        (many(50_000, " xmlns:aN='uN'"), "more than 256 attributes"),
+        (format!("><x{}/>", many(250, " xmlns:aN='uN'")).repeat(200), "256 name"),
+    ] {
+        let path = folder.write("s.xml", format!("{head}{content}/>"));
+        let begin = std::time::Instant::now();
+        let error = one(&[path], &Options::default()).unwrap_err();
+        assert!(error.message.contains(limit), "{error}");
+        assert!(begin.elapsed().as_secs() < 5, "{:?}", begin.elapsed());
+    }
+}
+
+/// Whoever wrote a value of megabytes knows it, and nobody wants it on a screen.
+#[test]
+fn a_long_value_is_not_repeated_by_its_refusal() {
+    let long = "x7".repeat(5_000_000);
+    for (from, to) in [
+        ("<x>60</x>", format!("<x>{long}</x>")),
+        ("2020a\"", format!("{long}\"")),
+        ("timeStepSize=\"0.1\"", format!("timeStepSize=\"{long}\"")),
+        ("lanelet id=\"2\"", format!("lanelet id=\"{long}\"")),
+        ("<type>car</type>", format!("<type>car</{long}>")),
+        ("<rectangle>", format!("<{long}/><rectangle>")),
+        ("Obstacle id=\"8\"", format!("Obstacle id=\"{long}\"")),
+    ] {
+        let error = refused(from, &to);
+        assert!(error.to_string().len() < 1200, "{from}: {} bytes", error.to_string().len());
+        let text = error.to_string();
+        assert!(text.contains("000000 bytes") || text.contains("bytes left out"), "{text}");
+    }
+    let folder = Scratch::new();
+    for line in [
+        format!("{{\"kind\": \"{long}\"}}"),
+        format!("{{\"kind\": \"cycle\", \"id\": \"{long}\", \"now_ns\": \"{long}\"}}"),
+        format!("{{\"kind\": \"cycle\", \"id\": \"x\", \"{long}\": 1}}"),
+    ] {
+        let path = folder.write("l.jsonl", line);
+        let text = one(&[path], &Options::default()).unwrap_err().to_string();
+        assert!(text.len() < 1800, "{} bytes", text.len());
+    }
+}
+
 /// Changes a few bytes of a file, or cuts it off.
 fn mutate(rng: &mut ChaCha8Rng, original: &[u8]) -> Vec<u8> {
     let mut bytes = original.to_vec();

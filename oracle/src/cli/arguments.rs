@@ -21,7 +21,7 @@ Exit codes: 0 all cycles safe, 1 some unsafe or offloading lost (data too late, 
 input (the other files are still checked), 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
     /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
-    /// as .npy; recognised by their content.
+    /// as .npy; recognised by their content, each also as .gz or from a pipe such as /dev/stdin.
     #[arg(required = true)]
     pub(super) files: Vec<PathBuf>,
     /// Profile of recorded drives; records name their own.
@@ -57,7 +57,7 @@ pub(super) struct CheckArguments {
 #[derive(Args)]
 #[command(next_help_heading = "Recorded drives")]
 pub(super) struct RecordingArguments {
-    /// Recorded vehicle that is the CAV; by default one is picked.
+    /// Recorded vehicle that is the CAV; by default the car that goes farthest on the lanelets.
     #[arg(long, value_name = "ID")]
     pub(super) ego: Option<i64>,
     /// Length of the planned trajectories, s.

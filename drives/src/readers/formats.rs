@@ -1,0 +1,73 @@
+//! Formats that are not read, by their first bytes, and what to do with a file of each.
+
+/// First bytes of a gz file, which is read.
+pub(crate) const GZ: &[u8] = b"\x1f\x8b";
+
+const UNPACK: &str = "unpack it and give what is in it; of packed files only gz is read";
+const RECORDS: &str =
+    "write its cycles as JSON Lines, a record of spec/5-interfaces.md#cycle on every line";
+const UTF_8: &str = "write it as UTF-8, as `iconv -f UTF-16 -t UTF-8 FILE` does";
+const XML: &str = "write it as XML, as CommonRoadFileWriter of commonroad-io does";
+
+/// First bytes, what they are of, and what to do.
+const KNOWN: [(&[u8], &str, &str); 16] = [
+    (GZ, "a gz file within a gz file", UNPACK),
+    (b"PK\x03\x04", "a zip archive", UNPACK),
+    (b"PK\x05\x06", "an empty zip archive", UNPACK),
+    (b"\x28\xb5\x2f\xfd", "a zstd file", UNPACK),
+    (b"\xfd7zXZ\x00", "an xz file", UNPACK),
+    (b"BZh", "a bzip2 file", UNPACK),
+    (b"\x89MCAP0", "an MCAP recording", RECORDS),
+    (b"#ROSBAG", "a rosbag of ROS 1", RECORDS),
+    (b"SQLite format 3\x00", "an SQLite database, such as a rosbag of ROS 2", RECORDS),
+    (b"\x89HDF\r\n", "an HDF5 file", RECORDS),
+    (b"PAR1", "a Parquet file", RECORDS),
+    (b"\xff\xfe", "text in UTF-16", UTF_8),
+    (b"\xfe\xff", "text in UTF-16", UTF_8),
+    (b"<\x00", "text in UTF-16", UTF_8),
+    (b"{\x00", "text in UTF-16", UTF_8),
+    (b"\x00<", "text in UTF-16", UTF_8),
+];
+/// What `check` reads, for a file that is nothing known.
+pub(crate) const READ: &str = "CommonRoad XML, JSON Lines of cycles and maps as .npy are read, \
+                               each also as .gz";
+
+/// What a file of a format that is not read is, and what to do with it; `None` where its bytes are
+/// of no such format.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<String> {
+    let known = KNOWN.iter().find(|(mark, _, _)| bytes.starts_with(mark));
+    let (name, advice) = match known {
+        Some((_, name, advice)) => (*name, *advice),
+        None if bytes.is_empty() => ("an empty file", READ),
+        None if is_protobuf(bytes) => ("a CommonRoad scenario as protobuf", XML),
+        None if bytes.starts_with(b"[") => (
+            "one JSON array",
+            "JSON Lines have every record on a line of its own, as `jq -c .[] FILE` writes it",
+        ),
+        None if is_csv(bytes) => ("a table of values (CSV)", RECORDS),
+        None => return None,
+    };
+    Some(format!("{name}, which is not read: {advice}"))
+}
+
+/// Whether a message begins with another one that holds the version of `CommonRoad`.
+fn is_protobuf(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(64)];
+    let holds = |version: &[u8]| head.windows(version.len()).any(|it| it == version);
+    bytes.starts_with(b"\n") && (holds(b"\n\x052020a") || holds(b"\n\x052018b"))
+}
+
+/// Whether the first two lines have equally many values, two at least.
+fn is_csv(bytes: &[u8]) -> bool {
+    // A byte order mark is no content.
+    let content = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    if content.starts_with(b"<") || content.starts_with(b"{") {
+        return false;
+    }
+    let mut lines = content.splitn(3, |b| *b == b'\n');
+    let (Some(first), Some(second)) = (lines.next(), lines.next()) else { return false };
+    [b',', b';', b'\t'].iter().any(|separator| {
+        let [n, m] = [first, second].map(|line| line.split(|b| b == separator).count());
+        n > 1 && n == m && std::str::from_utf8(first).is_ok()
+    })
+}

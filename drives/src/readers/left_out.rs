@@ -1,0 +1,56 @@
+//! Lanelets whose bounds are not what they should be: the drive does without them, where it can.
+
+use crate::geometry::Point;
+use crate::readers::error::ReadError;
+use crate::readers::lanes::{Change, Lanelet, Network, Run};
+
+/// Ids that a note names.
+const NAMED_MAX: usize = 8;
+
+/// A lanelet that is no part of the network.
+pub(crate) struct LeftOut {
+    pub lanelet: Lanelet,
+    /// What is wrong with it.
+    pub error: ReadError,
+}
+
+/// What is said of the lanelets left out of a network; `None` where there are none.
+pub(crate) fn note(left_out: &[LeftOut]) -> Option<String> {
+    if left_out.is_empty() {
+        return None;
+    }
+    let ids: Vec<_> = left_out.iter().take(NAMED_MAX).map(|it| it.lanelet.id.to_string()).collect();
+    let more = if left_out.len() > NAMED_MAX { " ..." } else { "" };
+    Some(format!(
+        "{} lanelets left out, whose left bound is not left of the right one: {}{more}",
+        left_out.len(),
+        ids.join(" ")
+    ))
+}
+
+/// What is wrong with the lanelet left out that a drive along these poses and runs needs: a pose is
+/// on it and on no other that leads its way, or it is next to where one run breaks off and another
+/// begins. `None` where the drive does without them all.
+pub(crate) fn needed(
+    left_out: &[LeftOut],
+    network: &Network,
+    poses: &[(Point, f64)],
+    runs: &[Run],
+) -> Option<ReadError> {
+    let stands_alone = |lanelet: &Lanelet| {
+        poses.iter().any(|(p, heading)| lanelet.contains(*p) && !network.covers(*p, *heading))
+    };
+    let connects = |lanelet: &Lanelet| {
+        let pairs = runs.windows(2).filter(|pair| pair[0].change == Some(Change::Jump));
+        pairs.filter_map(|pair| Some((pair[0].lanelets.last()?, pair[1].lanelets.first()?))).any(
+            |(last, first)| {
+                let before = network.lanelets.get(last);
+                before.is_some_and(|it| it.successors.contains(&lanelet.id))
+                    || lanelet.successors.contains(first)
+            },
+        )
+    };
+    let needed = left_out.iter().find(|it| stands_alone(&it.lanelet) || connects(&it.lanelet))?;
+    let message = format!("{}, and the route leads over this lanelet", needed.error.message);
+    Some(ReadError { message, ..needed.error.clone() })
+}

@@ -1,0 +1,71 @@
+//! Lanelets whose bounds are on the wrong sides: a drive that goes elsewhere does without them.
+
+use mufasa_drives::{Drive, Options, ReadError};
+
+use super::files::{Scratch, one, own, shared};
+
+/// A lanelet between two values of x and of y, with what else is in it.
+fn lanelet(id: u32, x: [f64; 2], [left, right]: [f64; 2], links: &str) -> String {
+    let bound = |name: &str, y: f64| {
+        let point = |x: f64| format!("<point><x>{x}</x><y>{y}</y></point>");
+        format!("<{name}>{}{}</{name}>", point(x[0]), point(x[1]))
+    };
+    let bounds = bound("leftBound", left) + &bound("rightBound", right);
+    format!("<lanelet id=\"{id}\">{bounds}{links}</lanelet>")
+}
+
+/// The drive of the small solution, along y = -1.75 from x = 10 to 30, on these lanelets.
+fn solved(lanelets: &[String]) -> Result<Drive, ReadError> {
+    let head = "<commonRoad benchmarkID=\"ZAM_Small-1_1_T-1\" commonRoadVersion=\"2020a\" \
+                timeStepSize=\"0.1\">";
+    let folder = Scratch::new();
+    let scenario = folder.write("s.xml", format!("{head}{}</commonRoad>", lanelets.concat()));
+    one(&[scenario, own("readers/small.KS2.solution.xml")], &Options::default())
+}
+
+#[test]
+fn a_lanelet_on_the_wrong_sides_or_without_area_is_left_out_with_a_note() {
+    let road = lanelet(1, [0.0, 120.0], [0.0, -3.5], "");
+    let plain = solved(std::slice::from_ref(&road)).unwrap();
+    assert!(!plain.notes.iter().any(|note| note.contains("left out")));
+    let inverted = lanelet(2, [0.0, 120.0], [3.5, 7.0], "");
+    let point = lanelet(3, [60.0, 60.0], [0.0, -3.5], "");
+    let drive = solved(&[inverted, point, road]).unwrap();
+    assert_eq!(drive.cycles, plain.cycles);
+    let note = "2 lanelets left out, whose left bound is not left of the right one: 2 3";
+    assert!(drive.notes.iter().any(|it| it == note), "{:?}", drive.notes);
+}
+
+#[test]
+fn a_lanelet_that_the_route_needs_is_refused() {
+    let next = "<successor ref=\"3\"/>";
+    let before = lanelet(1, [0.0, 20.0], [0.0, -3.5], next);
+    let behind = lanelet(4, [20.0, 120.0], [0.0, -3.5], "");
+    let needed = |lanelets: &[String]| {
+        let error = solved(lanelets).unwrap_err();
+        assert_eq!(error.element, "commonRoad/lanelet[3]");
+        assert!(error.message.contains("the route leads over this lanelet"), "{error}");
+    };
+    // The drive is on it and on no other.
+    needed(&[before.clone(), lanelet(3, [20.0, 120.0], [-3.5, 0.0], "")]);
+    // It alone connects the two that the drive is on.
+    let point = lanelet(3, [20.0, 20.0], [0.0, -3.5], "<successor ref=\"4\"/>");
+    needed(&[before, point.clone(), behind.clone()]);
+    // Without it there is another way.
+    let both = format!("{next}<successor ref=\"4\"/>");
+    let before = lanelet(1, [0.0, 20.0], [0.0, -3.5], &both);
+    assert!(solved(&[before, point, behind]).is_ok());
+}
+
+#[test]
+fn scenarios_with_one_such_lanelet_give_drives() {
+    let Some(folder) = shared("commonroad-defects") else { return };
+    for name in ["ITA_Foggia-7_2_T-1", "RUS_Bicycle-14_1_T-1@2018b"] {
+        let file = |end: &str| folder.join(format!("{name}{end}"));
+        let alone = one(&[file(".xml")], &Options::default()).unwrap();
+        let solved = one(&[file(".xml"), file(".solution1.KS2.xml")], &Options::default()).unwrap();
+        for drive in [alone, solved] {
+            assert!(drive.notes[0].starts_with("1 lanelets left out"), "{:?}", drive.notes);
+        }
+    }
+}
