@@ -10,6 +10,7 @@ mod error;
 mod judge;
 mod minimise;
 pub mod reference;
+mod reproduce;
 mod results;
 mod runner;
 mod settings;

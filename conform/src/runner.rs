@@ -16,10 +16,10 @@ use crate::error::ConformError;
 use crate::judge::class::{Breach, Class, Kind, Scale};
 use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
 use crate::judge::explain::in_words;
+use crate::reproduce::{Again, Reproduction};
 use crate::results::report;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
 use crate::settings::Settings;
-use crate::shrink::Hunt;
 use crate::subject::{Broken, Subject};
 use mufasa_records::names;
 
@@ -43,6 +43,9 @@ const LONGER: u32 = 5;
 
 /// So many late answers are forgiven; a program with more of them does not keep the limit.
 const FORGIVEN: u64 = 20;
+
+/// Place of what the program did after its answer.
+const AFTERWARDS: &str = "after its answer";
 
 /// A campaign on its way.
 #[derive(Debug)]
@@ -125,7 +128,7 @@ impl<'a> Runner<'a> {
         let class = Class {
             kind: case.question.kind(),
             breach: broken.breach,
-            place: String::from("after its answer"),
+            place: AFTERWARDS.to_owned(),
             profile: String::new(),
             configuration: String::new(),
             scale: Scale::Clear,
@@ -241,15 +244,16 @@ impl<'a> Runner<'a> {
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
         let known = self.classes.get(class);
-        let known = known.map(|found| (found.count, found.size, found.shrunk, found.first));
-        let enough = known.is_some_and(|(count, size, shrunk, _)| {
+        let known = known.map(|found| (found.count, found.rank(), found.shrunk, found.first));
+        let enough = known.is_some_and(|(count, (_, _, size), shrunk, _)| {
             (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
         });
         if !enough {
             self.bar.set_message(format!("shrinking: {class}"));
             let found = self.shrunk(class, case, examined)?;
-            let (count, size, shrunk, first) = known.unwrap_or((0, usize::MAX, false, case.number));
-            if (found.shrunk, size) > (shrunk, found.size) {
+            if known.is_none_or(|(_, rank, _, _)| found.rank() < rank) {
+                let (count, first) =
+                    known.map_or((0, case.number), |(count, _, _, first)| (count, first));
                 self.bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
                 self.classes.insert(class.clone(), Found { count, first, ..found });
             }
@@ -281,26 +285,34 @@ impl<'a> Runner<'a> {
         examined: &Examined,
     ) -> Result<Found, ConformError> {
         let Case { number, name, question } = case;
-        let tolerance = self.settings.tolerance;
-        let hunt = Hunt::new(&mut self.subject, class, name, tolerance);
-        let smallest = match self.source {
+        let is_first = !self.classes.contains_key(class);
+        let mut reproduction = Reproduction {
+            subject: &mut self.subject,
+            class,
+            name,
+            question,
+            tolerance: self.settings.tolerance,
+        };
+        let again = match self.source {
+            // That comes after an answer, and cannot be asked.
+            _ if class.place == AFTERWARDS => Again::Never,
             Source::Generated(generator) => {
                 let kind = question.kind();
                 let read = |tape: &[u32]| generator.read(kind, tape);
-                hunt.run(question, Some((generator.tape(*number), &read)))?
+                reproduction.run(Some((generator.tape(*number), &read)), is_first)?
             }
-            Source::Drives(_) => hunt.run(question, None)?,
+            Source::Drives(_) => reproduction.run(None, is_first)?,
         };
         // What the program did after an answer while a case was made smaller is no case of its own.
         let _ = self.subject.take_afterwards();
-        let id = class.slug();
-        let (told, shown, shrunk) = match smallest {
-            None => (in_words(question, examined), question, false),
-            Some(ref smallest) => {
-                let again = ask_and_compare(&mut self.subject, &id, smallest, tolerance)?;
-                (in_words(smallest, &again), smallest, true)
+        let (told, shown, shrunk, before) = match &again {
+            Again::Alone(smallest, again) => {
+                (in_words(smallest, again), smallest, true, Vec::new())
             }
+            Again::After(before) => (in_words(question, examined), question, false, before.clone()),
+            Again::Never => (in_words(question, examined), question, false, Vec::new()),
         };
+        let id = class.slug();
         Ok(Found {
             class: class.clone(),
             count: 1,
@@ -308,6 +320,7 @@ impl<'a> Runner<'a> {
             name: name.clone(),
             told,
             shrunk,
+            before,
             size: shown.objects(),
             unit: shown.unit().to_owned(),
             record: record(&shown.line(&id))?,

@@ -1,7 +1,9 @@
 //! The program under test: started once, fed line by line, and started again when it breaks.
 
+use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read, Write};
+use std::mem;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -29,6 +31,9 @@ const START: u32 = 5;
 /// How long an ended program is waited for.
 const LAST_WORDS: Duration = Duration::from_millis(300);
 
+/// What is kept of the lines that a process was asked.
+const KEPT_BYTES: usize = 64 << 20;
+
 /// No answer, or none that can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Broken {
@@ -52,6 +57,9 @@ pub struct Subject {
     time_limit: Duration,
     running: Option<Running>,
     starts: u64,
+    /// Lines that the process was asked since its start; the oldest go when they are too many.
+    asked: VecDeque<String>,
+    asked_bytes: usize,
     /// What the program did after its last answer, unasked.
     afterwards: Option<Broken>,
 }
@@ -80,7 +88,15 @@ impl Subject {
     /// Errors: it cannot be started.
     pub fn start(command: &[OsString], time_limit: Duration) -> Result<Self, ConformError> {
         let command = command.to_vec();
-        let mut subject = Self { command, time_limit, running: None, starts: 0, afterwards: None };
+        let mut subject = Self {
+            command,
+            time_limit,
+            running: None,
+            starts: 0,
+            asked: VecDeque::new(),
+            asked_bytes: 0,
+            afterwards: None,
+        };
         subject.ensure()?;
         Ok(subject)
     }
@@ -113,6 +129,8 @@ impl Subject {
             self.stop();
             self.afterwards = Some(broken);
         }
+        self.ensure()?;
+        self.keep(line);
         let running = self.ensure()?;
         if !running.answered {
             time_limit = time_limit.saturating_mul(START);
@@ -131,6 +149,14 @@ impl Subject {
             self.stop();
         }
         Ok((result, answer))
+    }
+
+    /// Ends the process, so that the next line is the first of a new one. Returns the lines that it
+    /// was asked.
+    pub fn restart(&mut self) -> Vec<String> {
+        self.stop();
+        self.asked_bytes = 0;
+        mem::take(&mut self.asked).into()
     }
 
     /// Judges an answer that is none: followed by another line at once, it is a flood. The
@@ -181,9 +207,21 @@ impl Subject {
             running
         } else {
             self.starts += 1;
+            self.asked.clear();
+            self.asked_bytes = 0;
             Running::start(&self.command)?
         };
         Ok(self.running.insert(running))
+    }
+
+    fn keep(&mut self, line: &str) {
+        self.asked_bytes += line.len();
+        self.asked.push_back(line.to_owned());
+        while self.asked_bytes > KEPT_BYTES
+            && let Some(oldest) = self.asked.pop_front()
+        {
+            self.asked_bytes -= oldest.len();
+        }
     }
 
     fn stop(&mut self) {

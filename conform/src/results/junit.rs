@@ -24,7 +24,7 @@ pub fn xml(summary: &Summary) -> String {
         let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));
         let _ = writeln!(text, "<testcase classname=\"mufasa.{}\" name=\"{name}\"/>", kind.name());
     }
-    for Found { class, count, told, record, .. } in &summary.classes {
+    for Found { class, id, count, told, record, before, .. } in &summary.classes {
         let (kind, name) = (class.kind.name(), escaped(&class.to_string()));
         let message = escaped(&format!("{count} cases; exact: {}", told.expected));
         let mut body = format!("program: {}\nexact: {}\n", told.answered, told.expected);
@@ -34,6 +34,9 @@ pub fn xml(summary: &Summary) -> String {
                 "decides: {}\n{} against {}, margin {}",
                 numbers.what, numbers.left, numbers.right, numbers.margin
             );
+        }
+        if !before.is_empty() {
+            let _ = writeln!(body, "does not occur alone: sequence.{id}.jsonl");
         }
         let _ = writeln!(body, "record: {}", record.get());
         let _ = writeln!(

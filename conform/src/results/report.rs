@@ -16,7 +16,7 @@ const MOST: usize = 4000;
 
 /// Prints a class with its smallest case.
 pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, name, told, shrunk, size, unit, record, .. } = found;
+    let Found { class, id, name, told, shrunk, before, size, unit, record, .. } = found;
     writeln!(out, "\nDISAGREES  {class}")?;
     writeln!(out, "  program  {}", told.answered)?;
     writeln!(out, "  exact    {}", told.expected)?;
@@ -28,9 +28,17 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
         }
         writeln!(out)?;
     }
-    let how = if *shrunk { "shrunk from case" } else { "does not occur when asked alone; case" };
+    let how = match (shrunk, before.len()) {
+        (true, _) => "shrunk from case",
+        (false, 0) => "was not shown again; case",
+        (false, _) => "does not occur alone; case",
+    };
     let plural = if *size == 1 { "" } else { "s" };
     writeln!(out, "  size     {size} {unit}{plural}, {how} {name}")?;
+    if !before.is_empty() {
+        let (count, plural) = (before.len(), if before.len() == 1 { "" } else { "s" });
+        writeln!(out, "  after    {count} other line{plural}: sequence.{id}.jsonl")?;
+    }
     let text = record.get();
     if text.len() <= MOST {
         writeln!(out, "  record   {text}")
@@ -112,6 +120,9 @@ pub struct Files {
     pub junit: PathBuf,
     /// The shrunk records, JSON Lines.
     pub reproducers: PathBuf,
+    folder: PathBuf,
+    /// What a shard puts into the names of its files.
+    part: String,
 }
 
 impl Files {
@@ -126,8 +137,12 @@ impl Files {
             summary: folder.join(format!("summary{part}.json")),
             junit: folder.join(format!("junit{part}.xml")),
             reproducers: folder.join(format!("reproducers{part}.jsonl")),
+            folder: folder.to_owned(),
+            part,
         };
-        for file in [&these.summary, &these.junit, &these.reproducers] {
+        let sequences = these.sequences().map_err(denied)?;
+        let single = [&these.summary, &these.junit, &these.reproducers];
+        for file in single.into_iter().chain(&sequences) {
             match fs::remove_file(file) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(denied(error)),
                 Ok(()) | Err(_) => {}
@@ -136,19 +151,36 @@ impl Files {
         Ok(these)
     }
 
+    /// The sequences in the folder: `sequence.ID.jsonl`, of a shard `sequence.0-of-8.ID.jsonl`.
+    fn sequences(&self) -> io::Result<Vec<PathBuf>> {
+        let prefix = format!("sequence{}.", self.part);
+        let is_one = |path: &PathBuf| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            let id = name.and_then(|name| name.strip_prefix(&prefix)?.strip_suffix(".jsonl"));
+            id.is_some_and(|id| !id.contains('.'))
+        };
+        let entries: io::Result<Vec<_>> = fs::read_dir(&self.folder)?.collect();
+        Ok(entries?.into_iter().map(|entry| entry.path()).filter(is_one).collect())
+    }
+
     /// Writes the files, the summary last. Errors: one cannot be written.
     pub fn write(&self, summary: &Summary) -> Result<(), ConformError> {
         let lines: String = summary.classes.iter().map(|found| found.line() + "\n").collect();
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
-        let all = [
-            (&self.reproducers, lines),
-            (&self.junit, junit::xml(summary)),
-            (&self.summary, json + "\n"),
+        let sequences = summary.classes.iter().filter_map(|found| {
+            let name = format!("sequence{}.{}.jsonl", self.part, found.id);
+            Some((self.folder.join(name), found.sequence()?))
+        });
+        let rest = [
+            (self.reproducers.clone(), lines),
+            (self.junit.clone(), junit::xml(summary)),
+            (self.summary.clone(), json + "\n"),
         ];
-        for (path, content) in all {
-            files::write(path, &content)
-                .map_err(|error| ConformError::file(path, format!("cannot be written: {error}")))?;
+        for (path, content) in sequences.chain(rest) {
+            files::write(&path, &content).map_err(|error| {
+                ConformError::file(&path, format!("cannot be written: {error}"))
+            })?;
         }
         Ok(())
     }

@@ -95,8 +95,11 @@ pub struct Found {
     pub name: String,
     /// What was answered and what is right, in the shrunk case.
     pub told: Told,
-    /// Whether the case showed the class again when it was asked again, and was shrunk.
+    /// Whether the record shows the class alone, in a fresh process, and was shrunk.
     pub shrunk: bool,
+    /// Where it does not: the lines that a fresh process has to be asked before; none when the
+    /// class was not shown again.
+    pub before: Vec<String>,
     /// Objects, events or services of the shrunk case.
     pub size: usize,
     /// What `size` counts.
@@ -110,6 +113,17 @@ impl Found {
     pub fn line(&self) -> String {
         let text = self.record.get();
         serde_json::from_str(text).unwrap_or_else(|_| text.to_owned())
+    }
+
+    /// Which of two cases of a class says more: the lower.
+    pub fn rank(&self) -> (bool, bool, usize) {
+        (!self.shrunk, self.before.is_empty(), self.size)
+    }
+
+    /// The lines of its sequence, the record's last, where the record does not show it alone.
+    pub fn sequence(&self) -> Option<String> {
+        let lines = self.before.iter().cloned().chain([self.line()]);
+        (!self.before.is_empty()).then(|| lines.map(|line| line + "\n").collect())
     }
 }
 
@@ -191,7 +205,7 @@ impl Summary {
         for found in self.classes.into_iter().chain(other.classes) {
             let class = found.class.clone();
             let better = |one: &Found, two: &Found| {
-                let key = |it: &Found| (!it.shrunk, it.size, it.first);
+                let key = |it: &Found| (it.rank(), it.first);
                 key(one) < key(two)
             };
             let joined = match classes.remove(&class) {
