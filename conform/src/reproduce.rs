@@ -18,7 +18,7 @@ const FURTHER_LINES: usize = 2000;
 #[derive(Debug)]
 pub enum Again {
     /// A record that shows it alone, and what came of it.
-    Alone(Question, Examined),
+    Alone(Box<(Question, Examined)>),
     /// The case itself, after these lines.
     After(Vec<String>),
     /// Nothing that was tried.
@@ -47,19 +47,19 @@ impl Reproduction<'_> {
     /// Errors: the program cannot be started again.
     pub fn run(
         &mut self,
-        tape: Option<(Vec<u32>, &Read<'_>)>,
+        tape: Option<&(Vec<u32>, &Read<'_>)>,
         with_sequence: bool,
     ) -> Result<Again, ConformError> {
         let mut before = self.subject.restart();
         // The last line is the case itself.
         before.pop();
         for each_fresh in [false, true] {
-            let tape = tape.as_ref().map(|(tape, read)| (tape.clone(), *read));
+            let tape = tape.map(|(tape, read)| (tape.clone(), *read));
             let hunt = Hunt::new(self.subject, self.class, self.name, self.tolerance, each_fresh);
             let Some(smallest) = hunt.run(self.question, tape)? else { break };
             let examined = self.alone(&smallest)?;
             if examined.class.as_ref() == Some(self.class) {
-                return Ok(Again::Alone(smallest, examined));
+                return Ok(Again::Alone(Box::new((smallest, examined))));
             }
         }
         if !with_sequence {
@@ -81,7 +81,7 @@ impl Reproduction<'_> {
         let mut lines_left = WHOLE_SEQUENCES * before.len() + FURTHER_LINES;
         let mut failed = None;
         let mut shows = |lines: &[&str]| {
-            if lines.len() >= lines_left || failed.is_some() {
+            if lines.len() >= lines_left || failed.is_some() || self.subject.is_interrupted() {
                 return false;
             }
             lines_left -= lines.len() + 1;

@@ -58,6 +58,7 @@ pub struct Runner<'a> {
     skipped: u64,
     tolerated: u64,
     late: u64,
+    interrupted: bool,
     given_up: Vec<Kind>,
     /// By kind of record: how often the program broke in a row, hung, and broke in all.
     broken: BTreeMap<Kind, [u64; 3]>,
@@ -84,6 +85,7 @@ impl<'a> Runner<'a> {
             skipped: 0,
             tolerated: 0,
             late: 0,
+            interrupted: false,
             given_up: Vec::new(),
             broken: BTreeMap::new(),
             groups: BTreeMap::new(),
@@ -91,7 +93,8 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Asks all cases; prints each class with its smallest case as it is found.
+    /// Asks all cases; prints the first class of each rule with its smallest case as it is found,
+    /// and the names of the others.
     /// Errors: the program cannot be started again, `out` cannot be written.
     pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
         let (first, step) = self.settings.shard.unwrap_or((0, 1));
@@ -99,7 +102,7 @@ impl<'a> Runner<'a> {
         self.bar = progress(cases.saturating_sub(first).div_ceil(step));
         let mut last = None;
         let mut number = first;
-        while number < cases {
+        while number < cases && !self.subject.is_interrupted() {
             if self.given_up.contains(&self.source.kind(number)) {
                 self.skipped += 1;
             } else {
@@ -112,6 +115,10 @@ impl<'a> Runner<'a> {
             number = number.saturating_add(step);
         }
         self.bar.finish_and_clear();
+        self.interrupted = number < cases;
+        if self.interrupted {
+            return Ok(());
+        }
         match (self.subject.finish(), last) {
             (Err(broken), Some(case)) => self.afterwards(broken, &case, out),
             (Ok(()), _) | (_, None) => Ok(()),
@@ -162,6 +169,7 @@ impl<'a> Runner<'a> {
             tolerated: self.tolerated,
             late: self.late,
             starts: self.subject.starts(),
+            interrupted: self.interrupted,
             given_up: self.given_up,
             groups: self.groups.into_iter().map(group).collect(),
             classes: self.classes.into_values().collect(),
@@ -201,6 +209,10 @@ impl<'a> Runner<'a> {
             examined = ask_and_compare(&mut self.subject, name, question, tolerance)?;
             self.subject.set_time_limit(limit);
             self.late += u64::from(!examined.hangs());
+        }
+        if self.subject.is_interrupted() {
+            // What interrupts the campaign may have ended the program, too.
+            return Ok(());
         }
         if let (Some(broken), Some(last)) = (self.subject.take_afterwards(), last) {
             self.afterwards(broken, last, out)?;
@@ -254,7 +266,11 @@ impl<'a> Runner<'a> {
             if known.is_none_or(|(_, rank, _, _)| found.rank() < rank) {
                 let (count, first) =
                     known.map_or((0, case.number), |(count, _, _, first)| (count, first));
-                self.bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
+                let is_new = !self.classes.keys().any(|it| it.is_of_rule(class));
+                let print = |out: &mut _| {
+                    if is_new { report::found(&found, out) } else { report::further(&found, out) }
+                };
+                self.bar.suspend(|| print(out).and_then(|()| out.flush()))?;
                 self.classes.insert(class.clone(), Found { count, first, ..found });
             }
             self.bar.set_message("");
@@ -299,16 +315,14 @@ impl<'a> Runner<'a> {
             Source::Generated(generator) => {
                 let kind = question.kind();
                 let read = |tape: &[u32]| generator.read(kind, tape);
-                reproduction.run(Some((generator.tape(*number), &read)), is_first)?
+                reproduction.run(Some(&(generator.tape(*number), &read)), is_first)?
             }
             Source::Drives(_) => reproduction.run(None, is_first)?,
         };
         // What the program did after an answer while a case was made smaller is no case of its own.
         let _ = self.subject.take_afterwards();
         let (told, shown, shrunk, before) = match &again {
-            Again::Alone(smallest, again) => {
-                (in_words(smallest, again), smallest, true, Vec::new())
-            }
+            Again::Alone(alone) => (in_words(&alone.0, &alone.1), &alone.0, true, Vec::new()),
             Again::After(before) => (in_words(question, examined), question, false, before.clone()),
             Again::Never => (in_words(question, examined), question, false, Vec::new()),
         };

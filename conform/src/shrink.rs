@@ -98,9 +98,10 @@ impl<'a> Hunt<'a> {
         }
     }
 
-    /// Whether a record shows the class; never once the tries are used up.
+    /// Whether a record shows the class; never once the tries are used up or the campaign is interrupted.
     fn shows(&mut self, question: &Question) -> bool {
-        if self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some() {
+        let is_over = self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some();
+        if is_over || self.subject.is_interrupted() {
             return false;
         }
         self.tries_left -= 1;

@@ -9,13 +9,14 @@ pub fn xml(summary: &Summary) -> String {
     let passed: Vec<&CaseCount> =
         summary.groups.iter().filter(|group| group.disagreements == 0).collect();
     let failures = summary.classes.len();
-    let tests = passed.len() + failures;
+    let errors = usize::from(summary.interrupted);
+    let tests = passed.len() + failures + errors;
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "<testsuites tests=\"{tests}\" failures=\"{failures}\">\n\
-         <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" \
+         <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\" \
          skipped=\"0\">"
     );
     for CaseCount { kind, profile, configuration, expected, cases, .. } in passed {
@@ -45,6 +46,14 @@ pub fn xml(summary: &Summary) -> String {
              message=\"{message}\">{}</failure></testcase>",
             class.breach.name(),
             escaped(&body)
+        );
+    }
+    if summary.interrupted {
+        let asked = format!("{} of {} cases", summary.asked, summary.campaign.cases);
+        let _ = writeln!(
+            text,
+            "<testcase classname=\"mufasa\" name=\"the whole campaign\"><error \
+             type=\"interrupted\" message=\"interrupted after {asked}\"/></testcase>"
         );
     }
     text.push_str("</testsuite>\n</testsuites>\n");

@@ -7,12 +7,19 @@ use std::path::{Path, PathBuf};
 
 use crate::error::ConformError;
 use crate::judge::class::Kind;
-use crate::results::junit;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
+use crate::results::{advice, junit};
 use mufasa_records::files;
 
 /// Longest record that is printed; the file has all.
 const MOST: usize = 4000;
+
+/// Prints a class of a rule of which another was printed.
+pub fn further(found: &Found, out: &mut impl Write) -> io::Result<()> {
+    let Found { class, size, unit, .. } = found;
+    let plural = if *size == 1 { "" } else { "s" };
+    writeln!(out, "DISAGREES  {class} ({size} {unit}{plural})")
+}
 
 /// Prints a class with its smallest case.
 pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
@@ -47,14 +54,11 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-/// Prints what was asked, the classes with their counts, and one sentence.
+/// Prints what was asked, the rules that broke with their counts, what to mend first, and one
+/// sentence.
 pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "\n{}", coverage(&summary.groups))?;
-    for found in &summary.classes {
-        let Found { class, count, size, unit, .. } = found;
-        let plural = if *size == 1 { "" } else { "s" };
-        writeln!(out, "{count:>8} x  {class} (smallest: {size} {unit}{plural})")?;
-    }
+    advice::print(summary, out)?;
     for kind in &summary.given_up {
         let name = kind.name();
         writeln!(out, "given up: {name} records, after too many restarts of the program")?;
@@ -74,8 +78,12 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     if summary.tolerated > 0 {
         write!(out, ", {} agree within the tolerance only", summary.tolerated)?;
     }
+    if summary.interrupted {
+        write!(out, ", INTERRUPTED")?;
+    }
     match (summary.disagreements(), summary.asked) {
         (_, 0) => writeln!(out, ": nothing was compared"),
+        (0, _) if summary.interrupted => writeln!(out, ": no disagreement so far"),
         (0, _) => writeln!(out, ": the program conforms in all of them"),
         (count, _) => {
             let classes = summary.classes.len();

@@ -29,6 +29,8 @@ pub struct Summary {
     pub late: u64,
     /// Starts of the program.
     pub starts: u64,
+    /// Whether it was ended before all cases were asked.
+    pub interrupted: bool,
     /// Kinds that were given up after too many restarts.
     pub given_up: Vec<Kind>,
     /// Cases by kind, profile, configuration and expected verdict.
@@ -133,9 +135,9 @@ impl Summary {
         self.classes.iter().map(|found| found.count).sum()
     }
 
-    /// Whether every shard is in it.
+    /// Whether every shard is in it, to its end.
     pub fn is_complete(&self) -> bool {
-        self.missing().is_empty()
+        self.missing().is_empty() && !self.interrupted
     }
 
     /// Shards that are not in it, the first hundred of them.
@@ -181,6 +183,7 @@ impl Summary {
         self.tolerated += other.tolerated;
         self.late += other.late;
         self.starts += other.starts;
+        self.interrupted |= other.interrupted;
         self.given_up.extend(other.given_up);
         self.given_up.sort();
         self.given_up.dedup();

@@ -122,7 +122,8 @@ pub(super) struct OracleArguments {
     subcommand_negates_reqs = true,
     after_help = "\
 Exit codes: 0 the program conforms in every case, 1 it disagrees in some, 2 bad input, nothing was
-compared, or (merge) a shard is missing."
+compared, or (merge) a shard is missing or was interrupted, 130 interrupted: the files hold what was
+known."
 )]
 pub(super) struct ConformArguments {
     #[command(subcommand)]
