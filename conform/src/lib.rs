@@ -10,6 +10,7 @@ mod error;
 mod judge;
 mod minimise;
 pub mod reference;
+mod reproduce;
 mod results;
 mod runner;
 mod settings;
@@ -19,6 +20,8 @@ pub mod vectors;
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 pub use cases::source::CASES;
 pub use error::ConformError;
@@ -38,19 +41,23 @@ const CONFORMS: u8 = 0;
 const DISAGREES: u8 = 1;
 /// Bad input, or nothing was compared.
 const BAD_INPUT: u8 = 2;
+/// Ended before its end, as a shell says it of a program that Ctrl-C ends.
+pub const INTERRUPTED: u8 = 130;
 
 /// Runs a campaign or a shard of it: writes what is found to `out` as it is found, and the files
-/// at the end. Returns the exit code: 0 without a disagreement, 1 with one, 2 when some file could
-/// not be read or nothing was compared. Errors: bad usage.
+/// at the end, which comes early when `stop` is set. Returns the exit code: 0 without a
+/// disagreement, 1 with one, 2 when some file could not be read or nothing was compared, 130 when
+/// it was interrupted. Errors: bad usage.
 pub fn run(
     settings: &Settings,
+    stop: &Arc<AtomicBool>,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> Result<u8, ConformError> {
     let (source, unreadable) = Source::new(settings, err)?;
     // First, so that nothing of an earlier run is left when the program cannot be started.
     let files = Files::prepare(&settings.out, settings.shard)?;
-    let subject = Subject::start(&settings.command, settings.time_limit)?;
+    let subject = Subject::start(&settings.command, settings.time_limit, stop)?;
     let mut runner = Runner::new(settings, &source, subject);
     runner.run(out)?;
     let summary = runner.summary();
@@ -64,6 +71,9 @@ pub fn run(
             files.reproducers.display()
         )?;
     }
+    if summary.interrupted {
+        return Ok(INTERRUPTED);
+    }
     Ok(match (summary.classes.is_empty(), unreadable || summary.asked == 0) {
         (false, _) => DISAGREES,
         (true, true) => BAD_INPUT,
@@ -72,7 +82,8 @@ pub fn run(
 }
 
 /// Joins the summaries of shards, prints the result, and writes it to a folder if one is given.
-/// Returns the exit code: 0 and 1 as above, 2 when shards are missing. Errors: summaries that do
+/// Returns the exit code: 0 and 1 as above, 2 when shards are missing or
+/// were interrupted. Errors: summaries that do
 /// not belong together.
 pub fn merge(
     inputs: &[PathBuf],
@@ -80,14 +91,21 @@ pub fn merge(
     out: &mut impl Write,
 ) -> Result<u8, ConformError> {
     let summary = Summary::merge(inputs)?;
-    for found in &summary.classes {
-        results::report::found(found, out)?;
+    for (at, found) in summary.classes.iter().enumerate() {
+        if summary.classes[..at].iter().any(|it| it.class.is_of_rule(&found.class)) {
+            results::report::further(found, out)?;
+        } else {
+            results::report::found(found, out)?;
+        }
     }
     results::report::end(&summary, out)?;
     if let Some(folder) = folder {
         Files::prepare(folder, None)?.write(&summary)?;
     }
     let missing: Vec<String> = summary.missing().iter().map(u64::to_string).collect();
+    if summary.interrupted {
+        writeln!(out, "INCOMPLETE: a shard was interrupted")?;
+    }
     if !missing.is_empty() {
         writeln!(out, "INCOMPLETE: shard {} missing", missing.join(", "))?;
     }

@@ -16,10 +16,10 @@ use crate::error::ConformError;
 use crate::judge::class::{Breach, Class, Kind, Scale};
 use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
 use crate::judge::explain::in_words;
+use crate::reproduce::{Again, Reproduction};
 use crate::results::report;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
 use crate::settings::Settings;
-use crate::shrink::Hunt;
 use crate::subject::{Broken, Subject};
 use mufasa_records::names;
 
@@ -44,6 +44,9 @@ const LONGER: u32 = 5;
 /// So many late answers are forgiven; a program with more of them does not keep the limit.
 const FORGIVEN: u64 = 20;
 
+/// Place of what the program did after its answer.
+const AFTERWARDS: &str = "after its answer";
+
 /// A campaign on its way.
 #[derive(Debug)]
 pub struct Runner<'a> {
@@ -55,6 +58,7 @@ pub struct Runner<'a> {
     skipped: u64,
     tolerated: u64,
     late: u64,
+    interrupted: bool,
     given_up: Vec<Kind>,
     /// By kind of record: how often the program broke in a row, hung, and broke in all.
     broken: BTreeMap<Kind, [u64; 3]>,
@@ -81,6 +85,7 @@ impl<'a> Runner<'a> {
             skipped: 0,
             tolerated: 0,
             late: 0,
+            interrupted: false,
             given_up: Vec::new(),
             broken: BTreeMap::new(),
             groups: BTreeMap::new(),
@@ -88,7 +93,8 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Asks all cases; prints each class with its smallest case as it is found.
+    /// Asks all cases; prints the first class of each rule with its smallest case as it is found,
+    /// and the names of the others.
     /// Errors: the program cannot be started again, `out` cannot be written.
     pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
         let (first, step) = self.settings.shard.unwrap_or((0, 1));
@@ -96,7 +102,7 @@ impl<'a> Runner<'a> {
         self.bar = progress(cases.saturating_sub(first).div_ceil(step));
         let mut last = None;
         let mut number = first;
-        while number < cases {
+        while number < cases && !self.subject.is_interrupted() {
             if self.given_up.contains(&self.source.kind(number)) {
                 self.skipped += 1;
             } else {
@@ -109,6 +115,10 @@ impl<'a> Runner<'a> {
             number = number.saturating_add(step);
         }
         self.bar.finish_and_clear();
+        self.interrupted = number < cases;
+        if self.interrupted {
+            return Ok(());
+        }
         match (self.subject.finish(), last) {
             (Err(broken), Some(case)) => self.afterwards(broken, &case, out),
             (Ok(()), _) | (_, None) => Ok(()),
@@ -125,7 +135,7 @@ impl<'a> Runner<'a> {
         let class = Class {
             kind: case.question.kind(),
             breach: broken.breach,
-            place: String::from("after its answer"),
+            place: AFTERWARDS.to_owned(),
             profile: String::new(),
             configuration: String::new(),
             scale: Scale::Clear,
@@ -159,6 +169,7 @@ impl<'a> Runner<'a> {
             tolerated: self.tolerated,
             late: self.late,
             starts: self.subject.starts(),
+            interrupted: self.interrupted,
             given_up: self.given_up,
             groups: self.groups.into_iter().map(group).collect(),
             classes: self.classes.into_values().collect(),
@@ -198,6 +209,10 @@ impl<'a> Runner<'a> {
             examined = ask_and_compare(&mut self.subject, name, question, tolerance)?;
             self.subject.set_time_limit(limit);
             self.late += u64::from(!examined.hangs());
+        }
+        if self.subject.is_interrupted() {
+            // What interrupts the campaign may have ended the program, too.
+            return Ok(());
         }
         if let (Some(broken), Some(last)) = (self.subject.take_afterwards(), last) {
             self.afterwards(broken, last, out)?;
@@ -241,16 +256,21 @@ impl<'a> Runner<'a> {
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
         let known = self.classes.get(class);
-        let known = known.map(|found| (found.count, found.size, found.shrunk, found.first));
-        let enough = known.is_some_and(|(count, size, shrunk, _)| {
+        let known = known.map(|found| (found.count, found.rank(), found.shrunk, found.first));
+        let enough = known.is_some_and(|(count, (_, _, size), shrunk, _)| {
             (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
         });
         if !enough {
             self.bar.set_message(format!("shrinking: {class}"));
             let found = self.shrunk(class, case, examined)?;
-            let (count, size, shrunk, first) = known.unwrap_or((0, usize::MAX, false, case.number));
-            if (found.shrunk, size) > (shrunk, found.size) {
-                self.bar.suspend(|| report::found(&found, out).and_then(|()| out.flush()))?;
+            if known.is_none_or(|(_, rank, _, _)| found.rank() < rank) {
+                let (count, first) =
+                    known.map_or((0, case.number), |(count, _, _, first)| (count, first));
+                let is_new = !self.classes.keys().any(|it| it.is_of_rule(class));
+                let print = |out: &mut _| {
+                    if is_new { report::found(&found, out) } else { report::further(&found, out) }
+                };
+                self.bar.suspend(|| print(out).and_then(|()| out.flush()))?;
                 self.classes.insert(class.clone(), Found { count, first, ..found });
             }
             self.bar.set_message("");
@@ -281,26 +301,32 @@ impl<'a> Runner<'a> {
         examined: &Examined,
     ) -> Result<Found, ConformError> {
         let Case { number, name, question } = case;
-        let tolerance = self.settings.tolerance;
-        let hunt = Hunt::new(&mut self.subject, class, name, tolerance);
-        let smallest = match self.source {
+        let is_first = !self.classes.contains_key(class);
+        let mut reproduction = Reproduction {
+            subject: &mut self.subject,
+            class,
+            name,
+            question,
+            tolerance: self.settings.tolerance,
+        };
+        let again = match self.source {
+            // That comes after an answer, and cannot be asked.
+            _ if class.place == AFTERWARDS => Again::Never,
             Source::Generated(generator) => {
                 let kind = question.kind();
                 let read = |tape: &[u32]| generator.read(kind, tape);
-                hunt.run(question, Some((generator.tape(*number), &read)))?
+                reproduction.run(Some(&(generator.tape(*number), &read)), is_first)?
             }
-            Source::Drives(_) => hunt.run(question, None)?,
+            Source::Drives(_) => reproduction.run(None, is_first)?,
         };
         // What the program did after an answer while a case was made smaller is no case of its own.
         let _ = self.subject.take_afterwards();
-        let id = class.slug();
-        let (told, shown, shrunk) = match smallest {
-            None => (in_words(question, examined), question, false),
-            Some(ref smallest) => {
-                let again = ask_and_compare(&mut self.subject, &id, smallest, tolerance)?;
-                (in_words(smallest, &again), smallest, true)
-            }
+        let (told, shown, shrunk, before) = match &again {
+            Again::Alone(alone) => (in_words(&alone.0, &alone.1), &alone.0, true, Vec::new()),
+            Again::After(before) => (in_words(question, examined), question, false, before.clone()),
+            Again::Never => (in_words(question, examined), question, false, Vec::new()),
         };
+        let id = class.slug();
         Ok(Found {
             class: class.clone(),
             count: 1,
@@ -308,6 +334,7 @@ impl<'a> Runner<'a> {
             name: name.clone(),
             told,
             shrunk,
+            before,
             size: shown.objects(),
             unit: shown.unit().to_owned(),
             record: record(&shown.line(&id))?,

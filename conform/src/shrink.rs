@@ -32,6 +32,8 @@ pub struct Hunt<'a> {
     pub name: &'a str,
     /// As of the campaign.
     pub tolerance: Option<f64>,
+    /// Whether each record is asked in a process of its own.
+    each_fresh: bool,
     tries: usize,
     tries_left: usize,
     restarts_left: usize,
@@ -45,6 +47,7 @@ impl<'a> Hunt<'a> {
         class: &'a Class,
         name: &'a str,
         tolerance: Option<f64>,
+        each_fresh: bool,
     ) -> Self {
         // A hang costs the time limit each, a start of another program some milliseconds.
         let restarts_left = match class.breach {
@@ -63,6 +66,7 @@ impl<'a> Hunt<'a> {
             class,
             name,
             tolerance,
+            each_fresh,
             tries: 0,
             tries_left: 1,
             restarts_left,
@@ -94,18 +98,23 @@ impl<'a> Hunt<'a> {
         }
     }
 
-    /// Whether a record shows the class; never once the tries are used up.
+    /// Whether a record shows the class; never once the tries are used up or the campaign is interrupted.
     fn shows(&mut self, question: &Question) -> bool {
-        if self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some() {
+        let is_over = self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some();
+        if is_over || self.subject.is_interrupted() {
             return false;
         }
         self.tries_left -= 1;
         self.tries += 1;
         let id = format!("{}.{}", self.name, self.tries);
+        if self.each_fresh {
+            self.subject.restart();
+            self.restarts_left -= 1;
+        }
         match ask_and_compare(self.subject, &id, question, self.tolerance) {
             Ok(examined) => {
                 if examined.answered.is_err() {
-                    self.restarts_left -= 1;
+                    self.restarts_left = self.restarts_left.saturating_sub(1);
                 }
                 examined.class.as_ref() == Some(self.class)
             }

@@ -1,24 +1,23 @@
 //! The program under test: started once, fed line by line, and started again when it breaks.
 
+mod pipes;
+
+use std::collections::VecDeque;
 use std::ffi::OsString;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError};
+use std::mem;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::error::ConformError;
 use crate::judge::class::Breach;
-
-/// Longest answer that is read; traces of thousands of events take a few MB.
-const MAX_ANSWER_BYTES: usize = 16 << 20;
+use pipes::{Heard, MAX_ANSWER_BYTES, keep_last, read, write};
 
 /// Lines that wait to be read; a program that floods then waits, too.
 const WAITING_LINES: usize = 16;
-
-/// What is kept of the program's last words on standard error.
-const STDERR_BYTES: usize = 2000;
 
 /// How long a line too many is waited for behind an answer that is none.
 const GRACE: Duration = Duration::from_millis(20);
@@ -28,6 +27,9 @@ const START: u32 = 5;
 
 /// How long an ended program is waited for.
 const LAST_WORDS: Duration = Duration::from_millis(300);
+
+/// What is kept of the lines that a process was asked.
+const KEPT_BYTES: usize = 64 << 20;
 
 /// No answer, or none that can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +53,12 @@ pub struct Subject {
     command: Vec<OsString>,
     time_limit: Duration,
     running: Option<Running>,
+    /// Set from elsewhere when the campaign is to end.
+    stop: Arc<AtomicBool>,
     starts: u64,
+    /// Lines that the process was asked since its start; the oldest go when they are too many.
+    asked: VecDeque<String>,
+    asked_bytes: usize,
     /// What the program did after its last answer, unasked.
     afterwards: Option<Broken>,
 }
@@ -67,22 +74,32 @@ struct Running {
     answered: bool,
 }
 
-/// What comes from the program.
-#[derive(Debug)]
-enum Heard {
-    Line(Vec<u8>),
-    TooLong,
-    End,
-}
-
 impl Subject {
-    /// Starts the program: its name and arguments, and the time that an answer may take.
-    /// Errors: it cannot be started.
-    pub fn start(command: &[OsString], time_limit: Duration) -> Result<Self, ConformError> {
+    /// Starts the program: its name and arguments, the time that an answer may take, and what is
+    /// set when the campaign is to end. Errors: it cannot be started.
+    pub fn start(
+        command: &[OsString],
+        time_limit: Duration,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<Self, ConformError> {
         let command = command.to_vec();
-        let mut subject = Self { command, time_limit, running: None, starts: 0, afterwards: None };
+        let mut subject = Self {
+            command,
+            time_limit,
+            running: None,
+            stop: Arc::clone(stop),
+            starts: 0,
+            asked: VecDeque::new(),
+            asked_bytes: 0,
+            afterwards: None,
+        };
         subject.ensure()?;
         Ok(subject)
+    }
+
+    /// Whether the campaign is to end.
+    pub fn is_interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     /// How long an answer may take from now on.
@@ -113,6 +130,8 @@ impl Subject {
             self.stop();
             self.afterwards = Some(broken);
         }
+        self.ensure()?;
+        self.keep(line);
         let running = self.ensure()?;
         if !running.answered {
             time_limit = time_limit.saturating_mul(START);
@@ -131,6 +150,14 @@ impl Subject {
             self.stop();
         }
         Ok((result, answer))
+    }
+
+    /// Ends the process, so that the next line is the first of a new one. Returns the lines that it
+    /// was asked.
+    pub fn restart(&mut self) -> Vec<String> {
+        self.stop();
+        self.asked_bytes = 0;
+        mem::take(&mut self.asked).into()
     }
 
     /// Judges an answer that is none: followed by another line at once, it is a flood. The
@@ -181,9 +208,21 @@ impl Subject {
             running
         } else {
             self.starts += 1;
+            self.asked.clear();
+            self.asked_bytes = 0;
             Running::start(&self.command)?
         };
         Ok(self.running.insert(running))
+    }
+
+    fn keep(&mut self, line: &str) {
+        self.asked_bytes += line.len();
+        self.asked.push_back(line.to_owned());
+        while self.asked_bytes > KEPT_BYTES
+            && let Some(oldest) = self.asked.pop_front()
+        {
+            self.asked_bytes -= oldest.len();
+        }
     }
 
     fn stop(&mut self) {
@@ -208,7 +247,11 @@ impl Running {
         };
         let failed =
             |error| ConformError::Start { command: program.to_string_lossy().into_owned(), error };
-        let mut child = Command::new(&program)
+        let mut command = Command::new(&program);
+        // Ctrl-C in a terminal is for the campaign, which then ends the program.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -309,47 +352,4 @@ pub fn excerpt(line: &[u8]) -> String {
     let shown: String =
         text.chars().take(MOST).map(|c| if c.is_control() { '.' } else { c }).collect();
     if shown.len() < line.len() { shown + "..." } else { shown }
-}
-
-fn read(output: impl Read, say: &SyncSender<Heard>) {
-    let mut output = BufReader::new(output);
-    loop {
-        let mut line = Vec::new();
-        let limit = MAX_ANSWER_BYTES as u64 + 1;
-        let heard = match output.by_ref().take(limit).read_until(b'\n', &mut line) {
-            Ok(0) | Err(_) => Heard::End,
-            Ok(_) if line.len() > MAX_ANSWER_BYTES => Heard::TooLong,
-            Ok(_) => {
-                if line.last() == Some(&b'\n') {
-                    line.pop();
-                }
-                Heard::Line(line)
-            }
-        };
-        let is_line = matches!(heard, Heard::Line(_));
-        if say.send(heard).is_err() || !is_line {
-            return;
-        }
-    }
-}
-
-fn write(mut input: ChildStdin, lines: &Receiver<Vec<u8>>) {
-    while let Ok(line) = lines.recv() {
-        if input.write_all(&line).and_then(|()| input.flush()).is_err() {
-            return;
-        }
-    }
-}
-
-fn keep_last(mut errors: impl Read, kept: &Mutex<Vec<u8>>) {
-    let mut chunk = [0; 1024];
-    while let Ok(count) = errors.read(&mut chunk) {
-        if count == 0 {
-            return;
-        }
-        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.extend_from_slice(&chunk[..count]);
-        let surplus = kept.len().saturating_sub(STDERR_BYTES);
-        kept.drain(..surplus);
-    }
 }

@@ -1,4 +1,5 @@
-// A program under test: the paper profile of MUFASA in plain doubles, from the text of spec/ alone.
+// A program under test: the paper profile of MUFASA in doubles (the norm of directions
+// exactly), from the text of spec/ alone.
 //
 // It answers the record `cycle` of spec/5-interfaces.md (read by json.hpp and record.hpp), one line
 // each. It is no part of the project: it shows how little a program needs to be judged by

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A program under test: MUFASA in plain doubles, from the text of spec/ alone.
+"""A program under test: MUFASA in doubles (the norm of directions
+exactly), from the text of spec/ alone.
 
 It answers the records `cycle` (read by record.py, judged by paper.py or hardened.py), `offloading`
 (offloading.py) and `composition` (composition.py) of spec/5-interfaces.md, one line each. It is no

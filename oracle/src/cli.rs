@@ -5,7 +5,9 @@ mod arguments;
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::Path;
-use std::process::ExitCode;
+use std::process::{self, ExitCode};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::{Parser, Subcommand};
@@ -203,7 +205,11 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
                 tolerance: arguments.tolerance,
                 out: arguments.out,
             };
-            conform::run(&settings, out, &mut io::stderr())
+            let stop = match interrupts() {
+                Ok(stop) => stop,
+                Err(error) => return Ok(refused(&format!("interrupts: {error}"))),
+            };
+            conform::run(&settings, &stop, out, &mut io::stderr())
         }
     };
     match result {
@@ -214,6 +220,18 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
             Ok(refused(&error.to_string()))
         }
     }
+}
+
+/// What the first interrupt sets; the second ends this program at once.
+fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&stop);
+    ctrlc::set_handler(move || {
+        if set.swap(true, Ordering::Relaxed) {
+            process::exit(i32::from(conform::INTERRUPTED));
+        }
+    })?;
+    Ok(stop)
 }
 
 fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {

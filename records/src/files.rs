@@ -9,7 +9,11 @@ pub fn prepare(folder: &Path) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     let probe = folder.join(".mufasa.svg.tmp");
     fs::write(&probe, [])?;
-    fs::remove_file(&probe)
+    match fs::remove_file(&probe) {
+        // Another shard that writes to the same folder was faster.
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        removed => removed,
+    }
 }
 
 /// Writes a file at once.
@@ -42,6 +46,18 @@ mod tests {
         assert_eq!(name("../../etc/x y"), ".._.._etc_x_y");
         assert_eq!(name(""), "drive");
         assert_eq!(name(".."), "drive");
+    }
+
+    #[test]
+    fn many_prepare_one_folder_at_once() {
+        let folder = std::env::temp_dir().join(format!("mufasa-prepare-{}", std::process::id()));
+        let many = || (0..500).map(|_| prepare(&folder)).find(Result::is_err);
+        let failed: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..4).map(|_| scope.spawn(many)).collect();
+            threads.into_iter().filter_map(|it| it.join().unwrap()).collect()
+        });
+        assert!(failed.is_empty(), "{failed:?}");
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -133,6 +133,11 @@ pub struct Class {
 }
 
 impl Class {
+    /// Whether the same rule broke for the same kind of records.
+    pub fn is_of_rule(&self, other: &Self) -> bool {
+        (self.kind, self.breach) == (other.kind, other.breach)
+    }
+
     /// A name of letters, digits and hyphens.
     pub fn slug(&self) -> String {
         let text = self.to_string();

@@ -11,6 +11,7 @@ use crate::cases::question::{Damaged, Question};
 use crate::error::ConformError;
 use crate::judge::answer::{self, Said};
 use crate::judge::class::{Breach, Class, Kind, Scale};
+use crate::judge::norm;
 use crate::subject::{Broken, Subject};
 use mufasa_records::composition_answer::CompositionAnswer;
 use mufasa_records::offloading_answer::OffloadingAnswer;
@@ -80,12 +81,9 @@ pub fn ask_and_compare(
     Ok(match compared {
         Ok(None) => Examined { expected, answered, class: None, tolerated: false },
         Ok(Some(differs)) => {
-            let within = |margin| match (question, differs.said) {
-                (Question::Cycle(cycle), Some(said)) => is_within(cycle, said, margin),
-                (_, _) => false,
-            };
-            let tolerated = tolerance.is_some_and(within);
-            let scale = if within(ROUNDING_M) { Scale::Threshold } else { Scale::Clear };
+            let explains = |margin| is_explained(question, &differs, margin);
+            let tolerated = tolerance.is_some_and(explains);
+            let scale = if explains(ROUNDING_M) { Scale::Threshold } else { Scale::Clear };
             let class = class(differs.breach, differs.place, profile, configuration, scale);
             Examined { expected, answered, class: Some(class).filter(|_| !tolerated), tolerated }
         }
@@ -122,7 +120,7 @@ pub fn expect(id: &str, question: &Question) -> Expected {
 struct Differs {
     breach: Breach,
     place: String,
-    /// The answer to a cycle, if it was a verdict.
+    /// The answer to a cycle, where that is what differs.
     said: Option<Said>,
 }
 
@@ -130,6 +128,24 @@ impl Differs {
     fn new(breach: Breach, place: impl Into<String>) -> Self {
         Self { breach, place: place.into(), said: None }
     }
+}
+
+/// Whether a margin explains a difference, or the rounding of the norm of a direction does.
+fn is_explained(question: &Question, differs: &Differs, margin_m: f64) -> bool {
+    match (question, differs.said) {
+        (Question::Cycle(cycle), Some(said)) => {
+            is_within(cycle, said, margin_m)
+                || norm::either_side(cycle)
+                    .is_some_and(|sides| sides.iter().any(|it| conforms(it, said, margin_m)))
+        }
+        (_, _) => false,
+    }
+}
+
+/// Whether an answer to a cycle is right within a margin.
+fn conforms(cycle: &Cycle, said: Said, margin_m: f64) -> bool {
+    compare_cycle(cycle, &check(cycle, Reading::Exact), said).is_none()
+        || is_within(cycle, said, margin_m)
 }
 
 fn compare(
@@ -157,16 +173,15 @@ fn compare(
 }
 
 fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
+    let input = |place| Some(Differs { breach: Breach::Input, place, said: Some(said) });
     let (report, said) = match (exact, said) {
         (Err(_), Said::Error) => return None,
         (Err(problem), Said::Verdict(said)) => {
             let said = said.map_or("safe", |failed| name(Some(failed)));
-            let place = format!("{} {said} instead of error", part(problem));
-            return Some(Differs::new(Breach::Input, place));
+            return input(format!("{} {said} instead of error", part(problem)));
         }
         (Ok(report), Said::Error) => {
-            let instead = name(report.failed_stage);
-            return Some(Differs::new(Breach::Input, format!("error instead of {instead}")));
+            return input(format!("error instead of {}", name(report.failed_stage)));
         }
         (Ok(report), Said::Verdict(said)) => (report, said),
     };
@@ -305,4 +320,51 @@ fn compare_errors(
     }
     names_another(object.get("error"), &expected.field, expected.index)
         .then(|| Differs::new(Breach::Schema, format!("{wrong} at another place")))
+}
+
+#[cfg(test)]
+mod tests {
+    use mufasa_model::input::cycle::Profile;
+
+    use super::*;
+    use crate::cases::generate::Generator;
+
+    /// A cycle with a valid ego.
+    fn valid() -> Cycle {
+        let generator = Generator { seed: 0, profile: Profile::Paper, kinds: vec![Kind::Cycle] };
+        let cycles = (0..100).filter_map(|case| match generator.question(case) {
+            Question::Cycle(cycle) => Some(*cycle),
+            Question::Offloading(_) | Question::Composition(_) | Question::Line(_) => None,
+        });
+        cycles.into_iter().find(|it| check(it, Reading::Exact).is_ok()).expect("a valid cycle")
+    }
+
+    /// Whether a margin explains this answer to the cycle, which differs from the exact one.
+    fn explained(cycle: &Cycle, said: Said) -> bool {
+        let exact = check(cycle, Reading::Exact);
+        let differs = compare_cycle(cycle, &exact, said).expect("a difference");
+        is_explained(&Question::Cycle(Box::new(cycle.clone())), &differs, ROUNDING_M)
+    }
+
+    #[test]
+    fn a_norm_within_rounding_of_its_bound_is_explained_and_no_other() {
+        let mut cycle = valid();
+        let right = check(&cycle, Reading::Exact).expect("valid").failed_stage;
+        assert!(!explained(&cycle, Said::Error), "a direction of length 1 was refused");
+        let border = (1.0_f64 + 1e-6).sqrt();
+        (cycle.ego.cos, cycle.ego.sin) = (0.0, border);
+        let inside = |cycle: &Cycle| check(cycle, Reading::Exact).is_ok();
+        while !inside(&cycle) {
+            cycle.ego.sin = cycle.ego.sin.next_down();
+        }
+        assert!(explained(&cycle, Said::Error), "the last valid direction");
+        while inside(&cycle) {
+            cycle.ego.sin = cycle.ego.sin.next_up();
+        }
+        let [inner, _] = norm::either_side(&cycle).expect("a direction at the bound");
+        let turned = check(&inner, Reading::Exact).expect("valid").failed_stage;
+        assert!(explained(&cycle, Said::Verdict(turned)), "the first direction too long");
+        cycle.ego.sin = border + 1e-9;
+        assert!(!explained(&cycle, Said::Verdict(right)), "a direction that is clearly too long");
+    }
 }

@@ -4,3 +4,4 @@ pub mod answer;
 pub mod class;
 pub mod examine;
 pub mod explain;
+pub mod norm;

@@ -9,13 +9,14 @@ pub fn xml(summary: &Summary) -> String {
     let passed: Vec<&CaseCount> =
         summary.groups.iter().filter(|group| group.disagreements == 0).collect();
     let failures = summary.classes.len();
-    let tests = passed.len() + failures;
+    let errors = usize::from(summary.interrupted);
+    let tests = passed.len() + failures + errors;
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
         "<testsuites tests=\"{tests}\" failures=\"{failures}\">\n\
-         <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"0\" \
+         <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\" \
          skipped=\"0\">"
     );
     for CaseCount { kind, profile, configuration, expected, cases, .. } in passed {
@@ -24,7 +25,7 @@ pub fn xml(summary: &Summary) -> String {
         let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));
         let _ = writeln!(text, "<testcase classname=\"mufasa.{}\" name=\"{name}\"/>", kind.name());
     }
-    for Found { class, count, told, record, .. } in &summary.classes {
+    for Found { class, id, count, told, record, before, .. } in &summary.classes {
         let (kind, name) = (class.kind.name(), escaped(&class.to_string()));
         let message = escaped(&format!("{count} cases; exact: {}", told.expected));
         let mut body = format!("program: {}\nexact: {}\n", told.answered, told.expected);
@@ -35,6 +36,9 @@ pub fn xml(summary: &Summary) -> String {
                 numbers.what, numbers.left, numbers.right, numbers.margin
             );
         }
+        if !before.is_empty() {
+            let _ = writeln!(body, "does not occur alone: sequence.{id}.jsonl");
+        }
         let _ = writeln!(body, "record: {}", record.get());
         let _ = writeln!(
             text,
@@ -42,6 +46,14 @@ pub fn xml(summary: &Summary) -> String {
              message=\"{message}\">{}</failure></testcase>",
             class.breach.name(),
             escaped(&body)
+        );
+    }
+    if summary.interrupted {
+        let asked = format!("{} of {} cases", summary.asked, summary.campaign.cases);
+        let _ = writeln!(
+            text,
+            "<testcase classname=\"mufasa\" name=\"the whole campaign\"><error \
+             type=\"interrupted\" message=\"interrupted after {asked}\"/></testcase>"
         );
     }
     text.push_str("</testsuite>\n</testsuites>\n");

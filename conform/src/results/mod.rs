@@ -1,5 +1,6 @@
 //! What was found: the summary, its files, and what is printed.
 
+pub mod advice;
 pub mod junit;
 pub mod report;
 pub mod summary;

@@ -7,16 +7,23 @@ use std::path::{Path, PathBuf};
 
 use crate::error::ConformError;
 use crate::judge::class::Kind;
-use crate::results::junit;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
+use crate::results::{advice, junit};
 use mufasa_records::files;
 
 /// Longest record that is printed; the file has all.
 const MOST: usize = 4000;
 
+/// Prints a class of a rule of which another was printed.
+pub fn further(found: &Found, out: &mut impl Write) -> io::Result<()> {
+    let Found { class, size, unit, .. } = found;
+    let plural = if *size == 1 { "" } else { "s" };
+    writeln!(out, "DISAGREES  {class} ({size} {unit}{plural})")
+}
+
 /// Prints a class with its smallest case.
 pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, name, told, shrunk, size, unit, record, .. } = found;
+    let Found { class, id, name, told, shrunk, before, size, unit, record, .. } = found;
     writeln!(out, "\nDISAGREES  {class}")?;
     writeln!(out, "  program  {}", told.answered)?;
     writeln!(out, "  exact    {}", told.expected)?;
@@ -28,9 +35,17 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
         }
         writeln!(out)?;
     }
-    let how = if *shrunk { "shrunk from case" } else { "does not occur when asked alone; case" };
+    let how = match (shrunk, before.len()) {
+        (true, _) => "shrunk from case",
+        (false, 0) => "was not shown again; case",
+        (false, _) => "does not occur alone; case",
+    };
     let plural = if *size == 1 { "" } else { "s" };
     writeln!(out, "  size     {size} {unit}{plural}, {how} {name}")?;
+    if !before.is_empty() {
+        let (count, plural) = (before.len(), if before.len() == 1 { "" } else { "s" });
+        writeln!(out, "  after    {count} other line{plural}: sequence.{id}.jsonl")?;
+    }
     let text = record.get();
     if text.len() <= MOST {
         writeln!(out, "  record   {text}")
@@ -39,14 +54,11 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-/// Prints what was asked, the classes with their counts, and one sentence.
+/// Prints what was asked, the rules that broke with their counts, what to mend first, and one
+/// sentence.
 pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "\n{}", coverage(&summary.groups))?;
-    for found in &summary.classes {
-        let Found { class, count, size, unit, .. } = found;
-        let plural = if *size == 1 { "" } else { "s" };
-        writeln!(out, "{count:>8} x  {class} (smallest: {size} {unit}{plural})")?;
-    }
+    advice::print(summary, out)?;
     for kind in &summary.given_up {
         let name = kind.name();
         writeln!(out, "given up: {name} records, after too many restarts of the program")?;
@@ -66,8 +78,12 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     if summary.tolerated > 0 {
         write!(out, ", {} agree within the tolerance only", summary.tolerated)?;
     }
+    if summary.interrupted {
+        write!(out, ", INTERRUPTED")?;
+    }
     match (summary.disagreements(), summary.asked) {
         (_, 0) => writeln!(out, ": nothing was compared"),
+        (0, _) if summary.interrupted => writeln!(out, ": no disagreement so far"),
         (0, _) => writeln!(out, ": the program conforms in all of them"),
         (count, _) => {
             let classes = summary.classes.len();
@@ -112,6 +128,9 @@ pub struct Files {
     pub junit: PathBuf,
     /// The shrunk records, JSON Lines.
     pub reproducers: PathBuf,
+    folder: PathBuf,
+    /// What a shard puts into the names of its files.
+    part: String,
 }
 
 impl Files {
@@ -126,8 +145,12 @@ impl Files {
             summary: folder.join(format!("summary{part}.json")),
             junit: folder.join(format!("junit{part}.xml")),
             reproducers: folder.join(format!("reproducers{part}.jsonl")),
+            folder: folder.to_owned(),
+            part,
         };
-        for file in [&these.summary, &these.junit, &these.reproducers] {
+        let sequences = these.sequences().map_err(denied)?;
+        let single = [&these.summary, &these.junit, &these.reproducers];
+        for file in single.into_iter().chain(&sequences) {
             match fs::remove_file(file) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(denied(error)),
                 Ok(()) | Err(_) => {}
@@ -136,19 +159,36 @@ impl Files {
         Ok(these)
     }
 
+    /// The sequences in the folder: `sequence.ID.jsonl`, of a shard `sequence.0-of-8.ID.jsonl`.
+    fn sequences(&self) -> io::Result<Vec<PathBuf>> {
+        let prefix = format!("sequence{}.", self.part);
+        let is_one = |path: &PathBuf| {
+            let name = path.file_name().and_then(|name| name.to_str());
+            let id = name.and_then(|name| name.strip_prefix(&prefix)?.strip_suffix(".jsonl"));
+            id.is_some_and(|id| !id.contains('.'))
+        };
+        let entries: io::Result<Vec<_>> = fs::read_dir(&self.folder)?.collect();
+        Ok(entries?.into_iter().map(|entry| entry.path()).filter(is_one).collect())
+    }
+
     /// Writes the files, the summary last. Errors: one cannot be written.
     pub fn write(&self, summary: &Summary) -> Result<(), ConformError> {
         let lines: String = summary.classes.iter().map(|found| found.line() + "\n").collect();
         let json = serde_json::to_string_pretty(summary)
             .map_err(|error| ConformError::file(&self.summary, error))?;
-        let all = [
-            (&self.reproducers, lines),
-            (&self.junit, junit::xml(summary)),
-            (&self.summary, json + "\n"),
+        let sequences = summary.classes.iter().filter_map(|found| {
+            let name = format!("sequence{}.{}.jsonl", self.part, found.id);
+            Some((self.folder.join(name), found.sequence()?))
+        });
+        let rest = [
+            (self.reproducers.clone(), lines),
+            (self.junit.clone(), junit::xml(summary)),
+            (self.summary.clone(), json + "\n"),
         ];
-        for (path, content) in all {
-            files::write(path, &content)
-                .map_err(|error| ConformError::file(path, format!("cannot be written: {error}")))?;
+        for (path, content) in sequences.chain(rest) {
+            files::write(&path, &content).map_err(|error| {
+                ConformError::file(&path, format!("cannot be written: {error}"))
+            })?;
         }
         Ok(())
     }

@@ -29,6 +29,8 @@ pub struct Summary {
     pub late: u64,
     /// Starts of the program.
     pub starts: u64,
+    /// Whether it was ended before all cases were asked.
+    pub interrupted: bool,
     /// Kinds that were given up after too many restarts.
     pub given_up: Vec<Kind>,
     /// Cases by kind, profile, configuration and expected verdict.
@@ -95,8 +97,11 @@ pub struct Found {
     pub name: String,
     /// What was answered and what is right, in the shrunk case.
     pub told: Told,
-    /// Whether the case showed the class again when it was asked again, and was shrunk.
+    /// Whether the record shows the class alone, in a fresh process, and was shrunk.
     pub shrunk: bool,
+    /// Where it does not: the lines that a fresh process has to be asked before; none when the
+    /// class was not shown again.
+    pub before: Vec<String>,
     /// Objects, events or services of the shrunk case.
     pub size: usize,
     /// What `size` counts.
@@ -111,6 +116,17 @@ impl Found {
         let text = self.record.get();
         serde_json::from_str(text).unwrap_or_else(|_| text.to_owned())
     }
+
+    /// Which of two cases of a class says more: the lower.
+    pub fn rank(&self) -> (bool, bool, usize) {
+        (!self.shrunk, self.before.is_empty(), self.size)
+    }
+
+    /// The lines of its sequence, the record's last, where the record does not show it alone.
+    pub fn sequence(&self) -> Option<String> {
+        let lines = self.before.iter().cloned().chain([self.line()]);
+        (!self.before.is_empty()).then(|| lines.map(|line| line + "\n").collect())
+    }
 }
 
 impl Summary {
@@ -119,9 +135,9 @@ impl Summary {
         self.classes.iter().map(|found| found.count).sum()
     }
 
-    /// Whether every shard is in it.
+    /// Whether every shard is in it, to its end.
     pub fn is_complete(&self) -> bool {
-        self.missing().is_empty()
+        self.missing().is_empty() && !self.interrupted
     }
 
     /// Shards that are not in it, the first hundred of them.
@@ -167,6 +183,7 @@ impl Summary {
         self.tolerated += other.tolerated;
         self.late += other.late;
         self.starts += other.starts;
+        self.interrupted |= other.interrupted;
         self.given_up.extend(other.given_up);
         self.given_up.sort();
         self.given_up.dedup();
@@ -191,7 +208,7 @@ impl Summary {
         for found in self.classes.into_iter().chain(other.classes) {
             let class = found.class.clone();
             let better = |one: &Found, two: &Found| {
-                let key = |it: &Found| (!it.shrunk, it.size, it.first);
+                let key = |it: &Found| (it.rank(), it.first);
                 key(one) < key(two)
             };
             let joined = match classes.remove(&class) {

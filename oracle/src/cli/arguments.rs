@@ -122,7 +122,8 @@ pub(super) struct OracleArguments {
     subcommand_negates_reqs = true,
     after_help = "\
 Exit codes: 0 the program conforms in every case, 1 it disagrees in some, 2 bad input, nothing was
-compared, or (merge) a shard is missing."
+compared, or (merge) a shard is missing or was interrupted, 130 interrupted: the files hold what was
+known."
 )]
 pub(super) struct ConformArguments {
     #[command(subcommand)]
@@ -154,7 +155,7 @@ pub(super) struct ConformArguments {
     /// Take the cycles of drives, clean and attacked, in place of generated ones.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "kinds")]
     pub(super) drives: Vec<PathBuf>,
-    /// Let a disagreement pass that a margin of so many metres explains (rounding), 1e-8 to 1e-2.
+    /// Let pass what a margin of so many metres explains, 1e-8 to 1e-2, and a rounded norm.
     #[arg(long, value_name = "M", value_parser = number(1e-8, 1e-2))]
     pub(super) tolerance: Option<f64>,
     /// Folder for the summary (JSON), the report (JUnit XML) and the shrunk records.

@@ -99,3 +99,41 @@ fn recorded_cycles_are_asked_clean_attacked_and_in_other_configurations() {
     let nothing = conform(&folder, &["--drives", "no-such-file"], &[MUFASA, "oracle"]);
     assert_eq!(nothing.status.code(), Some(2), "{}", text(&nothing));
 }
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_campaign_leaves_what_is_known_and_does_not_look_complete() {
+    use std::os::unix::process::CommandExt;
+    use std::process::Stdio;
+    use std::{thread, time::Duration};
+
+    let out = folder("interrupted");
+    let running = Command::new(MUFASA)
+        .args(["conform", "--cases", "100000000", "--kinds", "offloading", "--out"])
+        .arg(&out)
+        .args(["--", MUFASA, "oracle", "--implementation"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .process_group(0)
+        .spawn()
+        .expect("mufasa runs");
+    thread::sleep(Duration::from_secs(2));
+    // To the whole group, as a terminal does it.
+    let group = format!("-{}", running.id());
+    let killed = Command::new("kill").args(["-INT", "--", &group]).status();
+    assert!(killed.expect("kill runs").success());
+    let output = running.wait_with_output().expect("it ends");
+    let told = text(&output);
+    assert_eq!(output.status.code(), Some(130), "{told}");
+    assert!(told.contains("INTERRUPTED: no disagreement so far"), "{told}");
+    let known = summary(&out);
+    assert!(known.interrupted && !known.is_complete() && known.asked > 0, "{told}");
+    assert_eq!(known.disagreements(), 0, "{told}");
+    let junit = fs::read_to_string(out.join("junit.xml")).expect("JUnit XML");
+    assert!(junit.contains("errors=\"1\"") && junit.contains("interrupted after"), "{junit}");
+
+    let mut merge = Command::new(MUFASA);
+    let merged = merge.args(["conform", "merge"]).arg(out.join("summary.json")).output();
+    let merged = merged.expect("mufasa runs");
+    assert_eq!(merged.status.code(), Some(2), "{}", text(&merged));
+}

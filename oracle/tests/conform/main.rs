@@ -6,6 +6,7 @@ mod batch;
 mod broken;
 mod campaign;
 mod right;
+mod stateful;
 mod wrong;
 
 use std::fs;
@@ -22,9 +23,14 @@ const EACH: &str = r#"while IFS= read -r line; do id=${line#*'"id": "'}; id=${id
 /// Answers that the cycle is safe.
 const SAFE: &str = r#"printf '{"id": "%s", "verdict": "safe", "failed_stage": null}\n' "$id""#;
 
+/// The folder of a test.
+fn path(test: &str) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conform-{test}"))
+}
+
 /// A folder of its own for a test, empty.
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conform-{test}"));
+    let folder = path(test);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).expect("a folder for the test");
     folder

@@ -164,3 +164,18 @@ fn who_names_another_place_of_invalid_input_is_found() {
         assert!(found, "{place}: {told}");
     }
 }
+
+/// A first program is wrong nearly everywhere: one record of each rule is shown, and where to begin.
+#[test]
+fn who_begins_is_told_what_to_mend_first() {
+    let program = format!("{EACH} {SAFE}; done");
+    let options = ["--kinds", "cycle,composition", "--cases", "60"];
+    let Some((summary, told)) = script("beginner", &options, &program) else { return };
+    assert!(summary.classes.len() > 8, "{told}");
+    let rules = ["soundness", "input", "nonsense"];
+    let shown = told.matches("\n  record  ").count();
+    assert!(shown <= rules.len(), "{shown} records: {told}");
+    assert!(told.contains(" x  cycle soundness: "), "{told}");
+    assert!(told.contains("mend first: composition nonsense"), "{told}");
+    assert!(told.contains("begin with fewer: --profile paper --kinds cycle"), "{told}");
+}

@@ -130,7 +130,7 @@ fn place(cycle: &Cycle) -> Option<(String, Option<usize>)> {
 }
 
 /// Every direction of the cycle.
-fn directions(cycle: &mut Cycle) -> Vec<(&mut f64, &mut f64)> {
+pub fn directions(cycle: &mut Cycle) -> Vec<(&mut f64, &mut f64)> {
     let mut fields = vec![(&mut cycle.ego.cos, &mut cycle.ego.sin)];
     fields.extend(cycle.grid.iter_mut().map(|grid| (&mut grid.cos, &mut grid.sin)));
     let items = cycle.detections.iter_mut().flat_map(|list| &mut list.items);
