@@ -356,7 +356,7 @@ mod tests {
         let cycle = Question::Cycle(Box::new(valid()));
         let compared = |field: &str, answer: &str| {
             let (field, message) = (field.to_owned(), String::new());
-            let exact = Err(mufasa_model::report::InvalidInput { field, index: None, message });
+            let exact = Err(InvalidInput { field, index: None, message });
             let object = serde_json::from_str(answer).expect("an object");
             compare(&cycle, &Expected::Cycle(Box::new(exact)), &object)
         };
