@@ -22,7 +22,8 @@ fn cycles() -> String {
             for line in fs::read_to_string(file).unwrap().lines() {
                 let vector: Value = serde_json::from_str(line).unwrap();
                 if vector["input"]["kind"] == "cycle" {
-                    lines += &format!("{}\n", vector["input"]);
+                    lines.push_str(&vector["input"].to_string());
+                    lines.push('\n');
                 }
             }
         }
