@@ -82,9 +82,8 @@ pub fn run(
 }
 
 /// Joins the summaries of shards, prints the result, and writes it to a folder if one is given.
-/// Returns the exit code: 0 and 1 as above, 2 when shards are missing or
-/// were interrupted. Errors: summaries that do
-/// not belong together.
+/// Returns the exit code: 0 and 1 as above, 2 when shards are missing or were interrupted. Errors:
+/// summaries that do not belong together.
 pub fn merge(
     inputs: &[PathBuf],
     folder: Option<&PathBuf>,
