@@ -23,7 +23,7 @@ pub struct Pair<'a> {
 }
 
 /// The first collision of stage iv with a detection as moving: in the order point, (a) confirmed
-/// tracks before (b) unexplained detections, items.
+/// tracks before (b) unexplained or disputed detections, items.
 pub fn collision_moving(
     scene: &Scene,
     trajectory: &[Point],
@@ -76,62 +76,85 @@ fn velocity(d: &Object, before: &Object, dt: &Real) -> Vector {
 /// What stage iv examines as moving.
 pub fn pairs<'a>(scene: &Scene, lists: &'a [Usable<'a>], detections: &[Object]) -> Vec<Pair<'a>> {
     let confirmed = confirmed(scene);
-    let is_explained = |d: &usize| confirmed.iter().any(|(_, seen)| seen.detection == Some(*d));
-    let unexplained: Vec<usize> = (0..detections.len()).filter(|d| !is_explained(d)).collect();
     let of_tracks = confirmed.iter().flat_map(|(track, seen)| of_track(scene, lists, track, seen));
+    let examined = unexplained_or_disputed(scene, lists, detections, &confirmed);
     let of_detections =
-        unexplained.into_iter().flat_map(|d| of_detection(scene, lists, detections, d));
+        examined.into_iter().flat_map(|d| of_detection(scene, lists, &detections[d], d));
     of_tracks.chain(of_detections).collect()
 }
 
 /// (a) The detection of a confirmed track and each item at distance <= theta_track_max +
-/// theta_velocity dt from its past, in the list nearest to 500 ms among those that hold its own origin.
+/// theta_velocity dt from its past, in the list of the track.
 fn of_track<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
     track: &Track,
     seen: &Seen,
 ) -> Vec<Pair<'a>> {
-    let holds = |(k, _): &(usize, &Usable)| seen.own_origins[*k].is_some();
-    let Some((_, list)) = nearest_to_reference(lists.iter().enumerate().filter(holds)) else {
-        return Vec::new();
-    };
-    let Some(detection) = seen.detection else { return Vec::new() };
+    let Some((k, detection)) = list_of(lists, seen).zip(seen.detection) else { return Vec::new() };
+    let list = &lists[k];
     let past = past(&seen.place, &track.velocity, &list.dt);
     let limit = origin_limit(scene, &list.dt);
     let is_near = |item: &usize| is_within(scene, &past, &list.items[*item], &limit);
     (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
 }
 
-/// (b) An unexplained detection and each item of the reference list with abs(d - d') <= v_object dt
-/// that has support: when there are other usable lists, one of them has an item at distance <=
-/// theta_track_max from d - w dt'.
+/// (b) A detection and each item of the reference list that it may come from.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
-    detections: &[Object],
+    d: &Object,
     detection: usize,
 ) -> Vec<Pair<'a>> {
-    let Some((reference, list)) = nearest_to_reference(lists.iter().enumerate()) else {
-        return Vec::new();
-    };
-    let (d, p) = (&detections[detection], &scene.parameters);
-    let others: Vec<&Usable> =
-        lists.iter().enumerate().filter(|(k, _)| *k != reference).map(|(_, list)| list).collect();
-    let has_support = |before: &Object| {
-        let w = velocity(d, before, &list.dt);
-        let supports = |other: &&Usable| {
-            let then = past(&d.frame.origin, &w, &other.dt);
-            other.items.iter().any(|item| is_within(scene, &then, item, &p.theta_track_max))
-        };
-        others.is_empty() || others.iter().any(supports)
-    };
-    let limit = &p.v_object * &list.dt;
-    let is_pair = |item: &usize| {
-        let before = &list.items[*item];
-        is_within(scene, &d.frame.origin, before, &limit) && has_support(before)
-    };
+    let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
+    let is_pair = |item: &usize| may_come_from(scene, lists, d, [k, *item]);
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
+}
+
+/// The detections that (b) examines: those that no confirmed track explains, and those whose track
+/// may have taken the past of one of them.
+fn unexplained_or_disputed(
+    scene: &Scene,
+    lists: &[Usable],
+    detections: &[Object],
+    confirmed: &[(&Track, Seen)],
+) -> Vec<usize> {
+    let track_of = |d: &usize| confirmed.iter().find(|(_, seen)| seen.detection == Some(*d));
+    let (explained, unexplained): (Vec<usize>, Vec<usize>) =
+        (0..detections.len()).partition(|d| track_of(d).is_some());
+    let is_disputed = |d: &usize| {
+        let Some((_, seen)) = track_of(d) else { return false };
+        let Some(k) = list_of(lists, seen) else { return false };
+        let Some(origin) = seen.own_origins[k] else { return false };
+        let came = |other: &usize| may_come_from(scene, lists, &detections[*other], [k, origin]);
+        unexplained.iter().any(came)
+    };
+    let disputed = explained.into_iter().filter(is_disputed);
+    let mut examined: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
+    examined.sort_unstable();
+    examined
+}
+
+/// The list of a confirmed track: the one nearest to 500 ms among those that hold its own origin.
+fn list_of(lists: &[Usable], seen: &Seen) -> Option<usize> {
+    let holds = |(k, _): &(usize, &Usable)| seen.own_origins[*k].is_some();
+    nearest_to_reference(lists.iter().enumerate().filter(holds)).map(|(k, _)| k)
+}
+
+/// Whether a detection d may come from an item d' of a list, given by their places: abs(d - d') <=
+/// v_object dt and, when there are other lists, one of them has an item at distance <=
+/// theta_track_max from d - w dt'.
+fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
+    let (list, p) = (&lists[k], &scene.parameters);
+    let before = &list.items[item];
+    let w = velocity(d, before, &list.dt);
+    let supports = |other: &Usable| {
+        let then = past(&d.frame.origin, &w, &other.dt);
+        other.items.iter().any(|item| is_within(scene, &then, item, &p.theta_track_max))
+    };
+    let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
+    is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
+        && (others.peek().is_none() || others.any(|(_, other)| supports(other)))
 }
 
 /// The item is at most `limit` from the point, or nearly so, m.
