@@ -119,6 +119,40 @@ fn explain(
             let past = (at.0 - track.vx * dt, at.1 - track.vy * dt);
             list.items.push(history::item(&track, past));
         }
+        if draw.one_in(2) {
+            dispute(draw, cycle, &track);
+        }
     }
     cycle.tracks = Some(TrackList { stamp_ns, items: vec![track] });
+}
+
+/// A detection behind the CAV that comes from the last item of each list, or just does not: about
+/// `theta_track_max` beside what supports it, at about `v_object`.
+fn dispute(draw: &mut Draw<'_>, cycle: &mut Cycle, track: &Track) {
+    let Some(seen_ns) = cycle.detections.as_ref().map(|list| list.stamp_ns) else { return };
+    let dt_of = |list: &DetectionList| seconds(seen_ns - list.stamp_ns);
+    let off_half_a_second = |list: &&DetectionList| (dt_of(list) - 0.5).abs();
+    let reference = (cycle.detection_history.iter())
+        .min_by(|a, b| off_half_a_second(a).total_cmp(&off_half_a_second(b)));
+    let Some((origin, dt)) =
+        reference.and_then(|list| Some((list.items.last()?.clone(), dt_of(list))))
+    else {
+        return;
+    };
+    let back = draw.pick(&[20.0, 9.0, 30.0]);
+    let (cos, sin) = (cycle.ego.cos, cycle.ego.sin);
+    let at = (cycle.ego.x - back * cos, cycle.ego.y - back * sin);
+    let (vx, vy) = ((at.0 - origin.x) / dt, (at.1 - origin.y) / dt);
+    let error = draw.near(cycle.parameters.theta_track_max);
+    for list in &mut cycle.detection_history {
+        let dt = seconds(seen_ns - list.stamp_ns);
+        let (x, y) = (at.0 - vx * dt + error * sin, at.1 - vy * dt - error * cos);
+        list.items.push(history::item(track, (x, y)));
+    }
+    if draw.one_in(2) {
+        cycle.parameters.v_object = draw.near(vx.hypot(vy)).clamp(1e-3, 1e3);
+    }
+    if let Some(list) = &mut cycle.detections {
+        list.items.push(history::item(track, at));
+    }
 }

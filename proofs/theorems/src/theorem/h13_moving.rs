@@ -1,6 +1,6 @@
 //! H-13: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
-use crate::hardened::detection_history::{confirmed, usable};
+use crate::hardened::detection_history::{confirmed, origin_limit, usable};
 use crate::hardened::h13_moving::pairs;
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
@@ -31,6 +31,19 @@ pub const THEOREMS: &[Theorem] = &[
                  > 0; one track, two detections, two items of 500 ms ago, one of 300 ms ago",
         claim: || of_track(0),
         wrong: Wrong { statement: "and so is (d, d'') for every item d''", claim: || of_track(1) },
+    },
+    Theorem {
+        id: "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
+        statement: "H-13 (b), F-42: if d is the detection of a confirmed track whose own origin is a, an \
+                    unexplained detection may come from a, and d may come from b, (d, b) is examined as moving",
+        domain: "all positions, velocities of the track along x, theta_track_max, theta_velocity, v_object > 0; one \
+                 track at its detection, another detection farther than theta_track_max; a and b the items of \
+                 500 ms ago, b too far from its past, one item of 300 ms ago",
+        claim: || disputed(true),
+        wrong: Wrong {
+            statement: "although nothing that is unexplained may come from a",
+            claim: || disputed(false),
+        },
     },
 ];
 
@@ -84,28 +97,39 @@ fn given_within(vector: &Vector, limit: &Real) {
     given(at_most(&vector.length(), limit));
 }
 
+/// Assumes that the detection may come from the item of 500 ms ago, the support being that of 300 ms ago.
+fn given_may_come_from(scene: &Scene, detection: &str, item: &str) {
+    let [d, before, support] = [detection, item, "s"].map(place);
+    let moved = &d - &before;
+    given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
+    // d - w dt' with w = (d - d') / 0.5 s, dt' = 0.3 s.
+    let then = &d - &moved.scaled(&Real::ratio(3, 5));
+    given_within(&(&then - &support), &scene.parameters.theta_track_max);
+}
+
 fn unexplained(supported: bool) -> Formula {
     forget_of_what_roots_are();
     let scene = scene(Vec::new());
-    let [d, before, support] = ["d", "b", "s"].map(place);
-    let moved = &d - &before;
-    given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
     if supported {
-        // d - w dt' with w = (d - d') / 0.5 s, dt' = 0.3 s.
-        let then = &d - &moved.scaled(&Real::ratio(3, 5));
-        given_within(&(&then - &support), &scene.parameters.theta_track_max);
+        given_may_come_from(&scene, "d", "b");
+    } else {
+        let moved = &place("d") - &place("b");
+        given_within(&moved, &(&scene.parameters.v_object * Real::ratio(1, 2)));
     }
-    let lists = usable(&scene);
-    let detections = &scene.detections.as_ref().expect("they are current").items;
-    let is_it = |detection, item| (detection, item) == (1, 1);
-    let pairs = pairs(&scene, &lists, detections);
-    Formula::from(
-        pairs.iter().any(|it| is_it(it.detection, it.item) && it.list.age_ns == 500_000_000),
-    )
+    Formula::from(is_examined(&scene, [1, 1]))
 }
 
-fn of_track(all: usize) -> Formula {
-    let says = Track {
+/// Whether the detection and the item of 500 ms ago are examined as moving.
+fn is_examined(scene: &Scene, [detection, item]: [usize; 2]) -> bool {
+    let lists = usable(scene);
+    let detections = &scene.detections.as_ref().expect("they are current").items;
+    let is_it = |(d, of, age_ns)| (d, of, age_ns) == (detection, item, 500_000_000);
+    pairs(scene, &lists, detections).iter().any(|it| is_it((it.detection, it.item, it.list.age_ns)))
+}
+
+/// A track anywhere, not longer than 1 m.
+fn says() -> Track {
+    Track {
         id: 1,
         x: open_number("p x"),
         y: open_number("p y"),
@@ -115,20 +139,41 @@ fn of_track(all: usize) -> Formula {
         vy: open_number("v y"),
         length: 1.0,
         width: 1.0,
+    }
+}
+
+fn disputed(by_another: bool) -> Formula {
+    forget_of_what_roots_are();
+    let track = Track { x: open_number("c x"), y: open_number("c y"), vy: 0.0, ..says() };
+    let scene = scene(vec![track]);
+    let p = &scene.parameters;
+    let past = |dt: Real| {
+        let v = Vector { x: Real::named("v x"), y: Real::zero() };
+        &place("c") - &v.scaled(&dt)
     };
-    let scene = scene(vec![says]);
+    // The track is confirmed: c is its detection, a and s are its origins.
+    given(less(&p.theta_track_max, &(&place("c") - &place("d")).length()));
+    given(less(
+        &origin_limit(&scene, &Real::ratio(1, 2)),
+        &(&past(Real::ratio(1, 2)) - &place("b")).length(),
+    ));
+    if by_another {
+        given_may_come_from(&scene, "d", "a");
+    }
+    given_may_come_from(&scene, "c", "b");
+    let is_confirmed =
+        confirmed(&scene).first().is_some_and(|(_, seen)| seen.own_origins[1] == Some(0));
+    Formula::from(!is_confirmed || is_examined(&scene, [0, 1]))
+}
+
+fn of_track(all: usize) -> Formula {
+    let scene = scene(vec![says()]);
     let confirmed = confirmed(&scene);
     let Some((_, seen)) = confirmed.first() else { return Formula::Known(true) };
     // Two lists: a backed track has its own origin in both.
     let (Some(d), Some(origin)) = (seen.detection, seen.own_origins[1]) else {
         return Formula::Known(false);
     };
-    let lists = usable(&scene);
-    let detections = &scene.detections.as_ref().expect("they are current").items;
-    let pairs = pairs(&scene, &lists, detections);
-    let is_examined = |item: usize| {
-        let mut all = pairs.iter();
-        all.any(|it| (it.detection, it.item, it.list.age_ns) == (d, item, 500_000_000))
-    };
-    Formula::from(is_examined(origin) && (all == 0 || (0..2).all(is_examined)))
+    let examined = |item: usize| is_examined(&scene, [d, item]);
+    Formula::from(examined(origin) && (all == 0 || (0..2).all(examined)))
 }

@@ -1,0 +1,149 @@
+//! How much one lie can hide (H-13, F-38, F-42 of `spec/3-stages.md#findings`): where the CAV saw every object
+//! in every list, and each drives straight at constant speed, one false track and any omissions hide no
+//! motion; two false tracks can. Beyond the numbers drawn this is argued in `findings/F-42.md`.
+
+use std::cell::RefCell;
+
+use mufasa_model::hardened::detection_history::{confirmed, usable};
+use mufasa_model::hardened::h13_moving::pairs;
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::scene::Scene;
+use mufasa_model::report::Reading;
+use mufasa_model::services::configuration::Configuration::AllRemote;
+use mufasa_props::differential::runner;
+use mufasa_props::strategy::base::{self, Frame};
+use mufasa_props::strategy::draw::{Draw, tape};
+use proptest::strategy::Strategy;
+use proptest::test_runner::TestCaseError;
+
+/// Ages of the lists in quarters of a second: every place below is a double without rounding.
+const QUARTERS: [u8; 3] = [1, 2, 3];
+
+/// Where an object is when it is detected, m, and its velocity, m/s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Object {
+    at: [f64; 2],
+    v: [f64; 2],
+}
+
+impl Object {
+    fn before(&self, quarters: u8) -> [f64; 2] {
+        let dt = 0.25 * f64::from(quarters);
+        [self.at[0] - self.v[0] * dt, self.at[1] - self.v[1] * dt]
+    }
+}
+
+/// Not longer than 1 m, so that its direction does not bind its velocity.
+const fn detection([x, y]: [f64; 2]) -> Detection {
+    Detection { x, y, cos: 1.0, sin: 0.0, length: 1.0, width: 1.0 }
+}
+
+const fn track(id: i64, Object { at: [x, y], v: [vx, vy] }: Object) -> Track {
+    Track { id, x, y, cos: 1.0, sin: 0.0, vx, vy, length: 1.0, width: 1.0 }
+}
+
+/// Up to five objects at different places, close enough to have been where another one was.
+fn objects(draw: &mut Draw<'_>) -> Vec<Object> {
+    let mut objects: Vec<Object> = Vec::new();
+    for _ in 0..draw.between(2, 5) {
+        let at = [draw.range(-12.0, 12.0).round(), draw.range(-12.0, 12.0).round()];
+        let speed = |draw: &mut Draw<'_>| draw.pick(&[0.0, 0.0, -10.0, 8.0, 4.0, -2.0]);
+        let v = [speed(draw), speed(draw)];
+        if objects.iter().all(|other| other.at != at) {
+            objects.push(Object { at, v });
+        }
+    }
+    objects
+}
+
+/// What is said of one object: about where it is, and that half a second ago it was where another
+/// one was, or anything.
+fn lie(draw: &mut Draw<'_>, objects: &[Object]) -> (usize, Object) {
+    let about = draw.below(objects.len());
+    let aside = draw.pick(&[[0.0, 0.0], [0.5, 0.0], [0.0, -0.75], [0.25, 0.25]]);
+    let at = [objects[about].at[0] + aside[0], objects[about].at[1] + aside[1]];
+    let other = objects[draw.below(objects.len())].before(2);
+    let off = draw.pick(&[[0.0, 0.0], [1.0, -1.0], [-2.0, 0.5], [0.0, 2.5]]);
+    let v = if draw.one_in(5) {
+        [draw.range(-20.0, 20.0), draw.range(-20.0, 20.0)]
+    } else {
+        [2.0 * (at[0] - other[0]) + off[0], 2.0 * (at[1] - other[1]) + off[1]]
+    };
+    (about, Object { at, v })
+}
+
+/// A cycle in which the remote side tells the truth about some objects, leaves others out, and lies
+/// so many times.
+fn cycle(draw: &mut Draw<'_>, objects: &[Object], lies: usize) -> Cycle {
+    let frame = Frame { x: 100.0, y: 100.0, cos: 1.0, sin: 0.0 };
+    let mut cycle = base::cycle(draw, frame, Profile::Hardened, AllRemote);
+    let lies: Vec<(usize, Object)> = (0..lies).map(|_| lie(draw, objects)).collect();
+    let is_true = |i: &usize| lies.iter().all(|(about, _)| about != i);
+    let told: Vec<usize> = (0..objects.len()).filter(|i| !draw.one_in(2) && is_true(i)).collect();
+    let items = told.into_iter().map(|i| objects[i]).chain(lies.iter().map(|(_, lie)| *lie));
+    let items = items.zip(1..).map(|(object, id)| track(id, object)).collect();
+    let now_ns = cycle.now_ns.max(0);
+    cycle.now_ns = now_ns;
+    cycle.tracks = Some(TrackList { stamp_ns: now_ns, items });
+    let items = objects.iter().map(|object| detection(object.at)).collect();
+    cycle.detections = Some(DetectionList { stamp_ns: now_ns, items });
+    let list = |quarters: u8| DetectionList {
+        stamp_ns: now_ns - 250_000_000 * i64::from(quarters),
+        items: objects.iter().map(|object| detection(object.before(quarters))).collect(),
+    };
+    cycle.detection_history = QUARTERS.map(list).to_vec();
+    cycle
+}
+
+/// Whether what a false track says of an object counts, and an object whose true motion is not
+/// examined.
+fn judged(cycle: &Cycle, objects: &[Object]) -> (bool, Option<usize>) {
+    let scene = Scene::new(cycle, Reading::Exact);
+    let lists = usable(&scene);
+    let detections = &scene.detections.as_ref().expect("they are current").items;
+    let pairs = pairs(&scene, &lists, detections);
+    let is_hidden = |i: &usize| !pairs.iter().any(|it| (it.detection, it.item) == (*i, *i));
+    let is_taken = confirmed(&scene).iter().any(|(_, seen)| {
+        let own = seen.own_origins[1];
+        own.is_some() && own != seen.detection
+    });
+    (is_taken, (0..objects.len()).find(is_hidden))
+}
+
+/// Of so many lies: in how many cases a past was taken, and in how many some motion was hidden.
+fn search(lies: usize, stop: bool) -> [u32; 2] {
+    let counts = RefCell::new([0; 2]);
+    let cases = tape().prop_map(|tape| {
+        let mut draw = Draw::new(&tape);
+        let objects = objects(&mut draw);
+        (cycle(&mut draw, &objects, lies), objects)
+    });
+    let result = runner().run(&cases, |(cycle, objects)| {
+        let (is_taken, hidden) = judged(&cycle, &objects);
+        let mut counts = counts.borrow_mut();
+        counts[0] += u32::from(is_taken);
+        counts[1] += u32::from(hidden.is_some());
+        match hidden {
+            Some(i) if stop => Err(TestCaseError::fail(format!("object {i} of {objects:?}"))),
+            _ => Ok(()),
+        }
+    });
+    if let Err(error) = result {
+        panic!("{error}");
+    }
+    counts.into_inner()
+}
+
+#[test]
+fn one_lie_and_any_omissions_hide_no_motion() {
+    let [taken, _] = search(1, true);
+    println!("one lie: the past of another was taken in {taken} cases, none hid a motion");
+    assert!(taken > 100, "{taken}");
+}
+
+#[test]
+fn two_lies_can_hide_a_motion() {
+    let [_, hidden] = search(2, false);
+    println!("two lies: in {hidden} cases some motion was not examined");
+    assert!(hidden > 0);
+}
