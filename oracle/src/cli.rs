@@ -10,12 +10,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use clap::{Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
-    CheckArguments, ComposeArguments, ConformArguments, DemoArguments, ExploreArguments,
-    MergeCommand, OracleArguments, ProveArguments, VectorsArguments,
+    CheckArguments, CompletionsArguments, ComposeArguments, ConformArguments, DemoArguments,
+    ExploreArguments, ManArguments, MergeCommand, OracleArguments, ProveArguments,
+    VectorsArguments,
 };
 use crate::compose;
 use crate::demo;
@@ -64,11 +65,16 @@ enum Command {
     Explore(ExploreArguments),
     /// Prove what is claimed with every engine that is here, and list what is proved.
     Prove(ProveArguments),
+    /// Write what a shell needs to complete what is typed on standard output.
+    Completions(CompletionsArguments),
+    /// Write the manual pages.
+    Man(ManArguments),
 }
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = command().try_get_matches();
+    let cli = match cli.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
             // Help asked for is no error; whether anybody reads it is not our business.
@@ -77,7 +83,11 @@ pub fn main() -> ExitCode {
         }
     };
     let mut out = BufWriter::new(io::stdout().lock());
-    let demo = || Command::Demo(DemoArguments { out: demo::FOLDER.into() });
+    let demo = || {
+        let writes = format!("no command, so the demo, which writes into {}/", demo::FOLDER);
+        complain(&mut io::stderr(), &writes);
+        Command::Demo(DemoArguments { out: demo::FOLDER.into() })
+    };
     let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
         Command::Demo(arguments) => demo::run(&arguments.out, &mut out, &mut io::stderr()),
@@ -90,6 +100,11 @@ pub fn main() -> ExitCode {
         Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
+        Command::Completions(CompletionsArguments { shell }) => {
+            clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
+            Ok(0)
+        }
+        Command::Man(ManArguments { out: folder }) => man(&folder, &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -259,6 +274,24 @@ fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
     Ok(0)
 }
 
+fn man(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
+    let written = files::prepare(folder).and_then(|()| clap_mangen::generate_to(command(), folder));
+    if let Err(error) = written {
+        return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
+    }
+    writeln!(out, "{}: the manual pages; read one by man -l", folder.display())?;
+    Ok(0)
+}
+
+/// The commands; a number below 0 is a value and no option, so that its limits are said.
+fn command() -> clap::Command {
+    let signed = |argument: Arg| {
+        let is_number = argument.get_action().takes_values() && !argument.is_positional();
+        argument.allow_negative_numbers(is_number)
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(signed))
+}
+
 fn refused(message: &str) -> u8 {
     complain(&mut io::stderr(), message);
     BAD_INPUT
@@ -266,14 +299,12 @@ fn refused(message: &str) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
-
     use super::*;
     use mufasa_drives::Options;
 
     #[test]
     fn the_arguments_are_consistent() {
-        Cli::command().debug_assert();
+        command().debug_assert();
     }
 
     #[test]

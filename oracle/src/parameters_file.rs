@@ -95,9 +95,22 @@ fn settings(text: &str) -> Result<Settings, Problem> {
             error.message.strip_prefix(&error.field).unwrap_or(&error.message).trim_start();
         let field = error.field.strip_prefix("parameters.").unwrap_or(&error.field).to_owned();
         let name = table.get_ref().keys().find(|name| name.get_ref() == field.as_str());
-        Problem { at: name.map(toml::Spanned::span), message: message.to_owned(), field }
+        let message = match name.is_some().then(|| near(&field)).flatten() {
+            Some(known) if message.contains("no field") => {
+                format!("is no parameter; is {known} meant?")
+            }
+            _ => message.to_owned(),
+        };
+        Problem { at: name.map(toml::Spanned::span), message, field }
     })?;
     Ok(Settings { stages, requester })
+}
+
+/// The parameter whose name is nearly this one.
+fn near(name: &str) -> Option<String> {
+    let likeness = |known: &String| strsim::jaro_winkler(known, name);
+    let names = parameters::names().into_iter().filter(|known| likeness(known) > 0.8);
+    names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
 }
 
 /// A value as records write it.
@@ -140,7 +153,9 @@ mod tests {
 
     #[test]
     fn errors_name_line_and_parameter() {
-        assert!(failure("n = 4\nthetatr = 1.0\n").starts_with("p.toml:2: thetatr: is no field"));
+        let misspelled = failure("n = 4\nthetatr = 1.0\n");
+        assert_eq!(misspelled, "p.toml:2: thetatr: is no parameter; is theta_tr meant?");
+        assert!(failure("speed = 1").starts_with("p.toml:1: speed: is no field"));
         assert!(failure("n = 4.0").starts_with("p.toml:1: n: must be an integer from"));
         assert!(failure("\n\na_b = 'nan'").starts_with("p.toml:3: a_b: must be a number"));
         assert!(failure("n = 99999999999999999999").contains("64 bits"));

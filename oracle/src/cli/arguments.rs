@@ -1,6 +1,7 @@
 //! The arguments of every command, and how their values are read.
 
 use std::ffi::OsString;
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -58,7 +59,7 @@ pub(super) struct CheckArguments {
 #[command(next_help_heading = "Recorded drives")]
 pub(super) struct RecordingArguments {
     /// Recorded vehicle that is the CAV; by default the car that goes farthest on the lanelets.
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", value_parser = whole(i64::MIN, i64::MAX))]
     pub(super) ego: Option<i64>,
     /// Length of the planned trajectories, s.
     #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.1, 60.0))]
@@ -82,19 +83,19 @@ pub(super) struct RecordingArguments {
     #[arg(long, value_name = "N", default_value = "0.5", value_parser = number(0.0, 100.0))]
     pub(super) sensor_clutter: f64,
     /// Age of the track lists, ms; they are exact, and that old. The detections are 30 ms old.
-    #[arg(long, value_name = "MS", default_value = "30", value_parser = clap::value_parser!(u16).range(0..=1000))]
+    #[arg(long, value_name = "MS", default_value = "30", value_parser = whole(0_u16, 1000))]
     pub(super) track_age: u16,
     /// Seed of misses, noise and clutter, now and in the history.
-    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole(0, u64::MAX))]
     pub(super) seed: u64,
     /// Side of a cell of the grid map, m.
     #[arg(long, value_name = "M", default_value = "0.2", value_parser = number(0.01, 10.0))]
     pub(super) grid_resolution: f64,
     /// Cells of the grid map along the CAV.
-    #[arg(long, value_name = "N", default_value = "500", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", default_value = "500", value_parser = whole(1_u32, 4096))]
     pub(super) grid_width: u32,
     /// Cells of the grid map across.
-    #[arg(long, value_name = "N", default_value = "300", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", default_value = "300", value_parser = whole(1_u32, 4096))]
     pub(super) grid_height: u32,
 }
 
@@ -132,13 +133,13 @@ pub(super) struct ConformArguments {
     #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
     pub(super) profile: Profile,
     /// Number of cases, all shards together; by default 10000, or all that the drives give.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
     pub(super) cases: Option<u64>,
     /// Seed of the cases.
-    #[arg(long, value_name = "S", default_value = "0")]
+    #[arg(long, value_name = "S", default_value = "0", value_parser = whole(0, u64::MAX))]
     pub(super) seed: u64,
     /// Longest time that an answer may take, ms.
-    #[arg(long, value_name = "MS", default_value = "1000", value_parser = clap::value_parser!(u64).range(1..=3_600_000))]
+    #[arg(long, value_name = "MS", default_value = "1000", value_parser = whole(1_u64, 3_600_000))]
     pub(super) time_limit: u64,
     /// Kinds of generated records; `line` is one that breaks the schema or is no JSON.
     #[arg(
@@ -207,7 +208,7 @@ pub(super) struct ExploreArguments {
     #[arg(long, value_name = "NAME")]
     pub(super) world: Option<String>,
     /// Threads of the second engine, stateright; 0 leaves it out. By default all.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole(0_usize, 1024))]
     pub(super) threads: Option<usize>,
     /// Put the tables into a document, between the lines that mark their place.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
@@ -250,6 +251,20 @@ pub(super) struct ProveArguments {
 pub(super) struct VectorsArguments {
     /// Folder; files of other names there stay.
     #[arg(long, value_name = "DIR", default_value = "vectors")]
+    pub(super) out: PathBuf,
+}
+
+#[derive(Args)]
+pub(super) struct CompletionsArguments {
+    /// The shell that completes what is typed.
+    pub(super) shell: clap_complete::Shell,
+}
+
+/// Exit codes: 0 written, 2 the folder cannot be written.
+#[derive(Args)]
+pub(super) struct ManArguments {
+    /// Folder of the pages, one for each command.
+    #[arg(long, value_name = "DIR", default_value = "man")]
     pub(super) out: PathBuf,
 }
 
@@ -324,6 +339,17 @@ fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone +
     }
 }
 
+/// A whole number within limits.
+fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
+where
+    T: Copy + PartialOrd + Display + FromStr + Send + Sync,
+{
+    move |text| match T::from_str(text) {
+        Ok(number) if (low..=high).contains(&number) => Ok(number),
+        Ok(_) | Err(_) => Err(format!("must be a whole number from {low} to {high}")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -334,5 +360,14 @@ mod tests {
             assert!(number(0.0, 1.0)(text).is_err(), "{text}");
         }
         assert_eq!(number(0.0, 1.0)("0.5"), Ok(0.5));
+    }
+
+    #[test]
+    fn whole_numbers_say_their_limits() {
+        for text in ["abc", "-1", "1.5", "", "5", "99999999999999999999"] {
+            let error = whole(0_u16, 4)(text).unwrap_err();
+            assert_eq!(error, "must be a whole number from 0 to 4", "{text}");
+        }
+        assert_eq!(whole(0_u16, 4)("4"), Ok(4));
     }
 }

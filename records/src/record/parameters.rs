@@ -168,3 +168,11 @@ pub fn settings(
     check_parameters(&stages)?;
     Ok((stages, protocol))
 }
+
+/// The names of all parameters.
+pub fn names() -> Vec<String> {
+    let stages = json!(StageParameters { whole: true, ..StageParameters::default() });
+    let protocol = json!(ProtocolParameters { whole: true, ..ProtocolParameters::default() });
+    let fields = [stages, protocol].into_iter().filter_map(|it| it.as_object().cloned());
+    fields.flat_map(|fields| fields.into_iter().map(|(name, _)| name)).collect()
+}
