@@ -3,18 +3,23 @@
 //!
 //! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which
 //! pairs of a detection and an earlier item are examined; whether they collide is decided as in
-//! stage iii.
+//! stage iii. That an explained detection is disputed is asked last, of a pair that collides
+//! (`disputed`, with what it costs).
 
-use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
+mod disputed;
+mod lists;
+
+use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::hardened::h10_explained::Explained;
-use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList, Trajectory};
-use crate::input::scratch::{Column, Scratch};
+use crate::hardened::h13_moving::disputed::Disputes;
+use crate::hardened::h13_moving::lists::{Lists, Past};
+use crate::input::cycle::{Cycle, Detection, DetectionList, TrackList, Trajectory};
+use crate::input::scratch::Scratch;
 use crate::numbers::plane::Vector;
 use crate::numbers::range::larger;
 use crate::numbers::rectangle::Rectangle;
 use crate::numbers::rounding::Real;
-use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
 use crate::stages::llcc::pursuit::{Passing, Pursuit};
@@ -48,18 +53,18 @@ impl MovingDetections<'_, '_> {
             return Some(Witness::of(Rule::WorkLimit, compared));
         }
         let motion = CavMotion::with_beyond(&examined, detections.stamp_ns);
-        let pasts = self.pasts(cycle);
+        let lists = Lists::new(cycle, &self.history, self.tracks);
         let mut search = Search {
             cycle,
             moving: self,
             detections,
             explained,
             reference,
-            off: pasts.iter().flatten().map(|past| past.off).fold(0.0, larger),
-            pasts,
+            off: lists.greatest_off(),
+            lists,
             motion: &motion,
             pursuit: &motion.pursuit(),
-            lists: [None; 4],
+            disputes: Disputes::new(detections, self.history.index, self.tracks, explained),
             first: None,
         };
         search.all(scratch);
@@ -72,19 +77,6 @@ impl MovingDetections<'_, '_> {
         let longest = items().fold(0, usize::max);
         let each = longest.saturating_mul(items().fold(places, usize::saturating_add));
         i64::try_from(detections.saturating_mul(each)).unwrap_or(i64::MAX)
-    }
-
-    /// The lists in which the past of a confirmed track is looked for, the first one first.
-    fn pasts(&self, cycle: &Cycle<'_>) -> [Option<Past<'_>>; 4] {
-        let mut pasts = [None; 4];
-        for (past, list) in pasts.iter_mut().zip(self.history.by_reference_age()) {
-            *past = self.history.usable.get(list).copied().flatten().map(|usable| {
-                let reach = usable.reach(cycle) + CLOSE;
-                let off = (cycle.parameters.theta_track_max + reach) / usable.age;
-                Past { list, usable, reach, off }
-            });
-        }
-        pasts
     }
 }
 
@@ -157,18 +149,6 @@ struct Pair {
     list: usize,
 }
 
-/// The list in which the past of a track is looked for.
-#[derive(Clone, Copy)]
-struct Past<'a> {
-    /// Its place in the history.
-    list: usize,
-    usable: UsableList<'a>,
-    /// How far from the past an item may be, m.
-    reach: f64,
-    /// How much the mean velocity may differ from that of the track, m/s.
-    off: f64,
-}
-
 /// The search for the first collision.
 struct Search<'m, 'c, 'a> {
     cycle: &'m Cycle<'a>,
@@ -177,26 +157,26 @@ struct Search<'m, 'c, 'a> {
     explained: &'m Explained,
     /// The place of the reference list.
     reference: usize,
-    pasts: [Option<Past<'m>>; 4],
+    lists: Lists<'m, 'c, 'a>,
     /// The most of `Past::off`.
     off: f64,
     motion: &'m CavMotion<'m, 'a>,
     pursuit: &'m Pursuit,
-    /// The usable lists by squares, once they are needed.
-    lists: [Option<Squares<'c>>; 4],
+    disputes: Disputes<'m, 'c, 'a>,
     first: Option<Found>,
 }
 
-impl<'c> Search<'_, 'c, '_> {
+impl Search<'_, '_, '_> {
     /// All detections that may reach the CAV. No other order finds another first collision.
     fn all(&mut self, scratch: &mut Scratch<'_>) {
         let items = self.detections.items;
         let Some(index) = self.moving.history.index else {
             for (detection, now) in items.iter().enumerate() {
-                match self.explained.by(detection, scratch.rows, scratch.columns) {
-                    Some(track) => self.confirmed(track, (detection, now), scratch),
-                    None => self.unexplained((detection, now), scratch.columns),
+                let track = self.explained.by(detection, scratch.rows, scratch.columns);
+                if let Some(track) = track {
+                    self.confirmed(track, (detection, now), scratch);
                 }
+                self.come_from_anywhere((detection, now), track, scratch);
             }
             return;
         };
@@ -206,45 +186,19 @@ impl<'c> Search<'_, 'c, '_> {
         let fastest = larger(speed, self.cycle.parameters.v_object + self.more());
         let near = self.motion.sweep.surroundings(index.reach, fastest);
         index.for_each_in(near, |detection, [x, y]| {
-            match self.explained.by(detection, scratch.rows, scratch.columns) {
-                Some(track) if is_within(across, x) && is_within(up, y) => {
-                    let Some(now) = items.get(detection) else { return };
-                    self.confirmed(track, (detection, now), scratch);
-                }
-                Some(_) => {}
-                None => {
-                    let Some(now) = items.get(detection) else { return };
-                    self.unexplained((detection, now), scratch.columns);
-                }
+            let Some(now) = items.get(detection) else { return };
+            let track = self.explained.by(detection, scratch.rows, scratch.columns);
+            if let Some(track) = track.filter(|_| is_within(across, x) && is_within(up, y)) {
+                self.confirmed(track, (detection, now), scratch);
             }
+            self.come_from_anywhere((detection, now), track, scratch);
         });
     }
 
     /// By how much what moves at most `CLOSE` more than `v_object` at the age of the reference list is
     /// faster, m/s.
     fn more(&self) -> f64 {
-        self.usable(self.reference).map_or(0.0, |list| CLOSE / list.age)
-    }
-
-    fn usable(&self, list: usize) -> Option<UsableList<'c>> {
-        self.moving.history.usable.get(list).copied().flatten()
-    }
-
-    /// The list by squares. All usable ones are listed at the first call.
-    fn by_squares(&mut self, list: usize, columns: &mut [Column]) -> Option<Squares<'c>> {
-        if self.lists.iter().all(Option::is_none) {
-            // Of a few squares for what comes from anywhere, and of a few things in a square.
-            let side = larger(
-                4.0 * self.cycle.parameters.theta_track_max,
-                0.25 * self.cycle.parameters.v_object,
-            );
-            let usable = self.moving.history.usable.iter().zip(Links::ALL);
-            for (squares, (list, links)) in self.lists.iter_mut().zip(usable) {
-                *squares =
-                    list.map(|list| Squares::of((list.items, list.index), side, links, columns));
-            }
-        }
-        self.lists.get(list).copied().flatten()
+        self.lists.usable(self.reference).map_or(0.0, |list| CLOSE / list.age)
     }
 
     /// (a): the detection of a confirmed track, from every item that may have been the track.
@@ -263,18 +217,14 @@ impl<'c> Search<'_, 'c, '_> {
         if self.motion.sweep.misses_all_near(&about, self.off) {
             return;
         }
-        let origins = row.origins();
-        let is_held = |past: &&Past<'_>| origins & [1, 2, 4, 8].get(past.list).unwrap_or(&0) != 0;
-        let Some(&Past { list, usable, reach, off }) = self.pasts.iter().flatten().find(is_held)
-        else {
-            return;
-        };
+        let Some(past) = self.lists.past_of(row) else { return };
+        let Past { list, usable, reach, off, .. } = past;
         if off < self.off && self.motion.sweep.misses_all_near(&about, off) {
             return;
         }
         let passing = self.pursuit.passing(&about);
-        let Some(squares) = self.by_squares(list, scratch.columns) else { return };
-        let (dx, dy) = self.moved_since(tracks, track, &usable);
+        let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
+        let (dx, dy) = past.moved(track);
         let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
         let near = [around(track.x + dx), around(track.y + dy)];
         squares.for_each_in(scratch.columns, near, |item, before| {
@@ -282,27 +232,25 @@ impl<'c> Search<'_, 'c, '_> {
             let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
             let seen = SeenTwice::new(now, before, &usable);
             if x * x + y * y <= reach * reach && !passing.misses(seen.now.velocity) {
-                self.examine(&Pair { order, detection, item, list }, &seen, &passing);
+                let pair = Pair { order, detection, item, list };
+                self.first = self.earlier(&pair, &seen, &passing).or(self.first);
             }
         });
     }
 
-    /// From the position of a track to its past, m.
-    fn moved_since(
-        &self,
-        tracks: &TrackList<'_>,
-        track: &Track,
-        list: &UsableList<'_>,
-    ) -> (f64, f64) {
-        let since_ns = elapsed_ns(tracks.stamp_ns, self.detections.stamp_ns);
-        let since = seconds(since_ns.saturating_sub(list.age_ns));
-        (track.vx * since, track.vy * since)
-    }
-
-    /// (b): another detection, from every item that some other list supports.
-    fn unexplained(&mut self, (detection, now): (usize, &Detection), columns: &mut [Column]) {
+    /// (b): a detection that is unexplained, or disputed, from every item that some other list
+    /// supports. `track`: which explains it.
+    fn come_from_anywhere(
+        &mut self,
+        (detection, now): (usize, &Detection),
+        track: Option<usize>,
+        scratch: &mut Scratch<'_>,
+    ) {
+        if track.is_some() && !self.disputes.are_possible() {
+            return;
+        }
         let reference = self.reference;
-        let Some(list) = self.usable(reference) else { return };
+        let Some(list) = self.lists.usable(reference) else { return };
         let (v_object, age) = (self.cycle.parameters.v_object, list.age);
         let (farthest, rate) = (v_object * age + CLOSE, 1.0 / age);
         let standing = MovingRectangle::detection(now);
@@ -312,76 +260,51 @@ impl<'c> Search<'_, 'c, '_> {
         if from.iter().any(|[least, greatest]| least > greatest) {
             return;
         }
-        let Some(squares) = self.by_squares(reference, columns) else { return };
+        let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let tracks = self.moving.tracks.map_or(0, |list| list.items.len());
         let order = tracks.saturating_add(detection);
         let passing = self.pursuit.passing(&standing);
-        squares.for_each_in(columns, from, |item, before| {
+        let scratch = &*scratch;
+        squares.for_each_in(scratch.columns, from, |item, before| {
             let [before_x, before_y] = before;
             let (x, y) = (now.x - before_x, now.y - before_y);
             if !passing.misses_on_line([x * rate, y * rate]) && x * x + y * y <= farthest * farthest
             {
                 let pair = Pair { order, detection, item, list: reference };
-                self.unexplained_from(before, now, &pair, &passing, columns);
+                self.come_from_item(before, (now, track), &pair, &passing, scratch);
             }
         });
     }
 
     #[inline(never)]
-    fn unexplained_from(
+    fn come_from_item(
         &mut self,
         before: [f64; 2],
-        now: &Detection,
+        (now, track): (&Detection, Option<usize>),
         pair: &Pair,
         passing: &Passing<'_>,
-        columns: &[Column],
+        scratch: &Scratch<'_>,
     ) {
-        let Some(list) = self.usable(pair.list) else { return };
+        let Some(list) = self.lists.usable(pair.list) else { return };
         let seen = SeenTwice::new(now, before, &list);
-        if !passing.misses(seen.now.velocity) && self.is_supported(now, before, columns) {
-            self.examine(pair, &seen, passing);
+        if passing.misses(seen.now.velocity)
+            || !self.lists.is_supported(now, before, (pair.list, &list), scratch.columns)
+        {
+            return;
+        }
+        let Some(found) = self.earlier(pair, &seen, passing) else { return };
+        if track.is_none_or(|track| self.disputes.is_disputed(track, &self.lists, scratch)) {
+            self.first = Some(found);
         }
     }
 
-    /// Whether an item of another list is where the object was then, when there are other lists.
-    fn is_supported(&self, now: &Detection, before: [f64; 2], columns: &[Column]) -> bool {
-        let Some(own) = self.usable(self.reference) else { return true };
-        let reach = self.cycle.parameters.theta_track_max + CLOSE;
-        let [before_x, before_y] = before;
-        let mut alone = true;
-        for (list, squares) in self.lists.iter().enumerate() {
-            let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
-            if list == self.reference {
-                continue;
-            }
-            alone = false;
-            let mut supported = false;
-            let share = other.age / own.age;
-            let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);
-            let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-            let near = [around(now.x + dx), around(now.y + dy)];
-            squares.for_each_in(columns, near, |_, [item_x, item_y]| {
-                let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
-                supported |= x * x + y * y <= reach * reach;
-            });
-            if supported {
-                return true;
-            }
-        }
-        alone
-    }
-
-    /// Looks for a collision that is earlier than the first so far.
-    fn examine(&mut self, pair: &Pair, seen: &SeenTwice, passing: &Passing<'_>) {
+    /// A collision that is earlier than the first so far.
+    fn earlier(&self, pair: &Pair, seen: &SeenTwice, passing: &Passing<'_>) -> Option<Found> {
         let &Pair { order, detection, item, list } = pair;
         let window = passing.window(seen.now.velocity);
         let end = self.first.map_or(usize::MAX, |first| first.point.saturating_add(1));
-        let Some((point, compared)) = self.motion.collision_within(window, seen, end) else {
-            return;
-        };
+        let (point, compared) = self.motion.collision_within(window, seen, end)?;
         let found = Found { point, order, item, detection, list, compared };
-        if self.first.is_none_or(|first| found.key() < first.key()) {
-            self.first = Some(found);
-        }
+        self.first.is_none_or(|first| found.key() < first.key()).then_some(found)
     }
 }

@@ -53,7 +53,8 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   iv ran in `AllRemote` or `PlanRemote`.
 ///
 /// * what the CAV saw itself (hardened, with U items in all usable lists of the history): a few times
-///   T U distances, and in iv D times the items of the longest list times (U + P) (H-13).
+///   T U distances, and in iv D times the items of the longest list times (U + P) (H-13), and
+///   at most a few times that with disputed detections.
 ///
 /// Stage i and H-13 have a limit. The default of `work_limit`, 10^10, is above the most work of
 /// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-13 takes up to

@@ -6,6 +6,7 @@
 )]
 
 mod cells;
+mod disputed;
 mod explained;
 mod history;
 mod input;

@@ -4,6 +4,8 @@ use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
     TrajectoryPoint,
 };
+use mufasa::input::detection_index::{DetectionIndex, Slot};
+use mufasa::input::indexes::Indexes;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
@@ -77,7 +79,8 @@ pub fn detection(x: f64, y: f64) -> Detection {
 }
 
 impl Scene {
-    /// Checks the scene with scratch of exactly the size asked for.
+    /// Checks the scene with scratch of exactly the size asked for, without indexes of the lists of
+    /// detections and with them.
     pub fn check(&self) -> Result<Report, InvalidInput> {
         let stamp_ns = NOW_NS - 10_000_000;
         let list = |items| TrackList { stamp_ns: stamp_ns - self.track_age_ns, items };
@@ -114,7 +117,18 @@ impl Scene {
         let sizes = Sizes::for_cycle(&cycle);
         let mut rows = vec![Row::default(); sizes.rows];
         let mut columns = vec![Column::default(); sizes.columns];
-        stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+        let mut scratch = Scratch::new(&mut rows, &mut columns);
+        let report = stages::check(&cycle, &mut scratch);
+        let lists = || cycle.detections.iter().chain(cycle.detection_history);
+        let mut memory: Vec<_> =
+            lists().map(|list| vec![Slot::default(); list.items.len()]).collect();
+        let indexes: Vec<_> = lists()
+            .zip(&mut memory)
+            .filter_map(|(list, memory)| DetectionIndex::new(list, memory).ok())
+            .collect();
+        let indexes = Indexes { route: None, detections: &indexes };
+        assert_eq!(stages::check_with(&cycle, &indexes, &mut scratch), report);
+        report
     }
 
     /// The report of a valid scene.
