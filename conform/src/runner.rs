@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use mufasa_props::conformance::{is_too_much, name as stage_name};
 use serde_json::Value;
 use serde_json::value::RawValue;
@@ -356,12 +356,6 @@ fn milliseconds(time: Duration) -> u64 {
     u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
 }
 
-/// A bar on a terminal, nothing elsewhere.
 fn progress(cases: u64) -> ProgressBar {
-    let bar = ProgressBar::new(cases);
-    let style = "{bar:30} {pos}/{len} cases, {per_sec}, {eta} left {msg}";
-    if let Ok(style) = ProgressStyle::with_template(style) {
-        bar.set_style(style);
-    }
-    bar
+    mufasa_drives::progress::bar(cases, "{bar:30} {pos}/{len} cases, {per_sec}, {left} left {msg}")
 }

@@ -7,6 +7,7 @@ pub mod drive;
 mod geometry;
 pub mod options;
 pub mod pictures;
+pub mod progress;
 pub mod readers;
 mod recording;
 

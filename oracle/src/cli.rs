@@ -27,7 +27,7 @@ use mufasa_conform as conform;
 use mufasa_conform::reference as oracle;
 use mufasa_conform::vectors;
 use mufasa_drives::check::{self, Format, Settings, complain};
-use mufasa_drives::{self as drive, inject};
+use mufasa_drives::{self as drive, inject, progress};
 use mufasa_records::files;
 
 /// Bad input or arguments.
@@ -43,6 +43,12 @@ const CLOSED_PIPE: u8 = 141;
 #[derive(Parser)]
 #[command(name = "mufasa", version, max_term_width = 100)]
 struct Cli {
+    /// Show no progress.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Show progress as lines, also where standard error is no terminal.
+    #[arg(short, long, global = true)]
+    verbose: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -82,6 +88,11 @@ pub fn main() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { BAD_INPUT } else { 0 });
         }
     };
+    progress::set(match (cli.quiet, cli.verbose) {
+        (true, _) => progress::Mode::Quiet,
+        (false, true) => progress::Mode::Lines,
+        (false, false) => progress::Mode::Bar,
+    });
     let mut out = BufWriter::new(io::stdout().lock());
     let demo = || {
         let writes = format!("no command, so the demo, which writes into {}/", demo::FOLDER);

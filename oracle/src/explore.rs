@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use mufasa_exploration::bounds::{Bounds, World};
 use mufasa_exploration::moves::Move;
 use mufasa_exploration::properties::Property;
@@ -204,10 +203,7 @@ fn explore(
     profile: Profile,
     threads: usize,
 ) -> Result<WorldOutcome, Box<mufasa_props::refine::Difference>> {
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg}") {
-        bar.set_style(style);
-    }
+    let bar = mufasa_drives::progress::bar(0, "{spinner} {prefix}: {msg}");
     bar.set_prefix(title(world, profile));
     bar.set_message("the parts");
     bar.tick();

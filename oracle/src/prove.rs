@@ -9,7 +9,7 @@ pub mod tables;
 
 use std::io::{self, Write};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 
 use crate::document;
 use claim::{Claim, Status};
@@ -96,10 +96,7 @@ fn write_lines(settings: &Settings, lines: &[Claim]) -> io::Result<()> {
 }
 
 fn bar(source: ClaimSource) -> ProgressBar {
-    let bar = ProgressBar::new(0);
-    if let Ok(style) = ProgressStyle::with_template("{prefix} {bar:30} {pos}/{len} {msg}") {
-        bar.set_style(style);
-    }
+    let bar = mufasa_drives::progress::bar(0, "{prefix} {bar:30} {pos}/{len} {msg}");
     bar.set_prefix(source.name());
     bar
 }

@@ -14,7 +14,7 @@ pub mod words;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use mufasa_model::offloading::requester::Parameters;
 
 use self::checked::Checked;
@@ -209,14 +209,10 @@ pub fn complain(err: &mut impl Write, message: &str) {
     let _ = writeln!(err, "mufasa: {message}");
 }
 
-/// A bar over so many cycles; nothing is drawn when standard error is no terminal.
+/// A bar over so many cycles.
 pub fn progress(cycles: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} cycles, {eta} left");
-    let bar = ProgressBar::new(u64::try_from(cycles).unwrap_or(u64::MAX));
-    match style {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
+    let steps = u64::try_from(cycles).unwrap_or(u64::MAX);
+    crate::progress::bar(steps, "{bar:40} {pos}/{len} cycles, {left} left")
 }
 
 /// `1 drive`, `2 drives`; of several words the first takes the s.

@@ -1,0 +1,148 @@
+//! Progress on standard error: a bar on a terminal, lines in a log, or nothing.
+
+use std::fmt;
+use std::io::{self, Write};
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle, TermLike};
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// Not at all.
+    Quiet,
+    /// A bar, where standard error is a terminal.
+    #[default]
+    Bar,
+    /// A line every few seconds, wherever standard error goes.
+    Lines,
+}
+
+/// Of the process.
+static MODE: OnceLock<Mode> = OnceLock::new();
+
+/// Between two lines.
+const PAUSE: Duration = Duration::from_secs(5);
+/// Before that much is done, the time that is left is not known.
+const SETTLED: Duration = Duration::from_secs(5);
+
+/// Says for the whole process how progress is shown; the first call counts.
+pub fn set(mode: Mode) {
+    // Nobody sets it twice but tests, which all want the same.
+    let _ = MODE.set(mode);
+}
+
+/// A bar of so many steps; 0 where they are not known. The template is indicatif's, with `{left}` for
+/// the time that is left once that can be told.
+pub fn bar(steps: u64, template: &str) -> ProgressBar {
+    let target = match MODE.get().copied().unwrap_or_default() {
+        Mode::Quiet => ProgressDrawTarget::hidden(),
+        Mode::Bar => ProgressDrawTarget::stderr(),
+        Mode::Lines => ProgressDrawTarget::term_like_with_hz(Box::new(Lines::default()), 1),
+    };
+    let bar = ProgressBar::with_draw_target(Some(steps), target);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style.with_key("left", left));
+    }
+    bar
+}
+
+fn left(state: &ProgressState, to: &mut dyn fmt::Write) {
+    let is_settled = state.elapsed() >= SETTLED && state.pos() > 0;
+    let text = if is_settled { in_words(state.eta()) } else { String::from("?") };
+    // A bar that cannot be drawn is none.
+    let _ = to.write_str(&text);
+}
+
+fn in_words(time: Duration) -> String {
+    match time.as_secs() {
+        seconds @ 0..60 => format!("{seconds} s"),
+        seconds @ 60..3600 => format!("{} min", seconds.div_ceil(60)),
+        seconds => format!("{} h {} min", seconds / 3600, seconds % 3600 / 60),
+    }
+}
+
+/// A terminal that keeps every line.
+#[derive(Debug, Default)]
+struct Lines(Mutex<Written>);
+
+#[derive(Debug, Default)]
+struct Written {
+    text: String,
+    last: Option<(String, Instant)>,
+}
+
+impl TermLike for Lines {
+    fn width(&self) -> u16 {
+        120
+    }
+
+    fn move_cursor_up(&self, _: usize) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn move_cursor_down(&self, _: usize) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn move_cursor_right(&self, _: usize) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn move_cursor_left(&self, _: usize) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn write_line(&self, text: &str) -> io::Result<()> {
+        self.write_str(text)
+    }
+
+    fn write_str(&self, text: &str) -> io::Result<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).text.push_str(text);
+        Ok(())
+    }
+
+    fn clear_line(&self) -> io::Result<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).text.clear();
+        Ok(())
+    }
+
+    fn flush(&self) -> io::Result<()> {
+        let mut written = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = std::mem::take(&mut written.text).trim().to_owned();
+        let is_due =
+            written.last.as_ref().is_none_or(|(last, at)| *last != text && at.elapsed() >= PAUSE);
+        if text.is_empty() || !is_due {
+            return Ok(());
+        }
+        written.last = Some((text.clone(), Instant::now()));
+        writeln!(io::stderr(), "{text}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_short_words() {
+        let words = [0, 59, 60, 61, 3599, 3600, 43_260].map(|s| in_words(Duration::from_secs(s)));
+        assert_eq!(words, ["0 s", "59 s", "1 min", "2 min", "60 min", "1 h 0 min", "12 h 1 min"]);
+    }
+
+    #[test]
+    fn a_log_gets_a_line_now_and_then_and_none_twice() {
+        let lines = Lines::default();
+        let shown = |text: &str| {
+            lines.clear_line().unwrap();
+            lines.write_str(text).unwrap();
+            lines.flush().unwrap();
+            lines.0.lock().unwrap().last.as_ref().map(|(last, _)| last.clone())
+        };
+        assert_eq!(shown(""), None);
+        assert_eq!(shown("1 of 9"), Some(String::from("1 of 9")));
+        // Too soon after it.
+        assert_eq!(shown("2 of 9"), Some(String::from("1 of 9")));
+    }
+}

@@ -1,0 +1,110 @@
+//! The built program's command line: what is refused says what was meant, and the shell is helped.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn mufasa(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    command.args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn output(arguments: &[&str]) -> Output {
+    mufasa(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("the program writes UTF-8")
+}
+
+/// An empty folder for one test.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command_line").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("the folder can be written");
+    folder
+}
+
+#[test]
+fn numbers_that_are_refused_say_their_limits() {
+    for (arguments, limits) in [
+        (
+            &["check", "x", "--horizon", "-1"][..],
+            "'-1' for '--horizon <S>': must be a number from 0.1 to 60",
+        ),
+        (&["check", "x", "--sensor-range", "-5"], "must be a number from 0 to 10000"),
+        (&["check", "x", "--track-age", "-3"], "must be a whole number from 0 to 1000"),
+        (&["check", "x", "--grid-width", "1.5"], "must be a whole number from 1 to 4096"),
+        (&["conform", "--cases", "abc", "--", "x"], "must be a whole number from 0 to "),
+        (&["conform", "--seed", "-7", "--", "x"], "must be a whole number from 0 to "),
+        (&["conform", "--time-limit", "0", "--", "x"], "must be a whole number from 1 to 3600000"),
+        (&["explore", "--threads", "many"], "must be a whole number from 0 to 1024"),
+    ] {
+        let output = output(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let message = text(&output.stderr);
+        assert!(message.contains(limits), "{arguments:?}: {message}");
+    }
+}
+
+#[test]
+fn a_misspelled_parameter_gets_the_near_one() {
+    let file = folder("parameters").join("p.toml");
+    fs::write(&file, "theta_tr = 0.2\ntheta_tracks_max = 2.0\n").expect("it can be written");
+    let output = output(&["check", "x", "--parameters", file.to_str().expect("a plain name")]);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        message.contains(":2: theta_tracks_max: is no parameter; is theta_track_max meant?"),
+        "{message}"
+    );
+}
+
+#[test]
+fn shells_complete_and_man_has_a_page_for_every_command() {
+    for (shell, word) in [
+        ("bash", "complete -F _mufasa"),
+        ("zsh", "#compdef mufasa"),
+        ("fish", "complete -c mufasa"),
+    ] {
+        let output = output(&["completions", shell]);
+        assert_eq!(output.status.code(), Some(0), "{shell}");
+        assert!(text(&output.stdout).contains(word), "{shell}");
+    }
+    let folder = folder("man");
+    let output = output(&["man", "--out", folder.to_str().expect("a plain name")]);
+    assert_eq!(output.status.code(), Some(0));
+    for command in ["", "-check", "-conform", "-prove", "-oracle", "-vectors", "-explore"] {
+        let page = fs::read_to_string(folder.join(format!("mufasa{command}.1")));
+        assert!(page.expect("there is a page").contains(".SH DESCRIPTION"), "{command}");
+    }
+}
+
+#[test]
+fn without_a_command_it_says_first_where_it_writes() {
+    let folder = folder("bare");
+    let none: [&str; 0] = [];
+    let mut demo = mufasa(none)
+        .current_dir(&folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    let mut first = String::new();
+    let stderr = demo.stderr.take().expect("it is piped");
+    let read = BufReader::new(stderr).read_line(&mut first);
+    demo.kill().expect("it can be ended");
+    demo.wait().expect("it ends");
+    read.expect("there is a line");
+    assert_eq!(first.trim_end(), "mufasa: no command, so the demo, which writes into mufasa-demo/");
+}
+
+#[test]
+fn quiet_and_verbose_exclude_each_other() {
+    let output = output(&["check", "-q", "-v", "x"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("cannot be used with"));
+}
