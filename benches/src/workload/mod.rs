@@ -154,8 +154,10 @@ impl Workload {
         workload
     }
 
-    /// Leaves out clutter until the base case passes H-13 in the hardened profile: among so many things
-    /// there is at times an earlier one, with support, from which it would come into the way.
+    /// Changes what is seen until the base case passes H-13 in the hardened profile: among so many
+    /// things there is at times an earlier one, with support, from which another would come into the
+    /// way. Clutter that would is left out; from where something else would, nothing was seen in that
+    /// scan.
     fn clear_the_way(&mut self) {
         loop {
             let cycle = self.cycle(Profile::Hardened, Configuration::MotRemote);
@@ -166,15 +168,24 @@ impl Workload {
             let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
             let stages = report.expect("the workloads are valid input").stages;
             let found = stages.into_iter().find_map(|outcome| match outcome {
-                Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving => {
-                    shown.get(witness.detection?)
-                }
+                Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving => Some(witness),
                 _ => None,
             });
-            let clutter = found.filter(|detection| detection.length < CLUTTER).copied();
-            let index = self.detections.iter().position(|it| Some(*it) == clutter);
-            let Some(index) = index else { return };
-            self.left_out.push(index);
+            let Some(witness) = found else { return };
+            let age_of = |list: &DetectionList<'_>| Some(NOW_NS - list.stamp_ns) == witness.age_ns;
+            let list = cycle.detection_history.iter().position(age_of);
+            let detection = witness.detection.and_then(|it| shown.get(it)).copied();
+            let clutter = detection.filter(|detection| detection.length < CLUTTER);
+            match (clutter, list, witness.item) {
+                (Some(clutter), _, _) => {
+                    let index = self.detections.iter().position(|it| *it == clutter);
+                    self.left_out.extend(index);
+                }
+                (None, Some(list), Some(item)) => {
+                    self.history[list].remove(item);
+                }
+                (None, _, _) => return,
+            }
         }
     }
 

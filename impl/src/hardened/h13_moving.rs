@@ -64,7 +64,13 @@ impl MovingDetections<'_, '_> {
             lists,
             motion: &motion,
             pursuit: &motion.pursuit(),
-            disputes: Disputes::new(detections, self.history.index, self.tracks, explained),
+            disputes: Disputes::new(
+                detections,
+                self.history.index,
+                self.tracks,
+                explained,
+                scratch,
+            ),
             first: None,
         };
         search.all(scratch);
@@ -246,8 +252,10 @@ impl Search<'_, '_, '_> {
         track: Option<usize>,
         scratch: &mut Scratch<'_>,
     ) {
-        if track.is_some() && !self.disputes.are_possible() {
-            return;
+        if let Some(track) = track {
+            if !self.disputes.may_be_disputed(track, &self.lists, scratch) {
+                return;
+            }
         }
         let reference = self.reference;
         let Some(list) = self.lists.usable(reference) else { return };

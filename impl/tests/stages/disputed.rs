@@ -24,6 +24,11 @@ fn taken() -> Scene {
     scene
 }
 
+/// Things that no track explains.
+fn others_far_away(count: u8) -> impl Iterator<Item = Detection> {
+    (0..count).map(|i| detection(400.0 + 5.0 * f64::from(i), 300.0))
+}
+
 fn far() -> Detection {
     detection(3.0, 50.1)
 }
@@ -64,13 +69,17 @@ fn where_all_is_explained_nothing_is_disputed() {
     scene.detections.as_mut().expect("detections").truncate(2);
     assert!(!collides(&scene), "it is not seen any more");
     // Nor does what is too far, which is 32 m.
-    for (away, met) in [(35.0 - 1e-6, true), (35.0 + 1e-6, false)] {
+    for ((away, met), others) in
+        [(35.0 - 1e-6, true), (35.0 + 1e-6, false)].into_iter().flat_map(|it| [(it, 0), (it, 9)])
+    {
         let mut scene = taken();
-        scene.detections.as_mut().expect("detections")[2] = parked(away);
+        let detections = scene.detections.as_mut().expect("detections");
+        detections[2] = parked(away);
+        detections.splice(0..0, others_far_away(others));
         for (age_ns, items) in &mut scene.history {
             items.push(parked(away - 70.0 * *age_ns as f64 * 1e-9));
         }
-        assert_eq!(collides(&scene), met, "{away}");
+        assert_eq!(collides(&scene), met, "{away} {others}");
     }
 }
 
@@ -83,6 +92,8 @@ fn an_explained_detection_does_not_dispute_another() {
     assert!(collides(&scene));
     scene.tracks.as_mut().expect("tracks").push(track(3, PARKED[0] + 0.8, PARKED[1]));
     assert!(!collides(&scene));
+    scene.detections.as_mut().expect("detections").extend(others_far_away(9));
+    assert!(!collides(&scene), "nor where many are unexplained");
 }
 
 /// With the parked car in the list its place in the past is nobody's own.
