@@ -110,17 +110,28 @@ class Seen:
         return self.compare(across, self.parameters["theta_velocity"] + speed(track) / 10)
 
     def seen_as(self, i):
-        """(a) of H-13: the list of the history that says best how a confirmed track moved."""
+        """The list of a confirmed track: that which says best how it moved."""
         return nearest_to_half_a_second(
             [one for one, own in zip(self.lists, self.own) if own[i] is not None])
 
-    def supported(self, detection, w):
-        """(b) of H-13: whether another usable list has an item where d with velocity w was."""
-        others = [one for one in self.lists if one is not self.reference]
+    def may_come_from(self, detection, item, one):
+        """Whether a detection may come from an item of a usable list: no faster than v_object, and when
+        there are other lists, one of them has an item where it then was."""
+        if distance(item, detection) > self.parameters["v_object"] * one["dt"] + EPS:
+            return False
+        others = [other for other in self.lists if other is not one]
         bound = self.parameters["theta_track_max"] + EPS
+        w = velocity(item, detection, one)
         moving = {**detection, "vx": w[0], "vy": w[1]}
-        return not others or any(gap(item, moving, -one["dt"]) <= bound
-                                 for one in others for item in one["items"])
+        return not others or any(gap(item, moving, -other["dt"]) <= bound
+                                 for other in others for item in other["items"])
+
+    def is_disputed(self, i, unexplained):
+        """Whether an unexplained detection may come from the origin of a confirmed track in its list."""
+        one = self.seen_as(i)
+        own = self.own[next(k for k, other in enumerate(self.lists) if other is one)][i]
+        return any(self.may_come_from(self.detections[d], one["items"][own], one)
+                   for d in unexplained)
 
     def moving(self):
         """The motions to be examined: each a detection and its velocity (H-13)."""
@@ -131,22 +142,17 @@ class Seen:
                     yield detection, velocity(item, detection, one)
         if bugs.ON == "only-explained" or self.reference is None:
             return
-        for i, detection in enumerate(self.detections):
-            if i in self.explained:
-                continue
+        unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
+        disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
+        for detection in (self.detections[d] for d in unexplained + disputed):
             for item in self.reference["items"]:
-                w = velocity(item, detection, self.reference)
-                way = distance(item, detection)
-                if way <= self.parameters["v_object"] * self.reference["dt"] + EPS and (
-                        self.supported(detection, w)):
-                    yield detection, w
+                if self.may_come_from(detection, item, self.reference):
+                    yield detection, velocity(item, detection, self.reference)
 
     def work(self, points):
         """What H-13 costs, in steps."""
-        if self.reference is None:
-            return 0
-        items = sum(len(one["items"]) for one in self.lists) - len(self.reference["items"])
-        return len(self.detections) * len(self.reference["items"]) * (items + points)
+        items = [len(one["items"]) for one in self.lists]
+        return len(self.detections) * max(items, default=0) * (sum(items) + points)
 
 
 def velocity(item, detection, one):
