@@ -16,13 +16,14 @@ use mufasa_model::input::cycle::Profile;
 use self::arguments::{
     CheckArguments, CompletionsArguments, ComposeArguments, ConformArguments, DemoArguments,
     ExploreArguments, ManArguments, MergeCommand, OracleArguments, ProveArguments,
-    VectorsArguments,
+    SchemasArguments, VectorsArguments,
 };
 use crate::compose;
 use crate::demo;
 use crate::explore;
 use crate::parameters_file;
 use crate::prove;
+use crate::schemas;
 use mufasa_conform as conform;
 use mufasa_conform::reference as oracle;
 use mufasa_conform::vectors;
@@ -75,6 +76,8 @@ enum Command {
     Completions(CompletionsArguments),
     /// Write the manual pages.
     Man(ManArguments),
+    /// Write the JSON Schemas of all that is read and written as JSON.
+    Schemas(SchemasArguments),
 }
 
 /// Runs the program with the arguments of the process.
@@ -116,6 +119,7 @@ pub fn main() -> ExitCode {
             Ok(0)
         }
         Command::Man(ManArguments { out: folder }) => man(&folder, &mut out),
+        Command::Schemas(SchemasArguments { out: folder }) => schemas(&folder, &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -292,6 +296,13 @@ fn man(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
     }
     writeln!(out, "{}: the manual pages; read one by man -l", folder.display())?;
     Ok(0)
+}
+
+fn schemas(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
+    match schemas::write(folder) {
+        Ok(count) => writeln!(out, "{}: {count} schemas", folder.display()).map(|()| 0),
+        Err(error) => Ok(refused(&format!("{}: cannot be written: {error}", folder.display()))),
+    }
 }
 
 /// The commands; a number below 0 is a value and no option, so that its limits are said.

@@ -7,3 +7,4 @@ pub mod document;
 pub mod explore;
 pub mod parameters_file;
 pub mod prove;
+pub mod schemas;

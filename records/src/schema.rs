@@ -36,6 +36,11 @@ pub fn text(schema: &Value) -> String {
     format!("{:#}\n", sorted(schema))
 }
 
+/// The schema of what a type writes.
+pub fn written<T: JsonSchema>() -> Value {
+    of::<T>(Contract::Serialize)
+}
+
 fn of<T: JsonSchema>(contract: Contract) -> Value {
     let mut schema = generator(contract).into_root_schema_for::<T>();
     closed().transform(&mut schema);

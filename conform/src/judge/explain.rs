@@ -5,6 +5,7 @@ use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report};
 use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, name};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -29,7 +30,7 @@ const MOST: usize = 600;
 type Answered = Result<Vec<u8>, Broken>;
 
 /// What is told of a disagreement.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Told {
     /// What came back.
     pub answered: String,
@@ -40,7 +41,7 @@ pub struct Told {
 }
 
 /// The two numbers that decide, as the model compares them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Numbers {
     /// The comparison in words.
     pub what: String,

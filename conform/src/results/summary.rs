@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
@@ -12,7 +13,7 @@ use crate::judge::class::{Class, Kind};
 use crate::judge::explain::Told;
 
 /// The result of a campaign, or of some of its shards.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
     /// What was done; equal in all shards.
@@ -40,7 +41,7 @@ pub struct Summary {
 }
 
 /// What makes shards parts of one campaign.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Campaign {
     /// The program under test and its arguments.
@@ -64,7 +65,7 @@ pub struct Campaign {
 }
 
 /// Cases that have something in common.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseCount {
     /// Kind of the records.
@@ -82,7 +83,7 @@ pub struct CaseCount {
 }
 
 /// A class of disagreements with its smallest case.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Found {
     /// The class.
@@ -107,6 +108,7 @@ pub struct Found {
     /// What `size` counts.
     pub unit: String,
     /// The shrunk record; a line that is no JSON as a string.
+    #[schemars(with = "serde_json::Value")]
     pub record: Box<RawValue>,
 }
 

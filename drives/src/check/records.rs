@@ -2,7 +2,9 @@
 
 use mufasa_model::report::{InvalidInput, Report, Stage};
 use mufasa_props::conformance::Answer;
+use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::Value;
 
 use super::checked::Checked;
 use super::fallback::{Hold, RequesterRun};
@@ -10,12 +12,13 @@ use super::judge::Judged;
 use super::tally::Tally;
 use super::{Findings, words};
 use mufasa_records::answer::CycleAnswer;
-use mufasa_records::names;
+use mufasa_records::{names, schema};
 
 /// A cycle of a drive.
-#[derive(Serialize)]
-#[serde(tag = "kind", rename = "checked_cycle")]
+#[derive(Serialize, JsonSchema)]
 struct CycleRecord<'a> {
+    #[schemars(extend("const" = "checked_cycle"))]
+    kind: &'static str,
     drive: &'a str,
     seconds: f64,
     answer: ModelAnswer,
@@ -24,14 +27,14 @@ struct CycleRecord<'a> {
 }
 
 /// The oracle's answer, or invalid local input.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 #[serde(untagged)]
 enum ModelAnswer {
     Report(Box<CycleAnswer>),
     Error(ErrorAnswer),
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ErrorAnswer {
     id: String,
     verdict: &'static str,
@@ -39,23 +42,24 @@ struct ErrorAnswer {
     error: Problem,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Problem {
     field: String,
     index: Option<usize>,
     message: String,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ImplementationAnswer {
     verdict: &'static str,
     failed_stage: Option<&'static str>,
 }
 
 /// A drive.
-#[derive(Serialize)]
-#[serde(tag = "kind", rename = "checked_drive")]
+#[derive(Serialize, JsonSchema)]
 struct DriveRecord<'a> {
+    #[schemars(extend("const" = "checked_drive"))]
+    kind: &'static str,
     drive: &'a str,
     source: &'a str,
     setting: String,
@@ -66,7 +70,7 @@ struct DriveRecord<'a> {
     protocol: Option<&'a str>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct SideRecord {
     cycles: usize,
     safe: usize,
@@ -81,7 +85,7 @@ struct SideRecord {
     fallbacks: Vec<FallbackRecord>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct StageRecord {
     stage: &'static str,
     passed: usize,
@@ -91,7 +95,7 @@ struct StageRecord {
     not_scheduled: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct FallbackRecord {
     id: String,
     seconds: f64,
@@ -101,9 +105,10 @@ struct FallbackRecord {
 }
 
 /// The last record of a run.
-#[derive(Serialize)]
-#[serde(tag = "kind", rename = "checked")]
+#[derive(Serialize, JsonSchema)]
 struct LastRecord {
+    #[schemars(extend("const" = "checked"))]
+    kind: &'static str,
     drives: usize,
     unreadable: usize,
     cycles: usize,
@@ -114,11 +119,21 @@ struct LastRecord {
     lost: usize,
 }
 
+/// The schemas of these records by the stem of their file's name.
+pub fn schemas() -> [(&'static str, Value); 3] {
+    [
+        ("checked-cycle", schema::written::<CycleRecord<'_>>()),
+        ("checked-drive", schema::written::<DriveRecord<'_>>()),
+        ("checked", schema::written::<LastRecord>()),
+    ]
+}
+
 /// The records of a drive, each on a line: its cycles, then the drive.
 pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
     let mut lines = Vec::new();
     for (index, (judged, cycle)) in checked.judged.iter().zip(&checked.drive.cycles).enumerate() {
         lines.push(serde_json::to_string(&CycleRecord {
+            kind: "checked_cycle",
             drive: &checked.drive.name,
             seconds: checked.seconds(index),
             answer: model_answer(&cycle.id, judged),
@@ -129,6 +144,7 @@ pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
     let [model, implementation] = checked.tallies();
     let [model_course, implementation_course] = &checked.requesters;
     lines.push(serde_json::to_string(&DriveRecord {
+        kind: "checked_drive",
         drive: &checked.drive.name,
         source: &checked.drive.source,
         setting: checked.setting(),
@@ -146,6 +162,7 @@ pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
 /// The record at the end of a run.
 pub fn last(findings: &Findings) -> serde_json::Result<String> {
     serde_json::to_string(&LastRecord {
+        kind: "checked",
         drives: findings.drives,
         unreadable: findings.unreadable,
         cycles: findings.tally.cycles,

@@ -268,6 +268,14 @@ pub(super) struct ManArguments {
     pub(super) out: PathBuf,
 }
 
+/// Exit codes: 0 written, 2 the folder cannot be written.
+#[derive(Args)]
+pub(super) struct SchemasArguments {
+    /// Folder of the schemas.
+    #[arg(long, value_name = "DIR", default_value = "schemas")]
+    pub(super) out: PathBuf,
+}
+
 impl CheckArguments {
     /// How recordings become drives, with the parameters of the stages at their defaults.
     pub(super) fn options(&self) -> Options {

@@ -6,13 +6,14 @@ use mufasa_exploration::bounds::Bounds;
 use mufasa_exploration::properties::Property;
 use mufasa_exploration::run::WorldOutcome;
 use mufasa_model::input::cycle::Profile;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::evidence;
 use mufasa_records::names;
 
 /// What was explored in one profile, and what it showed.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct ExplorationReport {
     /// The profile.
     pub profile: &'static str,
@@ -25,7 +26,7 @@ pub struct ExplorationReport {
 }
 
 /// A world with its sizes.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct WorldRow {
     /// Its name.
     pub name: &'static str,
@@ -52,7 +53,7 @@ pub struct WorldRow {
 }
 
 /// A property with its verdict.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PropertyRow {
     /// Its sentence.
     pub name: String,

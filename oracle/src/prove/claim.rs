@@ -1,9 +1,10 @@
 //! One claim with what the engines say of it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What an engine says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Status {
     /// True of the whole domain.
     #[serde(rename = "proved")]
@@ -52,7 +53,7 @@ impl Status {
 }
 
 /// What one engine says of a claim.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct EngineAnswer {
     /// The engine.
     pub engine: &'static str,
@@ -83,7 +84,7 @@ impl EngineAnswer {
 }
 
 /// One claim.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Claim {
     /// Its name, a sentence.
     pub id: String,

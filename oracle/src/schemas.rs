@@ -1,0 +1,33 @@
+//! The JSON Schemas of all that the program reads and writes as JSON.
+
+use std::io;
+use std::path::Path;
+
+use mufasa_conform::Summary;
+use mufasa_drives::check;
+use mufasa_records::{files, schema};
+use serde_json::Value;
+
+use crate::explore::report::ExplorationReport;
+use crate::prove::claim::Claim;
+
+/// The schemas by the stem of their file's name: those of records and answers, of a line of `check
+/// --json`, of the summary of `conform`, of a line of `prove` and of what `explore` writes.
+pub fn all() -> Vec<(&'static str, Value)> {
+    let mut schemas = schema::all();
+    schemas.extend(check::records::schemas());
+    schemas.push(("conform-summary", schema::written::<Summary>()));
+    schemas.push(("claim", schema::written::<Claim>()));
+    schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
+    schemas
+}
+
+/// Writes each into a file of the folder; how many. Errors: those of writing.
+pub fn write(folder: &Path) -> io::Result<usize> {
+    files::prepare(folder)?;
+    let schemas = all();
+    for (name, schema) in &schemas {
+        files::write(&folder.join(format!("{name}.schema.json")), &schema::text(schema))?;
+    }
+    Ok(schemas.len())
+}

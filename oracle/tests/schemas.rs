@@ -1,0 +1,124 @@
+//! What the program writes as JSON is what its schemas say.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use jsonschema::Validator;
+use mufasa_oracle::schemas;
+use serde_json::Value;
+
+/// The validators by name.
+fn validators() -> BTreeMap<&'static str, Validator> {
+    let build = |schema| jsonschema::validator_for(&schema).expect("a valid schema");
+    schemas::all().into_iter().map(|(name, schema)| (name, build(schema))).collect()
+}
+
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("schemas").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("the folder can be written");
+    folder
+}
+
+/// What the program wrote, whatever its exit code.
+fn run(folder: &Path, arguments: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let output = command.args(arguments).current_dir(folder).stdin(Stdio::null()).output();
+    String::from_utf8(output.expect("the program starts").stdout).expect("it writes UTF-8")
+}
+
+fn assert_valid(validator: &Validator, value: &Value) {
+    let problems: Vec<_> = validator.iter_errors(value).map(|it| it.to_string()).collect();
+    assert!(problems.is_empty(), "{problems:?}\n{value}");
+    // And a field more is none.
+    let mut more = value.clone();
+    if let Some(fields) = more.as_object_mut() {
+        fields.insert(String::from("surplus"), Value::Null);
+        assert!(!validator.is_valid(&more), "{more}");
+    }
+}
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+/// The first cycles of a vector's file, as drives of records.
+fn some_cycles(folder: &Path) {
+    let vectors = Path::new(env!("CARGO_MANIFEST_DIR")).join("../vectors/findings/F-30.jsonl");
+    let text = fs::read_to_string(vectors).expect("the vectors are there");
+    let inputs = text.lines().map(|line| parsed(line)["input"].to_string());
+    let mut lines: Vec<_> = inputs.collect();
+    let mut invalid = parsed(&lines[0]);
+    invalid["id"] = "invalid".into();
+    invalid["ego"]["x"] = "nan".into();
+    lines.push(invalid.to_string());
+    fs::write(folder.join("cycles.jsonl"), lines.join("\n")).expect("it can be written");
+}
+
+#[test]
+fn lines_of_check_are_what_their_schemas_say() {
+    let (validators, folder) = (validators(), folder("check"));
+    some_cycles(&folder);
+    let text = run(&folder, &["check", "--json", "cycles.jsonl"]);
+    let mut counts = BTreeMap::new();
+    for line in text.lines() {
+        let value = parsed(line);
+        let kind = value["kind"].as_str().expect("a kind").replace('_', "-");
+        let verdict = value["answer"]["verdict"].as_str().unwrap_or("").to_owned();
+        assert_valid(&validators[kind.as_str()], &value);
+        *counts.entry((kind, verdict)).or_insert(0) += 1;
+    }
+    let seen: Vec<_> = counts.keys().map(|(kind, verdict)| format!("{kind} {verdict}")).collect();
+    let expected = ["checked ", "checked-cycle error", "checked-cycle unsafe", "checked-drive "];
+    for expected in expected {
+        assert!(seen.iter().any(|it| it == expected), "{expected}: {seen:?}");
+    }
+}
+
+#[test]
+fn the_summary_of_conform_is_what_its_schema_says() {
+    let (validators, folder) = (validators(), folder("conform"));
+    // Finds everything safe, so that there are classes.
+    let program = r#"while read -r l; do i=${l#*'"id": "'}; echo "{\"id\": \"${i%%'"'*}\", \"verdict\": \"safe\", \"failed_stage\": null}"; done"#;
+    let count = ["conform", "--cases", "60", "--kinds", "cycle", "--", "sh", "-c", program];
+    run(&folder, &count);
+    let text = fs::read_to_string(folder.join("mufasa-conform/summary.json"));
+    let summary = parsed(&text.expect("there is a summary"));
+    assert!(summary["classes"].as_array().is_some_and(|it| !it.is_empty()), "{summary}");
+    assert_valid(&validators["conform-summary"], &summary);
+}
+
+#[test]
+fn claims_are_what_their_schema_says() {
+    let (validators, folder) = (validators(), folder("prove"));
+    run(&folder, &["prove", "law", "--out", "prove.json"]);
+    run(&folder, &["prove", "s_b_grows_with_v", "--out", "z3.json"]);
+    let mut lines = 0;
+    for file in ["prove.json", "z3.json"] {
+        for line in fs::read_to_string(folder.join(file)).unwrap_or_default().lines() {
+            assert_valid(&validators["claim"], &parsed(line));
+            lines += 1;
+        }
+    }
+    assert!(lines > 0);
+}
+
+#[test]
+fn an_exploration_is_what_its_schema_says() {
+    let (validators, folder) = (validators(), folder("explore"));
+    run(&folder, &["explore", "--profile", "hardened", "--world", "honest", "--threads", "0"]);
+    let text = fs::read_to_string(folder.join("exploration/exploration.json"));
+    assert_valid(&validators["exploration"], &parsed(&text.expect("it was written")));
+}
+
+#[test]
+fn every_schema_gets_a_file() {
+    let folder = folder("files");
+    run(&folder, &["schemas", "--out", "all"]);
+    for (name, _) in schemas::all() {
+        let text = fs::read_to_string(folder.join("all").join(format!("{name}.schema.json")));
+        assert!(parsed(&text.expect("a file")).get("$schema").is_some(), "{name}");
+    }
+}
