@@ -5,7 +5,7 @@
 //! configuration, group, type of an event) are checked, so any bit pattern may come in. Pointers
 //! are checked for null and alignment; that they point to what they say, the caller warrants.
 //!
-//! No panic crosses the border: nothing here panics, and an `extern "C"` function that did would
+//! No panic crosses the border: lints forbid what panics, and an `extern "C"` function that did would
 //! end the process instead of unwinding into C.
 #![cfg_attr(
     not(test),

@@ -1,4 +1,5 @@
-//! MUFASA's five validation stages as specified in `spec/`: no heap, no panic, no clock.
+//! MUFASA's five validation stages as specified in `spec/`: no heap, no clock, and no
+//! panics, which lints forbid and tests look for; of few parts it is proved (`proofs/HARNESSES.md`).
 //!
 //! Numbers are IEEE 754 doubles with bounds on their errors, so that rounding does not accept what
 //! the exact model rejects (`spec/4-arithmetic.md#conformance-of-an-implementation`). The bounds
