@@ -3,6 +3,7 @@
 
 mod commonroad;
 mod content;
+mod corridor;
 pub mod error;
 mod formats;
 mod lanes;
@@ -14,6 +15,8 @@ pub mod route;
 mod scenario;
 mod solution;
 mod source;
+mod strip;
+mod surface;
 mod vehicle;
 mod xml;
 mod xml_limits;
