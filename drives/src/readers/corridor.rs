@@ -110,15 +110,16 @@ pub(crate) fn on_surface(
             sections.insert(i + 1, new);
             continue;
         }
-        for side in (0..2).filter(|side| !covered[*side]) {
-            let mut narrow = |side: usize| {
-                let changed = [i, i + 1].map(|k| sections[k].narrow(side));
-                changed != [false; 2]
-            };
-            // With no width on one side there is none to take, and it is the other that is off.
-            if !narrow(side) && !narrow(1 - side) {
-                return Vec::new();
-            }
+        let mut narrow = |side: usize| {
+            let changed = [i, i + 1].map(|k| sections[k].narrow(side));
+            changed != [false; 2]
+        };
+        let [off, on]: [Vec<usize>; 2] =
+            [false, true].map(|on| (0..2).filter(|side| covered[*side] == on).collect());
+        // Where a side has no width left to take, it is the other one that is off.
+        let changed = off.into_iter().filter(|side| narrow(*side)).count();
+        if changed == 0 && !on.into_iter().chain(0..2).any(narrow) {
+            return Vec::new();
         }
         // The triangles before are others now.
         i = i.saturating_sub(1);

@@ -10,7 +10,7 @@ use crate::geometry::{Point, mix};
 use crate::readers::corridor::{SECTIONS_MAX, Section, on_road, on_surface};
 use crate::readers::lanes::{Change, Network, Run};
 use crate::readers::strip::{Leg, Strip, legs};
-use crate::readers::surface::Surface;
+use crate::readers::surface::{GAP, Surface};
 
 /// Distance between cross sections, m; more where there would be too many.
 const SPACING: f64 = 2.0;
@@ -29,8 +29,6 @@ const CHANGE_MARGIN: f64 = 10.0;
 const TOGETHER_MIN: f64 = 1.0;
 /// Way to lose the width of the corridor in, or to gain it, where two legs do not connect, m.
 const CLOSING: f64 = 0.1;
-/// Width of gaps between lanelets that are none, m: bounds that are shared are not always the same.
-const GAP: f64 = 1e-3;
 
 /// The route along the runs of a drive with these positions and speeds; `None` when no two
 /// different cross sections come of it.

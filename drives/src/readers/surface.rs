@@ -1,11 +1,14 @@
 //! The surface of the road: the union of lanelets, and what of the plane it covers.
 
-use crate::geometry::{Point, add, cross, distance, dot, inside, mix, norm, scale, sub};
+use crate::geometry::{Point, add, cross, distance, dot, foot, inside, mix, norm, scale, sub};
 use crate::readers::lanes::{Lanelet, Network};
 
 /// What reaches less than this beyond the road is on it, m: bounds that lanelets share are not
 /// always the same to the last digit.
 const SKIN: f64 = 1e-3;
+/// What is between two lanelets that are not farther apart than this is road, m: bounds that they
+/// share are drawn twice, and not always alike.
+pub(crate) const GAP: f64 = 0.05;
 
 /// The polygon between the bounds of a lanelet, and the box around it.
 #[derive(Clone, Debug)]
@@ -33,6 +36,15 @@ impl Outline {
 
     fn contains(&self, p: Point) -> bool {
         self.meets(p, p) && inside(p, &self.points)
+    }
+
+    /// The way from a point outside to the nearest point of the outline, if it is at most [`GAP`].
+    fn way_from(&self, p: Point) -> Option<Point> {
+        if !self.meets(p.map(|x| x - GAP), p.map(|x| x + GAP)) {
+            return None;
+        }
+        let ways = self.edges().map(|[a, b]| sub(foot(p, a, b).1, p));
+        ways.min_by(|a, b| norm(*a).total_cmp(&norm(*b))).filter(|way| norm(*way) <= GAP)
     }
 
     /// The intervals of `t` for which `p + t u` is inside, `u` of length 1, up to `far` either way.
@@ -83,7 +95,9 @@ impl Surface {
         let incenter = scale(weighted, 1.0 / around_it);
         let triangle = [a, b, c].map(|p| mix(incenter, p, 1.0 - SKIN / inradius));
         let (low, high) = around(&[a, b, c]);
-        let near: Vec<&Outline> = self.outlines.iter().filter(|o| o.meets(low, high)).collect();
+        let wide = [low.map(|x| x - GAP), high.map(|x| x + GAP)];
+        let near: Vec<&Outline> =
+            self.outlines.iter().filter(|o| o.meets(wide[0], wide[1])).collect();
         let [a, b, c] = triangle;
         [[a, b], [b, c], [c, a]].into_iter().all(|side| covers_segment(&near, side))
             && near
@@ -123,6 +137,16 @@ fn clip([a, b, c]: [Point; 3], [p, q]: [Point; 2]) -> Option<[f64; 2]> {
     (from < to).then_some([from, to])
 }
 
+/// Whether a point is inside an outline, or in a gap between two.
+fn covers_point(near: &[&Outline], p: Point) -> bool {
+    if near.iter().any(|outline| outline.contains(p)) {
+        return true;
+    }
+    let ways: Vec<Point> = near.iter().filter_map(|outline| outline.way_from(p)).collect();
+    let opposite = |a: &Point, b: &Point| dot(*a, *b) <= 0.0 && norm(*a) + norm(*b) <= GAP;
+    ways.iter().enumerate().any(|(i, a)| ways[..i].iter().any(|b| opposite(a, b)))
+}
+
 /// Whether every part of a segment, cut where it crosses an outline, is inside one of them.
 fn covers_segment(near: &[&Outline], [a, b]: [Point; 2]) -> bool {
     let way = sub(b, a);
@@ -137,10 +161,9 @@ fn covers_segment(near: &[&Outline], [a, b]: [Point; 2]) -> bool {
     }
     cuts.sort_by(f64::total_cmp);
     let least = 1e-6 / norm(way).max(1e-6);
-    cuts.windows(2).filter(|w| w[1] - w[0] > least).all(|w| {
-        let middle = mix(a, b, f64::midpoint(w[0], w[1]));
-        near.iter().any(|outline| outline.contains(middle))
-    })
+    cuts.windows(2)
+        .filter(|w| w[1] - w[0] > least)
+        .all(|w| covers_point(near, mix(a, b, f64::midpoint(w[0], w[1]))))
 }
 
 fn around(points: &[Point]) -> (Point, Point) {
