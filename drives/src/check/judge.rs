@@ -11,7 +11,8 @@ use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
 
-use crate::drive::{Drive, DriveCycle};
+use super::step::Step;
+use crate::drive::{DriveCycle, Stream};
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,14 +68,16 @@ pub fn compare(
     }
 }
 
-/// Judges the cycles of a drive in their order. `done` is called after each.
-pub fn judge_drive(drive: &Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
-    let each = |DriveCycle { cycle, .. }: &DriveCycle| {
-        let judged = Judged::new(cycle, readings);
+/// Judges the cycles of a drive in their order, each made when it is judged and dropped after;
+/// `done` is called after each.
+pub fn judge_drive(drive: &Stream, readings: bool, done: impl Fn()) -> Vec<(Step, Judged)> {
+    let each = |cycle: DriveCycle| {
+        let judged = Judged::new(&cycle.cycle, readings);
+        let step = Step::from(cycle);
         done();
-        judged
+        (step, judged)
     };
-    drive.cycles.iter().map(each).collect()
+    drive.cycles().map(each).collect()
 }
 
 /// Runs `job` for every index below `count` on all processors and hands the results to `take` in

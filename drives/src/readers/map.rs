@@ -9,7 +9,7 @@ use std::path::Path;
 
 use mufasa_model::input::cycle::{CrossSection, Cycle, Route};
 
-use crate::drive::Drive;
+use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, Polyline, add, distance, mix, mix_angle, norm, scale, sub, wrap};
 use crate::options::{Options, Sensor};
 use crate::readers::error::ReadError;
@@ -45,7 +45,7 @@ const WINDOW: [f64; 2] = [50.0, 250.0];
 const BEGIN: f64 = 1.0;
 
 /// The drive along a map.
-pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Drive, ReadError> {
+pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Stream, ReadError> {
     let mut notes = Vec::new();
     let rows = checked(file, npy::table::<6>(file, bytes)?)?;
     let (points, closed) = cross_sections(file, &rows, &mut notes)?;
@@ -73,17 +73,24 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     // Clutter would be all there is to see.
     let sensor = Sensor { clutter: 0.0, ..options.sensor.clone() };
     let mut drive = recording::drive(recording, &Options { sensor, ..options.clone() }, every);
-    if drive.cycles.is_empty() {
+    if drive.count() == 0 {
         return Err(ReadError::no_cycle(file));
     }
+    let count = drive.count();
     if !closed {
         let [behind, ahead] = WINDOW;
         drive.notes.push(format!(
             "the route of each cycle is the part from {behind} m behind to {ahead} m ahead"
         ));
-        for cycle in &mut drive.cycles {
-            window(&mut cycle.cycle);
-        }
+        let Stream { name, source, lead_range_m, notes, .. } = drive.clone();
+        let make = move |index| {
+            let DriveCycle { id, mut cycle } = drive.cycle(index);
+            window(&mut cycle);
+            DriveCycle { id, cycle }
+        };
+        let mut cut = Stream::new(name, source, count, make);
+        (cut.lead_range_m, cut.notes) = (lead_range_m, notes);
+        return Ok(cut);
     }
     Ok(drive)
 }
