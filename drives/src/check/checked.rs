@@ -1,6 +1,7 @@
 //! A drive with all that was found on it.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use mufasa_model::offloading::requester::{Parameters, Requester};
 use mufasa_props::conformance::Answer;
@@ -20,7 +21,7 @@ pub struct Checked {
     /// What is kept of each cycle.
     pub steps: Vec<Step>,
     /// One judgement per cycle.
-    pub judged: Vec<Judged>,
+    pub judged: Vec<Arc<Judged>>,
     /// The fallbacks by the model's requester and verdicts, and by the implementation's.
     pub requesters: [RequesterRun; 2],
     /// A complaint of a requester, or a difference of the two where the verdicts are the same.
@@ -37,8 +38,7 @@ impl Checked {
         done: impl Fn(),
     ) -> Self {
         let drive = drive.into();
-        let (steps, judged): (Vec<_>, Vec<_>) =
-            judge_drive(&drive, readings, done).into_iter().unzip();
+        let (steps, judged) = judge_drive(&drive, readings, done);
         let (requesters, protocol) = requesters(&steps, &judged, requester);
         Self { drive, steps, judged, requesters, protocol }
     }
@@ -58,7 +58,7 @@ impl Checked {
     /// Cycles that the implementation decides otherwise, within the rules or not.
     pub fn otherwise(&self) -> usize {
         let place = |answer: &Answer| answer.as_ref().ok().map(|report| report.failed_stage);
-        let differ = |judged: &&Judged| place(&judged.model) != place(&judged.implementation);
+        let differ = |judged: &&Arc<Judged>| place(&judged.model) != place(&judged.implementation);
         self.judged.iter().filter(differ).count()
     }
 
@@ -92,7 +92,7 @@ pub(super) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
 
 fn requesters(
     steps: &[Step],
-    judged: &[Judged],
+    judged: &[Arc<Judged>],
     parameters: &Parameters,
 ) -> ([RequesterRun; 2], Option<String>) {
     let Some(first) = steps.first() else { return Default::default() };

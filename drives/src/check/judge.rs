@@ -1,6 +1,7 @@
 //! Cycles, judged by the exact model and by the implementation.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -12,7 +13,7 @@ use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
 
 use super::step::Step;
-use crate::drive::{DriveCycle, Stream};
+use crate::drive::Stream;
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,15 +70,22 @@ pub fn compare(
 }
 
 /// Judges the cycles of a drive in their order, each made when it is judged and dropped after;
-/// `done` is called after each.
-pub fn judge_drive(drive: &Stream, readings: bool, done: impl Fn()) -> Vec<(Step, Judged)> {
-    let each = |cycle: DriveCycle| {
+/// `done` is called after each. Equal judgements in succession, as of safe cycles, are kept once.
+pub fn judge_drive(
+    drive: &Stream,
+    readings: bool,
+    done: impl Fn(),
+) -> (Vec<Step>, Vec<Arc<Judged>>) {
+    let mut steps = Vec::with_capacity(drive.count());
+    let mut all: Vec<Arc<Judged>> = Vec::with_capacity(drive.count());
+    for cycle in drive.cycles() {
         let judged = Judged::new(&cycle.cycle, readings);
-        let step = Step::from(cycle);
+        steps.push(Step::from(cycle));
+        let same = all.last().filter(|last| ***last == judged).map(Arc::clone);
+        all.push(same.unwrap_or_else(|| Arc::new(judged)));
         done();
-        (step, judged)
-    };
-    drive.cycles().map(each).collect()
+    }
+    (steps, all)
 }
 
 /// Runs `job` for every index below `count` on all processors and hands the results to `take` in

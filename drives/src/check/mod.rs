@@ -136,7 +136,7 @@ pub fn run(
 ) -> io::Result<Findings> {
     let mut findings = Findings::default();
     let mut lines = Vec::new();
-    let progress = progress(drives.iter().flatten().map(|drive| drive.count()).sum());
+    let progress = progress(drives.iter().flatten().map(Stream::count).sum());
     let readings = settings.format == Format::Json;
     let judge = |index: usize| {
         let drive = drives[index].as_ref()?;

@@ -8,7 +8,7 @@ use crate::readers::strip::Across;
 use crate::readers::surface::Surface;
 
 /// Cross sections of a route; the domain allows 8192.
-pub(crate) const SECTIONS_MAX: f64 = 8000.0;
+pub(crate) const SECTIONS_MAX: u16 = 8000;
 /// How much narrower a side is made, step by step, m: first than the lanes there, then than the
 /// lane driven. After the last step the corridor ends at the reference path.
 const STEPS: [f64; 8] = [0.0, 0.002, 0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
@@ -102,7 +102,7 @@ pub(crate) fn on_surface(
             i += 1;
             continue;
         }
-        let room = sections.len() < SECTIONS_MAX as usize;
+        let room = sections.len() < usize::from(SECTIONS_MAX);
         let new = between(&sections[i], &sections[i + 1]).filter(|new| {
             room && ![&sections[i], &sections[i + 1]].into_iter().any(|near| near.is_at(new))
         });

@@ -170,7 +170,7 @@ impl Course {
 
     fn sections(&self, surface: &Surface) -> Vec<Section> {
         let total: f64 = self.spans.iter().map(|s| s.to - s.from).sum();
-        let spacing = SPACING.max(2.0 * total / SECTIONS_MAX);
+        let spacing = SPACING.max(2.0 * total / f64::from(SECTIONS_MAX));
         let mut sections: Vec<Section> = Vec::new();
         for (k, span) in self.spans.iter().enumerate() {
             if k > 0 && span.half[0] == 0.0 {
