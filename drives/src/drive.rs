@@ -1,5 +1,8 @@
 //! Drives: cycles made from recorded traffic, from maps, or read as records.
 
+use std::fmt;
+use std::sync::Arc;
+
 use mufasa_model::input::cycle::Cycle;
 
 /// A sequence of cycles with its origin.
@@ -27,4 +30,73 @@ pub struct DriveCycle {
     pub id: String,
     /// The record.
     pub cycle: Cycle,
+}
+
+/// A drive whose cycles are made when they are asked for, and not kept: a cycle takes about 50 kB,
+/// the state that it is made of about 50 B.
+#[derive(Clone)]
+pub struct Stream {
+    /// As of a [`Drive`].
+    pub name: String,
+    /// As of a [`Drive`].
+    pub source: String,
+    /// As of a [`Drive`].
+    pub lead_range_m: f64,
+    /// As of a [`Drive`].
+    pub notes: Vec<String>,
+    count: usize,
+    make: Arc<dyn Fn(usize) -> DriveCycle + Send + Sync>,
+}
+
+impl Stream {
+    /// A drive of `count` cycles. `make` makes that of an index below it, the same every time.
+    pub fn new(
+        name: String,
+        source: String,
+        count: usize,
+        make: impl Fn(usize) -> DriveCycle + Send + Sync + 'static,
+    ) -> Self {
+        let make = Arc::new(make);
+        Self { name, source, lead_range_m: 0.0, notes: Vec::new(), count, make }
+    }
+
+    /// How many cycles it has.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The cycle of an index below [`Self::count`], made now.
+    pub fn cycle(&self, index: usize) -> DriveCycle {
+        (self.make)(index)
+    }
+
+    /// The cycles in their order, each made when it is asked for.
+    pub fn cycles(&self) -> impl Iterator<Item = DriveCycle> + '_ {
+        (0..self.count).map(|index| self.cycle(index))
+    }
+
+    /// The drive with all its cycles at once.
+    pub fn collect(self) -> Drive {
+        let cycles = self.cycles().collect();
+        let Self { name, source, lead_range_m, notes, .. } = self;
+        Drive { name, source, lead_range_m, cycles, notes }
+    }
+}
+
+impl From<Drive> for Stream {
+    fn from(drive: Drive) -> Self {
+        let Drive { name, source, lead_range_m, cycles, notes } = drive;
+        let count = cycles.len();
+        let stream = Self::new(name, source, count, move |index| cycles[index].clone());
+        Self { lead_range_m, notes, ..stream }
+    }
+}
+
+impl fmt::Debug for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, source, lead_range_m, notes, count, make: _ } = self;
+        let mut of = f.debug_struct("Stream");
+        of.field("name", name).field("source", source).field("lead_range_m", lead_range_m);
+        of.field("notes", notes).field("count", count).finish_non_exhaustive()
+    }
 }

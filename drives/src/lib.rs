@@ -14,10 +14,10 @@ mod recording;
 pub use attacks::error::InjectError;
 pub use attacks::inject;
 pub use attacks::injection::{Attack, Injection, ParseInjectionError};
-pub use drive::{Drive, DriveCycle};
+pub use drive::{Drive, DriveCycle, Stream};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};
-pub use readers::read;
+pub use readers::{read, streams};
 
 /// The drive of the demo, a `CommonRoad` scenario and its solution: names of the files and their text.
 pub const DEMO: [(&str, &str); 2] = [

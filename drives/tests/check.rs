@@ -2,11 +2,14 @@
 
 mod common;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::{Hold, RequesterRun};
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::{Findings, records, report};
-use mufasa_drives::{Drive, DriveCycle};
+use mufasa_drives::{Drive, DriveCycle, Stream};
 use mufasa_model::input::cycle::DetectionList;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Stage};
@@ -133,11 +136,11 @@ fn fabricated_disagreements_are_counted_written_out_and_decide_the_exit_code() {
     findings.add(&checked);
     assert_eq!(findings.exit_code(), 1);
     let exact = FailedStage::Stage(Stage::Iii);
-    checked.judged[1] = Judged {
+    checked.judged[1] = Arc::new(Judged {
         implementation: checked.judged[0].model.clone(),
         disagreement: Some(Disagreement::UnsafeAccepted { exact }),
-        ..checked.judged[1].clone()
-    };
+        ..Judged::clone(&checked.judged[1])
+    });
     assert_eq!((checked.disagreements(), checked.otherwise()), (1, 1));
     let text = text(&checked);
     assert!(text.contains("DISAGREEMENT in cycle straight#1: unsound"), "{text}");
@@ -187,4 +190,29 @@ fn a_drive_without_cycles_is_no_error() {
     let checked = checked(&drive);
     assert!(text(&checked).contains("0 cycles"));
     assert_eq!(records::lines(&checked).unwrap().len(), 1);
+}
+
+/// A cycle takes 50 kB: of a drive of many there is never more than one.
+#[test]
+fn cycles_are_made_one_at_a_time_and_judged_before_the_next() {
+    let [made, judged] = [(); 2].map(|()| Arc::new(AtomicUsize::new(0)));
+    let (counted, seen) = (Arc::clone(&made), Arc::clone(&judged));
+    let make = move |index: usize| {
+        let before = counted.fetch_add(1, Ordering::SeqCst);
+        assert_eq!((before, seen.load(Ordering::SeqCst)), (index, index), "cycles are kept");
+        let cycle = common::cycle(u32::try_from(index).unwrap(), index == 5);
+        DriveCycle { id: format!("straight#{index}"), cycle }
+    };
+    let stream = Stream::new("straight".to_owned(), "test".to_owned(), 30, make);
+    let done = || {
+        judged.fetch_add(1, Ordering::SeqCst);
+    };
+    let streamed = Checked::new(stream, &Parameters::default(), false, done);
+    assert_eq!(made.load(Ordering::SeqCst), 30);
+    let whole = checked(&drive(30, |index| index == 5));
+    assert_eq!(streamed.judged, whole.judged);
+    // Safe ones in succession are one.
+    assert!(Arc::ptr_eq(&streamed.judged[0], &streamed.judged[4]));
+    assert!(!Arc::ptr_eq(&streamed.judged[4], &streamed.judged[5]));
+    assert_eq!((streamed.steps, streamed.requesters), (whole.steps, whole.requesters));
 }

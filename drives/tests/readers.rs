@@ -2,6 +2,7 @@
 
 mod readers {
     pub mod broken;
+    pub mod corridors;
     pub mod crossing;
     pub mod files;
     pub mod history;

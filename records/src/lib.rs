@@ -86,24 +86,20 @@ pub fn answer(line: &[u8], number: usize) -> Answer {
 /// The cycles of a text of JSON Lines, such as a drive, with their ids. A line that is no cycle
 /// is an error of its own and does not end the reading.
 pub fn cycles_from_lines(text: &str) -> Vec<Result<(String, Cycle), LineError>> {
-    text.lines()
-        .enumerate()
-        .map(|(index, line)| {
-            let number = index + 1;
-            match parse(line.as_bytes(), number)? {
-                Record::Cycle { id, cycle } => Ok((id, *cycle)),
-                Record::Offloading { id, .. } | Record::Composition { id, .. } => {
-                    Err(LineError::new(
-                        number,
-                        Some(id),
-                        InvalidInput {
-                            field: String::from("kind"),
-                            index: None,
-                            message: String::from("kind must be cycle"),
-                        },
-                    ))
-                }
-            }
-        })
-        .collect()
+    text.lines().enumerate().map(|(index, line)| cycle_from_line(line, index + 1)).collect()
+}
+
+/// The cycle of line number `number` (from 1), with its id.
+pub fn cycle_from_line(line: &str, number: usize) -> Result<(String, Cycle), LineError> {
+    match parse(line.as_bytes(), number)? {
+        Record::Cycle { id, cycle } => Ok((id, *cycle)),
+        Record::Offloading { id, .. } | Record::Composition { id, .. } => {
+            let problem = InvalidInput {
+                field: String::from("kind"),
+                index: None,
+                message: String::from("kind must be cycle"),
+            };
+            Err(LineError::new(number, Some(id), problem))
+        }
+    }
 }

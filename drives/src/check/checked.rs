@@ -1,6 +1,7 @@
 //! A drive with all that was found on it.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use mufasa_model::offloading::requester::{Parameters, Requester};
 use mufasa_props::conformance::Answer;
@@ -8,16 +9,19 @@ use mufasa_props::conformance::Answer;
 use super::fallback::{RequesterRun, follow};
 use super::judge::{Judged, is_safe, judge_drive};
 use super::sides::with_implementation;
+use super::step::Step;
 use super::tally::Tally;
-use crate::drive::{Drive, DriveCycle};
+use crate::drive::Stream;
 use mufasa_records::names;
 
 /// A drive, judged.
 pub struct Checked {
-    /// The drive.
-    pub drive: Drive,
+    /// The drive; its cycles are not kept.
+    pub drive: Stream,
+    /// What is kept of each cycle.
+    pub steps: Vec<Step>,
     /// One judgement per cycle.
-    pub judged: Vec<Judged>,
+    pub judged: Vec<Arc<Judged>>,
     /// The fallbacks by the model's requester and verdicts, and by the implementation's.
     pub requesters: [RequesterRun; 2],
     /// A complaint of a requester, or a difference of the two where the verdicts are the same.
@@ -27,10 +31,16 @@ pub struct Checked {
 impl Checked {
     /// Judges every cycle in order, with `readings` by the strict and the lax model too, and runs
     /// both requesters over the verdicts. `done` is called after each cycle.
-    pub fn new(drive: Drive, requester: &Parameters, readings: bool, done: impl Fn()) -> Self {
-        let judged = judge_drive(&drive, readings, done);
-        let (requesters, protocol) = requesters(&drive, &judged, requester);
-        Self { drive, judged, requesters, protocol }
+    pub fn new(
+        drive: impl Into<Stream>,
+        requester: &Parameters,
+        readings: bool,
+        done: impl Fn(),
+    ) -> Self {
+        let drive = drive.into();
+        let (steps, judged) = judge_drive(&drive, readings, done);
+        let (requesters, protocol) = requesters(&steps, &judged, requester);
+        Self { drive, steps, judged, requesters, protocol }
     }
 
     /// Counts of the model and of the implementation.
@@ -48,26 +58,26 @@ impl Checked {
     /// Cycles that the implementation decides otherwise, within the rules or not.
     pub fn otherwise(&self) -> usize {
         let place = |answer: &Answer| answer.as_ref().ok().map(|report| report.failed_stage);
-        let differ = |judged: &&Judged| place(&judged.model) != place(&judged.implementation);
+        let differ = |judged: &&Arc<Judged>| place(&judged.model) != place(&judged.implementation);
         self.judged.iter().filter(differ).count()
     }
 
     /// Time of a cycle since the first one, s.
     pub fn seconds(&self, index: usize) -> f64 {
-        let time = |cycle: &DriveCycle| cycle.cycle.now_ns;
-        let first = self.drive.cycles.first().map_or(0, time);
-        let now = self.drive.cycles.get(index).map_or(first, time);
+        let time = |step: &Step| step.now_ns;
+        let first = self.steps.first().map_or(0, time);
+        let now = self.steps.get(index).map_or(first, time);
         seconds(first, now)
     }
 
     /// Time since the first cycle, s.
     pub fn seconds_of(&self, time_ns: i64) -> f64 {
-        seconds(self.drive.cycles.first().map_or(0, |first| first.cycle.now_ns), time_ns)
+        seconds(self.steps.first().map_or(0, |first| first.now_ns), time_ns)
     }
 
     /// Configurations and profiles of the cycles, such as `AllRemote, hardened`.
     pub fn setting(&self) -> String {
-        let cycles = || self.drive.cycles.iter().map(|cycle| &cycle.cycle);
+        let cycles = || self.steps.iter();
         let configurations: BTreeSet<_> =
             cycles().map(|cycle| names::configuration(cycle.configuration)).collect();
         let profiles: BTreeSet<_> = cycles().map(|cycle| names::profile(cycle.profile)).collect();
@@ -81,21 +91,20 @@ pub(super) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
 }
 
 fn requesters(
-    drive: &Drive,
-    judged: &[Judged],
+    steps: &[Step],
+    judged: &[Arc<Judged>],
     parameters: &Parameters,
 ) -> ([RequesterRun; 2], Option<String>) {
-    let Some(first) = drive.cycles.first() else { return Default::default() };
-    let profile = first.cycle.profile;
-    let cycles = || drive.cycles.iter().map(|cycle| &cycle.cycle);
+    let Some(first) = steps.first() else { return Default::default() };
+    let profile = first.profile;
     let safe = |answer: fn(&Judged) -> &Answer| -> Vec<bool> {
         judged.iter().map(|judged| is_safe(answer(judged))).collect()
     };
     let model_safe = safe(|judged| &judged.model);
     let implementation_safe = safe(|judged| &judged.implementation);
-    let model = follow(&mut Requester::new(profile, *parameters), cycles(), &model_safe);
+    let model = follow(&mut Requester::new(profile, *parameters), steps, &model_safe);
     let implementation = with_implementation(profile, parameters, |requester| {
-        follow(requester, cycles(), &implementation_safe)
+        follow(requester, steps, &implementation_safe)
     });
     match (model, implementation) {
         (Ok(model), Ok(implementation)) => {

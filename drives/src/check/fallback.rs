@@ -5,13 +5,13 @@
 //! Every cycle is judged as if offloaded; the requester learns only of those whose remote data it
 //! used.
 
-use mufasa_model::input::cycle::Cycle;
 use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Sessions,
 };
 use mufasa_model::services::configuration::Configuration;
 
 use super::sides::Side;
+use super::step::Step;
 
 /// The only station of a drive.
 const STATION: i64 = 1;
@@ -59,7 +59,7 @@ pub enum Hold {
 /// complaint of the requester, in words.
 pub fn follow<'a>(
     side: &mut impl Side,
-    cycles: impl IntoIterator<Item = &'a Cycle>,
+    cycles: impl IntoIterator<Item = &'a Step>,
     safe: &[bool],
 ) -> Result<RequesterRun, String> {
     let mut run = RequesterRun::default();
@@ -111,7 +111,7 @@ impl RequesterRun {
         &mut self,
         side: &mut impl Side,
         index: usize,
-        cycle: &Cycle,
+        cycle: &Step,
         kind: EventKind,
     ) -> Result<Vec<Action>, String> {
         let actions = side.step(&Event { t_ns: cycle.now_ns, kind })?;
@@ -124,7 +124,7 @@ impl RequesterRun {
         &mut self,
         side: &mut impl Side,
         index: usize,
-        cycle: &Cycle,
+        cycle: &Step,
     ) -> Result<Sessions, String> {
         let mut used = Sessions::NONE;
         for group in Group::ALL {
@@ -153,13 +153,13 @@ fn is_remote(side: &impl Side, group: Group) -> bool {
 }
 
 /// When the remote result of a group in this cycle was generated.
-fn generated(cycle: &Cycle, group: Group) -> Option<i64> {
+fn generated(cycle: &Step, group: Group) -> Option<i64> {
     if !remote_groups(cycle.configuration).contains(group) {
         return None;
     }
     match group {
-        Group::Mot => cycle.tracks.as_ref().map(|list| list.stamp_ns),
-        Group::Plan => cycle.trajectory.as_ref().map(|it| it.stamp_ns),
+        Group::Mot => cycle.tracks_ns,
+        Group::Plan => cycle.trajectory_ns,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Cycles, judged by the exact model and by the implementation.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -11,7 +12,8 @@ use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
 
-use crate::drive::{Drive, DriveCycle};
+use super::step::Step;
+use crate::drive::Stream;
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,14 +69,23 @@ pub fn compare(
     }
 }
 
-/// Judges the cycles of a drive in their order. `done` is called after each.
-pub fn judge_drive(drive: &Drive, readings: bool, done: impl Fn()) -> Vec<Judged> {
-    let each = |DriveCycle { cycle, .. }: &DriveCycle| {
-        let judged = Judged::new(cycle, readings);
+/// Judges the cycles of a drive in their order, each made when it is judged and dropped after;
+/// `done` is called after each. Equal judgements in succession, as of safe cycles, are kept once.
+pub fn judge_drive(
+    drive: &Stream,
+    readings: bool,
+    done: impl Fn(),
+) -> (Vec<Step>, Vec<Arc<Judged>>) {
+    let mut steps = Vec::with_capacity(drive.count());
+    let mut all: Vec<Arc<Judged>> = Vec::with_capacity(drive.count());
+    for cycle in drive.cycles() {
+        let judged = Judged::new(&cycle.cycle, readings);
+        steps.push(Step::from(cycle));
+        let same = all.last().filter(|last| ***last == judged).map(Arc::clone);
+        all.push(same.unwrap_or_else(|| Arc::new(judged)));
         done();
-        judged
-    };
-    drive.cycles.iter().map(each).collect()
+    }
+    (steps, all)
 }
 
 /// Runs `job` for every index below `count` on all processors and hands the results to `take` in

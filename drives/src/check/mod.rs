@@ -7,6 +7,7 @@ pub mod pictures;
 pub mod records;
 pub mod report;
 pub mod sides;
+pub mod step;
 pub mod table;
 pub mod tally;
 pub mod words;
@@ -20,7 +21,7 @@ use mufasa_model::offloading::requester::Parameters;
 use self::checked::Checked;
 use self::judge::in_order;
 use self::tally::Tally;
-use crate::{Drive, ReadError};
+use crate::{ReadError, Stream};
 
 /// Errors of single cycles that are written out per drive.
 const ERRORS: usize = 10;
@@ -128,14 +129,14 @@ impl Findings {
 /// Checks the drives, several at a time, and writes in their order what is found to `out`, what
 /// is wrong with the input to `err`. Errors are those of writing to `out`.
 pub fn run(
-    drives: &[Result<Drive, ReadError>],
+    drives: &[Result<Stream, ReadError>],
     settings: &Settings,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<Findings> {
     let mut findings = Findings::default();
     let mut lines = Vec::new();
-    let progress = progress(drives.iter().flatten().map(|drive| drive.cycles.len()).sum());
+    let progress = progress(drives.iter().flatten().map(Stream::count).sum());
     let readings = settings.format == Format::Json;
     let judge = |index: usize| {
         let drive = drives[index].as_ref()?;
@@ -172,13 +173,15 @@ pub fn run(
 
 /// Adds a drive to the findings, names its errors and draws its pictures.
 fn note(checked: &Checked, settings: &Settings, findings: &mut Findings, err: &mut impl Write) {
-    let drive = &checked.drive;
     findings.add(checked);
-    let errors = checked.judged.iter().zip(&drive.cycles).filter_map(|(judged, cycle)| {
+    let errors = checked.judged.iter().zip(&checked.steps).filter_map(|(judged, cycle)| {
         judged.model.as_ref().err().map(|problem| (problem, &cycle.id))
     });
     for (problem, id) in errors.take(ERRORS) {
-        complain(err, &format!("{}: cycle {id}: {}", drive.source, words::invalid(problem)));
+        complain(
+            err,
+            &format!("{}: cycle {id}: {}", checked.drive.source, words::invalid(problem)),
+        );
     }
     if let Some(folder) = &settings.pictures {
         match pictures::write(folder, checked, |_| true) {

@@ -18,11 +18,8 @@ pub fn write(
 ) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
     let mut written = Vec::new();
     for (index, judged) in checked.judged.iter().enumerate().filter(|(index, _)| wanted(*index)) {
-        let (Some(report), Some(found)) = (judged.unsafe_report(), checked.drive.cycles.get(index))
-        else {
-            continue;
-        };
-        let cycle = &found.cycle;
+        let Some(report) = judged.unsafe_report() else { continue };
+        let cycle = &checked.drive.cycle(index).cycle;
         let setting = format!(
             "{}, {}",
             names::configuration(cycle.configuration),

@@ -131,7 +131,7 @@ pub fn schemas() -> [(&'static str, Value); 3] {
 /// The records of a drive, each on a line: its cycles, then the drive.
 pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
     let mut lines = Vec::new();
-    for (index, (judged, cycle)) in checked.judged.iter().zip(&checked.drive.cycles).enumerate() {
+    for (index, (judged, cycle)) in checked.judged.iter().zip(&checked.steps).enumerate() {
         lines.push(serde_json::to_string(&CycleRecord {
             kind: "checked_cycle",
             drive: &checked.drive.name,
@@ -224,7 +224,7 @@ fn side(
             Hold::Off => ("off", None),
         };
         FallbackRecord {
-            id: checked.drive.cycles[cycle.index].id.clone(),
+            id: checked.steps[cycle.index].id.clone(),
             seconds: checked.seconds(cycle.index),
             hold,
             hold_until_ns,

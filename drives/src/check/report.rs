@@ -141,7 +141,7 @@ fn write_disagreements(out: &mut impl Write, checked: &Checked) -> io::Result<()
         .enumerate()
         .filter_map(|(index, judged)| Some((index, judged, judged.disagreement.as_ref()?)));
     for (index, judged, breach) in breaches.clone().take(DISAGREEMENTS) {
-        let id = &checked.drive.cycles[index].id;
+        let id = &checked.steps[index].id;
         writeln!(out, "DISAGREEMENT in cycle {id}: {breach}")?;
         writeln!(out, "  model: {}", words::answer(&judged.model))?;
         writeln!(out, "  implementation: {}", words::answer(&judged.implementation))?;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::drive::Drive;
+use crate::drive::Stream;
 use crate::geometry::Point;
 use crate::options::Options;
 use crate::readers::error::{ReadError, quoted};
@@ -23,7 +23,7 @@ pub(crate) fn solved(
     solution: &Solution,
     files: [&Path; 2],
     options: &Options,
-) -> Result<Drive, ReadError> {
+) -> Result<Stream, ReadError> {
     if solution.scenario != scenario.name {
         let message = format!(
             "a solution of {}, but the scenario before it is {}; name the solution's own",
@@ -57,7 +57,7 @@ pub(crate) fn recorded(
     scenario: &Scenario,
     file: &Path,
     options: &Options,
-) -> Result<Drive, ReadError> {
+) -> Result<Stream, ReadError> {
     let mut notes = scenario.notes.clone();
     let Vehicle { object, states, notes: of_vehicle } = Vehicle::of(scenario, file, options)?;
     notes.extend(of_vehicle);
@@ -87,7 +87,7 @@ impl Parts {
         mut notes: Vec<String>,
         file: &Path,
         options: &Options,
-    ) -> Result<Drive, ReadError> {
+    ) -> Result<Stream, ReadError> {
         let Self { name, source, ego, size } = self;
         let poses: Vec<(Point, f64)> = ego.iter().map(|s| (s.position, s.heading)).collect();
         let runs = scenario.network.follow(&poses);
@@ -104,7 +104,7 @@ impl Parts {
         let dt_ns = scenario.dt_ns;
         let recording = Recording { name, source, dt_ns, ego, size, objects, route, notes };
         let drive = recording::drive(recording, options, 1);
-        if drive.cycles.is_empty() {
+        if drive.count() == 0 {
             return Err(ReadError::no_cycle(file));
         }
         Ok(drive)

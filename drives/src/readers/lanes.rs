@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use crate::geometry::{Point, Polyline, distance, foot, inside, norm, sub, wrap};
+use crate::geometry::{Point, Polyline, distance, foot, inside, mix, norm, sub, wrap};
 
 /// A lanelet: bounds with corresponding points, and its neighbours.
 #[derive(Clone, Debug)]
@@ -53,16 +53,32 @@ const COST_TURN: f64 = 2.0;
 const COST_SIDE: f64 = 0.1;
 const COST_NEXT: f64 = 0.1;
 const COST_LANE: f64 = 3.0;
+/// Not being on a lanelet at all costs more than a change to another and back: one state outside
+/// the corridor rejects every trajectory with it.
+const COST_OUT: f64 = 20.0;
+/// To a lanelet that begins or ends where this one does, and overlaps it there.
+const COST_FORK: f64 = 8.0;
 const COST_JUMP: f64 = 200.0;
 /// Lanelets that may lie between two points of a trajectory.
 const SKIP_MAX: usize = 4;
 
 impl Lanelet {
+    /// A lanelet alone between two bounds of as many points.
+    pub(crate) fn between(id: i64, left: Vec<Point>, right: Vec<Point>) -> Self {
+        let center = left.iter().zip(&right).map(|(l, r)| mix(*l, *r, 0.5)).collect();
+        let (successors, predecessors) = (Vec::new(), Vec::new());
+        Self { id, left, right, center, successors, predecessors, beside: [None; 2] }
+    }
+
     /// Whether a point is between the bounds.
     pub(crate) fn contains(&self, p: Point) -> bool {
-        let outline: Vec<Point> =
-            self.left.iter().chain(self.right.iter().rev()).copied().collect();
+        let outline: Vec<Point> = self.outline().collect();
         inside(p, &outline)
+    }
+
+    /// The polygon between the bounds.
+    pub(crate) fn outline(&self) -> impl Iterator<Item = Point> {
+        self.left.iter().chain(self.right.iter().rev()).copied()
     }
 
     /// What it costs to take a pose as being on this lanelet; `None` when it is too far off, or
@@ -73,8 +89,8 @@ impl Lanelet {
         if turn > 1.9 {
             return None;
         }
-        let off = if self.contains(p) { 0.0 } else { self.off(p) };
-        let cost = COST_OFF * off + COST_TURN * turn * turn + COST_SIDE * line.lateral.abs();
+        let (off, out) = if self.contains(p) { (0.0, 0.0) } else { (self.off(p), COST_OUT) };
+        let cost = out + COST_OFF * off + COST_TURN * turn * turn + COST_SIDE * line.lateral.abs();
         (off <= NEAR).then_some(cost)
     }
 
@@ -125,7 +141,8 @@ impl Network {
                 run.lanelets.extend(way);
                 run.last = point;
             } else {
-                let change = if self.lane_change(here, id) { Change::Lane } else { Change::Jump };
+                let beside = self.lane_change(here, id) || self.fork(here, id);
+                let change = if beside { Change::Lane } else { Change::Jump };
                 run.change = Some(change);
                 let lanelets = vec![id];
                 runs.push(Run { lanelets, first: point, last: point, change: None });
@@ -193,12 +210,13 @@ impl Network {
             #[expect(clippy::cast_precision_loss, reason = "at most SKIP_MAX")]
             Some(way) => COST_NEXT * way.len() as f64,
             None if self.lane_change(from, to) => COST_LANE,
+            None if self.fork(from, to) => COST_FORK,
             None => COST_JUMP,
         }
     }
 
     /// The successors from one lanelet to another, the last of them the other.
-    fn way(&self, from: i64, to: i64) -> Option<Vec<i64>> {
+    pub(crate) fn way(&self, from: i64, to: i64) -> Option<Vec<i64>> {
         let mut queue = VecDeque::from([vec![from]]);
         while let Some(path) = queue.pop_front() {
             let here = self.lanelets.get(&path[path.len() - 1]);
@@ -226,6 +244,15 @@ impl Network {
         around.filter_map(|id| self.lanelets.get(&id)).flat_map(|l| l.beside.iter().flatten()).any(
             |id| *id == to || self.lanelets.get(id).is_some_and(|l| l.successors.contains(&to)),
         )
+    }
+
+    /// Whether the two begin at one lanelet or end at one.
+    fn fork(&self, from: i64, to: i64) -> bool {
+        let (Some(a), Some(b)) = (self.lanelets.get(&from), self.lanelets.get(&to)) else {
+            return false;
+        };
+        a.predecessors.iter().any(|id| b.predecessors.contains(id))
+            || a.successors.iter().any(|id| b.successors.contains(id))
     }
 
     /// Lanelets that go on from `id` with the least turn, forwards or backwards, until they are

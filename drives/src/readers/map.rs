@@ -9,7 +9,7 @@ use std::path::Path;
 
 use mufasa_model::input::cycle::{CrossSection, Cycle, Route};
 
-use crate::drive::Drive;
+use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, Polyline, add, distance, mix, mix_angle, norm, scale, sub, wrap};
 use crate::options::{Options, Sensor};
 use crate::readers::error::ReadError;
@@ -45,10 +45,11 @@ const WINDOW: [f64; 2] = [50.0, 250.0];
 const BEGIN: f64 = 1.0;
 
 /// The drive along a map.
-pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Drive, ReadError> {
+pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Stream, ReadError> {
     let mut notes = Vec::new();
-    let rows = checked(file, npy::table::<6>(file, bytes)?)?;
-    let (points, closed) = cross_sections(file, &rows, &mut notes)?;
+    let rows = npy::table::<6>(file, bytes)?;
+    checked(file, rows.clone())?;
+    let (points, closed) = cross_sections(file, &rows.map(Control::new), &mut notes)?;
     let path = ReferencePath::new(&points, closed);
     let ego = path.states(&mut notes);
     let every = ego.len().div_ceil(CYCLES_MAX).max(1);
@@ -73,17 +74,24 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Driv
     // Clutter would be all there is to see.
     let sensor = Sensor { clutter: 0.0, ..options.sensor.clone() };
     let mut drive = recording::drive(recording, &Options { sensor, ..options.clone() }, every);
-    if drive.cycles.is_empty() {
+    if drive.count() == 0 {
         return Err(ReadError::no_cycle(file));
     }
+    let count = drive.count();
     if !closed {
         let [behind, ahead] = WINDOW;
         drive.notes.push(format!(
             "the route of each cycle is the part from {behind} m behind to {ahead} m ahead"
         ));
-        for cycle in &mut drive.cycles {
-            window(&mut cycle.cycle);
-        }
+        let Stream { name, source, lead_range_m, notes, .. } = drive.clone();
+        let make = move |index| {
+            let DriveCycle { id, mut cycle } = drive.cycle(index);
+            window(&mut cycle);
+            DriveCycle { id, cycle }
+        };
+        let mut cut = Stream::new(name, source, count, make);
+        (cut.lead_range_m, cut.notes) = (lead_range_m, notes);
+        return Ok(cut);
     }
     Ok(drive)
 }
@@ -108,7 +116,13 @@ struct Control {
     limit: f64,
 }
 
-fn checked(file: &Path, rows: Vec<[f64; 6]>) -> Result<Vec<Control>, ReadError> {
+impl Control {
+    fn new([x, y, left, right, limit, _]: [f64; 6]) -> Self {
+        Self { at: [x, y], left, right, limit }
+    }
+}
+
+fn checked(file: &Path, rows: impl Iterator<Item = [f64; 6]>) -> Result<(), ReadError> {
     const NAMES: [(&str, f64); 5] = [
         ("x", 16_777_216.0),
         ("y", 16_777_216.0),
@@ -116,32 +130,30 @@ fn checked(file: &Path, rows: Vec<[f64; 6]>) -> Result<Vec<Control>, ReadError> 
         ("d_right", 100.0),
         ("speed_limit", 1000.0),
     ];
-    for (i, row) in rows.iter().enumerate() {
-        for ((name, limit), value) in NAMES.iter().zip(row) {
+    for (i, row) in rows.enumerate() {
+        for ((name, limit), value) in NAMES.iter().zip(&row) {
             if value.is_nan() || value.abs() > *limit {
                 let error = ReadError::file(file, format!("{value} is not within +-{limit}"));
                 return Err(error.at("control point", *name).index(i));
             }
         }
     }
-    let control =
-        |[x, y, left, right, limit, _]: [f64; 6]| Control { at: [x, y], left, right, limit };
-    Ok(rows.into_iter().map(control).collect())
+    Ok(())
 }
 
 /// The control points that become cross sections, and whether they close.
 fn cross_sections(
     file: &Path,
-    rows: &[Control],
+    rows: &(impl ExactSizeIterator<Item = Control> + Clone),
     notes: &mut Vec<String>,
 ) -> Result<(Vec<Control>, bool), ReadError> {
     let thin = |spacing: f64| {
         let mut kept: Vec<Control> = Vec::new();
-        for (i, row) in rows.iter().enumerate() {
+        for (i, row) in rows.clone().enumerate() {
             let far = kept.last().map_or(f64::INFINITY, |last| distance(last.at, row.at));
             // The last point stays, unless it is the one before it once more.
             if far >= spacing || (i + 1 == rows.len() && far > 0.0) {
-                kept.push(*row);
+                kept.push(row);
             }
         }
         kept

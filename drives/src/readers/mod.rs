@@ -3,6 +3,7 @@
 
 mod commonroad;
 mod content;
+mod corridor;
 pub mod error;
 mod formats;
 mod lanes;
@@ -14,14 +15,17 @@ pub mod route;
 mod scenario;
 mod solution;
 mod source;
+mod strip;
+mod surface;
 mod vehicle;
 mod xml;
 mod xml_limits;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use crate::drive::{Drive, DriveCycle};
+use crate::drive::{Drive, DriveCycle, Stream};
 use crate::options::{Options, Sensor};
 use content::Content;
 use error::ReadError;
@@ -39,6 +43,11 @@ use source::Source;
 /// file, place and value, and does not stop the others. A file gives one error at most: the lines
 /// of JSON that are no cycles are in it together, and come before the drive of those that are.
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
+    streams(paths, options).into_iter().map(|drive| drive.map(Stream::collect)).collect()
+}
+
+/// Reads drives from files as [`read`] does, and makes their cycles when they are asked for.
+pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadError>> {
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
     let mut scenario: Option<(PathBuf, Scenario, bool)> = None;
@@ -66,7 +75,7 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
                 )),
             }),
             Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
-            Ok(Content::Lines(text)) => drives.extend(lines(path, &text)),
+            Ok(Content::Lines(text)) => drives.extend(lines(path, text)),
             Err(error) => drives.push(Err(error)),
         }
     }
@@ -76,7 +85,7 @@ pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError
 }
 
 /// Gives drives of the same name numbers from 2 on.
-fn name_apart(drives: &mut [Result<Drive, ReadError>]) {
+fn name_apart(drives: &mut [Result<Stream, ReadError>]) {
     let mut count: BTreeMap<String, usize> = BTreeMap::new();
     for drive in drives.iter_mut().flatten() {
         let n = count.entry(drive.name.clone()).or_insert(0);
@@ -90,7 +99,7 @@ fn name_apart(drives: &mut [Result<Drive, ReadError>]) {
 fn unsolved(
     scenario: Option<(PathBuf, Scenario, bool)>,
     options: &Options,
-) -> Option<Result<Drive, ReadError>> {
+) -> Option<Result<Stream, ReadError>> {
     match scenario {
         Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, &file, options)),
         Some((_, _, true)) | None => None,
@@ -98,12 +107,16 @@ fn unsolved(
 }
 
 /// The cycles of JSON Lines as one drive, after the error of the lines that are none.
-fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
+fn lines(path: &Path, text: String) -> Vec<Result<Stream, ReadError>> {
     let mut errors = Vec::new();
-    let mut cycles = Vec::new();
-    for line in mufasa_records::cycles_from_lines(text) {
-        match line {
-            Ok((id, cycle)) => cycles.push(DriveCycle { id, cycle }),
+    // Where the lines of cycles are: their numbers, and their places in the text.
+    let mut places: Vec<(usize, Range<usize>)> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        match mufasa_records::cycle_from_line(line, index + 1) {
+            Ok(_) => {
+                let start = line.as_ptr().addr() - text.as_ptr().addr();
+                places.push((index + 1, start..start + line.len()));
+            }
             Err(error) => {
                 let element = error.id.map_or_else(String::new, |id| format!("cycle {id}"));
                 let read = ReadError::file(path, error.message)
@@ -114,18 +127,27 @@ fn lines(path: &Path, text: &str) -> Vec<Result<Drive, ReadError>> {
             }
         }
     }
-    if cycles.is_empty() && is_one_document(text) {
+    if places.is_empty() && is_one_document(&text) {
         let message = "one JSON document spread over lines; JSON Lines have every record on a \
                        line of its own, as `jq -c . FILE` writes it";
         errors = vec![ReadError::file(path, message)];
     }
     let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
-    if !cycles.is_empty() {
-        let notes = vec![format!("{} cycles as recorded", cycles.len())];
-        let name = source::stem(path);
+    if !places.is_empty() {
+        let notes = vec![format!("{} cycles as recorded", places.len())];
         let source = path.display().to_string();
         let lead_range_m = Sensor::default().lead_range_m;
-        results.push(Ok(Drive { name, source, lead_range_m, cycles, notes }));
+        let count = places.len();
+        let make = move |index: usize| {
+            let (number, place) = &places[index];
+            match mufasa_records::cycle_from_line(&text[place.clone()], *number) {
+                Ok((id, cycle)) => DriveCycle { id, cycle },
+                Err(error) => unreachable!("line {number} was a cycle: {}", error.message),
+            }
+        };
+        let mut drive = Stream::new(source::stem(path), source, count, make);
+        (drive.lead_range_m, drive.notes) = (lead_range_m, notes);
+        results.push(Ok(drive));
     }
     results
 }

@@ -9,8 +9,11 @@ use crate::readers::error::{ReadError, quoted};
 /// First bytes of every such file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Reads a table of `N` columns.
-pub(crate) fn table<const N: usize>(file: &Path, bytes: &[u8]) -> Result<Vec<[f64; N]>, ReadError> {
+/// Reads a table of `N` columns; the rows are not copied, a map of 100 MB is there once.
+pub(crate) fn table<'a, const N: usize>(
+    file: &Path,
+    bytes: &'a [u8],
+) -> Result<impl ExactSizeIterator<Item = [f64; N]> + Clone + use<'a, N>, ReadError> {
     let error = |field: &str, message: String| ReadError::file(file, message).at("header", field);
     let broken = || error("", String::from("the header is cut off or broken"));
     let version = bytes.get(MAGIC.len()).copied().ok_or_else(broken)?;
@@ -51,7 +54,7 @@ pub(crate) fn table<const N: usize>(file: &Path, bytes: &[u8]) -> Result<Vec<[f6
         return Err(error("shape", message));
     }
     let (table, _) = cells.as_chunks::<N>();
-    Ok(table.iter().map(|row| row.map(f64::from_le_bytes)).collect())
+    Ok(table.iter().map(|row| row.map(f64::from_le_bytes)))
 }
 
 #[cfg(test)]
@@ -69,15 +72,16 @@ mod tests {
     #[test]
     fn a_table_is_read_row_by_row() {
         let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }\n";
-        let read = table::<3>(Path::new("m.npy"), &file(header, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
-        assert_eq!(read.unwrap(), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let bytes = file(header, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let rows = table::<3>(Path::new("m.npy"), &bytes).unwrap();
+        assert_eq!(rows.collect::<Vec<_>>(), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     }
 
     #[test]
     fn a_header_that_does_not_fit_the_file_is_refused() {
         let of = |shape: &str, descr: &str, order: &str| {
             let h = format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}");
-            table::<3>(Path::new("m.npy"), &file(&h, &[0.0; 6])).unwrap_err().field
+            table::<3>(Path::new("m.npy"), &file(&h, &[0.0; 6])).err().unwrap().field
         };
         assert_eq!(of("(3, 3)", "<f8", "False"), "shape");
         assert_eq!(of("(6148914691236517206, 3)", "<f8", "False"), "shape");

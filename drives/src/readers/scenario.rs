@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use crate::geometry::{Point, Rectangle, add, cross, mix, sub};
+use crate::geometry::{Point, Rectangle, add, cross, sub};
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::left_out::{self, LeftOut};
@@ -133,7 +133,6 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         );
         return Err(element.error("leftBound", message));
     }
-    let center: Vec<Point> = left.iter().zip(&right).map(|(l, r)| mix(*l, *r, 0.5)).collect();
     let references = |name: &'static str| -> Result<Vec<i64>, ReadError> {
         element.all(name).map(|e| e.integer_attribute("ref")).collect()
     };
@@ -144,13 +143,10 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         }
     };
     Ok(Lanelet {
-        id,
         successors: references("successor")?,
         predecessors: references("predecessor")?,
         beside: [beside("adjacentLeft")?, beside("adjacentRight")?],
-        left,
-        right,
-        center,
+        ..Lanelet::between(id, left, right)
     })
 }
 

@@ -18,7 +18,7 @@ use mufasa_model::input::cycle::{
     Cycle, DetectionList, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 
-use crate::drive::{Drive, DriveCycle};
+use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, add, cross, direction, mix, mix_angle, scale, sub};
 use crate::options::{Options, Sensor, Tail};
 use crate::recording::lead::{Cav, leading_vehicle};
@@ -52,16 +52,11 @@ pub(crate) struct Recording {
 }
 
 /// The drive of a recording. `every`: a cycle at every so many steps only.
-pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Drive {
-    let maker = Maker { recording: &recording, options };
-    let mut cycles: Vec<DriveCycle> = Vec::new();
-    let count = self::cycles(&recording.ego, recording.dt_ns, options);
-    for i in (0..count).step_by(every.max(1)) {
-        let id = format!("{}#{}", recording.name, recording.ego[i].step);
-        cycles.push(DriveCycle { id, cycle: maker.cycle(i) });
-    }
-    let mut notes = recording.notes.clone();
-    notes.push(format!("{} cycles from {} states", cycles.len(), recording.ego.len()));
+pub(crate) fn drive(mut recording: Recording, options: &Options, every: usize) -> Stream {
+    let every = every.max(1);
+    let mut notes = std::mem::take(&mut recording.notes);
+    let count = cycles(&recording.ego, recording.dt_ns, options);
+    notes.push(format!("{} cycles from {} states", count.div_ceil(every), recording.ego.len()));
     let short = recording.ego.len() - count;
     if short > 0 {
         notes.push(format!(
@@ -77,7 +72,7 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
         options.track_age_ns / 1_000_000
     ));
     if let Some(first) = recording.ego.first()
-        && maker.first_scan() < first.step
+        && recording.first_scan() < first.step
     {
         notes.push(String::from(
             "the history begins before the first cycle: the recording has the other objects there",
@@ -91,9 +86,27 @@ pub(crate) fn drive(recording: Recording, options: &Options, every: usize) -> Dr
             recording.ego.len()
         ));
     }
-    let Recording { name, source, .. } = recording;
     let lead_range_m = *lead_range_m;
-    Drive { name, source, lead_range_m, cycles, notes }
+    let (name, source) = (recording.name.clone(), recording.source.clone());
+    let maker = Maker { first_scan: recording.first_scan(), recording, options: options.clone() };
+    let make = move |index| maker.cycle(index * every);
+    let mut drive = Stream::new(name, source, count.div_ceil(every), make);
+    (drive.lead_range_m, drive.notes) = (lead_range_m, notes);
+    drive
+}
+
+impl Recording {
+    /// The step of the first scan: that of the CAV's first state, or an earlier one where the
+    /// recording has objects that move. What only stands says nothing about when the CAV came.
+    fn first_scan(&self) -> i64 {
+        let first = self.ego.first().map_or(0, |state| state.step);
+        let moves = |object: &Object| match &object.motion {
+            Motion::Standing(_) => None,
+            Motion::Moving(states) => states.first().map(|state| state.step),
+            Motion::Occupied { initial, .. } => Some(initial.step),
+        };
+        self.objects.iter().filter_map(moves).fold(first, i64::min)
+    }
 }
 
 /// States of a recording that give a cycle: all, or those up to the last that is followed by as
@@ -113,22 +126,28 @@ pub(crate) fn cycles(states: &[State], dt_ns: i64, options: &Options) -> usize {
     states.iter().enumerate().rposition(long_enough).map_or(0, |last| last + 1)
 }
 
-struct Maker<'a> {
-    recording: &'a Recording,
-    options: &'a Options,
+struct Maker {
+    recording: Recording,
+    options: Options,
+    first_scan: i64,
 }
 
-impl Maker<'_> {
+impl Maker {
     #[expect(clippy::cast_precision_loss, reason = "at most 10 s")]
     fn dt_s(&self) -> f64 {
         self.recording.dt_ns as f64 / 1e9
     }
 
-    fn cycle(&self, i: usize) -> Cycle {
-        let Recording { ego, size, dt_ns, route, .. } = self.recording;
+    fn cycle(&self, i: usize) -> DriveCycle {
+        let id = format!("{}#{}", self.recording.name, self.recording.ego[i].step);
+        DriveCycle { id, cycle: self.record(i) }
+    }
+
+    fn record(&self, i: usize) -> Cycle {
+        let Recording { ego, size, dt_ns, route, .. } = &self.recording;
         let state = ego[i];
         let now_ns = START_NS + i64::try_from(i).unwrap_or(0).saturating_mul(*dt_ns);
-        let options = self.options;
+        let options = &self.options;
         let [x, y] = state.position;
         let [cos, sin] = direction(state.heading);
         let recent = self.objects(state.step, GRID_AGE_NS);
@@ -173,27 +192,15 @@ impl Maker<'_> {
 
     /// The earlier scans that come with the cycle of state `i`, the youngest first.
     fn history(&self, i: usize) -> Vec<DetectionList> {
-        let kept = self.recording.ego[i].step - self.first_scan();
+        let kept = self.recording.ego[i].step - self.first_scan;
         let ago = history::steps_ago(self.recording.dt_ns, kept);
         ago.into_iter().map(|ago| self.scan(i, ago)).collect()
-    }
-
-    /// The step of the first scan: that of the CAV's first state, or an earlier one where the
-    /// recording has objects that move. What only stands says nothing about when the CAV came.
-    fn first_scan(&self) -> i64 {
-        let first = self.recording.ego.first().map_or(0, |state| state.step);
-        let moves = |object: &Object| match &object.motion {
-            Motion::Standing(_) => None,
-            Motion::Moving(states) => states.first().map(|state| state.step),
-            Motion::Occupied { initial, .. } => Some(initial.step),
-        };
-        self.recording.objects.iter().filter_map(moves).fold(first, i64::min)
     }
 
     /// The scan `ago` steps before that of state `i`. Before its first state the CAV goes on
     /// backwards as it came.
     fn scan(&self, i: usize, ago: i64) -> DetectionList {
-        let Recording { ego, dt_ns, .. } = self.recording;
+        let Recording { ego, dt_ns, .. } = &self.recording;
         let before = i64::try_from(i).unwrap_or(i64::MAX).saturating_sub(ago);
         let cav = if let Ok(before) = usize::try_from(before) {
             ego[before].position
@@ -216,7 +223,7 @@ impl Maker<'_> {
 
     /// What there is `age_ns` before a step.
     fn objects(&self, step: i64, age_ns: i64) -> Vec<Seen> {
-        let Recording { objects, dt_ns, .. } = self.recording;
+        let Recording { objects, dt_ns, .. } = &self.recording;
         // The last of the steps that are needed lies up to one step after that time.
         let whole = (age_ns - 1).div_euclid(*dt_ns).max(0);
         let back = self.back(age_ns - whole * dt_ns);
@@ -225,7 +232,7 @@ impl Maker<'_> {
 
     /// The rest of the recording, up to the horizon, from now on.
     fn plan(&self, i: usize, now_ns: i64) -> Vec<TrajectoryPoint> {
-        let Recording { ego, dt_ns, .. } = self.recording;
+        let Recording { ego, dt_ns, .. } = &self.recording;
         let parts = (dt_ns + POINT_NS - 1) / POINT_NS;
         let steps = (self.options.horizon_s / self.dt_s() + 1e-6).floor();
         let mut points = vec![point(&ego[i], now_ns)];

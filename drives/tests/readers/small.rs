@@ -1,6 +1,6 @@
 //! What the cycles of small hand-made files are, number by number.
 
-use mufasa_drives::{Options, Sensor, Tail, read};
+use mufasa_drives::{DriveCycle, Options, Sensor, Tail, read, streams};
 use mufasa_model::input::cycle::{Profile, Route};
 use mufasa_model::services::configuration::Configuration;
 use mufasa_records::cycle_to_line;
@@ -186,7 +186,7 @@ fn files_pair_in_their_order() {
 #[test]
 fn json_lines_come_back_as_they_were() {
     let drive = small("2018b", Some("KS2"), &Options::default());
-    let line = |c: &mufasa_drives::DriveCycle| cycle_to_line(&c.id, &c.cycle);
+    let line = |c: &DriveCycle| cycle_to_line(&c.id, &c.cycle);
     let lines: Vec<String> = drive.cycles.iter().map(line).collect();
     let folder = Scratch::new();
     let whole = folder.write("drive.jsonl", lines.join("\n") + "\n");
@@ -242,4 +242,26 @@ fn records_are_taken_as_given() {
     let back = one(&[folder.write("back.jsonl", lines.join("\n"))], &Options::default()).unwrap();
     let found: Vec<_> = back.cycles.iter().map(|c| (c.id.as_str(), &c.cycle)).collect();
     assert_eq!(found, [1, 0].map(|i| ("same", &drive.cycles[i].cycle)));
+}
+
+#[test]
+fn a_streamed_drive_is_the_drive_read_at_once() {
+    let scenario = own("readers/small-2020a.xml");
+    let solution = own("readers/small.KS2.solution.xml");
+    let whole = small("2020a", Some("KS2"), &Options::default());
+    let line = |c: &DriveCycle| cycle_to_line(&c.id, &c.cycle);
+    let text: String = whole.cycles.iter().map(|c| line(c) + "\n").collect();
+    let folder = Scratch::new();
+    let records = folder.write("records.jsonl", text);
+    let mut streams = streams(&[scenario, solution, records], &Options::default()).into_iter();
+    for _ in 0..2 {
+        let stream = streams.next().unwrap().unwrap();
+        assert_eq!(stream.count(), whole.cycles.len());
+        // Any of them, and any of them again.
+        for index in [3, 0, 3] {
+            assert_eq!(stream.cycle(index), whole.cycles[index]);
+        }
+        assert_eq!(stream.collect().cycles, whole.cycles);
+    }
+    assert!(streams.next().is_none());
 }
