@@ -121,6 +121,10 @@ pub fn verify_a_request_goes_to_who_offers() {
     kani::cover!(!asks[0] && !asks[1], "not asked");
 }
 
+#[allow(
+    clippy::inline_always,
+    reason = "a call copies the step to memory, which CBMC has to follow"
+)]
 #[inline(always)]
 fn asks_who_offers(step: &Seen, at: usize, [one, other]: &[StationRecord; 2]) -> bool {
     let (before, after) = (step.before.groups[at], step.after.groups[at]);
