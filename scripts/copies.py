@@ -33,6 +33,7 @@ class Copy:
     def changed(self, mutant):
         """Applies a mutant, and takes it back."""
         self.check([self.applier, self.path, mutant["change"]])
+        self.mutant = mutant
         try:
             yield
         finally:
@@ -60,6 +61,16 @@ class Copy:
         once = self.path.parent / "once"
         shutil.copy(TARGET / "mutants/gains/release/once", once)
         return once
+
+
+def fingerprint(mutant):
+    """FNV-1a of what a mutant changes, as `Mutant::fingerprint` in proofs/mutants."""
+    hash_ = 0xCBF29CE484222325
+    for place in mutant["at"]:
+        for part in [place["item"].encode(), place["from"].encode(), place["to"].encode()]:
+            for byte in len(part).to_bytes(8, "little") + part:
+                hash_ = (hash_ ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    return f"{hash_:016x}"
 
 
 @contextlib.contextmanager

@@ -60,17 +60,19 @@ impl ClaimSource {
 
     /// Its claims, of which nothing was asked yet. Errors are those of reading the lists of them.
     pub fn claims(self) -> io::Result<Vec<Claim>> {
-        let (engine, mut lines) = match self {
-            Self::Theorems => (Engine::Z3, theorems::claims()),
-            Self::Gappa => (Engine::Gappa, gappa::claims()),
-            Self::Doubles => (Engine::Bitwuzla, doubles::claims()),
-            Self::Exploration => (Engine::Exploration, exploration::claims()),
-            Self::Laws => (Engine::Laws, laws::claims()?),
-            Self::Harnesses => (Engine::Harnesses, harnesses::claims()?),
+        let (engines, mut lines): (&[Engine], _) = match self {
+            Self::Theorems => (&[Engine::Z3], theorems::claims()),
+            Self::Gappa => (&[Engine::Gappa], gappa::claims()),
+            Self::Doubles => (&[Engine::Bitwuzla], doubles::claims()),
+            Self::Exploration => (&[Engine::Exploration], exploration::claims()),
+            Self::Laws => (&[Engine::Laws], laws::claims()?),
+            Self::Harnesses => {
+                (&[Engine::Harnesses, Engine::Cbmc, Engine::Symbolic], harnesses::claims()?)
+            }
         };
         let mutants = mufasa_mutants::all().map_err(io::Error::other)?;
         for line in &mut lines {
-            let changes = mufasa_mutants::changes(&mutants, engine, &line.id);
+            let changes = mufasa_mutants::changes(&mutants, engines, &line.id);
             line.mutants = changes.into_iter().map(|mutant| mutant.change.clone()).collect();
         }
         Ok(lines)

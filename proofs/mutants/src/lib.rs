@@ -62,16 +62,60 @@ struct List {
     mutant: Vec<Mutant>,
 }
 
+impl Mutant {
+    /// FNV-1a of what is changed, 64 bits in hex, as `fingerprint` in `scripts/copies.py`.
+    pub fn fingerprint(&self) -> String {
+        let parts = self.at.iter().flat_map(|place| [&place.item, &place.from, &place.to]);
+        let bytes = parts.flat_map(|part| {
+            let len = u64::try_from(part.len()).unwrap_or(u64::MAX).to_le_bytes();
+            len.into_iter().chain(part.bytes())
+        });
+        let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        format!("{:016x}", bytes.fold(0xcbf2_9ce4_8422_2325, step))
+    }
+}
+
+/// What `scripts/mutants cbmc` saw of a claim under a change.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seen {
+    /// The change.
+    pub change: String,
+    /// The claim.
+    pub claim: String,
+    /// What CBMC said, or `not run`.
+    pub found: String,
+    /// `Mutant::fingerprint` of what was run.
+    pub mutant: String,
+    /// Time of the processor, s.
+    pub seconds: Option<f64>,
+    /// What `scripts/prove-wasm --hash` said of the sources before the change.
+    pub sources: Option<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    seen: Vec<Seen>,
+}
+
+/// The record of the last runs under CBMC. Errors: it is no such TOML.
+pub fn seen() -> Result<Vec<Seen>, toml::de::Error> {
+    let record: Record = toml::from_str(include_str!("../../mutants-cbmc.toml"))?;
+    Ok(record.seen)
+}
+
 /// All mutants. Errors: the list is no such TOML.
 pub fn all() -> Result<Vec<Mutant>, toml::de::Error> {
     let list: List = toml::from_str(include_str!("../../mutants.toml"))?;
     Ok(list.mutant)
 }
 
-/// The changes that refute this claim.
-pub fn changes<'a>(mutants: &'a [Mutant], engine: Engine, claim: &str) -> Vec<&'a Mutant> {
+/// The changes that refute this claim with one of these engines.
+pub fn changes<'a>(mutants: &'a [Mutant], engines: &[Engine], claim: &str) -> Vec<&'a Mutant> {
     let refutes = |mutant: &&Mutant| {
-        mutant.refutes.get(&engine).is_some_and(|claims| claims.iter().any(|one| one == claim))
+        let claims = engines.iter().filter_map(|engine| mutant.refutes.get(engine));
+        claims.flatten().any(|one| one == claim)
     };
     mutants.iter().filter(refutes).collect()
 }

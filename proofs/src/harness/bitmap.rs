@@ -55,8 +55,6 @@ pub fn verify_a_free_row_has_no_set_cell() {
 ///
 /// Domain: all grids of 4 by 4 cells, around a cell inside, squared distances up to 8. Not covered:
 /// other sizes and cells.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(10))]
 pub fn verify_the_first_near_cell_is_found() {
     let bits = cells();
     for most in 0..=FARTHEST {

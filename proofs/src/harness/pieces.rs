@@ -21,8 +21,6 @@ use crate::kani;
 ///
 /// Domain: 3 points and a cycle of any numbers of 64 bits. Not covered: other numbers of points, how
 /// many they are, the hardened profile.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_points_examined_are_points() {
     let examined = points_examined(&cycle(Profile::Paper), &points());
     assert!((1..=POINTS).contains(&examined));
@@ -34,8 +32,6 @@ pub fn verify_points_examined_are_points() {
 ///
 /// Domain: 3 points and a cycle of any numbers of 64 bits. Not covered: other numbers of points, which
 /// starts are accepted.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_the_start_breaks_rules_of_the_start() {
     let found = start_failure(&cycle(Profile::Hardened), &points());
     if let Some(Witness { rule, point, .. }) = found {
@@ -50,8 +46,6 @@ pub fn verify_the_start_breaks_rules_of_the_start() {
 ///
 /// Domain: 2 tracks and 2 detections of any numbers of 64 bits, both profiles. Not covered: other
 /// numbers of them, which tracks are gated.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_gated_tracks_are_tracks() {
     let (tracks, detections) = (tracks(), detections());
     let tracks = TrackList { stamp_ns: near_integer(0, 12), items: &tracks };

@@ -10,8 +10,8 @@ use mufasa::parts::decide;
 use super::any::{below, groups, near_integer, profile, time_ns};
 use super::bounds::CROSS_SECTIONS;
 use super::seen::{
-    REQUESTS, after, after_in, any_parameters, any_record, any_state, any_state_with, each, in_use,
-    same,
+    GROUPS, REQUESTS, after, after_in, any_parameters, any_record, any_state, any_state_with, each,
+    in_use, same,
 };
 #[cfg(not(kani))]
 use crate::kani;
@@ -36,7 +36,8 @@ pub fn verify_requester_starts_valid() {
 
 /// An event that names a station below 1 is refused and changes nothing.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: offers that find no place.
+/// Domain: all states, valid or not, all times of 64 bits, confirmations and data of MOT, rejections of
+/// PLAN. Not covered: the other group of each, a table.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_station_below_1_is_refused() {
     let before = any_state();
@@ -66,24 +67,23 @@ pub fn verify_a_station_below_1_is_refused() {
 ///
 /// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
 /// anything.
-#[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_ticks() {
     let step = after(EventKind::Tick, &mut []);
-    assert!(step.keeps_every_law());
+    assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
     kani::cover!(step.starts(0), "local services start");
     kani::cover!(step.has_hold(), "a hold");
 }
 
 /// A withdrawal and a loss keep every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: the table, which is empty.
-#[cfg_attr(kani, kani::proof)]
+/// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
+/// anything.
 pub fn verify_every_law_at_withdrawals() {
     let station = any_station();
     let is_loss = kani::any();
     let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
     let step = after(kind, &mut []);
-    assert!(step.keeps_every_law());
+    assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
     kani::cover!(is_loss && step.starts(0), "a loss");
     kani::cover!(!is_loss && step.starts(1), "a withdrawal");
 }
@@ -92,9 +92,7 @@ pub fn verify_every_law_at_withdrawals() {
 /// station and no longer offered, with one release for each.
 ///
 /// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
-/// larger tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(4))]
+/// larger tables, drops.
 pub fn verify_every_law_at_offers() {
     let (station, groups) = (any_station(), groups());
     let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
@@ -148,17 +146,23 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
 /// Among two stations that offer a group the one is asked whose last request for it is older, never
 /// being the oldest; the smaller id of two never asked. After the last session nobody is.
 ///
-/// Domain: tables of two different stations that both offer MOT, without a hold, both groups local
-/// and in the area, all sessions. Not covered: larger tables, PLAN.
+/// Domain: tables of two different stations that both offer the group, each of the two groups, without
+/// a hold, both local and in the area, all sessions. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_the_station_asked_last_waits() {
+    // The group is a constant in each of the two branches.
+    if kani::any() { the_station_asked_last_waits(0) } else { the_station_asked_last_waits(1) }
+}
+
+fn the_station_asked_last_waits(at: usize) {
+    let group = GROUPS[at];
     let records = [any_record(), any_record()];
     let [a, b] = records;
-    kani::assume(a.offer().mot && b.offer().mot);
+    kani::assume(a.offer().contains(group) && b.offer().contains(group));
     let mut table = records;
     let (Some(one), Some(other)) = (a.station(), b.station()) else { return };
-    let asked = [a, b].map(|record| record.last_request(Group::Mot).unwrap_or(0));
+    let asked = [a, b].map(|record| record.last_request(group).unwrap_or(0));
     kani::assume(one != other && (asked[0] != asked[1] || asked[0] == 0));
     let local = any_state_with([GroupRecord::Local; 2]);
     let state = Parts { hold_until_ns: None, area: Groups::ALL, ..local };
@@ -166,18 +170,23 @@ pub fn verify_the_station_asked_last_waits() {
     let step = after_in(state, event, &mut table);
     let first = asked[0] < asked[1] || (asked[0] == asked[1] && one < other);
     let expected = if first { one } else { other };
-    let found = in_use(step.after.groups[0]);
-    if step.before.sessions == i64::MAX {
-        assert!(found.is_none() && step.done[REQUESTS][0].is_none());
-    } else {
-        let session = step.before.sessions + 1;
-        assert!(found == Some((expected, session)));
-        let asked = if first { table[0] } else { table[1] };
-        assert!(asked.last_request(Group::Mot) == Some(session) || session == 0);
+    let found = in_use(step.after.groups[at]);
+    // The request for MOT has the number before.
+    let number = if at == 1 && step.done[REQUESTS][0].is_some() { 2 } else { 1 };
+    match step.before.sessions.checked_add(number) {
+        None => assert!(found.is_none() && step.done[REQUESTS][at].is_none()),
+        Some(session) => {
+            assert!(found == Some((expected, session)));
+            let asked = if first { table[0] } else { table[1] };
+            assert!(asked.last_request(group) == Some(session) || session == 0);
+        }
     }
-    kani::cover!(asked[0] == asked[1] && found.is_some(), "never asked");
-    kani::cover!(asked[0] > asked[1] && found.is_some(), "asked longer ago");
-    kani::cover!(found.is_none(), "after the last session");
+    kani::cover!(at == 0 && asked[0] == asked[1] && found.is_some(), "never asked for MOT");
+    kani::cover!(at == 1 && asked[0] == asked[1] && found.is_some(), "never asked for PLAN");
+    kani::cover!(at == 0 && asked[0] > asked[1] && found.is_some(), "asked for MOT longer ago");
+    kani::cover!(at == 1 && asked[0] > asked[1] && found.is_some(), "asked for PLAN longer ago");
+    kani::cover!(at == 0 && found.is_none(), "after the last session");
+    kani::cover!(at == 1 && number == 2 && found.is_none(), "MOT has the last session");
 }
 
 fn any_station() -> i64 {

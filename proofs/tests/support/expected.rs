@@ -20,6 +20,12 @@ pub struct Expected {
     pub statement: String,
     /// Of which values, as in its doc.
     pub domain: String,
+    /// What is outside of that, as in its doc.
+    pub not_covered: String,
+    /// Parts of the implementation that answer anything in the compiled harness.
+    pub arbitrary: bool,
+    /// An unwinding of CBMC's own, if there is one.
+    pub cbmc_unwind: Option<i64>,
     /// Names of its covers; each has to be reached.
     pub covers: BTreeSet<String>,
     /// What the stand-in does: `every` value of the domain, or `some`.
@@ -59,6 +65,9 @@ fn one(entry: &Table) -> Expected {
         solver: text("solver"),
         statement: required("statement"),
         domain: required("domain"),
+        not_covered: required("not_covered"),
+        arbitrary: entry.contains_key("arbitrary"),
+        cbmc_unwind: entry.get("cbmc_unwind").and_then(Value::as_integer),
         covers: covers.iter().map(|name| name.as_str().expect("a name").to_owned()).collect(),
         stand_in: required("stand_in"),
         compiled: ["cbmc", "symbolic"].map(|engine| Compiled {

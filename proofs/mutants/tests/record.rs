@@ -1,0 +1,41 @@
+//! The record of the changes under CBMC has every one of them as it is, none survived, and
+//! `proofs/HARNESSES.md` says how many were run.
+
+use std::collections::BTreeSet;
+
+use mufasa_mutants::{Engine, Mutant, Seen};
+
+const HARNESSES: &str = include_str!("../../HARNESSES.md");
+
+#[test]
+fn every_change_for_cbmc_is_in_the_record() {
+    let mutants = mufasa_mutants::all().expect("the list is read");
+    let seen = mufasa_mutants::seen().expect("the record is read");
+    let said = |mutant: &Mutant| {
+        let claims = mutant.refutes.get(&Engine::Cbmc).cloned().unwrap_or_default();
+        let (change, fingerprint) = (mutant.change.clone(), mutant.fingerprint());
+        claims.into_iter().map(move |claim| (change.clone(), claim, fingerprint.clone()))
+    };
+    let said: BTreeSet<_> = mutants.iter().flat_map(said).collect();
+    let found = seen.iter().map(|one| (one.change.clone(), one.claim.clone(), one.mutant.clone()));
+    let found: BTreeSet<_> = found.collect();
+    let (never, old) = (said.difference(&found), found.difference(&said));
+    let problems: Vec<_> = never
+        .map(|it| format!("not in the record as it is: {it:?}"))
+        .chain(old.map(|it| format!("not in mutants.toml as it was: {it:?}")))
+        .collect();
+    assert!(problems.is_empty(), "scripts/mutants --missing cbmc\n{}", problems.join("\n"));
+    assert_eq!(found.len(), seen.len(), "one entry for each");
+}
+
+#[test]
+fn none_survived_and_the_number_of_runs_is_said() {
+    let seen = mufasa_mutants::seen().expect("the record is read");
+    let was_run = |one: &&Seen| one.found != "not run";
+    for one in seen.iter().filter(was_run) {
+        assert_eq!(one.found, "refuted", "{}: {}", one.change, one.claim);
+        assert!(one.seconds.is_some() && one.sources.is_some(), "{}: {}", one.change, one.claim);
+    }
+    let number = format!("Of {} such pairs {} ", seen.len(), seen.iter().filter(was_run).count());
+    assert!(HARNESSES.contains(&number), "proofs/HARNESSES.md does not say: {number}");
+}
