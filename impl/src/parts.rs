@@ -101,13 +101,13 @@ pub fn trajectory_is_usable(
     check_trajectory(Some(trajectory), now_ns, remote).ok()
 }
 
-/// total + summand or total - summand of integers of three limbs, and the sign of it, as `exact` has
+/// total + summand or total - summand of integers of so many limbs, and the sign of it, as `exact` has
 /// them for 36. Source: `spec/4-arithmetic.md#strict-and-lax`.
-pub fn sum_of_limbs(
-    mut total: [u64; 3],
-    summand: &[u64; 3],
+pub fn sum_of_limbs<const N: usize>(
+    mut total: [u64; N],
+    summand: &[u64; N],
     negative: bool,
-) -> ([u64; 3], Ordering) {
+) -> ([u64; N], Ordering) {
     limbs::add(&mut total, summand, negative);
     (total, limbs::sign(&total))
 }

@@ -59,7 +59,8 @@ harnesses! {
         verify_gap_keeps_its_laws
         verify_s_valid_is_s_follow_or_s_b;
     exact:
-        verify_limbs_add_like_integers;
+        verify_limbs_add_like_integers
+        verify_four_limbs_add_like_integers;
     group:
         verify_every_law_at_areas
         verify_every_law_at_verdicts
