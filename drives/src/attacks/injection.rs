@@ -37,6 +37,9 @@ pub enum Attack {
     /// The object nearest to the CAV's path and the one nearest to it are given velocities as if
     /// each had come from where the other was 0.5 s ago (F-30, F-38).
     ExchangedPasts,
+    /// The object nearest to the CAV's path is given a velocity as if it had come from where the one
+    /// nearest to it was 0.5 s ago, and that one is left out (F-42).
+    TakenPast,
     /// Objects that move are said to be 3 m/s faster, which their pasts allow (F-30).
     VelocityBias,
     /// An object more: it stands where the one nearest to the CAV's path of those that drive was
@@ -51,7 +54,7 @@ pub enum Attack {
 
 impl Attack {
     /// All attacks.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::WrongMap,
         Self::EmptyTracks,
         Self::GhostTracks,
@@ -64,6 +67,7 @@ impl Attack {
         Self::MissingTrack,
         Self::CrossingStands,
         Self::ExchangedPasts,
+        Self::TakenPast,
         Self::VelocityBias,
         Self::PastGhost,
         Self::BlindDetectors,
@@ -85,6 +89,7 @@ impl Attack {
             Self::MissingTrack => "missing-track",
             Self::CrossingStands => "crossing-stands",
             Self::ExchangedPasts => "exchanged-pasts",
+            Self::TakenPast => "taken-past",
             Self::VelocityBias => "velocity-bias",
             Self::PastGhost => "past-ghost",
             Self::BlindDetectors => "blind-detectors",
@@ -112,6 +117,7 @@ impl Attack {
             | Self::MissingTrack
             | Self::CrossingStands
             | Self::ExchangedPasts
+            | Self::TakenPast
             | Self::VelocityBias
             | Self::PastGhost
             | Self::BlindDetectors => true,
@@ -146,6 +152,7 @@ impl Attack {
             | Self::MissingTrack
             | Self::CrossingStands
             | Self::ExchangedPasts
+            | Self::TakenPast
             | Self::VelocityBias
             | Self::BlindDetectors => true,
             Self::WrongMap

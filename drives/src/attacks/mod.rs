@@ -189,6 +189,7 @@ fn change(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
         Attack::MissingTrack => on_target(cycle, onset, |_| true, objects::leave_out),
         Attack::CrossingStands => objects::stop_crossing(cycle),
         Attack::ExchangedPasts => on_target(cycle, onset, |_| true, objects::exchange_pasts),
+        Attack::TakenPast => on_target(cycle, onset, |_| true, objects::take_past),
         Attack::VelocityBias => objects::bias_velocities(cycle),
         Attack::PastGhost => on_target(cycle, onset, objects::leaves, objects::add_past_ghost),
         Attack::BlindDetectors => {

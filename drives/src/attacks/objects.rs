@@ -68,13 +68,9 @@ pub(super) fn stop_crossing(cycle: &mut Cycle) {
 /// Gives a track and the one nearest to it velocities as if each had been, half a second ago,
 /// where the other was.
 pub(super) fn exchange_pasts(cycle: &mut Cycle, one: &Track) {
+    let Some(other) = nearest(cycle, one) else { return };
+    let [first, second] = [from_past(one, &other), from_past(&other, one)];
     let Some(list) = &mut cycle.tracks else { return };
-    let apart = |it: &&Track| distance(place(it), place(one));
-    let others = list.items.iter().filter(|it| it.id != one.id);
-    let Some(other) = others.min_by(|a, b| apart(a).total_cmp(&apart(b))).cloned() else { return };
-    let past = |it: &Track| sub(place(it), scale(velocity(it), AGO_S));
-    let from = |now: &Track, past: Point| scale(sub(place(now), past), 1.0 / AGO_S);
-    let [first, second] = [from(one, past(&other)), from(&other, past(one))];
     for it in &mut list.items {
         if it.id == one.id {
             *it = moving(it, first);
@@ -82,6 +78,28 @@ pub(super) fn exchange_pasts(cycle: &mut Cycle, one: &Track) {
             *it = moving(it, second);
         }
     }
+}
+
+/// Gives a track a velocity as if it had been, half a second ago, where the nearest one was, and
+/// leaves that one out.
+pub(super) fn take_past(cycle: &mut Cycle, one: &Track) {
+    let Some(other) = nearest(cycle, one) else { return };
+    leave_out(cycle, &other);
+    let v = from_past(one, &other);
+    super::each_track(cycle, |it| Some(if it.id == one.id { moving(it, v) } else { it.clone() }));
+}
+
+/// The track nearest to another one, the first of several.
+fn nearest(cycle: &Cycle, one: &Track) -> Option<Track> {
+    let apart = |it: &&Track| distance(place(it), place(one));
+    let others = cycle.tracks.as_ref()?.items.iter().filter(|it| it.id != one.id);
+    others.min_by(|a, b| apart(a).total_cmp(&apart(b))).cloned()
+}
+
+/// The velocity of a track if it had been, half a second ago, where another one was.
+fn from_past(now: &Track, other: &Track) -> Point {
+    let past = sub(place(other), scale(velocity(other), AGO_S));
+    scale(sub(place(now), past), 1.0 / AGO_S)
 }
 
 /// Makes what moves a little faster than it is.

@@ -63,6 +63,7 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
         // F-31, F-30, F-34: the lead is left out, or said to be where it is not.
         (Attack::MissingTrack, None, Some(At(Stage::Iv))),
         (Attack::ExchangedPasts, Some(At(Stage::Iii)), Some(At(Stage::Iii))),
+        (Attack::TakenPast, Some(At(Stage::Iii)), Some(At(Stage::Iii))),
         (Attack::VelocityBias, Some(At(Stage::Iii)), Some(At(Stage::Iv))),
         (Attack::BlindDetectors, None, Some(At(Stage::Iv))),
         (Attack::PastGhost, Some(At(Stage::I)), Some(At(Stage::I))),

@@ -80,6 +80,19 @@ fn exchanged_pasts_are_those_of_the_other() {
 }
 
 #[test]
+fn a_taken_past_is_that_of_one_left_out() {
+    let [clean, attacked] = both(&demo(&Options::default()), Attack::TakenPast);
+    let left: Vec<_> = tracks(&attacked).iter().map(|it| it.id).collect();
+    let out: Vec<_> = tracks(&clean).iter().filter(|it| !left.contains(&it.id)).collect();
+    let [other] = &out[..] else { panic!("{out:?}") };
+    let kept: Vec<Track> = tracks(&clean).iter().filter(|it| it.id != other.id).cloned().collect();
+    let lies: Vec<_> = kept.iter().zip(tracks(&attacked)).filter(|(a, b)| a != b).collect();
+    let [(truth, lie)] = &lies[..] else { panic!("{lies:?}") };
+    assert_eq!([truth.x, truth.y, truth.cos], [lie.x, lie.y, lie.cos]);
+    assert!(near(past(lie, [lie.vx, lie.vy]), past(other, [other.vx, other.vy])));
+}
+
+#[test]
 fn a_velocity_bias_is_along_the_velocity() {
     let pair = both(&demo(&Options::default()), Attack::VelocityBias);
     let moves = |it: &&Track| it.vx.hypot(it.vy) >= 1.0;

@@ -37,8 +37,8 @@ pub(super) struct CheckArguments {
     /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
     /// It must change some cycle of every drive.
     /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
-    /// frozen, late, too-fast, missing-track, crossing-stands, exchanged-pasts, velocity-bias,
-    /// past-ghost, blind-detectors, slide.
+    /// frozen, late, too-fast, missing-track, crossing-stands, exchanged-pasts, taken-past,
+    /// velocity-bias, past-ghost, blind-detectors, slide.
     #[arg(long, value_name = "ATTACK")]
     pub(super) inject: Vec<Injection>,
     /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
