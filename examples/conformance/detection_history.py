@@ -114,13 +114,27 @@ class Seen:
         return nearest_to_half_a_second(
             [one for one, own in zip(self.lists, self.own) if own[i] is not None])
 
-    def supported(self, detection, w):
-        """(b) of H-13: whether another usable list has an item where d with velocity w was."""
-        others = [one for one in self.lists if one is not self.reference]
+    def may_come_from(self, detection, item, one):
+        """Whether a detection may be what was at an item of a usable list: near enough, and where
+        it was then, some other usable list, if there is one, has an item, too."""
+        if not distance(item, detection) <= self.parameters["v_object"] * one["dt"] + EPS:
+            return False
+        others = [other for other in self.lists if other is not one]
         bound = self.parameters["theta_track_max"] + EPS
+        w = velocity(item, detection, one)
         moving = {**detection, "vx": w[0], "vy": w[1]}
-        return not others or any(gap(item, moving, -one["dt"]) <= bound
-                                 for one in others for item in one["items"])
+        return not others or any(gap(old, moving, -other["dt"]) <= bound
+                                 for other in others for old in other["items"])
+
+    def disputed(self):
+        """The explained detections whose track may have taken the past of another object."""
+        unexplained = [detection for i, detection in enumerate(self.detections)
+                       if i not in self.explained]
+        for i in self.sure:
+            one = self.seen_as(i)
+            origin = one["items"][self.own[self.lists.index(one)][i]]
+            if any(self.may_come_from(detection, origin, one) for detection in unexplained):
+                yield self.detection[i]
 
     def moving(self):
         """The motions to be examined: each a detection and its velocity (H-13)."""
@@ -131,22 +145,20 @@ class Seen:
                     yield detection, velocity(item, detection, one)
         if bugs.ON == "only-explained" or self.reference is None:
             return
+        sure = self.explained - set(self.disputed())
         for i, detection in enumerate(self.detections):
-            if i in self.explained:
+            if i in sure:
                 continue
             for item in self.reference["items"]:
-                w = velocity(item, detection, self.reference)
-                way = distance(item, detection)
-                if way <= self.parameters["v_object"] * self.reference["dt"] + EPS and (
-                        self.supported(detection, w)):
-                    yield detection, w
+                if self.may_come_from(detection, item, self.reference):
+                    yield detection, velocity(item, detection, self.reference)
 
     def work(self, points):
         """What H-13 costs, in steps."""
         if self.reference is None:
             return 0
-        items = sum(len(one["items"]) for one in self.lists) - len(self.reference["items"])
-        return len(self.detections) * len(self.reference["items"]) * (items + points)
+        sizes = [len(one["items"]) for one in self.lists]
+        return len(self.detections) * max(sizes) * (sum(sizes) + points)
 
 
 def velocity(item, detection, one):
