@@ -29,6 +29,8 @@ pub enum ConformError {
     Read(Box<ReadError>),
     /// Summaries that are not shards of one campaign.
     Merge(String),
+    /// A vector on which its author and the model differ.
+    Vectors(String),
     /// The report cannot be written.
     Output(io::Error),
 }
@@ -56,6 +58,7 @@ impl fmt::Display for ConformError {
             Self::File { path, message } => write!(f, "{}: {message}", path.display()),
             Self::NoCycles => f.write_str("the files given with --drives hold no cycles"),
             Self::Read(error) => write!(f, "{error}"),
+            Self::Vectors(message) => write!(f, "the vectors are wrong: {message}"),
             Self::Merge(message) => f.write_str(message),
             Self::Output(error) => write!(f, "the report cannot be written: {error}"),
         }

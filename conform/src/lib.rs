@@ -31,6 +31,7 @@ pub use results::summary::{Campaign, CaseCount, Found, Summary};
 pub use settings::Settings;
 
 use cases::source::Source;
+use cases::vectors::fitting;
 use results::report::Files;
 use runner::Runner;
 use subject::Subject;
@@ -55,10 +56,11 @@ pub fn run(
     err: &mut impl Write,
 ) -> Result<u8, ConformError> {
     let (source, unreadable) = Source::new(settings, err)?;
+    let vectors = fitting(settings)?;
     // First, so that nothing of an earlier run is left when the program cannot be started.
     let files = Files::prepare(&settings.out, settings.shard)?;
     let subject = Subject::start(&settings.command, settings.time_limit, stop)?;
-    let mut runner = Runner::new(settings, &source, subject);
+    let mut runner = Runner::new(settings, &source, &vectors, subject);
     runner.run(out)?;
     let summary = runner.summary();
     files.write(&summary)?;
@@ -74,7 +76,7 @@ pub fn run(
     if summary.interrupted {
         return Ok(INTERRUPTED);
     }
-    Ok(match (summary.classes.is_empty(), unreadable || summary.asked == 0) {
+    Ok(match (summary.classes.is_empty(), unreadable || summary.is_empty()) {
         (false, _) => DISAGREES,
         (true, true) => BAD_INPUT,
         (true, false) => CONFORMS,
@@ -108,7 +110,7 @@ pub fn merge(
     if !missing.is_empty() {
         writeln!(out, "INCOMPLETE: shard {} missing", missing.join(", "))?;
     }
-    Ok(match (summary.classes.is_empty(), summary.is_complete() && summary.asked > 0) {
+    Ok(match (summary.classes.is_empty(), summary.is_complete() && !summary.is_empty()) {
         (false, _) => DISAGREES,
         (true, true) => CONFORMS,
         (true, false) => BAD_INPUT,

@@ -10,8 +10,10 @@ use mufasa_props::conformance::{is_too_much, name as stage_name};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
+use crate::cases::case::Case;
 use crate::cases::question::Question;
 use crate::cases::source::Source;
+use crate::cases::vectors::Given;
 use crate::error::ConformError;
 use crate::judge::class::{Breach, Class, Kind, Scale};
 use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
@@ -52,8 +54,10 @@ const AFTERWARDS: &str = "after its answer";
 pub struct Runner<'a> {
     settings: &'a Settings,
     source: &'a Source,
+    vectors: &'a [Given],
     subject: Subject,
     bar: ProgressBar,
+    vectors_asked: u64,
     asked: u64,
     skipped: u64,
     tolerated: u64,
@@ -66,19 +70,19 @@ pub struct Runner<'a> {
     classes: BTreeMap<Class, Found>,
 }
 
-/// A case that is asked.
-struct Case {
-    number: u64,
-    name: String,
-    question: Question,
-}
-
 impl<'a> Runner<'a> {
     /// A campaign that has not begun.
-    pub fn new(settings: &'a Settings, source: &'a Source, subject: Subject) -> Self {
+    pub fn new(
+        settings: &'a Settings,
+        source: &'a Source,
+        vectors: &'a [Given],
+        subject: Subject,
+    ) -> Self {
         Self {
             settings,
             source,
+            vectors,
+            vectors_asked: 0,
             subject,
             bar: ProgressBar::hidden(),
             asked: 0,
@@ -93,29 +97,38 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Asks all cases; prints the first class of each rule with its smallest case as it is found,
+    /// Asks all vectors, then all cases; prints the first class of each rule with its smallest case as it is found,
     /// and the names of the others.
     /// Errors: the program cannot be started again, `out` cannot be written.
     pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
         let (first, step) = self.settings.shard.unwrap_or((0, 1));
         let cases = self.source.cases(self.settings.cases);
-        self.bar = progress(cases.saturating_sub(first).div_ceil(step));
+        let vectors = self.vectors.len() as u64;
+        let mine = |all: u64| all.saturating_sub(first).div_ceil(step);
+        self.bar = progress(mine(vectors).saturating_add(mine(cases)));
         let mut last = None;
-        let mut number = first;
-        while number < cases && !self.subject.is_interrupted() {
-            if self.given_up.contains(&self.source.kind(number)) {
+        // Divided among the shards as the cases are.
+        let (mut vector, mut number) = (first, first);
+        while vector < vectors || number < cases {
+            if self.subject.is_interrupted() {
+                self.interrupted = true;
+                break;
+            }
+            let given = usize::try_from(vector).ok().and_then(|at| self.vectors.get(at));
+            let kind = given.map_or_else(|| self.source.kind(number), |it| it.question.kind());
+            if self.given_up.contains(&kind) {
                 self.skipped += 1;
             } else {
-                let (name, question) = self.source.case(number);
-                let case = Case { number, name, question };
+                let case =
+                    given.map_or_else(|| Case::of_source(self.source, number), Case::of_vector);
                 self.ask(&case, last.as_ref(), out)?;
                 last = Some(case);
             }
             self.bar.inc(1);
-            number = number.saturating_add(step);
+            let next = if given.is_some() { &mut vector } else { &mut number };
+            *next = next.saturating_add(step);
         }
         self.bar.finish_and_clear();
-        self.interrupted = number < cases;
         if self.interrupted {
             return Ok(());
         }
@@ -164,6 +177,7 @@ impl<'a> Runner<'a> {
         Summary {
             campaign,
             shards: vec![self.settings.shard.map_or(0, |(at, _)| at)],
+            vectors: self.vectors_asked,
             asked: self.asked,
             skipped: self.skipped,
             tolerated: self.tolerated,
@@ -183,6 +197,7 @@ impl<'a> Runner<'a> {
             command: settings.command.iter().map(text).collect(),
             profile: names::profile(settings.profile).to_owned(),
             seed: settings.seed,
+            vectors: self.vectors.len() as u64,
             cases: self.source.cases(settings.cases),
             kinds: self.source.kinds(),
             drives: settings.drives.iter().map(|path| path.display().to_string()).collect(),
@@ -221,9 +236,13 @@ impl<'a> Runner<'a> {
             Some(class) if class.breach.is_broken() => self.broke(class.kind, class.breach),
             _ => self.broken.entry(question.kind()).or_default()[0] = 0,
         }
-        self.asked += 1;
         self.tolerated += u64::from(examined.tolerated);
-        self.count(question, &examined);
+        if case.number.is_some() {
+            self.asked += 1;
+            self.count(question, &examined);
+        } else {
+            self.vectors_asked += 1;
+        }
         match examined.class.clone() {
             None => Ok(()),
             Some(class) => self.settle(&class, case, &examined, out),
@@ -257,27 +276,32 @@ impl<'a> Runner<'a> {
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
         let known = self.classes.get(class);
-        let known = known.map(|found| (found.count, found.rank(), found.shrunk, found.first));
-        let enough = known.is_some_and(|(count, (_, _, size), shrunk, _)| {
+        let known = known.map(|found| (found.count, found.rank(), found.shrunk));
+        let enough = known.is_some_and(|(count, (_, _, size), shrunk)| {
             (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
         });
         if !enough {
             self.bar.set_message(format!("shrinking: {class}"));
             let found = self.shrunk(class, case, examined)?;
-            if known.is_none_or(|(_, rank, _, _)| found.rank() < rank) {
-                let (count, first) =
-                    known.map_or((0, case.number), |(count, _, _, first)| (count, first));
+            if known.is_none_or(|(_, rank, _)| found.rank() < rank) {
+                let of_class = self.classes.get(class);
+                let (count, first) = of_class.map_or((0, None), |it| (it.count, it.first));
+                let vectors = of_class.map_or_else(Vec::new, |it| it.vectors.clone());
                 let is_new = !self.classes.keys().any(|it| it.is_of_rule(class));
                 let print = |out: &mut _| {
                     if is_new { report::found(&found, out) } else { report::further(&found, out) }
                 };
                 self.bar.suspend(|| print(out).and_then(|()| out.flush()))?;
-                self.classes.insert(class.clone(), Found { count, first, ..found });
+                self.classes.insert(class.clone(), Found { count, vectors, first, ..found });
             }
             self.bar.set_message("");
         }
         if let Some(found) = self.classes.get_mut(class) {
             found.count += 1;
+            match case.number {
+                Some(_) => found.first = found.first.or(case.number),
+                None => found.vectors.push(case.name.clone()),
+            }
         }
         Ok(())
     }
@@ -301,7 +325,7 @@ impl<'a> Runner<'a> {
         case: &Case,
         examined: &Examined,
     ) -> Result<Found, ConformError> {
-        let Case { number, name, question } = case;
+        let Case { number, name, about, question } = case;
         let is_first = !self.classes.contains_key(class);
         let mut reproduction = Reproduction {
             subject: &mut self.subject,
@@ -310,15 +334,15 @@ impl<'a> Runner<'a> {
             question,
             tolerance: self.settings.tolerance,
         };
-        let again = match self.source {
+        let again = match (self.source, *number) {
             // That comes after an answer, and cannot be asked.
             _ if class.place == AFTERWARDS => Again::Never,
-            Source::Generated(generator) => {
+            (Source::Generated(generator), Some(number)) => {
                 let kind = question.kind();
                 let read = |tape: &[u32]| generator.read(kind, tape);
-                reproduction.run(Some(&(generator.tape(*number), &read)), is_first)?
+                reproduction.run(Some(&(generator.tape(number), &read)), is_first)?
             }
-            Source::Drives(_) => reproduction.run(None, is_first)?,
+            (Source::Generated(_) | Source::Drives(_), _) => reproduction.run(None, is_first)?,
         };
         // What the program did after an answer while a case was made smaller is no case of its own.
         let _ = self.subject.take_afterwards();
@@ -331,8 +355,10 @@ impl<'a> Runner<'a> {
         Ok(Found {
             class: class.clone(),
             count: 1,
+            vectors: Vec::new(),
             first: *number,
             name: name.clone(),
+            about: about.clone(),
             told,
             shrunk,
             before,

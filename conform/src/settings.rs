@@ -15,7 +15,7 @@ pub struct Settings {
     pub command: Vec<OsString>,
     /// Profile of generated cases and of recorded drives.
     pub profile: Profile,
-    /// Cases of all shards; by default 10,000, or all that the drives give.
+    /// Cases of all shards, vectors not counted; by default 10,000, or all that the drives give.
     pub cases: Option<u64>,
     /// Seed of the cases.
     pub seed: u64,
@@ -27,6 +27,8 @@ pub struct Settings {
     pub shard: Option<(u64, u64)>,
     /// Files of drives that give the cases instead.
     pub drives: Vec<PathBuf>,
+    /// Whether the vectors that fit are asked before generated cases.
+    pub vectors: bool,
     /// Margin within which a disagreement is none, m.
     pub tolerance: Option<f64>,
     /// Where summary, JUnit and reproducers go.

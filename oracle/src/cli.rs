@@ -239,6 +239,7 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
                 kinds: arguments.kinds,
                 shard: arguments.shard,
                 drives: arguments.drives,
+                vectors: !arguments.no_vectors,
                 tolerance: arguments.tolerance,
                 out: arguments.out,
             };

@@ -6,7 +6,9 @@ use mufasa_model::services::orchestrator::Task;
 use crate::cases::damage::Damage;
 use crate::judge::class::Kind;
 use mufasa_records::record::{Recorded, composition, cycle, offloading};
-use mufasa_records::{Record, Trace, cycle_to_line, names, parse, task_to_line, trace_to_line};
+use mufasa_records::{
+    LineError, Record, Trace, cycle_to_line, decide, names, parse, task_to_line, trace_to_line,
+};
 use serde_json::Value;
 
 /// So many places are tried for one where a damage makes a record unreadable.
@@ -23,6 +25,8 @@ pub enum Question {
     Composition(Task),
     /// A line that is none of them.
     Line(Damaged),
+    /// A line of a vector that is none of them, or not one that a record would be written as.
+    Text(Text),
 }
 
 impl Question {
@@ -32,7 +36,7 @@ impl Question {
             Self::Cycle(_) => Kind::Cycle,
             Self::Offloading(_) => Kind::Offloading,
             Self::Composition(_) => Kind::Composition,
-            Self::Line(_) => Kind::Line,
+            Self::Line(_) | Self::Text(_) => Kind::Line,
         }
     }
 
@@ -43,7 +47,7 @@ impl Question {
                 (names::profile(cycle.profile), names::configuration(cycle.configuration))
             }
             Self::Offloading(trace) => (names::profile(trace.profile), ""),
-            Self::Composition(_) | Self::Line(_) => ("", ""),
+            Self::Composition(_) | Self::Line(_) | Self::Text(_) => ("", ""),
         }
     }
 
@@ -55,7 +59,7 @@ impl Question {
             Self::Composition(it) => {
                 serde_json::to_value(composition::Composition::of_model(it)).ok()
             }
-            Self::Line(_) => None,
+            Self::Line(_) | Self::Text(_) => None,
         }
     }
 
@@ -75,6 +79,7 @@ impl Question {
             Self::Offloading(trace) => trace_to_line(id, trace),
             Self::Composition(task) => task_to_line(id, task),
             Self::Line(damaged) => damaged.line(id),
+            Self::Text(text) => text.line.clone(),
         }
     }
 
@@ -96,6 +101,7 @@ impl Question {
             Self::Offloading(trace) => trace.events.len(),
             Self::Composition(task) => task.services.len(),
             Self::Line(damaged) => damaged.record.objects(),
+            Self::Text(_) => 1,
         }
     }
 
@@ -106,7 +112,53 @@ impl Question {
             Self::Offloading(_) => "event",
             Self::Composition(_) => "service",
             Self::Line(damaged) => damaged.record.unit(),
+            Self::Text(_) => "line",
         }
+    }
+
+    /// The id that the answer must have when it is asked under `id`.
+    pub fn id<'a>(&'a self, id: &'a str) -> &'a str {
+        match self {
+            Self::Text(text) => text.id.as_deref().unwrap_or(id),
+            Self::Cycle(_) | Self::Offloading(_) | Self::Composition(_) | Self::Line(_) => id,
+        }
+    }
+
+    /// What is wrong with a line that is no record; empty for a record.
+    pub fn wrong(&self) -> &str {
+        match self {
+            Self::Line(damaged) => damaged.damage.name(),
+            Self::Text(text) => &text.vector,
+            Self::Cycle(_) | Self::Offloading(_) | Self::Composition(_) => "",
+        }
+    }
+}
+
+/// A line of a vector, as it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// The vector.
+    pub vector: String,
+    /// The line.
+    pub line: String,
+    /// The id that can be read in it.
+    id: Option<String>,
+}
+
+impl Text {
+    /// The line of the vector of this id.
+    pub fn new(vector: &str, line: &str) -> Self {
+        let mut text = Self { vector: vector.to_owned(), line: line.to_owned(), id: None };
+        text.id = text.error().and_then(|error| error.id);
+        text
+    }
+
+    /// What is wrong with it, in its schema or in its values.
+    pub fn error(&self) -> Option<LineError> {
+        let decided = parse(self.line.as_bytes(), 1).and_then(|record| {
+            decide(record).map_err(|(id, problem)| LineError::new(1, Some(id), problem))
+        });
+        decided.err()
     }
 }
 

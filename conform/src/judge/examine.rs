@@ -7,7 +7,7 @@ use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, Disagreement, is_too_much, name, rank, stage_conforms};
 use serde_json::{Map, Value};
 
-use crate::cases::question::{Damaged, Question};
+use crate::cases::question::Question;
 use crate::error::ConformError;
 use crate::judge::answer::{self, Said};
 use crate::judge::class::{Breach, Class, Kind, Scale};
@@ -64,7 +64,7 @@ pub fn ask_and_compare(
 ) -> Result<Examined, ConformError> {
     let (expected, answered) = subject.ask(&question.line(id), || expect(id, question))?;
     let compared = match &answered {
-        Ok(line) => answer::object(line, id, question.kind() != Kind::Line)
+        Ok(line) => answer::object(line, question.id(id), question.kind() != Kind::Line)
             .and_then(|object| compare(question, &expected, &object))
             .map_err(|broken| subject.broke(broken)),
         Err(broken) => Err(broken.clone()),
@@ -88,11 +88,7 @@ pub fn ask_and_compare(
             Examined { expected, answered, class: Some(class).filter(|_| !tolerated), tolerated }
         }
         Err(broken) => {
-            let place = match question {
-                Question::Line(Damaged { damage, .. }) => damage.name(),
-                Question::Cycle(_) | Question::Offloading(_) | Question::Composition(_) => "",
-            };
-            let class = class(broken.breach, place.to_owned(), "", "", Scale::Clear);
+            let class = class(broken.breach, question.wrong().to_owned(), "", "", Scale::Clear);
             Examined { expected, answered: Err(broken), class: Some(class), tolerated: false }
         }
     })
@@ -110,6 +106,7 @@ pub fn expect(id: &str, question: &Question) -> Expected {
             let answer = |(_, answer)| CompositionAnswer::new(id.to_owned(), answer);
             Expected::Composition(composed.map(answer))
         }
+        Question::Text(text) => Expected::Line(text.error()),
         Question::Line(damaged) => {
             Expected::Line(json::parse(damaged.line(id).as_bytes(), 1).err())
         }
@@ -168,8 +165,8 @@ fn compare(
         (Question::Composition(_), Expected::Composition(expected)) => {
             compare_compositions(expected, object)
         }
-        (Question::Line(Damaged { damage, .. }), Expected::Line(Some(expected))) => {
-            Ok(compare_errors(damage.name(), expected, object))
+        (Question::Line(_) | Question::Text(_), Expected::Line(Some(expected))) => {
+            Ok(compare_errors(question.wrong(), expected, object))
         }
         // `expect` answers in kind; a line that was made smaller may have become a record.
         (_, _) => Ok(None),
@@ -338,7 +335,10 @@ mod tests {
         let generator = Generator { seed: 0, profile: Profile::Paper, kinds: vec![Kind::Cycle] };
         let cycles = (0..100).filter_map(|case| match generator.question(case) {
             Question::Cycle(cycle) => Some(*cycle),
-            Question::Offloading(_) | Question::Composition(_) | Question::Line(_) => None,
+            Question::Offloading(_)
+            | Question::Composition(_)
+            | Question::Line(_)
+            | Question::Text(_) => None,
         });
         cycles.into_iter().find(|it| check(it, Reading::Exact).is_ok()).expect("a valid cycle")
     }

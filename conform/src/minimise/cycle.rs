@@ -24,7 +24,10 @@ impl Case<'_> {
     pub fn cycle(&self) -> Option<&Cycle> {
         match &self.question {
             Question::Cycle(cycle) => Some(cycle),
-            Question::Offloading(_) | Question::Composition(_) | Question::Line(_) => None,
+            Question::Offloading(_)
+            | Question::Composition(_)
+            | Question::Line(_)
+            | Question::Text(_) => None,
         }
     }
 

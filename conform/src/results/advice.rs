@@ -66,5 +66,7 @@ fn first(summary: &Summary) -> Option<&Found> {
 fn is_beginning(summary: &Summary) -> bool {
     let campaign = &summary.campaign;
     let is_least = campaign.profile == "paper" && campaign.kinds == [Kind::Cycle];
-    campaign.drives.is_empty() && !is_least && 2 * summary.disagreements() > summary.asked
+    campaign.drives.is_empty()
+        && !is_least
+        && 2 * summary.disagreements() > summary.asked + summary.vectors
 }

@@ -10,7 +10,8 @@ pub fn xml(summary: &Summary) -> String {
         summary.groups.iter().filter(|group| group.disagreements == 0).collect();
     let failures = summary.classes.len();
     let errors = usize::from(summary.interrupted);
-    let tests = passed.len() + failures + errors;
+    let right = summary.vectors > 0 && summary.wrong_vectors().is_empty();
+    let tests = passed.len() + usize::from(right) + failures + errors;
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -19,6 +20,10 @@ pub fn xml(summary: &Summary) -> String {
          <testsuite name=\"mufasa conform\" tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\" \
          skipped=\"0\">"
     );
+    if right {
+        let name = format!("vectors ({})", summary.vectors);
+        let _ = writeln!(text, "<testcase classname=\"mufasa\" name=\"{name}\"/>");
+    }
     for CaseCount { kind, profile, configuration, expected, cases, .. } in passed {
         let parts = [kind.name(), profile, configuration, expected];
         let words: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();

@@ -11,6 +11,9 @@ use crate::results::summary::{Campaign, CaseCount, Found, Summary};
 use crate::results::{advice, junit};
 use mufasa_records::files;
 
+/// So many vectors that disagree are named; the summary has all.
+const NAMED: usize = 5;
+
 /// Longest record that is printed; the file has all.
 const MOST: usize = 4000;
 
@@ -23,7 +26,7 @@ pub fn further(found: &Found, out: &mut impl Write) -> io::Result<()> {
 
 /// Prints a class with its smallest case.
 pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, id, name, told, shrunk, before, size, unit, record, .. } = found;
+    let Found { class, id, name, about, told, shrunk, before, size, unit, record, .. } = found;
     writeln!(out, "\nDISAGREES  {class}")?;
     writeln!(out, "  program  {}", told.answered)?;
     writeln!(out, "  exact    {}", told.expected)?;
@@ -36,12 +39,16 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
         writeln!(out)?;
     }
     let how = match (shrunk, before.len()) {
-        (true, _) => "shrunk from case",
-        (false, 0) => "was not shown again; case",
-        (false, _) => "does not occur alone; case",
+        (true, _) => "shrunk from",
+        (false, 0) => "was not shown again;",
+        (false, _) => "does not occur alone;",
     };
+    let what = if about.is_empty() { "case" } else { "vector" };
     let plural = if *size == 1 { "" } else { "s" };
-    writeln!(out, "  size     {size} {unit}{plural}, {how} {name}")?;
+    writeln!(out, "  size     {size} {unit}{plural}, {how} {what} {name}")?;
+    if !about.is_empty() {
+        writeln!(out, "  vector   {about}")?;
+    }
     if !before.is_empty() {
         let (count, plural) = (before.len(), if before.len() == 1 { "" } else { "s" });
         writeln!(out, "  after    {count} other line{plural}: sequence.{id}.jsonl")?;
@@ -63,7 +70,19 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
         let name = kind.name();
         writeln!(out, "given up: {name} records, after too many restarts of the program")?;
     }
-    let Campaign { cases, of, .. } = &summary.campaign;
+    let Campaign { vectors, cases, of, .. } = &summary.campaign;
+    let wrong = summary.wrong_vectors();
+    if *vectors > 0 {
+        write!(out, "{} of {vectors} vectors asked", summary.vectors)?;
+        match wrong.split_at_checked(NAMED) {
+            _ if wrong.is_empty() => writeln!(out, ": no disagreement")?,
+            Some((named, more)) if !more.is_empty() => {
+                let named = named.join(", ");
+                writeln!(out, ": {} DISAGREE: {named}, {} more", wrong.len(), more.len())?;
+            }
+            _ => writeln!(out, ": {} DISAGREE: {}", wrong.len(), wrong.join(", "))?,
+        }
+    }
     write!(out, "{} of {cases} cases asked", summary.asked)?;
     if *of > 1 {
         write!(out, " ({} of {of} shards)", summary.shards.len())?;
@@ -81,12 +100,14 @@ pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     if summary.interrupted {
         write!(out, ", INTERRUPTED")?;
     }
-    match (summary.disagreements(), summary.asked) {
+    let of_cases = summary.disagreements() - wrong.len() as u64;
+    match (of_cases, summary.asked) {
+        (_, 0) if !summary.is_empty() => writeln!(out),
         (_, 0) => writeln!(out, ": nothing was compared"),
         (0, _) if summary.interrupted => writeln!(out, ": no disagreement so far"),
         (0, _) => writeln!(out, ": the program conforms in all of them"),
         (count, _) => {
-            let classes = summary.classes.len();
+            let classes = summary.classes.iter().filter(|found| found.first.is_some()).count();
             let plural = if classes == 1 { "" } else { "es" };
             writeln!(out, ": {count} DISAGREE, in {classes} class{plural}")
         }

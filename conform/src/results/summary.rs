@@ -20,9 +20,11 @@ pub struct Summary {
     pub campaign: Campaign,
     /// Shards in it, ascending.
     pub shards: Vec<u64>,
+    /// Vectors asked.
+    pub vectors: u64,
     /// Cases asked.
     pub asked: u64,
-    /// Cases not asked because their kind was given up.
+    /// Vectors and cases not asked because their kind was given up.
     pub skipped: u64,
     /// Cases that only the tolerance makes agree.
     pub tolerated: u64,
@@ -50,6 +52,8 @@ pub struct Campaign {
     pub profile: String,
     /// Seed of the cases.
     pub seed: u64,
+    /// Vectors of all shards together, asked before the cases.
+    pub vectors: u64,
     /// Cases of all shards together.
     pub cases: u64,
     /// Kinds of records.
@@ -90,12 +94,17 @@ pub struct Found {
     pub class: Class,
     /// Its name, which is the id of the record below.
     pub id: String,
-    /// How many cases of it.
+    /// How many vectors and cases of it.
     pub count: u64,
-    /// Number of the first case in the campaign.
-    pub first: u64,
-    /// Name of the case that was shrunk: the first, or a later one that led to fewer objects.
+    /// The vectors among them.
+    pub vectors: Vec<String>,
+    /// Number of the first case in the campaign; null where there are vectors alone.
+    pub first: Option<u64>,
+    /// Name of the vector or case that was shrunk: the first, or a later one that led to fewer
+    /// objects.
     pub name: String,
+    /// Of a vector, what it is about; empty for a case.
+    pub about: String,
     /// What was answered and what is right, in the shrunk case.
     pub told: Told,
     /// Whether the record shows the class alone, in a fresh process, and was shrunk.
@@ -132,7 +141,17 @@ impl Found {
 }
 
 impl Summary {
-    /// All disagreements.
+    /// Whether nothing was asked.
+    pub fn is_empty(&self) -> bool {
+        self.asked + self.vectors == 0
+    }
+
+    /// The vectors on which the program disagrees.
+    pub fn wrong_vectors(&self) -> Vec<&str> {
+        self.classes.iter().flat_map(|found| &found.vectors).map(String::as_str).collect()
+    }
+
+    /// All disagreements, of vectors and cases.
     pub fn disagreements(&self) -> u64 {
         self.classes.iter().map(|found| found.count).sum()
     }
@@ -171,7 +190,7 @@ impl Summary {
 
     fn with(mut self, other: Self, path: &Path) -> Result<Self, ConformError> {
         if self.campaign != other.campaign {
-            let what = "belongs to another campaign: command, profile, seed, cases, kinds, \
+            let what = "belongs to another campaign: command, profile, seed, cases, vectors, kinds, \
                         drives, time limit, tolerance and number of shards must be the same";
             return Err(ConformError::file(path, what));
         }
@@ -180,6 +199,7 @@ impl Summary {
         }
         self.shards.extend(other.shards);
         self.shards.sort_unstable();
+        self.vectors += other.vectors;
         self.asked += other.asked;
         self.skipped += other.skipped;
         self.tolerated += other.tolerated;
@@ -216,9 +236,11 @@ impl Summary {
             let joined = match classes.remove(&class) {
                 None => found,
                 Some(known) => {
-                    let (count, first) = (known.count + found.count, known.first.min(found.first));
+                    let count = known.count + found.count;
+                    let first = known.first.into_iter().chain(found.first).min();
+                    let vectors = [known.vectors.as_slice(), &found.vectors].concat();
                     let smaller = if better(&known, &found) { known } else { found };
-                    Found { count, first, ..smaller }
+                    Found { count, vectors, first, ..smaller }
                 }
             };
             classes.insert(class, joined);

@@ -28,6 +28,13 @@ pub fn all() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
     book.finish()
 }
 
+/// The vectors that people wrote, by file, or everything that is wrong with them.
+pub fn written() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
+    let mut book = Book::default();
+    authored::add(&mut book);
+    book.finish()
+}
+
 /// Every file with its content: vectors, schemas, and a README.
 pub fn contents() -> Result<BTreeMap<String, String>, Vec<Refused>> {
     let mut contents = BTreeMap::from([(String::from("README.md"), README.to_owned())]);

@@ -268,6 +268,16 @@ fn unused_bits_of_a_bitmap_are_ignored() {
     assert_eq!(answer["stages"].take(), accepted(CYCLE)["stages"]);
 }
 
+/// `spec/3-stages.md#invalid-input.2`: what is checked before the grid is named before it.
+#[test]
+fn what_is_wrong_before_a_bitmap_that_does_not_fit_is_named_first() {
+    let short = with(CYCLE, "AAAAAA==", "AAAA");
+    refused(&with(&short, "\"resolution\": 10", "\"resolution\": 0"), "grid.resolution", None);
+    refused(&with(&short, "\"gap\": 25", "\"gap\": \"nan\""), "lead.gap", None);
+    // What is checked after the grid, or is remote, is named after it.
+    refused(&with(&short, "\"vx\": 10", "\"vx\": 1000"), "grid.occupied", None);
+}
+
 /// Of a size outside the domain the model speaks, not the length of the bitmap.
 #[test]
 fn a_grid_outside_the_domain_is_invalid_at_its_size() {

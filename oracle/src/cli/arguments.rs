@@ -132,7 +132,7 @@ pub(super) struct ConformArguments {
     /// Profile of generated cases and of recorded drives.
     #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
     pub(super) profile: Profile,
-    /// Number of cases, all shards together; by default 10000, or all that the drives give.
+    /// Number of cases behind the vectors, all shards together; by default 10000, or all that the drives give.
     #[arg(long, value_name = "N", value_parser = whole(0, u64::MAX))]
     pub(super) cases: Option<u64>,
     /// Seed of the cases.
@@ -153,6 +153,9 @@ pub(super) struct ConformArguments {
     /// Ask only the cases whose number leaves I when divided by N, such as 0/8.
     #[arg(long, value_name = "I/N", value_parser = shard)]
     pub(super) shard: Option<(u64, u64)>,
+    /// Leave out the vectors, which are asked first, but never with drives.
+    #[arg(long)]
+    pub(super) no_vectors: bool,
     /// Take the cycles of drives, clean and attacked, in place of generated ones.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with = "kinds")]
     pub(super) drives: Vec<PathBuf>,

@@ -42,10 +42,13 @@ fn prepared(test: &str) -> PathBuf {
     folder
 }
 
-/// The script with so many cases.
+/// The script with so many cases, and no vectors.
 fn with_cases(script: &str, cases: u32) -> String {
     let (before, rest) = script.split_once("--cases ").expect("a number of cases");
-    format!("{before}--cases {cases}{}", rest.trim_start_matches(|c: char| c.is_ascii_digit()))
+    format!(
+        "{before}--no-vectors --cases {cases}{}",
+        rest.trim_start_matches(|c: char| c.is_ascii_digit())
+    )
 }
 
 /// Runs every shard, and merges as the docs do.

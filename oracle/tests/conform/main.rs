@@ -7,6 +7,7 @@ mod broken;
 mod campaign;
 mod right;
 mod stateful;
+mod vectors;
 mod wrong;
 
 use std::fs;
@@ -36,7 +37,12 @@ fn folder(test: &str) -> PathBuf {
     folder
 }
 
+/// Generated cases alone: many tests count them, and shell scripts are slow.
 fn conform(folder: &Path, options: &[&str], command: &[&str]) -> Output {
+    with_vectors(folder, &[options, &["--no-vectors"]].concat(), command)
+}
+
+fn with_vectors(folder: &Path, options: &[&str], command: &[&str]) -> Output {
     let mut mufasa = Command::new(MUFASA);
     mufasa.arg("conform").args(options).arg("--out").arg(folder).arg("--").args(command);
     mufasa.output().expect("mufasa runs")

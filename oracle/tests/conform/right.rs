@@ -2,17 +2,19 @@
 
 use mufasa_conform::Kind;
 
-use crate::{MUFASA, conform, folder, summary, text};
+use crate::{MUFASA, conform, folder, summary, text, with_vectors};
 
 #[test]
 fn the_model_conforms_in_both_profiles() {
     for profile in ["paper", "hardened"] {
         let folder = folder(&format!("model-{profile}"));
         let options = ["--profile", profile, "--cases", "1500", "--seed", "7"];
-        let output = conform(&folder, &options, &[MUFASA, "oracle"]);
+        let output = with_vectors(&folder, &options, &[MUFASA, "oracle"]);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output));
         let summary = summary(&folder);
         assert_eq!((summary.asked, summary.disagreements(), summary.starts), (1500, 0, 1));
+        assert_eq!(summary.vectors, summary.campaign.vectors);
+        assert!(summary.vectors > 500, "{}", text(&output));
         // A campaign of nothing would conform, too.
         for verdict in ["safe", "error", "input", "i", "ii", "iii", "iv", "v"] {
             let reached = summary.groups.iter().any(|group| group.expected == verdict);
@@ -29,7 +31,8 @@ fn the_implementation_conforms_in_both_profiles() {
     for profile in ["paper", "hardened"] {
         let folder = folder(&format!("implementation-{profile}"));
         let options = ["--profile", profile, "--cases", "1500", "--kinds", "cycle,offloading"];
-        let output = conform(&folder, &options, &[MUFASA, "oracle", "--implementation"]);
+        let command = [MUFASA, "oracle", "--implementation"];
+        let output = with_vectors(&folder, &options, &command);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output));
     }
 }

@@ -1,6 +1,7 @@
 //! The cycle (`spec/5-interfaces.md#cycle`).
 
 use mufasa_model::input::cycle as model;
+use mufasa_model::input::domain::{Problem, first_problem};
 use mufasa_model::input::profile::Profile;
 use mufasa_model::report::InvalidInput;
 use mufasa_model::services::configuration::Configuration;
@@ -222,14 +223,22 @@ pub fn hardened() -> Word<Profile> {
 impl TryFrom<Cycle> for model::Cycle {
     type Error = InvalidInput;
 
-    /// Errors: times of the protocol outside their domain, bitmaps that do not fit the grid.
+    /// Errors: times of the protocol outside their domain, bitmaps that do not fit the grid, or what
+    /// is wrong before these in the order of `spec/3-stages.md#invalid-input.2`.
     fn try_from(record: Cycle) -> Result<Self, InvalidInput> {
         record.parameters.check()?;
-        if let Some(grid) = &record.grid {
-            grid.check("occupied", Some(&grid.occupied))?;
-            grid.check("unknown", grid.unknown.as_ref())?;
+        let misfit = record.grid.as_ref().and_then(|grid| {
+            let occupied = grid.check("occupied", Some(&grid.occupied));
+            occupied.and_then(|()| grid.check("unknown", grid.unknown.as_ref())).err()
+        });
+        let cycle = record.into_model();
+        match (misfit, first_problem(&cycle)) {
+            (None, _) => Ok(cycle),
+            (Some(misfit), Some(Problem::Local(first))) if first.field != misfit.field => {
+                Err(first)
+            }
+            (Some(misfit), _) => Err(misfit),
         }
-        Ok(record.into_model())
     }
 }
 

@@ -1,0 +1,144 @@
+//! The vectors that a campaign asks first (`spec/5-interfaces.md#vectors`): the written ones. The
+//! random ones come from the generators that the cases behind them come from, too.
+
+use std::collections::BTreeSet;
+
+use mufasa_model::input::cycle::Profile;
+use serde_json::Value;
+
+use crate::cases::question::{Question, Text};
+use crate::error::ConformError;
+use crate::judge::class::Kind;
+use crate::settings::Settings;
+use crate::vectors;
+use crate::vectors::book::{Input, Vector};
+use crate::vectors::flag::Flag;
+
+/// A vector that binds the program under test.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// Its id.
+    pub id: String,
+    /// Its requirement, the interpretation that it depends on, and its note.
+    pub about: String,
+    /// What is asked; the answer is compared with what the model says now, not with the vector's.
+    pub question: Question,
+}
+
+/// The vectors of these settings, those of one profile and the wanted kinds; none with drives.
+/// Errors: an author and the model differ.
+pub fn fitting(settings: &Settings) -> Result<Vec<Given>, ConformError> {
+    if !settings.vectors || !settings.drives.is_empty() {
+        return Ok(Vec::new());
+    }
+    let files = vectors::written().map_err(|refused| {
+        let refused: Vec<String> = refused.iter().map(ToString::to_string).collect();
+        ConformError::Vectors(refused.join("; "))
+    })?;
+    let mut known = BTreeSet::new();
+    let given = files.into_values().flatten().filter_map(|vector| {
+        let question = question(&vector, settings.profile)?;
+        let wanted = is_wanted(&question, &settings.kinds);
+        (wanted && known.insert(question.line(""))).then(|| given(vector, question))
+    });
+    Ok(given.collect())
+}
+
+/// What a vector asks of a program of this profile. What binds both profiles is asked in this one.
+fn question(vector: &Vector, profile: Profile) -> Option<Question> {
+    let text = vector.input.text();
+    let record = match &vector.input {
+        Input::Record(text) => Question::of_line(text),
+        // As it stands: another text would be another question.
+        Input::Line(_) => None,
+    };
+    let mut question = record.unwrap_or_else(|| Question::Text(Text::new(&vector.id, text)));
+    let its_profile = match &mut question {
+        Question::Cycle(cycle) => &mut cycle.profile,
+        Question::Offloading(trace) => &mut trace.profile,
+        Question::Composition(_) | Question::Line(_) | Question::Text(_) => return Some(question),
+    };
+    if vector.flag == Flag::Must {
+        *its_profile = profile;
+    }
+    (*its_profile == profile).then_some(question)
+}
+
+/// Whether the kind is asked about; a line also has to be of a record that is, where it shows one.
+fn is_wanted(question: &Question, kinds: &[Kind]) -> bool {
+    let Question::Text(text) = question else { return kinds.contains(&question.kind()) };
+    let shown: Option<Value> = serde_json::from_str(&text.line).ok();
+    let shown = shown.as_ref().and_then(|it| it.get("kind")?.as_str());
+    let of = Kind::RECORDS.into_iter().find(|kind| Some(kind.name()) == shown);
+    let is_asked =
+        |kind| kinds.contains(&kind) || !Kind::RECORDS.iter().any(|it| kinds.contains(it));
+    kinds.contains(&Kind::Line) && of.is_none_or(is_asked)
+}
+
+fn given(vector: Vector, question: Question) -> Given {
+    let Vector { id, requirement, flag, note, .. } = vector;
+    let reading = match flag {
+        Flag::Interpretation(name) => format!(", if {name} is read so"),
+        Flag::Must | Flag::PaperOnly | Flag::HardenedOnly => String::new(),
+    };
+    Given { id, about: format!("{requirement}{reading}: {note}"), question }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    fn asked(profile: Profile, kinds: &[Kind]) -> Vec<Given> {
+        let settings = Settings {
+            command: Vec::new(),
+            profile,
+            cases: None,
+            seed: 0,
+            time_limit: Duration::ZERO,
+            kinds: kinds.into(),
+            shard: None,
+            drives: Vec::new(),
+            vectors: true,
+            tolerance: None,
+            out: "out".into(),
+        };
+        fitting(&settings).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn of_each_kind_and_profile_those_are_asked_that_bind() {
+        let paper = (Profile::Paper, "hardened", "F-14");
+        for (profile, other, only) in [paper, (Profile::Hardened, "paper", "H-10")] {
+            let of = |kind: Kind| asked(profile, &[kind]);
+            for (kind, least) in
+                [(Kind::Cycle, 300), (Kind::Offloading, 30), (Kind::Composition, 20)]
+            {
+                let given = of(kind);
+                assert!(given.len() > least, "{}: {}", kind.name(), given.len());
+                assert!(given.iter().all(|it| it.question.kind() == kind));
+                assert!(given.iter().all(|it| it.question.setting().0 != other));
+            }
+            assert!(of(Kind::Cycle).iter().any(|it| it.id.starts_with(only)), "{only}");
+            let all = asked(profile, &Kind::ALL);
+            let sum: usize = Kind::RECORDS.into_iter().map(|kind| of(kind).len()).sum();
+            assert_eq!(all.len(), sum + of(Kind::Line).len());
+        }
+    }
+
+    #[test]
+    fn a_line_is_asked_as_it_stands_if_its_record_is_asked_about() {
+        let lines = |kinds: &[Kind]| {
+            let mut given = asked(Profile::Paper, kinds);
+            given.retain(|it| it.question.kind() == Kind::Line);
+            given
+        };
+        let (all, cycles) = (lines(&[Kind::Line]), lines(&[Kind::Cycle, Kind::Line]));
+        assert!(cycles.len() > 40 && cycles.len() < all.len(), "{} {}", cycles.len(), all.len());
+        assert!(cycles.iter().all(|it| !it.id.starts_with("composition-lines-id-null")));
+        let of = |text: &str| all.iter().any(|it| it.question.line("x").contains(text));
+        assert!(of("1e400") && of("{") && of(""), "a line was written anew");
+        assert!(lines(&[Kind::Cycle]).is_empty());
+    }
+}
