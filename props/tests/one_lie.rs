@@ -49,7 +49,7 @@ fn objects(draw: &mut Draw<'_>) -> Vec<Object> {
         let at = [draw.range(-12.0, 12.0).round(), draw.range(-12.0, 12.0).round()];
         let speed = |draw: &mut Draw<'_>| draw.pick(&[0.0, 0.0, -10.0, 8.0, 4.0, -2.0]);
         let v = [speed(draw), speed(draw)];
-        if objects.iter().all(|other| other.at != at) {
+        if objects.iter().all(|other| other.at.map(f64::to_bits) != at.map(f64::to_bits)) {
             objects.push(Object { at, v });
         }
     }
