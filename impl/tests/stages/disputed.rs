@@ -43,11 +43,7 @@ fn parked(along: f64) -> Detection {
 }
 
 fn collides(scene: &Scene) -> bool {
-    match scene.rule() {
-        None => false,
-        Some(Rule::CollisionMoving) => true,
-        other => panic!("{other:?}"),
-    }
+    scene.fails_by(Rule::CollisionMoving)
 }
 
 #[test]

@@ -25,11 +25,7 @@ fn missed(history: &[(i64, Vec<Detection>)]) -> Scene {
 
 /// The second track is left out, when it is backed.
 fn backed(scene: &Scene) -> bool {
-    match scene.rule() {
-        None => true,
-        Some(Rule::NoAssignment) => false,
-        other => panic!("{other:?}"),
-    }
+    !scene.fails_by(Rule::NoAssignment)
 }
 
 #[test]

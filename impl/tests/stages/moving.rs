@@ -23,11 +23,7 @@ fn before(seconds: f64) -> Detection {
 }
 
 fn collides(scene: &Scene) -> bool {
-    match scene.rule() {
-        None => false,
-        Some(Rule::CollisionMoving) => true,
-        other => panic!("{other:?}"),
-    }
+    scene.fails_by(Rule::CollisionMoving)
 }
 
 #[test]

@@ -153,4 +153,11 @@ impl Scene {
     pub fn rule(&self) -> Option<Rule> {
         self.failure().map(|(_, witness)| witness.rule)
     }
+
+    /// Whether it fails by this rule; it must not by another one.
+    pub fn fails_by(&self, rule: Rule) -> bool {
+        let found = self.rule();
+        assert!(found.is_none_or(|found| found == rule), "{found:?}");
+        found.is_some()
+    }
 }

@@ -14,26 +14,12 @@ use crate::kani;
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_limbs_add_like_integers() {
-    let (total, summand, negative) = (limbs(), limbs(), kani::any());
-    let (found, sign) = sum_of_limbs(total, &summand, negative);
-    let low = |[low, middle, _]: [u64; 3]| u128::from(low) | u128::from(middle) << 64;
-    let (expected, carry) = if negative {
-        low(total).overflowing_sub(low(summand))
-    } else {
-        low(total).overflowing_add(low(summand))
-    };
-    let top = if negative {
-        total[2].wrapping_sub(summand[2]).wrapping_sub(u64::from(carry))
-    } else {
-        total[2].wrapping_add(summand[2]).wrapping_add(u64::from(carry))
-    };
-    assert!(low(found) == expected && found[2] == top);
-    let is_zero = expected == 0 && top == 0;
-    assert!((sign == Ordering::Less) == (top >> 63 == 1));
-    assert!((sign == Ordering::Equal) == is_zero);
+    let any = || [kani::any(), kani::any(), kani::any()];
+    let (total, summand, negative) = (any(), any(), kani::any());
+    let (carry, sign) = adds_like_integers(total, summand, negative);
     kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
     kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
-    kani::cover!(is_zero, "zero");
+    kani::cover!(sign == Ordering::Equal, "zero");
 }
 
 /// The same of four limbs.
@@ -42,11 +28,27 @@ pub fn verify_limbs_add_like_integers() {
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_four_limbs_add_like_integers() {
-    let [total, summand] = [four_limbs(), four_limbs()];
-    let negative = kani::any();
+    let any = || [kani::any(), kani::any(), kani::any(), kani::any()];
+    let (total, summand, negative) = (any(), any(), kani::any());
+    let (carry, sign) = adds_like_integers(total, summand, negative);
+    kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
+    kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
+    kani::cover!(sign == Ordering::Equal, "zero");
+}
+
+/// Asserts it of three or four limbs, compared as two integers of 128 bits; whether the lower one had a
+/// carry, and the sign.
+fn adds_like_integers<const N: usize>(
+    total: [u64; N],
+    summand: [u64; N],
+    negative: bool,
+) -> (bool, Ordering) {
     let (found, sign) = sum_of_limbs(total, &summand, negative);
-    let low = |[low, high, ..]: [u64; 4]| u128::from(low) | u128::from(high) << 64;
-    let high = |[_, _, low, high]: [u64; 4]| u128::from(low) | u128::from(high) << 64;
+    let bits = 64 * (N - 2);
+    let low = |limbs: [u64; N]| u128::from(limbs[0]) | u128::from(limbs[1]) << 64;
+    // Of three limbs the last one stands twice, and what is above it does not count.
+    let high = |limbs: [u64; N]| u128::from(limbs[2]) | u128::from(limbs[N - 1]) << 64;
+    let above = 128 - bits;
     let (expected, carry) = if negative {
         low(total).overflowing_sub(low(summand))
     } else {
@@ -57,19 +59,9 @@ pub fn verify_four_limbs_add_like_integers() {
     } else {
         high(total).wrapping_add(high(summand)).wrapping_add(u128::from(carry))
     };
-    assert!(low(found) == expected && high(found) == top);
-    let is_zero = expected == 0 && top == 0;
-    assert!((sign == Ordering::Less) == (top >> 127 == 1));
+    assert!(low(found) == expected && high(found) << above == top << above);
+    let is_zero = expected == 0 && top << above == 0;
+    assert!((sign == Ordering::Less) == (top >> (bits - 1) & 1 == 1));
     assert!((sign == Ordering::Equal) == is_zero);
-    kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
-    kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
-    kani::cover!(is_zero, "zero");
-}
-
-fn limbs() -> [u64; 3] {
-    [kani::any(), kani::any(), kani::any()]
-}
-
-fn four_limbs() -> [u64; 4] {
-    [kani::any(), kani::any(), kani::any(), kani::any()]
+    (carry, sign)
 }
