@@ -19,10 +19,9 @@ use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
-use crate::numbers::time::elapsed_ns;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
 use crate::services::configuration::Group;
-use crate::stages::given::Given;
+use crate::stages::given::{Given, is_current};
 use crate::stages::i_track_validation::track_validation;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
@@ -259,10 +258,7 @@ struct Current<'c, 'a> {
 
 impl<'c, 'a> Current<'c, 'a> {
     fn new(cycle: &'c Cycle<'a>, usable: Usable) -> Self {
-        let current = |stamp_ns: i64| {
-            let age_ns = elapsed_ns(stamp_ns, cycle.now_ns);
-            0 <= age_ns && age_ns <= cycle.parameters.max_age_ns
-        };
+        let current = |stamp_ns| is_current(stamp_ns, cycle.now_ns, cycle.parameters.max_age_ns);
         let trajectory = cycle.trajectory.as_ref().filter(|list| current(list.stamp_ns));
         Self {
             trajectory: trajectory.filter(|_| usable.trajectory),

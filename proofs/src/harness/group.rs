@@ -7,10 +7,10 @@ use mufasa::offloading::requester::{
 
 use super::any::{groups, near_integer, time_ns};
 use super::seen::{
-    DROPS, GROUPS, RELEASES, REQUESTS, SERVICES, Seen, after, after_in, any_group, any_record,
-    any_state, any_verdict, area, confirm, data, data_of, each, in_use, reject, same, tick,
-    verdict,
+    DROPS, GROUPS, RELEASES, REQUESTS, SERVICES, Seen, after, after_in, any_verdict, area, confirm,
+    data, data_of, each, in_use, reject, same, tick, verdict,
 };
+use super::states::{any_group, any_record, any_state};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -80,7 +80,8 @@ pub fn verify_every_law_at_data() {
     });
 }
 
-/// At a tick before `hold_until` nothing is asked for, whoever offers, and no session is numbered.
+/// At a tick before `hold_until` nothing is asked for, whoever offers, and no session is numbered; the
+/// hold changes by a violation with `qos_hold` alone.
 ///
 /// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not
 /// covered: larger tables.
@@ -92,6 +93,7 @@ pub fn verify_t_wait_bars_requests() {
     let asks = step.done[REQUESTS][0].is_some() || step.done[REQUESTS][1].is_some();
     let held = step.before.hold_until_ns.is_some_and(|until_ns| step.event.t_ns < until_ns);
     assert!(!held || (!asks && step.after.sessions == step.before.sessions));
+    assert!(step.keeps_the_hold());
     kani::cover!(held && step.done[RELEASES][0].is_some(), "a group is left during a hold");
     kani::cover!(asks && step.before.hold_until_ns == Some(step.event.t_ns), "the end of a hold");
     kani::cover!(asks && step.before.hold_until_ns.is_none(), "no hold");
@@ -252,38 +254,41 @@ pub fn verify_a_group_becomes_remote_by_confirmation() {
     });
 }
 
-/// The frame: a confirmation of one group leaves the other group as it is, and nothing is done about it.
+/// The frame: a confirmation of one group leaves the other group, the area, the times and the table as they
+/// are, and nothing is done about the other group.
 ///
 /// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
 /// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_confirmations() {
     confirm(&|step: &Seen, at: usize, _| {
-        assert!(step.leaves_alone(1 - at));
+        assert!(step.leaves_alone(1 - at) && step.keeps_the_rest());
         kani::cover!(step.is_remote_now(at), "its own group changes");
     });
 }
 
-/// The frame: a rejection of one group leaves the other group as it is, and nothing is done about it.
+/// The frame: a rejection of one group leaves the other group, the area, the times and the table as they
+/// are, and nothing is done about the other group.
 ///
 /// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
 /// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_rejections() {
     reject(&|step: &Seen, at: usize, _| {
-        assert!(step.leaves_alone(1 - at));
+        assert!(step.leaves_alone(1 - at) && step.keeps_the_rest());
         kani::cover!(step.leaves(at), "its own group changes");
     });
 }
 
-/// The frame: data of one group leave the other group as it is, and nothing is done about it.
+/// The frame: data of one group leave the other group, the area, the times and the table as they are, and
+/// nothing is done about the other group.
 ///
 /// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
 /// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_data() {
     data_of(&|step: &Seen, at: usize, _| {
-        assert!(step.leaves_alone(1 - at));
+        assert!(step.leaves_alone(1 - at) && step.keeps_the_rest());
         kani::cover!(step.leaves(at), "its own group changes");
     });
 }
@@ -333,7 +338,7 @@ pub fn verify_data_of_another_session_are_dropped() {
 /// The composition of the two groups: what a change of the area does to one does not depend on the
 /// other.
 ///
-/// Domain: all pairs of states, valid or not, that differ in PLAN alone, all times of 64 bits. Not
+/// Domain: all pairs of states, valid or not, that differ in one group alone, all times of 64 bits. Not
 /// covered: ticks, where a violation of one bars requests for the other.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_group_depends_on_itself_alone_at_areas() {
@@ -342,7 +347,7 @@ pub fn verify_a_group_depends_on_itself_alone_at_areas() {
 
 /// The composition of the two groups: what a verdict does to one does not depend on the other.
 ///
-/// Domain: all pairs of states, valid or not, that differ in PLAN alone, all times of 64 bits. Not
+/// Domain: all pairs of states, valid or not, that differ in one group alone, all times of 64 bits. Not
 /// covered: ticks, where a violation of one bars requests for the other.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_group_depends_on_itself_alone_at_verdicts() {
@@ -350,20 +355,27 @@ pub fn verify_a_group_depends_on_itself_alone_at_verdicts() {
 }
 
 fn depends_on_itself_alone(kind: EventKind) {
+    // The group is a constant in each of the two branches.
+    if kani::any() { depends_on_itself(0, kind) } else { depends_on_itself(1, kind) }
+}
+
+fn depends_on_itself(at: usize, kind: EventKind) {
     let (one, t_ns) = (any_state(), time_ns());
-    let other = Parts { groups: [one.groups[0], any_group()], ..one };
-    let event = Event { t_ns, kind };
+    let mut groups = one.groups;
+    groups[1 - at] = any_group();
+    let (other, event) = (Parts { groups, ..one }, Event { t_ns, kind });
     let (one, other) = (after_in(one, event, &mut []), after_in(other, event, &mut []));
-    assert!(same(one.after.groups[0], other.after.groups[0]));
-    assert!(one.done[DROPS][0] == other.done[DROPS][0]);
-    assert!(one.done[RELEASES][0] == other.done[RELEASES][0]);
-    assert!(one.done[SERVICES][0] == other.done[SERVICES][0]);
+    assert!(same(one.after.groups[at], other.after.groups[at]));
+    assert!(one.done[DROPS][at] == other.done[DROPS][at]);
+    assert!(one.done[RELEASES][at] == other.done[RELEASES][at]);
+    assert!(one.done[SERVICES][at] == other.done[SERVICES][at]);
     assert!(one.after.hold_until_ns == other.after.hold_until_ns);
-    kani::cover!(
-        one.done[RELEASES][1].is_some() && other.done[RELEASES][1].is_none(),
-        "the other differs"
-    );
-    kani::cover!(one.done[RELEASES][0].is_some(), "it is left");
+    let differs = one.done[RELEASES][1 - at].is_some() && other.done[RELEASES][1 - at].is_none();
+    let is_left = one.done[RELEASES][at].is_some();
+    kani::cover!(at == 0 && differs, "PLAN differs");
+    kani::cover!(at == 1 && differs, "MOT differs");
+    kani::cover!(at == 0 && is_left, "MOT is left");
+    kani::cover!(at == 1 && is_left, "PLAN is left");
 }
 
 /// A withdrawal and a loss leave exactly the groups that use the station, each with one release of

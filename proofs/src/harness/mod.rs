@@ -28,7 +28,10 @@ pub mod requester;
 pub mod scene;
 pub mod schedule;
 mod seen;
+pub mod session;
 pub mod stages;
+mod states;
+pub mod table;
 pub mod v_grid_map;
 pub mod world;
 
@@ -96,7 +99,8 @@ harnesses! {
         verify_a_lead_is_checked
         verify_a_grid_is_checked;
     order:
-        verify_order_is_the_table;
+        verify_order_is_the_table
+        verify_an_input_is_current_up_to_max_age;
     pieces:
         verify_points_examined_are_points
         verify_the_start_breaks_rules_of_the_start
@@ -119,10 +123,13 @@ harnesses! {
         verify_every_law_at_ticks
         verify_every_law_at_withdrawals
         verify_every_law_at_offers
+        verify_a_session_left_is_released_at_offers
         verify_an_offer_is_taken_or_leaves_no_trace
         verify_the_station_asked_last_waits;
     schedule:
         verify_schedule_is_the_table;
+    session:
+        verify_data_of_the_running_session_are_judged;
     stages:
         verify_stage_i_never_panics
         verify_stage_ii_never_panics
@@ -131,6 +138,9 @@ harnesses! {
         verify_stage_v_never_panics
         verify_index_changes_nothing
         verify_stage_alone_says_the_same;
+    table:
+        verify_a_withdrawal_forgets_the_offer_alone
+        verify_a_request_is_remembered;
     v_grid_map:
         verify_paper_cells_include_their_borders
         verify_hardened_cells_are_closed_squares;

@@ -3,10 +3,10 @@
 use mufasa::input::profile::Profile;
 use mufasa::report::{FailedStage, Input, Reason, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::given::Given;
+use mufasa::stages::given::{Given, is_current};
 use mufasa::stages::order::{Idle, Turn, in_order};
 
-use super::any::{below, profile};
+use super::any::{below, integer_within, profile, time_ns};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -89,6 +89,22 @@ pub fn verify_order_is_the_table() {
     kani::cover!(failed == Some(Stage::Iv) && !ran[3], "the gap alone fails");
     kani::cover!(found == Some(FailedStage::NoObstacleCheck) && ran[2], "no obstacle check");
     kani::cover!(failed == Some(Stage::Iii) && !ran[3], "nothing runs after a failure");
+}
+
+/// An input is current exactly when its stamp is not after now and at most `max_age` old.
+///
+/// Domain: all stamps and times of 64 bits, each `max_age` of the domain (0 to 60 s). Not covered: nothing.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_an_input_is_current_up_to_max_age() {
+    let (stamp_ns, now_ns) = (time_ns(), time_ns());
+    let max_age_ns = integer_within(0, 60_000_000_000);
+    let age_ns = i128::from(now_ns) - i128::from(stamp_ns);
+    let found = is_current(stamp_ns, now_ns, max_age_ns);
+    assert!(found == (0 <= age_ns && age_ns <= i128::from(max_age_ns)));
+    kani::cover!(found && age_ns == i128::from(max_age_ns), "as old as it may be");
+    kani::cover!(found && age_ns == 0, "of now");
+    kani::cover!(!found && age_ns < 0, "from the future");
+    kani::cover!(!found && age_ns > i128::from(i64::MAX), "older than 64 bits");
 }
 
 /// How a stage is marked in the table.

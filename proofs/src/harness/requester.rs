@@ -9,14 +9,13 @@ use mufasa::parts::decide;
 
 use super::any::{below, groups, near_integer, profile, time_ns};
 use super::bounds::CROSS_SECTIONS;
-use super::seen::{
-    GROUPS, REQUESTS, after, after_in, any_parameters, any_record, any_state, any_state_with, each,
-    in_use, same,
-};
+use super::seen::{GROUPS, REQUESTS, after, after_in, each, in_use, same};
+use super::states::{any_parameters, any_record, any_state, any_state_with};
 #[cfg(not(kani))]
 use crate::kani;
 
-/// The first state is valid: the base of the induction.
+/// The first state is valid: the base of the induction. All groups are in the area, nothing was
+/// dropped, and the table is empty.
 ///
 /// Domain: both profiles, all times >= 0, any content of the table. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
@@ -30,6 +29,9 @@ pub fn verify_requester_starts_valid() {
     assert!(requester.state(Group::Mot) == GroupState::Local);
     assert!(requester.state(Group::Plan) == GroupState::Local);
     assert!(requester.hold_until_ns().is_none() && requester.sessions() == 0);
+    assert!(requester.area() == Groups::ALL);
+    assert!(requester.dropped(Group::Mot) == 0 && requester.dropped(Group::Plan) == 0);
+    assert!(table[0] == StationRecord::FREE && table[1] == StationRecord::FREE);
     kani::cover!(parameters.qos_hold, "a violation starts a hold");
     kani::cover!(!parameters.qos_hold, "a violation starts no hold");
 }
@@ -59,8 +61,14 @@ pub fn verify_a_station_below_1_is_refused() {
     assert!(each(|at| same(after.groups[at], before.groups[at])));
     assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
     assert!(after.area == before.area && after.profile == before.profile);
+    assert!(after.parameters == before.parameters);
     assert!(each(|at| after.dropped[at] == before.dropped[at]));
-    kani::cover!(station == 0, "the CAV itself");
+    kani::cover!(matches!(kind, EventKind::Withdraw { station: 0 }), "a withdrawal of the CAV");
+    kani::cover!(matches!(kind, EventKind::Lost { .. }), "a loss");
+    kani::cover!(matches!(kind, EventKind::Offer { .. }), "an offer");
+    kani::cover!(matches!(kind, EventKind::Confirm { .. }), "a confirmation");
+    kani::cover!(matches!(kind, EventKind::Reject { .. }), "a rejection");
+    kani::cover!(matches!(kind, EventKind::Data { .. }), "data");
 }
 
 /// A tick keeps every law of a step: see `keeps_every_law`.
@@ -88,8 +96,7 @@ pub fn verify_every_law_at_withdrawals() {
     kani::cover!(!is_loss && step.starts(1), "a withdrawal");
 }
 
-/// An offer keeps every law of a step (see `keeps_every_law`) and leaves exactly what is in use of its
-/// station and no longer offered, with one release for each.
+/// An offer keeps every law of a step: see `keeps_every_law`.
 ///
 /// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
 /// larger tables, drops.
@@ -97,6 +104,16 @@ pub fn verify_every_law_at_offers() {
     let (station, groups) = (any_station(), groups());
     let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
     assert!(step.keeps_every_law());
+    kani::cover!(step.starts(0), "local services start");
+}
+
+/// An offer leaves exactly what is in use of its station and no longer offered, with one release for each.
+///
+/// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
+/// larger tables.
+pub fn verify_a_session_left_is_released_at_offers() {
+    let (station, groups) = (any_station(), groups());
+    let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
     let lacks = [!groups.mot, !groups.plan];
     let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);
     assert!(each(|at| step.leaves(at) == (lacks[at] && uses(at))));
@@ -105,8 +122,9 @@ pub fn verify_every_law_at_offers() {
     kani::cover!(uses(0) && !step.leaves(0), "a group stays");
 }
 
-/// An offer replaces what its station offered and no other station's; it is refused exactly when its
-/// station is in no place, no place is free, and it is not empty, and then nothing changes.
+/// An offer replaces what its station offered and nothing else; a new station takes the first free
+/// place and was never asked. It is refused exactly when its station is in no place, no place is free,
+/// and it is not empty, and then nothing changes.
 ///
 /// Domain: tables of two stations, nothing in use, all times of 64 bits. Not covered: larger tables;
 /// for groups in use see `verify_every_law_at_offers`.
@@ -133,11 +151,23 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
     });
     assert!(requester.sessions() == local.sessions);
     assert!(requester.hold_until_ns() == local.hold_until_ns);
-    let [c, d] = table;
-    assert!(known[0] || c == a || (a.station().is_none() && !refused));
-    assert!(known[1] || known[0] || d == b || (b.station().is_none() && !refused));
-    assert!(!known[0] || (c.offer() == groups && d == b));
-    assert!(!known[1] || known[0] || (d.offer() == groups && c == a));
+    let with_offer = |record: StationRecord| {
+        let last_request = GROUPS.map(|group| record.last_request(group));
+        StationRecord::from_parts(station, groups, last_request)
+    };
+    let new = StationRecord::from_parts(station, groups, [None, None]);
+    let expected = if known[0] {
+        [with_offer(a), b]
+    } else if known[1] {
+        [a, with_offer(b)]
+    } else if refused || groups == Groups::NONE {
+        [a, b]
+    } else if a.station().is_none() {
+        [new, b]
+    } else {
+        [a, new]
+    };
+    assert!(table[0] == expected[0] && table[1] == expected[1]);
     kani::cover!(refused, "a full table");
     kani::cover!(!refused && !known[0] && !known[1] && groups.mot, "a new station");
     kani::cover!(known[1] && !known[0], "a known station");
@@ -146,8 +176,8 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
 /// Among two stations that offer a group the one is asked whose last request for it is older, never
 /// being the oldest; the smaller id of two never asked. After the last session nobody is.
 ///
-/// Domain: tables of two different stations that both offer the group, each of the two groups, without
-/// a hold, both local and in the area, all sessions. Not covered: larger tables.
+/// Domain: tables of two different stations that both offer the group, each of the two groups, no hold or
+/// one that is over, both local and in the area, all sessions. Not covered: larger tables.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_the_station_asked_last_waits() {
@@ -165,8 +195,9 @@ fn the_station_asked_last_waits(at: usize) {
     let asked = [a, b].map(|record| record.last_request(group).unwrap_or(0));
     kani::assume(one != other && (asked[0] != asked[1] || asked[0] == 0));
     let local = any_state_with([GroupRecord::Local; 2]);
-    let state = Parts { hold_until_ns: None, area: Groups::ALL, ..local };
+    let state = Parts { area: Groups::ALL, ..local };
     let event = Event { t_ns: time_ns(), kind: EventKind::Tick };
+    kani::assume(state.hold_until_ns.is_none_or(|until_ns| until_ns <= event.t_ns));
     let step = after_in(state, event, &mut table);
     let first = asked[0] < asked[1] || (asked[0] == asked[1] && one < other);
     let expected = if first { one } else { other };

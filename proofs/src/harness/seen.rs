@@ -2,12 +2,13 @@
 
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, Group, GroupRecord, Groups, Parameters, Parts, Requester, Running,
-    Sessions, StationRecord, Suspended,
+    Action, Event, EventKind, Group, GroupRecord, Groups, Parts, Requester, Running, Sessions,
+    StationRecord, Suspended,
 };
 use mufasa::parts::decide;
 
-use super::any::{below, duration_ns, groups, near_integer, option, profile, time_ns};
+use super::any::{groups, near_integer, option, time_ns};
+use super::states::{any_record, any_state};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -23,6 +24,8 @@ pub(super) struct Seen {
     pub(super) before: Parts,
     pub(super) after: Parts,
     pub(super) done: [[Option<Action>; 2]; 4],
+    /// Of events that have nothing to do with it: the place of a station before and after.
+    pub(super) place: Option<[StationRecord; 2]>,
 }
 
 impl Seen {
@@ -30,17 +33,51 @@ impl Seen {
         self.before.profile == Profile::Hardened
     }
 
-    /// The laws of a step that asks for nothing.
+    /// The laws of a step that asks for nothing. What the events that name a session leave as it is has harnesses of its
+    /// own (`the_other_group_is_untouched`), because one formula of all did not end.
     pub(super) fn keeps_every_law(&self) -> bool {
         self.keeps_the_hold()
             && self.asks_for_nothing()
+            && (self.names_a_session() || self.keeps_the_rest())
             && each(|at| {
                 self.becomes_remote_by_confirmation(at)
                     && self.says_what_services_do(at)
                     && self.stops_services_when_the_profile_says(at)
                     && self.keeps_the_group_valid(at)
                     && self.keeps_the_group_in_order(at)
+                    && self.keeps_what_stays(at)
             })
+    }
+
+    /// The area is that of the last change; profile, times and the table stay.
+    pub(super) fn keeps_the_rest(&self) -> bool {
+        let area = match self.event.kind {
+            EventKind::Area { groups } => groups,
+            _ => self.before.area,
+        };
+        self.after.area == area
+            && self.after.profile == self.before.profile
+            && self.after.parameters == self.before.parameters
+            && self.place.is_none_or(|[before, after]| before == after)
+    }
+
+    /// A group that is left is local; one that stays is as it was, but that local services may stop. Only data are
+    /// counted as dropped.
+    fn keeps_what_stays(&self, at: usize) -> bool {
+        let before = match (self.event.kind, self.before.groups[at]) {
+            _ if self.names_a_session() => return true,
+            (EventKind::Verdict { .. }, GroupRecord::Remote(running)) if self.stops(at) => {
+                GroupRecord::Remote(Running { local_computes: false, ..running })
+            }
+            (_, before) => before,
+        };
+        let expected = if self.leaves(at) { GroupRecord::Local } else { before };
+        same(self.after.groups[at], expected) && self.after.dropped[at] == self.before.dropped[at]
+    }
+
+    fn names_a_session(&self) -> bool {
+        use EventKind::{Confirm, Data, Reject};
+        matches!(self.event.kind, Confirm { .. } | Reject { .. } | Data { .. })
     }
 
     /// A safety issue holds, and with `qos_hold` a violation, until now + `t_wait` or later; nothing
@@ -107,8 +144,8 @@ impl Seen {
             }
     }
 
-    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop at a safe verdict that
-    /// names the running session after a result was used; paper, at the confirmation.
+    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop exactly at a safe verdict
+    /// that names the running session after a result was used; paper, at the confirmation.
     pub(super) fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
         let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
             (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
@@ -126,7 +163,8 @@ impl Seen {
             }
             _ => false,
         };
-        may || !self.stops(at) || !self.is_valid(self.before.groups[at])
+        let is_due = may && self.is_hardened() && computes(self.before.groups[at]);
+        !self.is_valid(self.before.groups[at]) || if self.stops(at) { may } else { !is_due }
     }
 
     /// Paper: no local services compute beside remote ones. Hardened: none stop before a result was
@@ -258,7 +296,7 @@ pub(super) fn computes(group: GroupRecord) -> bool {
 }
 
 pub(super) fn area(see: &impl Fn(&Seen)) {
-    see(&after(EventKind::Area { groups: groups() }, &mut any_table()));
+    see(&after_beside_the_table(EventKind::Area { groups: groups() }));
 }
 
 pub(super) fn tick(see: &impl Fn(&Seen)) {
@@ -266,7 +304,7 @@ pub(super) fn tick(see: &impl Fn(&Seen)) {
 }
 
 pub(super) fn verdict(see: &impl Fn(&Seen)) {
-    see(&after(any_verdict(), &mut any_table()));
+    see(&after_beside_the_table(any_verdict()));
 }
 
 pub(super) fn data(see: &impl Fn(&Seen)) {
@@ -299,9 +337,9 @@ pub(super) fn naming(
     let (station, session) = (near_integer(1, 3), near_integer(1, 6));
     kani::assume(station >= 1);
     if kani::any() {
-        see(&after(kind(station, Group::Mot, session), &mut any_table()), 0, (station, session));
+        see(&after_beside_the_table(kind(station, Group::Mot, session)), 0, (station, session));
     } else {
-        see(&after(kind(station, Group::Plan, session), &mut any_table()), 1, (station, session));
+        see(&after_beside_the_table(kind(station, Group::Plan, session)), 1, (station, session));
     }
 }
 
@@ -317,65 +355,14 @@ pub(super) fn after(kind: EventKind, table: &mut [StationRecord]) -> Seen {
 pub(super) fn after_in(before: Parts, event: Event, table: &mut [StationRecord]) -> Seen {
     let mut requester = Requester::resume(Suspended::from_parts(&before), table);
     let Ok(done) = decide(&mut requester, &event) else { unreachable!("no event is refused") };
-    Seen { event, before, after: requester.suspend().parts(), done }
+    Seen { event, before, after: requester.suspend().parts(), done, place: None }
 }
 
-pub(super) fn any_record() -> StationRecord {
-    let last_request = [option(|| near_integer(1, 6)), option(|| near_integer(1, 6))];
-    StationRecord::from_parts(near_integer(1, 3), groups(), last_request)
-}
-
-/// One station: none of these events looks at what it offers, and a change that does is seen.
-fn any_table() -> [StationRecord; 1] {
-    [any_record()]
-}
-
-pub(super) fn any_state() -> Parts {
-    any_state_with([any_group(), any_group()])
-}
-
-pub(super) fn any_state_with(groups_in_use: [GroupRecord; 2]) -> Parts {
-    Parts {
-        profile: profile(),
-        parameters: any_parameters(),
-        groups: groups_in_use,
-        hold_until_ns: option(time_ns),
-        area: groups(),
-        sessions: near_integer(4, 8),
-        dropped: [kani::any(), kani::any()],
-    }
-}
-
-pub(super) fn any_parameters() -> Parameters {
-    Parameters {
-        t_wait_ns: duration_ns(),
-        request_timeout_ns: duration_ns(),
-        l_max_ns: duration_ns(),
-        dt_max_ns: duration_ns(),
-        qos_hold: kani::any(),
-    }
-}
-
-pub(super) fn any_group() -> GroupRecord {
-    any_group_of(|free| free)
-}
-
-/// Everything is drawn first and chosen from then; see `any::option`. Station and session are chosen
-/// by `named`, of free ones.
-pub(super) fn any_group_of(named: impl FnOnce((i64, i64)) -> (i64, i64)) -> GroupRecord {
-    let (kind, free) = (below(3), (near_integer(1, 3), near_integer(1, 6)));
-    let (deadline_ns, last_arrival_ns, last_used_ns) = (time_ns(), time_ns(), option(time_ns));
-    let local_computes = kani::any();
-    let (station, session) = named(free);
-    match kind {
-        0 => GroupRecord::Local,
-        1 => GroupRecord::Requested { station, session, deadline_ns },
-        _ => GroupRecord::Remote(Running {
-            station,
-            session,
-            last_arrival_ns,
-            last_used_ns,
-            local_computes,
-        }),
-    }
+/// With one station in the table, with which such an event has nothing to do; a change that looks at what
+/// it offers is seen.
+fn after_beside_the_table(kind: EventKind) -> Seen {
+    let record = any_record();
+    let mut table = [record];
+    let step = after(kind, &mut table);
+    Seen { place: Some([record, table[0]]), ..step }
 }
