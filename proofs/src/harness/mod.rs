@@ -140,7 +140,10 @@ harnesses! {
         verify_stage_alone_says_the_same;
     table:
         verify_a_withdrawal_forgets_the_offer_alone
-        verify_a_request_is_remembered;
+        verify_a_request_is_remembered
+        verify_the_table_stays_valid_at_ticks
+        verify_what_is_in_use_stays_offered_at_ticks
+        verify_the_table_stays_valid_at_offers;
     v_grid_map:
         verify_paper_cells_include_their_borders
         verify_hardened_cells_are_closed_squares;

@@ -15,7 +15,7 @@ use crate::kani;
 const LONGEST_BRAKING: f64 = 112_500.0;
 const LONGEST_CAV: f64 = 9_000.0;
 
-/// `s_b(v)` is a number from 0 to 112.5 km.
+/// `s_b(v)` in plain doubles is a number from 0 to 112.5 km.
 ///
 /// Domain: all speeds and `a_b` of `spec/4-arithmetic.md#domain`. Not covered: its value.
 #[cfg_attr(kani, kani::proof)]
@@ -27,7 +27,7 @@ pub fn verify_s_b_is_bounded() {
     kani::cover!(s_b <= 0.0, "no way to brake");
 }
 
-/// `s_CAV` is a number from 0 to 9 km.
+/// `s_CAV` in plain doubles is a number from 0 to 9 km.
 ///
 /// Domain: all speeds and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its value.
 #[cfg_attr(kani, kani::proof)]

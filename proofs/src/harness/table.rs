@@ -1,11 +1,14 @@
 //! What the requester remembers of stations (`spec/2-offloading.md#requester`) after events that
 //! change it. That the others leave it as it is, is asserted in every harness of `group` that has a table.
 
-use mufasa::offloading::requester::{Action, EventKind, Groups, StationRecord};
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, GroupRecord, Groups, Requester, StationRecord, Suspended,
+};
+use mufasa::parts::decide;
 
-use super::any::near_integer;
-use super::seen::{GROUPS, REQUESTS, after, each};
-use super::states::any_record;
+use super::any::{groups, near_integer, time_ns};
+use super::seen::{GROUPS, REQUESTS, after, each, in_use};
+use super::states::{any_record, any_state};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -61,6 +64,107 @@ pub fn verify_a_request_is_remembered() {
     assert!(table[0] == expected(records[0]) && table[1] == expected(records[1]));
     kani::cover!(each(|at| step.done[REQUESTS][at].is_some()), "both asked for");
     kani::cover!(!each(|at| step.done[REQUESTS][at].is_none()), "asked");
+}
+
+/// A valid table stays valid at a tick: no station and no session is in two places, and every session is
+/// one of those so far. With the two harnesses behind this one, `keeps_the_group_valid` and
+/// `keeps_the_group_in_order` these are the steps of the induction that every reachable state is valid.
+///
+/// Domain: valid tables of two places, all states, valid or not, with sessions from 0, all times of 64 bits.
+/// Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_the_table_stays_valid_at_ticks() {
+    let records = [any_record(), any_record()];
+    let mut table = records;
+    let step = after(EventKind::Tick, &mut table);
+    kani::assume(step.before.sessions >= 0 && is_valid(records, step.before.sessions));
+    assert!(is_valid(table, step.after.sessions));
+    kani::cover!(each(|at| step.done[REQUESTS][at].is_some()), "both asked for");
+}
+
+/// What is in use after a tick is offered by its station, which was asked for it last in this session.
+///
+/// Domain: valid tables of two places, all states in which this holds of the group, each of the two groups,
+/// all times of 64 bits. Not covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_what_is_in_use_stays_offered_at_ticks() {
+    // The group is a constant in each of the two branches.
+    if kani::any() { stays_offered_at_ticks(0) } else { stays_offered_at_ticks(1) }
+}
+
+fn stays_offered_at_ticks(at: usize) {
+    let records = [any_record(), any_record()];
+    let mut table = records;
+    let step = after(EventKind::Tick, &mut table);
+    kani::assume(step.before.sessions >= 0 && is_valid(records, step.before.sessions));
+    kani::assume(is_offered_and_asked(step.before.groups[at], at, records));
+    assert!(is_offered_and_asked(step.after.groups[at], at, table));
+    let stays = in_use(step.after.groups[at]).is_some() && step.done[REQUESTS][at].is_none();
+    kani::cover!(at == 0 && stays, "MOT stays in use");
+    kani::cover!(at == 1 && step.done[REQUESTS][at].is_some(), "PLAN is asked for");
+}
+
+/// After an offer (of nothing: a withdrawal) or a loss the table is valid, and what is in use is offered
+/// by its station, which was asked for it last in this session.
+///
+/// Domain: valid tables of two places, all states in which what is in use is offered and asked for, all
+/// times of 64 bits. Not covered: larger tables; offers that are refused, which change nothing.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_the_table_stays_valid_at_offers() {
+    let station = near_integer(1, 3);
+    kani::assume(station >= 1);
+    let kind = if kani::any() {
+        EventKind::Lost { station }
+    } else {
+        EventKind::Offer { station, groups: groups() }
+    };
+    let before = any_state();
+    let records = [any_record(), any_record()];
+    kani::assume(before.sessions >= 0 && is_valid(records, before.sessions));
+    kani::assume(each(|at| is_offered_and_asked(before.groups[at], at, records)));
+    let mut table = records;
+    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut table);
+    let event = Event { t_ns: time_ns(), kind };
+    if decide(&mut requester, &event).is_err() {
+        return;
+    }
+    let after = requester.suspend().parts();
+    assert!(is_valid(table, after.sessions));
+    assert!(each(|at| is_offered_and_asked(after.groups[at], at, table)));
+    kani::cover!(in_use(after.groups[0]).is_some(), "MOT stays in use");
+    kani::cover!(table[1] != records[1], "the table changes");
+}
+
+/// Stations from 1, each in one place; sessions from 1 and no more than there were, each in one place.
+fn is_valid([a, b]: [StationRecord; 2], sessions: i64) -> bool {
+    let is_numbered = |session: Option<i64>| session.is_none_or(|it| 1 <= it && it <= sessions);
+    let place_is_valid = |record: StationRecord| {
+        let [mot, plan] = GROUPS.map(|group| record.last_request(group));
+        is_numbered(mot)
+            && is_numbered(plan)
+            && record.station().is_none_or(|station| station >= 1)
+            && (mot.is_none() || mot != plan)
+    };
+    let differ = |one: Option<i64>, other: Option<i64>| one.is_none() || one != other;
+    let [of_a, of_b] = [a, b].map(|record| GROUPS.map(|group| record.last_request(group)));
+    place_is_valid(a)
+        && place_is_valid(b)
+        && differ(a.station(), b.station())
+        && each(|at| differ(of_a[at], of_b[0]) && differ(of_a[at], of_b[1]))
+}
+
+/// The station in use offers the group, and this session was its last request for it.
+fn is_offered_and_asked(group: GroupRecord, at: usize, table: [StationRecord; 2]) -> bool {
+    let Some((station, session)) = in_use(group) else { return true };
+    let is_it = |record: StationRecord| {
+        record.station() == Some(station)
+            && record.offer().contains(GROUPS[at])
+            && record.last_request(GROUPS[at]) == Some(session)
+    };
+    is_it(table[0]) || is_it(table[1])
 }
 
 /// What is remembered, with another offer and these sessions where there are any.
