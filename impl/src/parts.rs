@@ -112,6 +112,12 @@ pub fn sum_of_limbs<const N: usize>(
     (total, limbs::sign(&total))
 }
 
+/// The product of integers of two limbs, as `exact` has it for 18. Source:
+/// `spec/4-arithmetic.md#strict-and-lax`.
+pub fn product_of_limbs(a: &[u64; 2], b: &[u64; 2]) -> [u64; 4] {
+    limbs::product(a, b)
+}
+
 /// The first set cell of a row from one column to another, in a bitmap of so many columns and rows.
 /// Source: `spec/5-interfaces.md#cycle`.
 pub fn first_in_row(

@@ -7,7 +7,7 @@
 
 use core::cmp::Ordering;
 
-use self::limbs::{add, halves, sign};
+use self::limbs::{add, halves, product, sign};
 use crate::numbers::rounding::Real;
 
 pub(crate) mod limbs;
@@ -117,19 +117,7 @@ impl Wide {
     /// Adds a * b, or subtracts it.
     fn add_product(&mut self, a: &Narrow, b: &Narrow, subtract: bool) {
         let negative = (a.negative != b.negative) != subtract;
-        let mut product = [0_u64; WIDE];
-        for (offset, &x) in a.limbs.iter().enumerate().filter(|&(_, &x)| x != 0) {
-            let mut carry = 0_u64;
-            let factors = b.limbs.iter().chain(core::iter::repeat(&0));
-            for (digit, &y) in product.iter_mut().skip(offset).zip(factors) {
-                // x y + digit + carry <= (2^64 - 1)^2 + 2 (2^64 - 1) < 2^128
-                let full = u128::from(x)
-                    .wrapping_mul(u128::from(y))
-                    .wrapping_add(u128::from(*digit))
-                    .wrapping_add(u128::from(carry));
-                (*digit, carry) = halves(full);
-            }
-        }
+        let product: [u64; WIDE] = product(&a.limbs, &b.limbs);
         add(&mut self.0, &product, negative);
     }
 

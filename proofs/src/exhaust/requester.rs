@@ -15,8 +15,8 @@ use crate::law::requester::{LAWS, Law, Seen, Step};
 /// What is run.
 pub const TOPIC: Topic = Topic {
     name: "requester",
-    domain: "every sequence of up to 6 of 16 events from the first state, two stations, times of a few \
-             nanoseconds, both profiles. Not covered: longer sequences, time that runs backwards",
+    domain: "every sequence of up to 6 of 17 events from the first state, two stations, times of a few \
+             nanoseconds, both profiles. Not covered: longer sequences, time that runs backwards, `qos_hold`",
     laws: || LAWS.iter().map(|&(name, _)| name).collect(),
     run,
 };

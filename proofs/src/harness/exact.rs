@@ -2,8 +2,9 @@
 
 use core::cmp::Ordering;
 
-use mufasa::parts::sum_of_limbs;
+use mufasa::parts::{product_of_limbs, sum_of_limbs};
 
+use super::any::below;
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -34,6 +35,34 @@ pub fn verify_four_limbs_add_like_integers() {
     kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
     kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
     kani::cover!(sign == Ordering::Equal, "zero");
+}
+
+/// The product of a power of two and an integer of two limbs is the integer so many bits higher: each limb
+/// comes to its place, and carries go up.
+///
+/// Domain: all powers of two below 2^128, all integers of 128 bits. Not covered: products of two arbitrary
+/// integers, the 18 limbs of `exact`.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(6))]
+pub fn verify_limbs_multiply_by_powers_of_two() {
+    let number: [u64; 2] = [kani::any(), kani::any()];
+    let (at, is_high) = (below(64), kani::any());
+    let bit = 1_u64 << at;
+    let power = if is_high { [0, bit] } else { [bit, 0] };
+    let found = product_of_limbs(&power, &number);
+    // Shifted by less than 64 bits, of which none is lost in three limbs.
+    let low = u128::from(number[0]) << at;
+    let high = (u128::from(number[1]) << at) + (low >> 64);
+    let [a, b, c] = [low, high, high >> 64].map(|part| (part & u128::from(u64::MAX)) as u64);
+    // Limb by limb: a comparison of arrays is a loop over bytes.
+    let [d, e, f, g] = found;
+    assert!(if is_high {
+        d == 0 && e == a && f == b && g == c
+    } else {
+        d == a && e == b && f == c && g == 0
+    });
+    kani::cover!(is_high && c != 0, "into the highest limb");
+    kani::cover!(!is_high && b != 0 && number[1] == 0, "into the next limb");
 }
 
 /// Asserts it of three or four limbs, compared as two integers of 128 bits; whether the lower one had a

@@ -1,16 +1,14 @@
 //! The groups of the requester (`spec/2-offloading.md`), law by law, from any state at all, even one
 //! that no events lead to. What is done is taken kind by kind; `actions` has the list.
 
-use mufasa::offloading::requester::{
-    Action, Event, EventKind, GroupRecord, Groups, Parts, StationRecord,
-};
+use mufasa::offloading::requester::{Action, Event, EventKind, GroupRecord, Parts};
 
 use super::any::{groups, near_integer, time_ns};
 use super::seen::{
-    DROPS, GROUPS, RELEASES, REQUESTS, SERVICES, Seen, after, after_in, any_verdict, area, confirm,
-    data, data_of, each, in_use, reject, same, tick, verdict,
+    DROPS, GROUPS, RELEASES, SERVICES, Seen, after, after_in, any_verdict, area, confirm, data,
+    data_of, each, in_use, reject, same, tick, verdict,
 };
-use super::states::{any_group, any_record, any_state};
+use super::states::{any_group, any_record_of, any_state};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -35,8 +33,9 @@ pub fn verify_every_law_at_areas() {
 pub fn verify_every_law_at_verdicts() {
     verdict(&|step: &Seen| {
         assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
+        let was_valid = step.is_hardened() && step.is_valid(step.before.groups[1]);
         kani::cover!(step.starts(0), "local services start");
-        kani::cover!(step.stops(1), "local services stop");
+        kani::cover!(was_valid && step.stops(1), "local services stop");
         kani::cover!(step.is_unsafe() && step.has_hold(), "a hold");
     });
 }
@@ -49,7 +48,7 @@ pub fn verify_every_law_at_verdicts() {
 pub fn verify_every_law_at_confirmations() {
     confirm(&|step: &Seen, _, _| {
         assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
-        kani::cover!(step.stops(0), "local services stop");
+        kani::cover!(!step.is_hardened() && step.stops(0), "local services stop");
         kani::cover!(step.is_remote_now(1), "it becomes remote");
     });
 }
@@ -80,74 +79,6 @@ pub fn verify_every_law_at_data() {
     });
 }
 
-/// At a tick before `hold_until` nothing is asked for, whoever offers, and no session is numbered; the
-/// hold changes by a violation with `qos_hold` alone.
-///
-/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits. Not
-/// covered: larger tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(4))]
-pub fn verify_t_wait_bars_requests() {
-    let mut table = [any_record(), any_record()];
-    let step = after(EventKind::Tick, &mut table);
-    let asks = step.done[REQUESTS][0].is_some() || step.done[REQUESTS][1].is_some();
-    let held = step.before.hold_until_ns.is_some_and(|until_ns| step.event.t_ns < until_ns);
-    assert!(!held || (!asks && step.after.sessions == step.before.sessions));
-    assert!(step.keeps_the_hold());
-    kani::cover!(held && step.done[RELEASES][0].is_some(), "a group is left during a hold");
-    kani::cover!(asks && step.before.hold_until_ns == Some(step.event.t_ns), "the end of a hold");
-    kani::cover!(asks && step.before.hold_until_ns.is_none(), "no hold");
-}
-
-/// Who is asked offers the group, which was local and is in the area; the session is the next
-/// number, MOT's before PLAN's; the deadline is now + `request_timeout`. A group that is not asked for
-/// is not in use anew.
-///
-/// Domain: all states, valid or not, of a table of two stations, all times of 64 bits, both groups.
-/// Not covered: larger tables.
-#[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(4))]
-pub fn verify_a_request_goes_to_who_offers() {
-    let records = [any_record(), any_record()];
-    let mut table = records;
-    let step = after(EventKind::Tick, &mut table);
-    assert!(each(|at| step.lists_actions_by_kind(at)
-        && step.says_what_services_do(at)
-        && asks_who_offers(&step, at, &records)));
-    let asks = [step.done[REQUESTS][0].is_some(), step.done[REQUESTS][1].is_some()];
-    let number = i64::from(asks[0]) + i64::from(asks[1]);
-    assert!(step.before.sessions.checked_add(number) == Some(step.after.sessions));
-    kani::cover!(asks[0] && !asks[1], "MOT asked");
-    kani::cover!(!asks[0] && asks[1], "PLAN asked");
-    kani::cover!(asks[0] && asks[1], "both asked");
-    kani::cover!(!asks[0] && !asks[1], "not asked");
-}
-
-#[allow(
-    clippy::inline_always,
-    reason = "a call copies the step to memory, which CBMC has to follow"
-)]
-#[inline(always)]
-fn asks_who_offers(step: &Seen, at: usize, [one, other]: &[StationRecord; 2]) -> bool {
-    let (before, after) = (step.before.groups[at], step.after.groups[at]);
-    let (station, session) = match step.done[REQUESTS][at] {
-        Some(Action::Request { station, group, session }) if group == GROUPS[at] => {
-            (station, session)
-        }
-        Some(_) => return false,
-        None => return in_use(after).is_none() || in_use(after) == in_use(before),
-    };
-    let of = |groups: Groups| if at == 0 { groups.mot } else { groups.plan };
-    let offers = |record: &StationRecord| record.station() == Some(station) && of(record.offer());
-    let first = if at == 1 && step.done[REQUESTS][0].is_some() { 2 } else { 1 };
-    let deadline_ns = step.event.t_ns.saturating_add(step.before.parameters.request_timeout_ns);
-    in_use(before).is_none()
-        && of(step.before.area)
-        && step.before.sessions.checked_add(first) == Some(session)
-        && same(after, GroupRecord::Requested { station, session, deadline_ns })
-        && (offers(one) || offers(other))
-}
-
 /// A change of the area leaves exactly the groups outside it: each gets one release of its
 /// session, and nobody else any.
 ///
@@ -175,15 +106,7 @@ pub fn verify_a_session_left_is_released_at_areas() {
 pub fn verify_a_session_left_is_released_at_ticks() {
     tick(&|step: &Seen| {
         assert!(each(|at| step.releases_what_it_leaves(at)));
-        let due = |at: usize| match step.before.groups[at] {
-            GroupRecord::Local => false,
-            GroupRecord::Requested { deadline_ns, .. } => step.event.t_ns >= deadline_ns,
-            GroupRecord::Remote(running) => {
-                let since_ns = i128::from(step.event.t_ns) - i128::from(running.last_arrival_ns);
-                since_ns > i128::from(step.before.parameters.dt_max_ns)
-            }
-        };
-        assert!(each(|at| step.leaves(at) == due(at)));
+        assert!(each(|at| step.leaves(at) == step.is_due(at)));
         kani::cover!(step.done[RELEASES][0].is_some(), "overdue or silent");
         kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
     });
@@ -203,7 +126,7 @@ pub fn verify_a_session_left_is_released_at_data() {
 }
 
 /// A safety issue leaves every group, a safe verdict none, with one release of the session for
-/// each.
+/// each; after a safety issue all groups are local.
 ///
 /// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
 /// tables.
@@ -215,6 +138,7 @@ pub fn verify_a_session_left_is_released_at_verdicts() {
         assert!(each(
             |at| step.leaves(at) == (is_unsafe && in_use(step.before.groups[at]).is_some())
         ));
+        assert!(!is_unsafe || each(|at| matches!(step.after.groups[at], GroupRecord::Local)));
         kani::cover!(step.done[RELEASES][0].is_some(), "a safety issue");
         kani::cover!(step.done[RELEASES][0].is_none(), "a group that stays");
     });
@@ -381,13 +305,14 @@ fn depends_on_itself(at: usize, kind: EventKind) {
 /// A withdrawal and a loss leave exactly the groups that use the station, each with one release of
 /// the session after a withdrawal and none after a loss.
 ///
-/// Domain: all states, valid or not, without a table, all times of 64 bits. Not covered: offers of
-/// some groups, tables.
+/// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
+/// Not covered: larger tables.
 pub fn verify_a_session_left_is_released_at_withdrawals() {
     let (station, is_loss) = (near_integer(1, 3), kani::any());
     kani::assume(station >= 1);
     let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
-    let step = after(kind, &mut []);
+    let place = any_record_of(station);
+    let step = after(kind, &mut [place]);
     let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);
     assert!(each(|at| step.leaves(at) == uses(at)));
     assert!(each(|at| if is_loss {
@@ -395,6 +320,7 @@ pub fn verify_a_session_left_is_released_at_withdrawals() {
     } else {
         step.releases_what_it_leaves(at)
     }));
-    kani::cover!(is_loss && uses(0), "a loss");
-    kani::cover!(!is_loss && uses(1), "a withdrawal");
+    let is_known = place.station().is_some();
+    kani::cover!(is_loss && uses(0) && is_known, "a loss");
+    kani::cover!(!is_loss && uses(1) && is_known, "a withdrawal");
 }

@@ -32,6 +32,7 @@ pub mod session;
 pub mod stages;
 mod states;
 pub mod table;
+pub mod ticks;
 pub mod v_grid_map;
 pub mod world;
 
@@ -63,15 +64,14 @@ harnesses! {
         verify_s_valid_is_s_follow_or_s_b;
     exact:
         verify_limbs_add_like_integers
-        verify_four_limbs_add_like_integers;
+        verify_four_limbs_add_like_integers
+        verify_limbs_multiply_by_powers_of_two;
     group:
         verify_every_law_at_areas
         verify_every_law_at_verdicts
         verify_every_law_at_confirmations
         verify_every_law_at_rejections
         verify_every_law_at_data
-        verify_t_wait_bars_requests
-        verify_a_request_goes_to_who_offers
         verify_a_session_left_is_released_at_areas
         verify_a_session_left_is_released_at_ticks
         verify_a_session_left_is_released_at_data
@@ -124,6 +124,8 @@ harnesses! {
         verify_every_law_at_withdrawals
         verify_every_law_at_offers
         verify_a_session_left_is_released_at_offers
+        verify_a_refused_offer_changes_nothing
+        verify_an_error_is_told_as_unsafe
         verify_an_offer_is_taken_or_leaves_no_trace
         verify_the_station_asked_last_waits;
     schedule:
@@ -144,6 +146,10 @@ harnesses! {
         verify_the_table_stays_valid_at_ticks
         verify_what_is_in_use_stays_offered_at_ticks
         verify_the_table_stays_valid_at_offers;
+    ticks:
+        verify_t_wait_bars_requests
+        verify_a_request_goes_to_who_offers
+        verify_what_is_not_due_stays_at_ticks;
     v_grid_map:
         verify_paper_cells_include_their_borders
         verify_hardened_cells_are_closed_squares;

@@ -11,12 +11,13 @@ use super::any::{below, integer_within, profile, time_ns};
 use crate::kani;
 
 /// Exactly the stages of the table are run, in their order, none after the first failure; every
-/// other one has the right reason; the gap is compared exactly where stage iv does not run although
+/// other one has the right reason; the gap is asked for exactly where stage iv does not run although
 /// nothing failed; and the cycle is unsafe exactly when a stage failed or, hardened, nothing
 /// compared a current trajectory with obstacles.
 ///
 /// Domain: all configurations, profiles, sets of inputs and answers of the stages. Not covered:
-/// nothing; what the stages answer is for other harnesses.
+/// whether the gap is compared where it is asked for (H-04: hardened, not in `Local`), and what the stages
+/// answer.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_order_is_the_table() {

@@ -3,14 +3,15 @@
 
 use mufasa::offloading::requester::{
     Event, EventKind, Group, GroupRecord, GroupState, Groups, Parts, Requester, RequesterError,
-    StationRecord, Suspended,
+    Sessions, StationRecord, Suspended,
 };
 use mufasa::parts::decide;
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Problem, Report, Stage};
 
 use super::any::{below, groups, near_integer, profile, time_ns};
 use super::bounds::CROSS_SECTIONS;
 use super::seen::{GROUPS, REQUESTS, after, after_in, each, in_use, same};
-use super::states::{any_parameters, any_record, any_state, any_state_with};
+use super::states::{any_parameters, any_record, any_record_of, any_state, any_state_with};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -57,12 +58,7 @@ pub fn verify_a_station_below_1_is_refused() {
     };
     let refused = decide(&mut requester, &Event { t_ns: time_ns(), kind });
     assert!(matches!(refused, Err(RequesterError::Station { station: named }) if named == station));
-    let after = requester.suspend().parts();
-    assert!(each(|at| same(after.groups[at], before.groups[at])));
-    assert!(after.hold_until_ns == before.hold_until_ns && after.sessions == before.sessions);
-    assert!(after.area == before.area && after.profile == before.profile);
-    assert!(after.parameters == before.parameters);
-    assert!(each(|at| after.dropped[at] == before.dropped[at]));
+    assert!(is_unchanged(&before, &requester.suspend().parts()));
     kani::cover!(matches!(kind, EventKind::Withdraw { station: 0 }), "a withdrawal of the CAV");
     kani::cover!(matches!(kind, EventKind::Lost { .. }), "a loss");
     kani::cover!(matches!(kind, EventKind::Offer { .. }), "an offer");
@@ -84,42 +80,99 @@ pub fn verify_every_law_at_ticks() {
 
 /// A withdrawal and a loss keep every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, all times of 64 bits. Not covered: tables: nobody offers
-/// anything.
+/// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
+/// Not covered: larger tables.
 pub fn verify_every_law_at_withdrawals() {
     let station = any_station();
     let is_loss = kani::any();
     let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
-    let step = after(kind, &mut []);
+    let place = any_record_of(station);
+    let step = after(kind, &mut [place]);
     assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
-    kani::cover!(is_loss && step.starts(0), "a loss");
-    kani::cover!(!is_loss && step.starts(1), "a withdrawal");
+    let is_known = place.station().is_some();
+    kani::cover!(is_loss && is_known && step.starts(0), "a loss");
+    kani::cover!(!is_loss && is_known && step.starts(1), "a withdrawal");
 }
 
 /// An offer keeps every law of a step: see `keeps_every_law`.
 ///
-/// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
-/// larger tables, drops.
+/// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
+/// Not covered: larger tables.
 pub fn verify_every_law_at_offers() {
     let (station, groups) = (any_station(), groups());
-    let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
+    let place = any_record_of(station);
+    let step = after(EventKind::Offer { station, groups }, &mut [place]);
     assert!(step.keeps_every_law());
-    kani::cover!(step.starts(0), "local services start");
+    kani::cover!(step.starts(0) && place.station().is_some(), "local services start");
 }
 
 /// An offer leaves exactly what is in use of its station and no longer offered, with one release for each.
 ///
-/// Domain: all states, valid or not, a table of one free place, all times of 64 bits. Not covered:
-/// larger tables.
+/// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
+/// Not covered: larger tables.
 pub fn verify_a_session_left_is_released_at_offers() {
     let (station, groups) = (any_station(), groups());
-    let step = after(EventKind::Offer { station, groups }, &mut [StationRecord::FREE]);
+    let place = any_record_of(station);
+    let step = after(EventKind::Offer { station, groups }, &mut [place]);
     let lacks = [!groups.mot, !groups.plan];
     let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);
     assert!(each(|at| step.leaves(at) == (lacks[at] && uses(at))));
     assert!(each(|at| step.releases_what_it_leaves(at)));
-    kani::cover!(step.leaves(0) && !step.leaves(1), "a group is left");
-    kani::cover!(uses(0) && !step.leaves(0), "a group stays");
+    let is_known = place.station().is_some();
+    kani::cover!(is_known && step.leaves(0) && !step.leaves(1), "a group is left");
+    kani::cover!(is_known && uses(0) && !step.leaves(0), "a group stays");
+}
+
+/// An offer that finds no place changes nothing.
+///
+/// Domain: all states, valid or not, a table of one place, another station's, all times of 64 bits. Not
+/// covered: larger tables.
+#[cfg_attr(kani, kani::proof)]
+#[cfg_attr(kani, kani::unwind(4))]
+pub fn verify_a_refused_offer_changes_nothing() {
+    let (before, station, groups) = (any_state(), any_station(), groups());
+    let place = any_record();
+    kani::assume(place.station().is_some_and(|other| other != station) && groups != Groups::NONE);
+    let mut table = [place];
+    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut table);
+    let event = Event { t_ns: time_ns(), kind: EventKind::Offer { station, groups } };
+    let found = decide(&mut requester, &event);
+    assert!(
+        matches!(found, Err(RequesterError::TableFull { station: named, capacity: 1 }) if named == station)
+    );
+    assert!(is_unchanged(&before, &requester.suspend().parts()) && table[0] == place);
+    kani::cover!(in_use(before.groups[0]).is_some_and(|(used, _)| used == station), "in use");
+}
+
+fn is_unchanged(before: &Parts, after: &Parts) -> bool {
+    each(|at| same(after.groups[at], before.groups[at]) && after.dropped[at] == before.dropped[at])
+        && after.hold_until_ns == before.hold_until_ns
+        && after.sessions == before.sessions
+        && after.area == before.area
+        && after.profile == before.profile
+        && after.parameters == before.parameters
+}
+
+/// A cycle is told as safe exactly when it ended in a report without a failed stage; an error is unsafe.
+///
+/// Domain: a failed stage or none, an error. Not covered: nothing: no other part of a report is read.
+#[cfg_attr(kani, kani::proof)]
+pub fn verify_an_error_is_told_as_unsafe() {
+    let failed_stage = match below(3) {
+        0 => None,
+        1 => Some(FailedStage::NoObstacleCheck),
+        _ => Some(FailedStage::Stage(Stage::I)),
+    };
+    let report = Report { failed_stage, stages: [Outcome::NotScheduled; 5], input: None };
+    let problem = InvalidInput { field: "now_ns", index: None, problem: Problem::NotFinite };
+    let is_error: bool = kani::any();
+    let answer = if is_error { Err(problem) } else { Ok(report) };
+    let found = EventKind::of_cycle(&answer, Sessions::NONE);
+    let expected = !is_error && failed_stage.is_none();
+    assert!(matches!(found, EventKind::Verdict { safe, .. } if safe == expected));
+    kani::cover!(expected, "safe");
+    kani::cover!(is_error && failed_stage.is_none(), "an error");
+    kani::cover!(!is_error && failed_stage.is_some(), "a failed stage");
 }
 
 /// An offer replaces what its station offered and nothing else; a new station takes the first free
@@ -127,7 +180,7 @@ pub fn verify_a_session_left_is_released_at_offers() {
 /// and it is not empty, and then nothing changes.
 ///
 /// Domain: tables of two stations, nothing in use, all times of 64 bits. Not covered: larger tables;
-/// for groups in use see `verify_every_law_at_offers`.
+/// for groups in use see `verify_every_law_at_offers` and `verify_a_refused_offer_changes_nothing`.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
@@ -143,7 +196,7 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
     let found = decide(&mut requester, &event);
     let refused = full && groups != Groups::NONE;
     assert!(match found {
-        Ok(_) => !refused,
+        Ok(done) => !refused && done.as_flattened().iter().all(Option::is_none),
         Err(RequesterError::TableFull { station: named, capacity }) => {
             refused && named == station && capacity == 2
         }
@@ -193,6 +246,7 @@ fn the_station_asked_last_waits(at: usize) {
     let mut table = records;
     let (Some(one), Some(other)) = (a.station(), b.station()) else { return };
     let asked = [a, b].map(|record| record.last_request(group).unwrap_or(0));
+    kani::assume(asked[0] >= 0 && asked[1] >= 0);
     kani::assume(one != other && (asked[0] != asked[1] || asked[0] == 0));
     let local = any_state_with([GroupRecord::Local; 2]);
     let state = Parts { area: Groups::ALL, ..local };

@@ -39,6 +39,7 @@ impl Seen {
         self.keeps_the_hold()
             && self.asks_for_nothing()
             && (self.names_a_session() || self.keeps_the_rest())
+            && (matches!(self.event.kind, EventKind::Data { .. }) || self.drops_nothing())
             && each(|at| {
                 self.becomes_remote_by_confirmation(at)
                     && self.says_what_services_do(at)
@@ -61,9 +62,8 @@ impl Seen {
             && self.place.is_none_or(|[before, after]| before == after)
     }
 
-    /// A group that is left is local; one that stays is as it was, but that local services may stop. Only data are
-    /// counted as dropped.
-    fn keeps_what_stays(&self, at: usize) -> bool {
+    /// A group that is left is local; one that stays is as it was, but that local services may stop.
+    pub(super) fn keeps_what_stays(&self, at: usize) -> bool {
         let before = match (self.event.kind, self.before.groups[at]) {
             _ if self.names_a_session() => return true,
             (EventKind::Verdict { .. }, GroupRecord::Remote(running)) if self.stops(at) => {
@@ -72,7 +72,14 @@ impl Seen {
             (_, before) => before,
         };
         let expected = if self.leaves(at) { GroupRecord::Local } else { before };
-        same(self.after.groups[at], expected) && self.after.dropped[at] == self.before.dropped[at]
+        same(self.after.groups[at], expected)
+    }
+
+    /// Only data are dropped and counted.
+    pub(super) fn drops_nothing(&self) -> bool {
+        each(|at| {
+            self.done[DROPS][at].is_none() && self.after.dropped[at] == self.before.dropped[at]
+        })
     }
 
     fn names_a_session(&self) -> bool {
@@ -95,6 +102,15 @@ impl Seen {
         };
         let holds = self.is_unsafe() || (violates && self.before.parameters.qos_hold);
         self.after.hold_until_ns == if holds { Some(later_ns) } else { self.before.hold_until_ns }
+    }
+
+    /// The group is overdue or silent.
+    pub(super) fn is_due(&self, at: usize) -> bool {
+        match self.before.groups[at] {
+            GroupRecord::Local => false,
+            GroupRecord::Requested { deadline_ns, .. } => self.event.t_ns >= deadline_ns,
+            GroupRecord::Remote(_) => self.is_silent(at),
+        }
     }
 
     /// Nothing has come for longer than `dt_max`.
@@ -144,8 +160,8 @@ impl Seen {
             }
     }
 
-    /// Only data of a safe cycle reach control, if the group was valid: hardened, local services stop exactly at a safe verdict
-    /// that names the running session after a result was used; paper, at the confirmation.
+    /// If the group was valid: hardened, local services stop exactly at a safe verdict that names the running session
+    /// after a result was used (H-08); paper, at the confirmation.
     pub(super) fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
         let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
             (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],

@@ -36,7 +36,8 @@ pub fn verify_data_of_the_running_session_are_judged() {
         assert!(same(step.after.groups[at], expected));
         let dropped = step.done[DROPS][at] == Some(Action::Drop(GROUPS[at]));
         assert!(dropped == (violates || is_stale));
-        kani::cover!(!dropped, "used");
+        kani::cover!(at == 0 && !dropped, "tracks are used");
+        kani::cover!(at == 1 && !dropped, "a trajectory is used");
         kani::cover!(dropped && !violates, "stale");
         kani::cover!(is_late && !was_silent, "late");
         kani::cover!(was_silent && !is_late && generated_ns <= t_ns, "after silence");

@@ -7,8 +7,13 @@ use super::any::{below, duration_ns, groups, near_integer, option, profile, time
 use crate::kani;
 
 pub(super) fn any_record() -> StationRecord {
+    any_record_of(near_integer(1, 3))
+}
+
+/// A place that is free, or that of this station.
+pub(super) fn any_record_of(station: i64) -> StationRecord {
     let last_request = [option(|| near_integer(1, 6)), option(|| near_integer(1, 6))];
-    StationRecord::from_parts(near_integer(1, 3), groups(), last_request)
+    StationRecord::from_parts(station, groups(), last_request)
 }
 
 pub(super) fn any_state() -> Parts {

@@ -1,12 +1,13 @@
 //! What the requester remembers of stations (`spec/2-offloading.md#requester`) after events that
-//! change it. That the others leave it as it is, is asserted in every harness of `group` that has a table.
+//! change it. That the others leave it as it is, is asserted in `group`: `verify_every_law_at_areas` and
+//! `_at_verdicts`, and the three harnesses `verify_the_other_group_is_untouched`.
 
 use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupRecord, Groups, Requester, StationRecord, Suspended,
 };
 use mufasa::parts::decide;
 
-use super::any::{groups, near_integer, time_ns};
+use super::any::{below, groups, near_integer, time_ns};
 use super::seen::{GROUPS, REQUESTS, after, each, in_use};
 use super::states::{any_record, any_state};
 #[cfg(not(kani))]
@@ -67,8 +68,8 @@ pub fn verify_a_request_is_remembered() {
 }
 
 /// A valid table stays valid at a tick: no station and no session is in two places, and every session is
-/// one of those so far. With the two harnesses behind this one, `keeps_the_group_valid` and
-/// `keeps_the_group_in_order` these are the steps of the induction that every reachable state is valid.
+/// one of those so far. `proofs/HARNESSES.md` says what else makes the induction that every reachable state
+/// is valid.
 ///
 /// Domain: valid tables of two places, all states, valid or not, with sessions from 0, all times of 64 bits.
 /// Not covered: larger tables.
@@ -106,20 +107,20 @@ fn stays_offered_at_ticks(at: usize) {
     kani::cover!(at == 1 && step.done[REQUESTS][at].is_some(), "PLAN is asked for");
 }
 
-/// After an offer (of nothing: a withdrawal) or a loss the table is valid, and what is in use is offered
+/// After an offer, a withdrawal or a loss the table is valid, and what is in use is offered
 /// by its station, which was asked for it last in this session.
 ///
 /// Domain: valid tables of two places, all states in which what is in use is offered and asked for, all
-/// times of 64 bits. Not covered: larger tables; offers that are refused, which change nothing.
+/// times of 64 bits. Not covered: larger tables; offers that are refused, for which see `requester`.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_the_table_stays_valid_at_offers() {
     let station = near_integer(1, 3);
     kani::assume(station >= 1);
-    let kind = if kani::any() {
-        EventKind::Lost { station }
-    } else {
-        EventKind::Offer { station, groups: groups() }
+    let kind = match below(3) {
+        0 => EventKind::Lost { station },
+        1 => EventKind::Withdraw { station },
+        _ => EventKind::Offer { station, groups: groups() },
     };
     let before = any_state();
     let records = [any_record(), any_record()];
@@ -135,6 +136,8 @@ pub fn verify_the_table_stays_valid_at_offers() {
     assert!(is_valid(table, after.sessions));
     assert!(each(|at| is_offered_and_asked(after.groups[at], at, table)));
     kani::cover!(in_use(after.groups[0]).is_some(), "MOT stays in use");
+    let is_left = in_use(before.groups[0]).is_some() && in_use(after.groups[0]).is_none();
+    kani::cover!(is_left, "MOT is left");
     kani::cover!(table[1] != records[1], "the table changes");
 }
 
