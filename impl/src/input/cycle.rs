@@ -125,7 +125,7 @@ pub struct DetectionList<'a> {
 }
 
 /// A detected object. Source: `spec/5-interfaces.md#cycle`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Detection {
     /// Centre, m.
     pub x: f64,
@@ -162,7 +162,7 @@ pub struct Route<'a> {
 }
 
 /// One cross section of a route. Source: `spec/5-interfaces.md#cycle`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CrossSection {
     /// Reference point, m.
     pub x: f64,
