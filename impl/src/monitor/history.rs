@@ -12,7 +12,8 @@ const SPACING_NS: i64 = 83_333_334;
 /// Ages that are looked for, ns.
 const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
 /// Ages of a usable list, ns.
-const USABLE_NS: [i64; 2] = [200_000_000, 1_000_000_000];
+const LEAST_NS: i64 = 200_000_000;
+const LONGEST_NS: i64 = 1_000_000_000;
 
 /// A list that is kept.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,9 @@ struct Kept {
 #[derive(Debug)]
 pub(super) struct History<'a> {
     kept: [Option<Kept>; PLACES],
+    /// The place of the oldest list, or of none: the next to be taken.
+    next: usize,
+    youngest_ns: Option<i64>,
     detections: &'a mut [Detection],
     slots: &'a mut [Slot],
     /// For the index of the current list.
@@ -48,7 +52,8 @@ impl<'a> History<'a> {
         capacity: usize,
     ) -> Option<Self> {
         let (current, slots) = slots.split_at_mut_checked(capacity)?;
-        Some(Self { kept: [None; PLACES], detections, slots, current, capacity })
+        let (kept, next, youngest_ns) = ([None; PLACES], 0, None);
+        Some(Self { kept, next, youngest_ns, detections, slots, current, capacity })
     }
 
     /// Whether a list can be kept.
@@ -59,7 +64,7 @@ impl<'a> History<'a> {
     /// Those of the usable lists whose ages are nearest to 300, 500 and 800 ms (of two the younger),
     /// and the indexes; the current list has none when it is invalid or too long.
     pub(super) fn select<'s>(&'s mut self, current: &DetectionList<'s>) -> Selection<'s> {
-        let Self { kept, detections, slots, current: memory, capacity } = self;
+        let Self { kept, detections, slots, current: memory, capacity, .. } = self;
         let (detections, slots) = (&**detections, &**slots);
         let mut indexes = [DetectionIndex::EMPTY; 4];
         let mut lists = [DetectionList { stamp_ns: 0, items: &[] }; 3];
@@ -70,14 +75,13 @@ impl<'a> History<'a> {
         }
         let mut places = lists.iter_mut().zip(earlier);
         let mut before = None;
-        for wanted_ns in WANTED_NS {
-            let nearest = nearest(kept, current.stamp_ns, wanted_ns);
-            if nearest.is_none() || nearest == before {
+        for at in nearest(kept, current.stamp_ns).into_iter().flatten() {
+            if before == Some(at) {
                 continue;
             }
-            before = nearest;
-            let list = nearest.and_then(|at| {
-                let Kept { stamp_ns, count, shape } = (*kept.get(at)?)?;
+            before = Some(at);
+            let list = kept.get(at).copied().flatten().and_then(|kept| {
+                let Kept { stamp_ns, count, shape } = kept;
                 let items = region(detections, at, *capacity)?.get(..count)?;
                 let index = DetectionIndex::of_kept(shape, items, region(slots, at, *capacity)?)?;
                 Some((DetectionList { stamp_ns, items }, index))
@@ -93,37 +97,47 @@ impl<'a> History<'a> {
     /// Copies a list that is current and valid, and its index, if its time has come. `shape`: of its
     /// index, which `select` has left in the memory for the current list.
     pub(super) fn keep(&mut self, list: &DetectionList<'_>, shape: Shape) {
-        let youngest_ns = self.kept.iter().flatten().map(|kept| kept.stamp_ns).max();
-        let since_ns = youngest_ns.map_or(i64::MAX, |last_ns| elapsed_ns(last_ns, list.stamp_ns));
-        let [_, longest_ns] = USABLE_NS;
-        if since_ns < longest_ns.saturating_neg() {
-            // The clock was set back.
-            self.kept = [None; PLACES];
-        } else if since_ns < SPACING_NS {
-            return;
+        if let Some(youngest_ns) = self.youngest_ns {
+            let since_ns = elapsed_ns(youngest_ns, list.stamp_ns);
+            if since_ns < LONGEST_NS.saturating_neg() {
+                // The clock was set back.
+                self.kept = [None; PLACES];
+            } else if since_ns < SPACING_NS {
+                return;
+            }
         }
-        let age = |kept: &Option<Kept>| kept.map_or(i64::MIN, |kept| kept.stamp_ns);
-        let oldest = self.kept.iter_mut().enumerate().min_by_key(|(_, kept)| age(kept));
-        let Some((at, kept)) = oldest else { return };
+        let at = self.next;
+        let Some(kept) = self.kept.get_mut(at) else { return };
+        self.next = if at.saturating_add(1) < PLACES { at.saturating_add(1) } else { 0 };
+        self.youngest_ns = Some(list.stamp_ns);
         let count = list.items.len();
         *kept = Some(Kept { stamp_ns: list.stamp_ns, count, shape });
         let first = at.saturating_mul(self.capacity);
-        let places = self.detections.iter_mut().skip(first);
-        places.zip(list.items).for_each(|(place, item)| *place = *item);
-        let places = self.slots.iter_mut().skip(first).take(count);
-        places.zip(&*self.current).for_each(|(place, slot)| *place = *slot);
+        let places = first..first.saturating_add(count);
+        let items = self.detections.get_mut(places.clone()).unwrap_or_default();
+        items.iter_mut().zip(list.items).for_each(|(place, item)| *place = *item);
+        let slots = self.slots.get_mut(places).unwrap_or_default();
+        slots.iter_mut().zip(&*self.current).for_each(|(place, slot)| *place = *slot);
     }
 }
 
-/// The place of the usable list whose age is nearest to this, of two the younger.
-fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64, wanted_ns: i64) -> Option<usize> {
-    let [least_ns, most_ns] = USABLE_NS;
-    let ages = kept.iter().enumerate().filter_map(|(at, kept)| {
-        let age_ns = elapsed_ns((*kept)?.stamp_ns, stamp_ns);
-        (least_ns <= age_ns && age_ns <= most_ns).then_some((at, age_ns))
-    });
-    let order = |&(_, age_ns): &(usize, i64)| (age_ns.abs_diff(wanted_ns), age_ns);
-    ages.min_by_key(order).map(|(at, _)| at)
+/// The places of the usable lists whose ages are nearest to those wanted, of two the younger.
+fn nearest(kept: &[Option<Kept>; PLACES], stamp_ns: i64) -> [Option<usize>; 3] {
+    let mut found = WANTED_NS.map(|wanted_ns| (wanted_ns, (u64::MAX, i64::MAX), None));
+    for (at, kept) in kept.iter().enumerate() {
+        let Some(kept) = kept else { continue };
+        let age_ns = elapsed_ns(kept.stamp_ns, stamp_ns);
+        if !(LEAST_NS..=LONGEST_NS).contains(&age_ns) {
+            continue;
+        }
+        for (wanted_ns, nearest, place) in &mut found {
+            let order = (age_ns.abs_diff(*wanted_ns), age_ns);
+            if order < *nearest {
+                (*nearest, *place) = (order, Some(at));
+            }
+        }
+    }
+    found.map(|(_, _, place)| place)
 }
 
 /// The memory of a place.

@@ -348,6 +348,11 @@ fn as_the_plain_calls(profile: Profile) {
         pair.event(EventKind::Offer { station: 1, groups: Groups::ALL });
         for _ in 0..30 {
             pair.now_ns += pair.draw.pick(&[100 * MS, 100 * MS, 50 * MS, 30 * MS, 101 * MS, 0]);
+            if pair.draw.one_in(60) {
+                // The clock is set back; not before the domain of times.
+                let back_ns = pair.draw.pick(&[2_000 * MS, 1_001 * MS, 999 * MS]);
+                pair.now_ns = pair.now_ns.saturating_sub(back_ns);
+            }
             match pair.draw.below(6) {
                 0..=3 => pair.period(seen),
                 4 => pair.any(seen),

@@ -167,6 +167,8 @@ impl<'a> Plain<'a> {
             }
         }
         self.kept.push((stamp_ns, items.to_vec()));
+        let many = self.kept.len().saturating_sub(12);
+        self.kept.drain(..many);
     }
 }
 
