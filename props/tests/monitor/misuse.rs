@@ -9,7 +9,7 @@ use mufasa::offloading::requester::{
 use mufasa::report::{FailedStage, Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Station, World, at, message, road, route, settings};
+use super::kit::{Buffers, MS, Station, World, at, message, road, route, seconds, settings};
 use super::plain::check_plainly;
 
 /// The plain record of a world, without history.
@@ -140,31 +140,62 @@ fn a_wrong_configuration_cannot_be_given() {
     // `an_unsafe_cycle_is_not_taken_for_a_safe_one`: the same data are unsafe in the monitor.
 }
 
+/// A car that crosses the road at 5 m/s, 6.5 m ahead of the CAV at `end_ns`, and a track of it that
+/// stands.
+fn crossing(now_ns: i64, end_ns: i64) -> World {
+    let mut world = World::at(now_ns);
+    let x = World::at(end_ns).ego.x + 6.5;
+    let y = 4.7 + 5.0 * seconds(end_ns - now_ns);
+    world.add([x, y], [0.0, -1.0], [0.0, 0.0]);
+    world
+}
+
 /// A car crosses at 5 m/s, and the remote says that it stands: without the lists kept between cycles
 /// that is safe in every cycle, and the monitor, which has them, sees the car move.
 /// `spec/5-interfaces.md#monitor.4`.
 #[test]
 fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
     let (end_ns, cross_sections) = (1_500 * MS, road());
-    let crossing = |now_ns: i64| {
-        let mut world = World::at(now_ns);
-        let x = World::at(end_ns).ego.x + 6.5;
-        let y = 4.7 + 5.0 * super::kit::seconds(end_ns - now_ns);
-        world.add([x, y], [0.0, -1.0], [0.0, 0.0]);
-        world
-    };
     let mut buffers = Buffers::new(16, 40);
     let mut monitor = buffers.monitor(settings()).expect("a monitor");
     monitor.set_route(&route(&cross_sections)).expect("a route");
     let mut station = Station::default();
     let mut found = None;
     for i in 0..=15 {
-        let world = crossing(100 * i * MS);
+        let world = crossing(100 * i * MS, end_ns);
         let forgotten = check_plainly(&record(&world, &cross_sections, Configuration::AllRemote));
         assert_eq!(forgotten.map(|report| report.failed_stage), Ok(None), "at {i}");
         found = found.or(period(&mut monitor, &mut station, &world));
     }
     assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
+}
+
+/// Detections that were not current are no history: the same drive with late scans until its last cycle
+/// is as one without any. `spec/5-interfaces.md#monitor.4`.
+#[test]
+fn detections_that_were_not_current_are_not_kept() {
+    let (end_ns, cross_sections) = (1_100 * MS, road());
+    for (late_ns, is_safe) in [(100 * MS, false), (100 * MS + 1, true)] {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.monitor(settings()).expect("a monitor");
+        monitor.set_route(&route(&cross_sections)).expect("a route");
+        let mut station = Station::default();
+        let mut last = None;
+        for i in 0..=11 {
+            let world = crossing(100 * i * MS, end_ns);
+            let stamp_ns = world.now_ns - if i < 11 { late_ns } else { 0 };
+            let scanned = crossing(stamp_ns, end_ns).detections;
+            let (tracks, points) = station.period(&mut monitor, &world);
+            let now = at(world.now_ns);
+            let mut inputs = Inputs::new(now, world.ego).detections(at(stamp_ns), &scanned);
+            // Only the last cycle has anything to check.
+            if let (11, Some(tracks), Some(points)) = (i, &tracks, &points) {
+                inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
+            }
+            last = Some(matches!(monitor.cycle(&inputs), Decision::Safe { .. }));
+        }
+        assert_eq!(last, Some(is_safe), "{late_ns} ns late");
+    }
 }
 
 /// Microseconds for nanoseconds: data five seconds old are 5 ms old to the plain requester. A bare number
