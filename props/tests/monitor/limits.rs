@@ -4,11 +4,11 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{Detection, Route};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Decision, Inputs, MonitorError, Settings};
-use mufasa::offloading::requester::RequesterError;
+use mufasa::monitor::{Decision, Gap, Inputs, Message, MonitorError, Settings};
+use mufasa::offloading::requester::{Group, Groups, RequesterError};
 use mufasa::report::{InvalidInput, Problem};
 
-use super::kit::{Buffers, MS, World, at, road, route, settings};
+use super::kit::{Buffers, MS, Station, World, at, road, route, settings};
 
 fn refused(settings: Settings) -> (MonitorError, String) {
     let mut buffers = Buffers::new(16, 40);
@@ -122,4 +122,47 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     assert!(matches!(monitor.cycle(&inputs), Decision::Safe { .. }), "the first one");
     let shorter = Route { closed: false, cross_sections: &cross_sections[..2] };
     assert_eq!(monitor.set_route(&shorter), Ok(()));
+}
+
+/// Times at the limits of 64 bits, forwards and backwards, with every input: no panic, and data that are
+/// not current never come out.
+#[test]
+fn times_at_the_limits_of_64_bits_do_no_harm() {
+    let cross_sections = road();
+    let times = [i64::MIN, i64::MIN + 1, -1, 0, 1, i64::MAX - 1, i64::MAX];
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let world = World::at(0);
+    let mut came_out = 0;
+    for (now_ns, stamp_ns) in
+        times.iter().flat_map(|now_ns| times.map(|stamp_ns| (*now_ns, stamp_ns)))
+    {
+        let (now, stamp) = (at(now_ns), at(stamp_ns));
+        let mut station = Station::default();
+        station.take(&monitor.offer(now, 1, Groups::ALL).expect("a station"));
+        station.take(&monitor.tick(now));
+        for (group, session) in Group::ALL.into_iter().zip(station.sessions) {
+            let Some(session) = session else { continue };
+            let _done = monitor.confirm(now, 1, group, session).expect("a station");
+        }
+        let items = world.tracks.clone();
+        let session = station.sessions[0].unwrap_or(0);
+        let message = Message { station: 1, session, generated: stamp, stamp, items };
+        let tracks = monitor.tracks(now, message).expect("a station");
+        let tracks = station.accepted(tracks);
+        let mut inputs = Inputs::new(now, world.ego)
+            .detections(stamp, &world.detections)
+            .lead(stamp, Gap::between_bumpers(20.0), 5.0)
+            .local_trajectory(stamp, &world.points);
+        if let Some(tracks) = &tracks {
+            inputs = inputs.remote_tracks(tracks);
+        }
+        if let Decision::Safe { tracks: Some(tracks), .. } = monitor.cycle(&inputs) {
+            let age = i128::from(now_ns) - i128::from(tracks.stamp_ns);
+            assert!((0..=i128::from(100 * MS)).contains(&age));
+            came_out += 1;
+        }
+    }
+    assert!(came_out > 0);
 }
