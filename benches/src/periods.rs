@@ -73,6 +73,6 @@ impl<'a> Periods<'a> {
 
     fn step(&mut self, kind: EventKind) {
         let event = Event { t_ns: self.now_ns, kind };
-        self.requester.step(&event).expect("the station is known");
+        let _done = self.requester.step(&event).expect("the station is known");
     }
 }

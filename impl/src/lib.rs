@@ -1,22 +1,147 @@
-//! MUFASA's five validation stages as specified in `spec/`: no heap, no clock, and no
-//! panics, which lints forbid and tests look for; of few parts it is proved (`proofs/HARNESSES.md`).
+//! A safety monitor for vehicles that let a remote server do their tracking and their trajectory
+//! planning: MUFASA (Dehler, Schumann, Ruof, Buchholz, ITSC 2025) with the rules that close its gaps.
+//! `no_std`, no heap, no clock, no `unsafe`, and no panics, which lints forbid and tests look for; of few
+//! parts it is proved (`proofs/HARNESSES.md`).
 //!
-//! Numbers are IEEE 754 doubles with bounds on their errors, so that rounding does not accept what
-//! the exact model rejects (`spec/4-arithmetic.md#conformance-of-an-implementation`). The bounds
-//! are argued where they stand and tested against exact arithmetic; they are not proved by machine.
+//! [`Monitor`](monitor::Monitor) is what a vehicle uses: it takes what happens and what was measured,
+//! decides each cycle by the five stages, falls back to the local services when one of them fails, and
+//! hands out what a station sent only in a cycle that is safe.
+//!
+//! # A vehicle loop
+//!
+//! With a stand-in for the station, which answers at once: in the first period both groups are asked
+//! for, in the second they are remote, and what they send is driven once it is checked. With a drive
+//! and a station that goes wrong: `examples/vehicle.rs`.
+//!
+//! ```
+//! use std::time::Duration;
+//!
+//! use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, TrajectoryPoint};
+//! use mufasa::input::detection_index::Slot;
+//! use mufasa::input::route_index::Block;
+//! use mufasa::input::scratch::{Column, Row, Sizes};
+//! use mufasa::monitor::{Arrival, Decision, Inputs, Memory, Message, Monitor, Settings, Time};
+//! use mufasa::offloading::requester::{Action, Group, Groups, StationRecord};
+//!
+//! // Results come at 20 Hz; `dt_max`, 100 ms by default, has to be above the period.
+//! let settings = Settings::new(Duration::from_millis(50));
+//! let memory = Memory {
+//!     stations: &mut [StationRecord::FREE; 4],
+//!     rows: &mut vec![Row::default(); Sizes::MAX.rows],
+//!     columns: &mut vec![Column::default(); Sizes::MAX.columns],
+//!     detections: &mut vec![Detection::default(); Memory::detections_for(64)],
+//!     slots: &mut vec![Slot::default(); Memory::slots_for(64)],
+//!     cross_sections: &mut vec![CrossSection::default(); 1000],
+//!     blocks: &mut vec![Block::default(); Block::needed(1000)],
+//! };
+//! let mut monitor = Monitor::new(settings, memory)?;
+//! let at = |x| CrossSection { x, y: 0.0, left: [x, 2.0], right: [x, -2.0] };
+//! monitor.set_route(&Route { closed: false, cross_sections: &[at(-10.0), at(90.0)] })?;
+//!
+//! // The CAV stands, a parked car is beside it, and the plan is to stay.
+//! let ego = Ego {
+//!     x: 0.0, y: 0.0, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4,
+//! };
+//! let parked = Detection { x: 3.0, y: 5.0, cos: 1.0, sin: 0.0, length: 4.5, width: 1.9 };
+//! let mut driven_as_verified = 0;
+//! for period in 0..20 {
+//!     let now = Time::from_milliseconds(50 * period)?;
+//!
+//!     // Events in, actions out. A real loop sends requests and releases to their stations, and starts
+//!     // and stops its own services; this one answers its own requests.
+//!     if period == 0 {
+//!         let actions = monitor.offer(now, 1, Groups::ALL)?;
+//!         assert!(actions.is_empty());
+//!     }
+//!     let (mut tracks, mut trajectory) = (None, None);
+//!     let asked = monitor.tick(now);
+//!     for action in &asked {
+//!         if let Action::Request { station, group, session } = *action {
+//!             let actions = monitor.confirm(now, station, group, session)?;
+//!             assert!(actions.is_empty(), "local services go on until a safe cycle (H-08)");
+//!         }
+//!     }
+//!     let [mot, plan] = Group::ALL.map(|group| monitor.requester().session_of(group));
+//!     if let Some(session) = mot.map(|running| running.session) {
+//!         let Detection { x, y, cos, sin, length, width } = parked;
+//!         let items = vec![Track { id: 1, x, y, cos, sin, vx: 0.0, vy: 0.0, length, width }];
+//!         let message = Message { station: 1, session, generated: now, stamp: now, items };
+//!         match monitor.tracks(now, message)? {
+//!             Arrival::Accepted(element) => tracks = Some(element),
+//!             Arrival::Dropped(actions) => panic!("late? {actions:?}"),
+//!         }
+//!     }
+//!     if let Some(session) = plan.map(|running| running.session) {
+//!         let t_ns = now.as_nanoseconds();
+//!         let items = vec![TrajectoryPoint { t_ns, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 }];
+//!         let message = Message { station: 1, session, generated: now, stamp: now, items };
+//!         match monitor.trajectory(now, message)? {
+//!             Arrival::Accepted(element) => trajectory = Some(element),
+//!             Arrival::Dropped(actions) => panic!("late? {actions:?}"),
+//!         }
+//!     }
+//!
+//!     // What the CAV measured itself, and what it accepted: the cycle decides.
+//!     let detections = [parked];
+//!     let mut inputs = Inputs::new(now, ego).detections(now, &detections);
+//!     if let Some(tracks) = &tracks {
+//!         inputs = inputs.remote_tracks(tracks);
+//!     }
+//!     if let Some(trajectory) = &trajectory {
+//!         inputs = inputs.remote_trajectory(trajectory);
+//!     }
+//!     match monitor.cycle(&inputs) {
+//!         Decision::Safe { trajectory: Some(trajectory), actions, .. } => {
+//!             // Only here is there a trajectory of the station to be driven.
+//!             assert_eq!(trajectory.points.len(), 1);
+//!             driven_as_verified += 1;
+//!             let _stop_local_services = actions;
+//!         }
+//!         Decision::Safe { trajectory: None, actions, .. } => {
+//!             // The local planner goes on.
+//!             let _stop_local_services = actions;
+//!         }
+//!         Decision::Unsafe { report, actions } => {
+//!             // The local services go on, and nothing of the station is used.
+//!             panic!("{report:?}, to be done: {actions:?}");
+//!         }
+//!     }
+//! }
+//! assert_eq!(driven_as_verified, 20);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Assumptions of use
+//!
+//! * Detections, lead, grid, pose and speed are the CAV's own and right; what they do not see, only the
+//!   remote knows (`spec/3-stages.md#findings`, F-33, F-39). The route is right.
+//! * All times are of one monotonic clock ([`monitor::Time`]); the stations' clocks are synchronised with
+//!   it. All places are in one right-handed frame (`spec/5-interfaces.md#cycle`).
+//! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.
+//! * Control follows the trajectory of a safe decision until the next one, and the local services'
+//!   otherwise; a braking manoeuvre with `a_b` is within reach of the local services.
+//! * Messages come from who they say: signatures are checked before, by whoever receives them.
+//! * A verdict is as good as the method: five findings are open in the hardened profile
+//!   (`findings/README.md`). Nothing here is certified.
+//!
+//! # Where things are
 //!
 //! | `spec/` | here |
 //! |---|---|
+//! | `5-interfaces.md#monitor` | [`monitor`] |
 //! | `3-stages.md#schedule` | [`stages`] |
 //! | stage i to stage v | `stages::{i_track_validation, .., v_grid_map}` |
 //! | `3-stages.md#distances`, LLCC | `stages::{distances, horizon, llcc}` |
 //! | `3-stages.md#invalid-input` | `input::domain` |
-//! | H-01 to H-12 | `hardened`, a file for each rule or group of rules |
+//! | H-01 to H-13 | `hardened`, a file for each rule or group of rules |
 //! | `5-interfaces.md#cycle` | [`input::cycle`], [`report`] |
 //! | `2-offloading.md` | [`offloading::requester`], [`offloading::quality_of_service`] |
 //! | `1-services.md#configuration` | [`services::configuration`] |
 //! | `4-arithmetic.md` | `numbers` |
 //!
+//! Numbers are IEEE 754 doubles with bounds on their errors, so that rounding does not accept what
+//! the exact model rejects (`spec/4-arithmetic.md#conformance-of-an-implementation`). The bounds
+//! are argued where they stand and tested against exact arithmetic; they are not proved by machine.
 //! Fast paths are submodules of their stage: what they cannot decide is left to the numbers with
 //! bounds.
 #![no_std]
@@ -42,6 +167,7 @@
 )]
 
 pub mod input;
+pub mod monitor;
 pub mod offloading;
 #[cfg(feature = "parts")]
 #[doc(hidden)]

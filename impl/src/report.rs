@@ -254,8 +254,21 @@ pub struct InvalidInput {
     pub problem: Problem,
 }
 
+impl core::fmt::Display for InvalidInput {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { field, index, problem } = *self;
+        match index {
+            Some(index) => write!(f, "{field}, item {index}: {}", problem.message()),
+            None => write!(f, "{field}: {}", problem.message()),
+        }
+    }
+}
+
+impl core::error::Error for InvalidInput {}
+
 /// The answer to one cycle. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use = "a report may say that the cycle is unsafe"]
 pub struct Report {
     /// `None`: the cycle is safe.
     pub failed_stage: Option<FailedStage>,

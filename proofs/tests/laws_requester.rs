@@ -33,8 +33,8 @@ fn faults() -> BTreeMap<&'static str, Fault> {
         let mut table = [StationRecord::FREE; 2];
         let mut requester = Requester::new(step.profile, PARAMETERS, &mut table).ok()?;
         let offer = EventKind::Offer { station: 1, groups: Groups::ALL };
-        requester.step(&Event { t_ns: 0, kind: offer }).ok()?;
-        requester.step(&Event { t_ns: 0, kind: EventKind::Tick }).ok()?;
+        let _done = requester.step(&Event { t_ns: 0, kind: offer }).ok()?;
+        let _done = requester.step(&Event { t_ns: 0, kind: EventKind::Tick }).ok()?;
         let broken = Requester::resume(requester.suspend(), &mut lost);
         Some(Taken { after: Seen::of(&broken), ..step.clone() })
     });

@@ -1,7 +1,8 @@
 //! `once TASK [1|2|3] [ghost|drift|fail] [bare] [CALLS]`: one call of one task on W1 (W2, W3), in a
 //! function of its own, whose instructions `scripts/instruction-counts` counts; more calls for a
 //! profile by samples. Tasks: `validation`, a stage (`i` to `v`), `all`, or a cycle as a vehicle
-//! asks for it (`mot`: `MotRemote`, `remote`: `AllRemote`), each with `-hardened` for that profile.
+//! asks for it (`mot`: `MotRemote`, `remote`: `AllRemote`), or that with the verdict to the requester by
+//! the plain calls (`plain`) and by the monitor (`monitor`), each with `-hardened` for that profile.
 //! `fail`: the variant of the stage that it fails; `bare`: without a detection history.
 
 use std::error::Error;
@@ -11,6 +12,7 @@ use mufasa::input::profile::Profile;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
+use mufasa_benches::monitored::{Monitored, Plain};
 use mufasa_benches::table::STAGES;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
@@ -45,6 +47,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut it = Contestant::new(&cycle);
     let mut run: Box<dyn FnMut() -> bool> = match (task, stage) {
         (_, Some((_, stage))) => Box::new(move || it.stage(stage)),
+        ("plain", _) => {
+            let mut it = Plain::new(&cycle);
+            Box::new(move || it.cycle())
+        }
+        ("monitor", _) => {
+            let mut it = Monitored::new(&cycle);
+            Box::new(move || it.cycle())
+        }
         ("validation", _) => Box::new(move || it.validate()),
         ("mot" | "remote", _) => Box::new(move || it.check().failed_stage.is_none()),
         ("all", _) => Box::new(move || it.all_stages()),

@@ -2,6 +2,10 @@
 //!
 //! Everything is borrowed from the caller; numbers are the doubles as they came, and
 //! `stages::check` says what is wrong with them.
+//!
+//! All places are in one right-handed frame of the road plane that stands still; a direction is
+//! (cos, sin) of the angle from x towards y, and to the left of it is (-sin, cos). Times are of the CAV's
+//! monotonic clock.
 
 use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
@@ -41,9 +45,9 @@ pub struct Cycle<'a> {
 /// Pose, speed and size of the CAV. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ego {
-    /// Position, m.
+    /// Position of the reference point, the rear axle or up to L/2 ahead of it, m.
     pub x: f64,
-    /// Position, m.
+    /// Position of the reference point, m.
     pub y: f64,
     /// Direction.
     pub cos: f64,
@@ -55,7 +59,7 @@ pub struct Ego {
     pub length: f64,
     /// Width W, m.
     pub width: f64,
-    /// From the position forward to the centre of the rectangle, m.
+    /// From the reference point forward to the centre of the rectangle, m.
     pub center_offset: f64,
 }
 
@@ -68,7 +72,7 @@ pub struct Trajectory<'a> {
     pub points: &'a [TrajectoryPoint],
 }
 
-/// One pose of a trajectory. Source: `spec/5-interfaces.md#cycle`.
+/// One pose of a trajectory: a place of the CAV's reference point. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryPoint {
     /// When the CAV is to be there, ns.
@@ -105,7 +109,7 @@ pub struct Track {
     pub cos: f64,
     /// Direction.
     pub sin: f64,
-    /// Velocity, m/s.
+    /// Velocity over ground, m/s.
     pub vx: f64,
     /// Velocity, m/s.
     pub vy: f64,
@@ -125,7 +129,7 @@ pub struct DetectionList<'a> {
 }
 
 /// A detected object. Source: `spec/5-interfaces.md#cycle`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Detection {
     /// Centre, m.
     pub x: f64,
@@ -146,9 +150,10 @@ pub struct Detection {
 pub struct Lead {
     /// Time of measurement, ns.
     pub stamp_ns: i64,
-    /// Free distance, m.
+    /// Free distance along the reference path, bumper to bumper: from the front edge of the CAV's
+    /// rectangle to the nearest point of the leading vehicle, m.
     pub gap: f64,
-    /// `v_lead`, m/s.
+    /// `v_lead`, along the path, m/s.
     pub speed: f64,
 }
 
@@ -162,7 +167,7 @@ pub struct Route<'a> {
 }
 
 /// One cross section of a route. Source: `spec/5-interfaces.md#cycle`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CrossSection {
     /// Reference point, m.
     pub x: f64,

@@ -45,7 +45,31 @@ pub struct DetectionIndex<'a> {
     pub(crate) reach: f64,
 }
 
+/// An index but for what it borrows, for those who keep the detections and the slots themselves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shape {
+    least: [f64; 2],
+    side: f64,
+    scale: f64,
+    last: [f64; 2],
+    columns: usize,
+    reach: f64,
+}
+
 impl<'a> DetectionIndex<'a> {
+    /// The index but for what it borrows.
+    pub(crate) const fn shape(&self) -> Shape {
+        let Self { least, side, scale, last, columns, reach, .. } = *self;
+        Shape { least, side, scale, last, columns, reach }
+    }
+
+    /// The index again, of copies of its detections and of its slots.
+    pub(crate) fn of_kept(shape: Shape, items: &'a [Detection], slots: &'a [Slot]) -> Option<Self> {
+        let Shape { least, side, scale, last, columns, reach } = shape;
+        let slots = slots.get(..items.len())?;
+        Some(Self { items, slots, least, side, scale, last, columns, reach })
+    }
+
     /// Of an empty list. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
     pub const EMPTY: Self = Self {
         items: &[],

@@ -10,7 +10,8 @@ use crate::input::cycle::{
     Cycle, Detection, DetectionList, Grid, Lead, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 use crate::input::domain::lists::{Seen, detections_are_fine, points_are_fine, tracks_are_fine};
-use crate::input::domain::own::{check_ego, check_parameters};
+use crate::input::domain::own::check_ego;
+pub(crate) use crate::input::domain::own::check_parameters;
 use crate::input::domain::place::{ANY, Check, POSITION, Place, SIZE, SPEED, VELOCITY};
 use crate::input::domain::route::check_route;
 use crate::report::{InvalidInput, Problem};

@@ -88,6 +88,14 @@ impl<'a> RouteIndex<'a> {
         Ok(Self { route, leaves, groups })
     }
 
+    /// The index that `new` has left in this memory, of this very route; `None` where that cannot be.
+    pub(crate) fn of_kept(route: Route<'a>, memory: &'a [Block]) -> Option<Self> {
+        let count = route.cross_sections.len().div_ceil(FAN);
+        let all = memory.get(..Block::needed(route.cross_sections.len()))?;
+        let (leaves, groups) = all.split_at_checked(count)?;
+        Some(Self { route, leaves, groups })
+    }
+
     /// Whether this is the index of these very cross sections: they are borrowed, so that they have not
     /// changed since.
     pub(crate) fn is_of(&self, route: &Route<'_>) -> bool {

@@ -88,6 +88,22 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("spec/5-interfaces.md#vectors", Cell::Proof, "tested only"),
     ("spec/5-interfaces.md#vectors", Cell::Vector, "about all of them"),
     ("spec/5-interfaces.md#vectors", Cell::Bench, "of the tools"),
+    (
+        "spec/5-interfaces.md#monitor",
+        Cell::Model,
+        "adds no verdict: its parts are the model's, each by itself",
+    ),
+    (
+        "spec/5-interfaces.md#monitor",
+        Cell::Proof,
+        "tested against the plain calls; what does not compile is in its documentation",
+    ),
+    ("spec/5-interfaces.md#monitor", Cell::Vector, "no record drives events and cycles together"),
+    (
+        "spec/5-interfaces.md#monitor",
+        Cell::Bench,
+        "`scripts/instruction-counts` compares it with the plain calls",
+    ),
     ("theta_map", Cell::Proof, TESTED),
     ("v_max", Cell::Proof, TESTED),
     ("step_max", Cell::Proof, TESTED),

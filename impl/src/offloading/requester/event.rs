@@ -164,6 +164,7 @@ pub enum Action {
 /// and deactivations, requests; MOT before PLAN within each. Read it as a slice. Source:
 /// `spec/2-offloading.md#fallback`.
 #[derive(Clone, Copy, Debug)]
+#[must_use = "actions have to be taken: a fallback is one"]
 pub struct Actions {
     items: [Action; Outbox::CAPACITY],
     len: usize,

@@ -19,7 +19,7 @@ fn remote(table: &mut [StationRecord]) -> Result<Requester<'_>, RequesterError> 
     let mut requester = Requester::new(Profile::Paper, Parameters::default(), table)?;
     let confirm = |group, session| EventKind::Confirm { station: 1, group, session };
     for kind in [offer(1, Groups::ALL), EventKind::Tick, confirm(MOT, 1), confirm(PLAN, 2)] {
-        requester.step(&Event { t_ns: 0, kind })?;
+        let _done = requester.step(&Event { t_ns: 0, kind })?;
     }
     Ok(requester)
 }

@@ -1,0 +1,230 @@
+//! A vehicle loop at 10 Hz around the monitor, with a stand-in for the road and for a station. From 4 s
+//! on to 5 s the station's tracks are 3 m aside: the monitor falls back to the local services, waits
+//! `t_wait`, and offloads again. `cargo run -p mufasa --example vehicle`
+
+use std::error::Error;
+use std::time::Duration;
+
+use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, TrajectoryPoint};
+use mufasa::input::detection_index::Slot;
+use mufasa::input::route_index::Block;
+use mufasa::input::scratch::{Column, Row, Sizes};
+use mufasa::monitor::{
+    Accepted, Arrival, Decision, Gap, Inputs, Memory, Message, Monitor, Settings, Time, Verified,
+};
+use mufasa::offloading::requester::{Action, Actions, Group, Groups, StationRecord};
+use mufasa::services::configuration::Configuration;
+
+const PERIOD: Duration = Duration::from_millis(100);
+const MOST_DETECTIONS: usize = 16;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // 100 ms, the default of dt_max, would end the session at the first jitter: it is refused.
+    let mut settings = Settings::new(PERIOD);
+    settings.requester.dt_max_ns = 150_000_000;
+
+    let route = road();
+    let memory = Memory {
+        stations: &mut [StationRecord::FREE; 4],
+        rows: &mut vec![Row::default(); Sizes::MAX.rows],
+        columns: &mut vec![Column::default(); Sizes::MAX.columns],
+        detections: &mut vec![Detection::default(); Memory::detections_for(MOST_DETECTIONS)],
+        slots: &mut vec![Slot::default(); Memory::slots_for(MOST_DETECTIONS)],
+        cross_sections: &mut vec![CrossSection::default(); route.len()],
+        blocks: &mut vec![Block::default(); Block::needed(route.len())],
+    };
+    let mut monitor = Monitor::new(settings, memory)?;
+    monitor.set_route(&Route { closed: false, cross_sections: &route })?;
+
+    let mut station = Station::default();
+    let (mut driven, mut fallbacks) = (Vec::new(), 0);
+    for cycle in 0..200 {
+        let now = Time::from_milliseconds(100 * cycle)?;
+        let world = World::at(now);
+
+        // What came over the network since the last period, and time itself.
+        if cycle == 0 {
+            station.take(&monitor.offer(now, 1, Groups::ALL)?);
+        }
+        for (group, session) in std::mem::take(&mut station.asked) {
+            station.take(&monitor.confirm(now, 1, group, session)?);
+        }
+        station.take(&monitor.tick(now));
+        let aside = if (40..50).contains(&cycle) { 3.0 } else { 0.0 };
+        let mut tracks = None;
+        if let Some(message) = station.tracks(now, world.tracks(aside)) {
+            tracks = accepted(monitor.tracks(now, message)?, &mut station);
+        }
+        let mut trajectory = None;
+        if let Some(message) = station.trajectory(now, world.trajectory()) {
+            trajectory = accepted(monitor.trajectory(now, message)?, &mut station);
+        }
+
+        // What the CAV measured and planned itself.
+        let (detections, own_plan) = (world.detections(), world.trajectory());
+        let mut inputs = Inputs::new(now, world.ego)
+            .detections(now, &detections)
+            .lead(now, Gap::between_bumpers(world.gap), 5.0)
+            .local_trajectory(now, &own_plan);
+        if let Some(tracks) = &tracks {
+            inputs = inputs.remote_tracks(tracks);
+        }
+        if let Some(trajectory) = &trajectory {
+            inputs = inputs.remote_trajectory(trajectory);
+        }
+
+        // The one way to what the station sent.
+        match monitor.cycle(&inputs) {
+            Decision::Safe { trajectory: Some(trajectory), actions, .. } => {
+                driven.push(follow(trajectory));
+                station.take(&actions);
+            }
+            Decision::Safe { trajectory: None, actions, .. } => {
+                driven.push(follow_own(&own_plan));
+                station.take(&actions);
+            }
+            Decision::Unsafe { report, actions } => {
+                let why = report.map(|report| report.failed_stage);
+                println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
+                driven.push(follow_own(&own_plan));
+                station.take(&actions);
+                fallbacks += 1;
+            }
+        }
+        if cycle % 10 == 0 {
+            println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
+        }
+    }
+    if fallbacks != 1 || monitor.configuration() != Configuration::AllRemote {
+        return Err(format!("{fallbacks} fallbacks, {:?}", monitor.configuration()).into());
+    }
+    println!("{} points driven, one fallback, offloading again", driven.len());
+    Ok(())
+}
+
+/// A controller for what others planned takes a verified trajectory and nothing else.
+fn follow(
+    trajectory: Verified<'_, mufasa::input::cycle::Trajectory<'_>>,
+) -> Option<TrajectoryPoint> {
+    trajectory.points.first().copied()
+}
+
+fn follow_own(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
+    points.first().copied()
+}
+
+fn accepted<L>(arrival: Arrival<L>, station: &mut Station) -> Option<Accepted<L>> {
+    match arrival {
+        Arrival::Accepted(element) => Some(element),
+        Arrival::Dropped(actions) => {
+            station.take(&actions);
+            None
+        }
+    }
+}
+
+fn seconds(cycle: i64) -> f64 {
+    f64::from(i32::try_from(cycle).unwrap_or(0)) / 10.0
+}
+
+/// A straight road of 300 m, 6 m wide.
+fn road() -> Vec<CrossSection> {
+    let at = |x| CrossSection { x, y: 0.0, left: [x, 3.0], right: [x, -3.0] };
+    (-5..26).map(|i| at(10.0 * f64::from(i))).collect()
+}
+
+/// The CAV, driving at 5 m/s, a car 20 m ahead of it and one beside the road that do the same.
+struct World {
+    now: Time,
+    ego: Ego,
+    gap: f64,
+}
+
+impl World {
+    fn at(now: Time) -> Self {
+        #[allow(clippy::cast_precision_loss, reason = "a few seconds")]
+        let x = 5e-9 * now.as_nanoseconds() as f64;
+        let ego = Ego {
+            x,
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+            speed: 5.0,
+            length: 4.5,
+            width: 1.9,
+            center_offset: 1.4,
+        };
+        Self { now, ego, gap: 20.0 }
+    }
+
+    fn ahead(&self) -> f64 {
+        self.ego.x + self.ego.center_offset + 0.5 * self.ego.length + self.gap + 2.25
+    }
+
+    fn detections(&self) -> Vec<Detection> {
+        let car = |(x, y)| Detection { x, y, cos: 1.0, sin: 0.0, length: 4.5, width: 1.9 };
+        vec![car((self.ahead(), 0.0)), car((self.ahead() + 20.0, 8.0))]
+    }
+
+    fn tracks(&self, aside: f64) -> Vec<Track> {
+        let (cos, sin, vx, vy, length, width) = (1.0, 0.0, 5.0, 0.0, 4.5, 1.9);
+        let car = |id, x, y| Track { id, x, y, cos, sin, vx, vy, length, width };
+        vec![car(7, self.ahead(), aside), car(8, self.ahead() + 20.0, 8.0)]
+    }
+
+    fn trajectory(&self) -> Vec<TrajectoryPoint> {
+        let point = |i: i32| TrajectoryPoint {
+            t_ns: self.now.as_nanoseconds() + i64::from(i) * 100_000_000,
+            x: self.ego.x + 0.5 * f64::from(i),
+            y: 0.0,
+            cos: 1.0,
+            sin: 0.0,
+        };
+        (0..30).map(point).collect()
+    }
+}
+
+/// It confirms what it is asked for, and sends results until it is released.
+#[derive(Default)]
+struct Station {
+    asked: Vec<(Group, i64)>,
+    mot: Option<i64>,
+    plan: Option<i64>,
+}
+
+impl Station {
+    /// Where the vehicle's actions go: to the network, and to its own services.
+    fn take(&mut self, actions: &Actions) {
+        for action in actions {
+            match *action {
+                Action::Request { group, session, .. } => {
+                    self.asked.push((group, session));
+                    *self.of(group) = Some(session);
+                }
+                Action::Release { group, .. } => *self.of(group) = None,
+                Action::Activate(group) => println!("        local services of {group:?} start"),
+                Action::Deactivate(group) => println!("        local services of {group:?} stop"),
+                Action::Drop(_) => {}
+            }
+        }
+    }
+
+    fn of(&mut self, group: Group) -> &mut Option<i64> {
+        match group {
+            Group::Mot => &mut self.mot,
+            Group::Plan => &mut self.plan,
+        }
+    }
+
+    fn tracks(&self, now: Time, items: Vec<Track>) -> Option<Message<Vec<Track>>> {
+        self.mot.map(|session| Message { station: 1, session, generated: now, stamp: now, items })
+    }
+
+    fn trajectory(
+        &self,
+        now: Time,
+        items: Vec<TrajectoryPoint>,
+    ) -> Option<Message<Vec<TrajectoryPoint>>> {
+        self.plan.map(|session| Message { station: 1, session, generated: now, stamp: now, items })
+    }
+}

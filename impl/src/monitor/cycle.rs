@@ -1,0 +1,214 @@
+//! One cycle: choose, check, tell the requester, keep what was seen (`spec/5-interfaces.md#monitor`).
+
+use super::Monitor;
+use super::decision::{Decision, Verified};
+use super::element::Element;
+use super::inputs::Inputs;
+use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
+use crate::input::indexes::Indexes;
+use crate::input::profile::Profile;
+use crate::input::scratch::Scratch;
+use crate::numbers::time::elapsed_ns;
+use crate::offloading::requester::{Actions, Event, EventKind, Running, Sessions, Source};
+use crate::report::{InvalidInput, Problem, Report};
+use crate::services::configuration::{Configuration, Group};
+use crate::stages::check_with;
+
+impl Monitor<'_> {
+    /// Decides on the inputs and tells the requester: after an unsafe cycle no group is remote, and
+    /// nothing is left for the caller but to take the actions. To be called in each period, offloading
+    /// or not, so that the detections of the last second are there when they are needed.
+    ///
+    /// Time: that of `stages::check` with indexes, and linear in the detections.
+    ///
+    /// A decision is to be looked at before the next one:
+    ///
+    /// ```compile_fail,E0499
+    /// # use mufasa::monitor::{Inputs, Monitor};
+    /// fn from_an_earlier_cycle<'m>(
+    ///     monitor: &'m mut Monitor<'_>,
+    ///     inputs: &Inputs<'m>,
+    /// ) {
+    ///     let earlier = monitor.cycle(inputs);
+    ///     let later = monitor.cycle(inputs);
+    ///     drop((earlier, later));
+    /// }
+    /// ```
+    ///
+    /// Nor is anything of it there once the monitor has taken another event:
+    ///
+    /// ```compile_fail,E0499
+    /// # use mufasa::monitor::{Decision, Inputs, Monitor, Time};
+    /// fn after_the_session<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>, now: Time) {
+    ///     if let Decision::Safe { trajectory: Some(trajectory), actions: _, .. } =
+    ///         monitor.cycle(inputs)
+    ///     {
+    ///         let actions = monitor.tick(now);
+    ///         drop((trajectory, actions));
+    ///     }
+    /// }
+    /// ```
+    ///
+    /// It cannot be left aside where `unused_must_use` is denied, nor can what any event answers; the
+    /// same code compiles with each answer looked at:
+    ///
+    /// ```compile_fail
+    /// #![deny(unused_must_use)]
+    /// # use mufasa::monitor::{Inputs, Monitor};
+    /// fn thrown_away<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>) {
+    ///     monitor.cycle(inputs);
+    /// }
+    /// ```
+    ///
+    /// ```compile_fail
+    /// #![deny(unused_must_use)]
+    /// # use mufasa::monitor::{Monitor, Time};
+    /// fn thrown_away(monitor: &mut Monitor<'_>, now: Time) {
+    ///     monitor.tick(now);
+    /// }
+    /// ```
+    ///
+    /// ```compile_fail
+    /// #![deny(unused_must_use)]
+    /// # use mufasa::monitor::{Monitor, Time};
+    /// fn thrown_away(monitor: &mut Monitor<'_>, now: Time) {
+    ///     monitor.lost(now, 1).unwrap();
+    /// }
+    /// ```
+    ///
+    /// ```
+    /// #![deny(unused_must_use)]
+    /// # use mufasa::monitor::{Inputs, Monitor, Time};
+    /// fn taken<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>, now: Time) {
+    ///     let _to_be_done = monitor.tick(now);
+    ///     let _to_be_done = monitor.lost(now, 1).unwrap();
+    ///     let _decision = monitor.cycle(inputs);
+    /// }
+    /// ```
+    ///
+    /// There is no verdict to look at alone, as `is_ok()` of a report is, and the configuration is no
+    /// argument:
+    ///
+    /// ```compile_fail,E0599
+    /// # use mufasa::monitor::{Inputs, Monitor};
+    /// fn looks_safe<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>) -> bool {
+    ///     monitor.cycle(inputs).is_ok()
+    /// }
+    /// ```
+    ///
+    /// ```compile_fail,E0609
+    /// # use mufasa::{monitor::Inputs, services::configuration::Configuration};
+    /// fn nothing_to_check(mut inputs: Inputs<'_>) {
+    ///     inputs.configuration = Configuration::Local;
+    /// }
+    /// ```
+    ///
+    /// Source: `spec/5-interfaces.md#monitor`.
+    pub fn cycle<'m>(&'m mut self, inputs: &Inputs<'m>) -> Decision<'m> {
+        let now_ns = inputs.now.as_nanoseconds();
+        let remote = Group::ALL.map(|group| self.requester.session_of(group));
+        let [mot, plan] = remote;
+        let tracks = match &mot {
+            Some(running) => last_used(running, inputs.remote_tracks).map(track_list),
+            None => inputs.local_tracks,
+        };
+        let trajectory = match &plan {
+            Some(running) => last_used(running, inputs.remote_trajectory).map(trajectory_of),
+            None => inputs.local_trajectory,
+        };
+        let report = self.check(inputs, tracks, trajectory);
+        let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
+
+        let current = |stamp_ns: i64| {
+            let age_ns = elapsed_ns(stamp_ns, now_ns);
+            0 <= age_ns && age_ns <= self.settings.stages.max_age_ns
+        };
+        let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));
+        let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
+        let trajectory = trajectory.filter(|it| is_checked && current(it.stamp_ns));
+        let named = |used: bool, running: Option<Running>| running.filter(|_| used);
+        let sessions = Sessions {
+            mot: named(tracks.is_some(), mot).map(|running| running.session),
+            plan: named(trajectory.is_some(), plan).map(|running| running.session),
+        };
+        let kind = EventKind::Verdict { safe: is_safe, sessions };
+        let actions = self.requester.step(&Event { t_ns: now_ns, kind }).unwrap_or(Actions::NONE);
+        match report {
+            Ok(report) if is_safe => {
+                let [mot, plan] = remote.map(source);
+                let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot));
+                let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan));
+                Decision::Safe { tracks, trajectory, report, actions }
+            }
+            report => Decision::Unsafe { report, actions },
+        }
+    }
+
+    /// Checks the cycle, and keeps its detections when they are valid and current.
+    fn check<'m>(
+        &mut self,
+        inputs: &Inputs<'m>,
+        tracks: Option<TrackList<'m>>,
+        trajectory: Option<Trajectory<'m>>,
+    ) -> Result<Report, InvalidInput> {
+        let now_ns = inputs.now.as_nanoseconds();
+        let mut cycle = Cycle {
+            profile: self.settings.profile,
+            parameters: self.settings.stages,
+            now_ns,
+            configuration: self.requester.configuration(),
+            ego: inputs.ego,
+            trajectory,
+            tracks,
+            detections: inputs.detections,
+            lead: inputs.lead,
+            route: self.route.route(),
+            grid: inputs.grid,
+            detection_history: &[],
+        };
+        let index = self.route.index();
+        let route = index.as_ref();
+        let scratch = &mut Scratch::new(self.rows, self.columns);
+        let (Profile::Hardened, Some(list)) = (self.settings.profile, inputs.detections) else {
+            return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
+        };
+        let holds = self.history.holds(&list);
+        let selection = self.history.select(&list);
+        cycle.detection_history = selection.lists.get(..selection.count).unwrap_or(&[]);
+        let report =
+            check_with(&cycle, &Indexes { route, detections: &selection.indexes }, scratch)?;
+        if !holds {
+            // A list that cannot be kept would be missing in later cycles.
+            let problem = Problem::ScratchTooSmall;
+            return Err(InvalidInput { field: "detections.items", index: None, problem });
+        }
+        let [own, ..] = selection.indexes;
+        let shape = own.shape();
+        let age_ns = elapsed_ns(list.stamp_ns, now_ns);
+        if 0 <= age_ns && age_ns <= self.settings.stages.max_age_ns {
+            self.history.keep(&list, shape);
+        }
+        Ok(report)
+    }
+}
+
+/// The element, if it is the last one that the requester used in this session: of a session each that
+/// is used was generated later than the one before.
+fn last_used<'c, T>(running: &Running, element: Option<Element<'c, T>>) -> Option<Element<'c, T>> {
+    element.filter(|it| {
+        let generated_ns = it.generated.as_nanoseconds();
+        (Some(generated_ns), it.session) == (running.last_used_ns, running.session)
+    })
+}
+
+fn track_list(element: Element<'_, Track>) -> TrackList<'_> {
+    TrackList { stamp_ns: element.stamp.as_nanoseconds(), items: element.items }
+}
+
+fn trajectory_of(element: Element<'_, TrajectoryPoint>) -> Trajectory<'_> {
+    Trajectory { stamp_ns: element.stamp.as_nanoseconds(), points: element.items }
+}
+
+fn source(running: Option<Running>) -> Source {
+    running.map_or(Source::Local, |Running { station, .. }| Source::Remote { station })
+}

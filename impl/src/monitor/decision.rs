@@ -1,0 +1,93 @@
+//! What a cycle ends in (`spec/5-interfaces.md#monitor`).
+
+use core::marker::PhantomData;
+use core::ops::Deref;
+
+use crate::input::cycle::{TrackList, Trajectory};
+use crate::offloading::requester::{Actions, Source};
+use crate::report::{InvalidInput, Report};
+
+/// The end of a cycle. Only the safe one holds data, and as long as it is looked at the monitor takes
+/// neither event nor cycle. Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Debug, PartialEq)]
+#[must_use = "an unsafe cycle has to be left for the local services"]
+#[allow(clippy::large_enum_variant, reason = "no heap, and one of them a cycle")]
+pub enum Decision<'m> {
+    /// No stage failed. The requester has been told.
+    Safe {
+        /// The tracks of the station, while MOT is remote and they are current.
+        tracks: Option<Verified<'m, TrackList<'m>>>,
+        /// The trajectory that was checked, while a group is remote and it is current: that of the
+        /// station, or in MotRemote that of the CAV's own planner. In Local nothing is checked.
+        trajectory: Option<Verified<'m, Trajectory<'m>>>,
+        /// Which stages ran, and why the others did not.
+        report: Report,
+        /// Local services that stop (H-08).
+        actions: Actions,
+    },
+    /// A stage failed, remote data are invalid, or local input is. The requester has fallen back: no
+    /// group is remote any more, and no data of this cycle may reach control.
+    Unsafe {
+        /// What failed; an error is invalid local input.
+        report: Result<Report, InvalidInput>,
+        /// Releases to be sent, and local services that start.
+        actions: Actions,
+    },
+}
+
+/// Data that were current, of the running session of their group, and in a safe cycle; they can be read
+/// until the monitor's next event or cycle. What control follows should take nothing else:
+///
+/// ```
+/// # use mufasa::{input::cycle::Trajectory, monitor::Verified};
+/// fn follow(trajectory: Verified<'_, Trajectory<'_>>) -> usize {
+///     trajectory.points.len()
+/// }
+/// ```
+///
+/// No other code makes one:
+///
+/// ```compile_fail,E0451
+/// # use mufasa::{input::cycle::Trajectory, monitor::Verified};
+/// # use mufasa::offloading::requester::Source;
+/// fn forged(value: Trajectory<'_>) -> Verified<'_, Trajectory<'_>> {
+///     Verified { value, source: Source::Local, until_the_next_cycle: Default::default() }
+/// }
+/// ```
+///
+/// ```compile_fail,E0308
+/// # use mufasa::{input::cycle::Trajectory, monitor::Verified};
+/// # fn follow(trajectory: Verified<'_, Trajectory<'_>>) {}
+/// fn unverified(received: Trajectory<'_>) {
+///     follow(received);
+/// }
+/// ```
+///
+/// Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use = "verified data are for the services that need them"]
+pub struct Verified<'m, T> {
+    value: T,
+    source: Source,
+    until_the_next_cycle: PhantomData<&'m T>,
+}
+
+impl<T> Verified<'_, T> {
+    /// Of data that a safe cycle used.
+    pub(super) const fn of_safe_cycle(value: T, source: Source) -> Self {
+        Self { value, source, until_the_next_cycle: PhantomData }
+    }
+
+    /// Where they were computed. Source: `spec/1-services.md#configuration`.
+    pub const fn source(&self) -> Source {
+        self.source
+    }
+}
+
+impl<T> Deref for Verified<'_, T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.value
+    }
+}

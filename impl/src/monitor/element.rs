@@ -1,0 +1,87 @@
+//! What a station sends, and the token of what the requester used of it
+//! (`spec/5-interfaces.md#monitor`).
+
+use core::fmt;
+
+use super::time::Time;
+use crate::offloading::requester::Actions;
+
+/// A message of a station with a result: tracks, or the points of a trajectory, in any holder of a
+/// slice (`Vec`, an array, `&[Track]`). Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Copy, Debug)]
+pub struct Message<L> {
+    /// The station's id, >= 1.
+    pub station: i64,
+    /// The session that it names.
+    pub session: i64,
+    /// When the station made it.
+    pub generated: Time,
+    /// The stamp of the list: the time that tracks are valid for, or that of the trajectory.
+    pub stamp: Time,
+    /// Tracks, or the points of a trajectory.
+    pub items: L,
+}
+
+/// An element that the requester used: what it holds is out of reach until a cycle has checked it, and
+/// only the monitor makes one.
+///
+/// ```compile_fail,E0616
+/// # use mufasa::{input::cycle::Track, monitor::Accepted};
+/// fn unchecked(tracks: Accepted<Vec<Track>>) -> Vec<Track> {
+///     tracks.items
+/// }
+/// ```
+///
+/// ```compile_fail,E0451
+/// # use mufasa::{input::cycle::Track, monitor::{Accepted, Time}};
+/// fn forged(items: Vec<Track>, now: Time) -> Accepted<Vec<Track>> {
+///     Accepted { session: 1, generated: now, stamp: now, items }
+/// }
+/// ```
+///
+/// Source: `spec/5-interfaces.md#monitor`.
+#[must_use = "an element that was accepted has to be checked in a cycle"]
+pub struct Accepted<L> {
+    pub(super) session: i64,
+    pub(super) generated: Time,
+    pub(super) stamp: Time,
+    pub(super) items: L,
+}
+
+impl<L> fmt::Debug for Accepted<L> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Accepted");
+        text.field("session", &self.session).field("generated", &self.generated);
+        text.finish_non_exhaustive()
+    }
+}
+
+/// What became of a message. Source: `spec/5-interfaces.md#monitor`.
+#[derive(Debug)]
+#[must_use = "what the requester does about a message has to be done"]
+pub enum Arrival<L> {
+    /// It is of the running session and in time: to be checked in a cycle.
+    Accepted(Accepted<L>),
+    /// It is of no use, and gone: late, not newer than the last one, or of no running session. A
+    /// violation of quality of service ends the session: then there are releases and activations, too.
+    Dropped(Actions),
+}
+
+/// An accepted element as a cycle sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Element<'c, T> {
+    pub(super) session: i64,
+    pub(super) generated: Time,
+    pub(super) stamp: Time,
+    pub(super) items: &'c [T],
+}
+
+impl<L> Accepted<L> {
+    pub(super) fn element<T>(&self) -> Element<'_, T>
+    where
+        L: AsRef<[T]>,
+    {
+        let Self { session, generated, stamp, ref items } = *self;
+        Element { session, generated, stamp, items: items.as_ref() }
+    }
+}

@@ -1,0 +1,118 @@
+//! The events of a monitor (`spec/2-offloading.md#requester`). Of each the actions have to be taken, in
+//! their order.
+
+use super::Monitor;
+use super::element::{Accepted, Arrival, Message};
+use super::time::Time;
+use crate::input::cycle::{Track, TrajectoryPoint};
+use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
+use crate::services::configuration::Group;
+
+impl Monitor<'_> {
+    /// A station offers groups; this replaces its previous offer.
+    ///
+    /// Errors: a station below 1; no place for it. Then nothing has changed, as below. Source:
+    /// `spec/2-offloading.md#requester`.
+    pub fn offer(
+        &mut self,
+        now: Time,
+        station: i64,
+        groups: Groups,
+    ) -> Result<Actions, RequesterError> {
+        self.step(now, EventKind::Offer { station, groups })
+    }
+
+    /// A station withdraws its offer.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#requester`.
+    pub fn withdraw(&mut self, now: Time, station: i64) -> Result<Actions, RequesterError> {
+        self.step(now, EventKind::Withdraw { station })
+    }
+
+    /// A station can no longer be reached.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#requester`.
+    pub fn lost(&mut self, now: Time, station: i64) -> Result<Actions, RequesterError> {
+        self.step(now, EventKind::Lost { station })
+    }
+
+    /// A station confirms a session.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#requester`.
+    pub fn confirm(
+        &mut self,
+        now: Time,
+        station: i64,
+        group: Group,
+        session: i64,
+    ) -> Result<Actions, RequesterError> {
+        self.step(now, EventKind::Confirm { station, group, session })
+    }
+
+    /// A station rejects a session.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#requester`.
+    pub fn reject(
+        &mut self,
+        now: Time,
+        station: i64,
+        group: Group,
+        session: i64,
+    ) -> Result<Actions, RequesterError> {
+        self.step(now, EventKind::Reject { station, group, session })
+    }
+
+    /// From now on these groups may be offloaded (CODM). Source: `spec/2-offloading.md#requester`.
+    pub fn area(&mut self, now: Time, groups: Groups) -> Actions {
+        self.step(now, EventKind::Area { groups }).unwrap_or(Actions::NONE)
+    }
+
+    /// Time passes: deadlines, silence and requests are decided. To be called in each period, and before
+    /// the cycle of the period. Source: `spec/2-offloading.md#requester`.
+    pub fn tick(&mut self, now: Time) -> Actions {
+        self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
+    }
+
+    /// Tracks arrive. Used is what is of the running session of MOT, in time, and newer than the last.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
+    pub fn tracks<L: AsRef<[Track]>>(
+        &mut self,
+        now: Time,
+        message: Message<L>,
+    ) -> Result<Arrival<L>, RequesterError> {
+        self.arrival(now, Group::Mot, message)
+    }
+
+    /// A trajectory arrives. Used is what is of the running session of PLAN, in time, and newer than
+    /// the last.
+    ///
+    /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
+    pub fn trajectory<L: AsRef<[TrajectoryPoint]>>(
+        &mut self,
+        now: Time,
+        message: Message<L>,
+    ) -> Result<Arrival<L>, RequesterError> {
+        self.arrival(now, Group::Plan, message)
+    }
+
+    fn arrival<L>(
+        &mut self,
+        now: Time,
+        group: Group,
+        message: Message<L>,
+    ) -> Result<Arrival<L>, RequesterError> {
+        let Message { station, session, generated, stamp, items } = message;
+        let generated_ns = generated.as_nanoseconds();
+        let actions = self.step(now, EventKind::Data { station, group, session, generated_ns })?;
+        Ok(if actions.contains(&Action::Drop(group)) {
+            Arrival::Dropped(actions)
+        } else {
+            Arrival::Accepted(Accepted { session, generated, stamp, items })
+        })
+    }
+
+    fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
+        self.requester.step(&Event { t_ns: now.as_nanoseconds(), kind })
+    }
+}

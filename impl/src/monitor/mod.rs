@@ -1,0 +1,117 @@
+//! The monitor: the one way to use offloaded results (`spec/5-interfaces.md#monitor`).
+//!
+//! [`Monitor`] owns what has to live between cycles: the requester, the CAV's own earlier detections,
+//! the route with its index, scratch. Events go in, and actions come out; remote data come out of
+//! [`Monitor::cycle`] alone, and only when it is safe. The functions beneath, [`crate::stages::check`] and
+//! [`crate::offloading::requester::Requester::step`], answer the same, and leave it to the caller to
+//! bring them together.
+
+mod cycle;
+mod decision;
+mod element;
+mod events;
+mod history;
+mod inputs;
+mod memory;
+mod route;
+mod settings;
+mod time;
+
+pub use self::decision::{Decision, Verified};
+pub use self::element::{Accepted, Arrival, Message};
+pub use self::inputs::{Gap, GridMap, Inputs};
+pub use self::memory::Memory;
+pub use self::settings::{MonitorError, Settings};
+pub use self::time::{Time, TimeError};
+
+use self::history::History;
+use self::memory::PLACES;
+use self::route::KeptRoute;
+use crate::input::cycle::Route;
+use crate::input::profile::Profile;
+use crate::input::scratch::{Column, Row};
+use crate::offloading::requester::{Requester, Source, StationRecord, Suspended};
+use crate::report::InvalidInput;
+use crate::services::configuration::{Configuration, Group};
+
+/// The monitor of one CAV; see the [module](self), and the [crate] for a whole vehicle loop. Source:
+/// `spec/5-interfaces.md#monitor`.
+#[derive(Debug)]
+pub struct Monitor<'a> {
+    settings: Settings,
+    requester: Requester<'a>,
+    history: History<'a>,
+    route: KeptRoute<'a>,
+    rows: &'a mut [Row],
+    columns: &'a mut [Column],
+}
+
+impl<'a> Monitor<'a> {
+    /// Everything local, no offers, no route, nothing seen yet.
+    ///
+    /// Errors: settings that no monitor can keep, such as a `dt_max` that is not above the period; too
+    /// little memory. Source: `spec/5-interfaces.md#monitor`.
+    pub fn new(settings: Settings, memory: Memory<'a>) -> Result<Self, MonitorError> {
+        settings.check()?;
+        let Memory { stations, rows, columns, detections, slots, cross_sections, blocks } = memory;
+        if stations.is_empty() {
+            return Err(MonitorError::Memory { field: "stations", needed: 1, given: 0 });
+        }
+        let mut capacity = 0;
+        if settings.profile == Profile::Hardened {
+            capacity = detections.len().wrapping_div(PLACES);
+            if capacity == 0 {
+                let given = detections.len();
+                return Err(MonitorError::Memory { field: "detections", needed: PLACES, given });
+            }
+        }
+        let (needed, given) = (Memory::slots_for(capacity), slots.len());
+        let too_few = MonitorError::Memory { field: "slots", needed, given };
+        if given < needed {
+            return Err(too_few);
+        }
+        Ok(Self {
+            settings,
+            requester: requester(&settings, stations)?,
+            history: History::new(detections, slots, capacity).ok_or(too_few)?,
+            route: KeptRoute::new(cross_sections, blocks),
+            rows,
+            columns,
+        })
+    }
+
+    /// From now on the CAV follows this route, of which a copy is kept.
+    ///
+    /// Errors: the first invalid value; less memory than it needs. Then it follows the route before.
+    /// Source: `spec/3-stages.md#stage-ii-trajectory-to-map`.
+    pub fn set_route(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
+        self.route.set(route)
+    }
+
+    /// Which groups are remote. Source: `spec/1-services.md#configuration`.
+    pub const fn configuration(&self) -> Configuration {
+        self.requester.configuration()
+    }
+
+    /// Whose results of a group may reach control. Source: `spec/1-services.md#configuration`.
+    pub const fn source(&self, group: Group) -> Source {
+        self.requester.source(group)
+    }
+
+    /// The requester, to look at: states, holds, the last session. Source:
+    /// `spec/2-offloading.md#requester`.
+    pub const fn requester(&self) -> &Requester<'a> {
+        &self.requester
+    }
+}
+
+/// A requester whose sessions are numbered on from those before.
+fn requester<'a>(
+    settings: &Settings,
+    stations: &'a mut [StationRecord],
+) -> Result<Requester<'a>, MonitorError> {
+    let fresh = Requester::new(settings.profile, settings.requester, stations);
+    let mut parts = fresh.map_err(MonitorError::Requester)?.suspend().parts();
+    parts.sessions = settings.sessions_before;
+    Ok(Requester::resume(Suspended::from_parts(&parts), stations))
+}

@@ -1,0 +1,120 @@
+//! What a monitor is made with, and why it may be refused (`spec/5-interfaces.md#monitor`).
+
+use core::fmt;
+use core::time::Duration;
+
+use crate::input::domain::check_parameters;
+use crate::input::parameters::Parameters;
+use crate::input::profile::Profile;
+use crate::offloading::requester::{self, RequesterError};
+use crate::report::InvalidInput;
+
+/// What a monitor is made with. Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Profile in force.
+    pub profile: Profile,
+    /// Parameters of the stages.
+    pub stages: Parameters,
+    /// Times of the requester.
+    pub requester: requester::Parameters,
+    /// The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+    /// at equality one nanosecond of jitter ends the session.
+    pub period: Duration,
+    /// At least the last session of the monitor's earlier lives, >= 0: sessions of this one are
+    /// numbered on from there, so that no message of an earlier life fits. A number stored at the last
+    /// request will do, or a counter of starts times 2^32; 0 for a first life.
+    pub sessions_before: i64,
+}
+
+impl Settings {
+    /// The hardened profile and the defaults of the paper, in a first life. The default of
+    /// `dt_max_ns`, 100 ms, is for periods below it; for others choose a larger one. Source:
+    /// `spec/5-interfaces.md#monitor`.
+    pub fn new(period: Duration) -> Self {
+        Self {
+            profile: Profile::Hardened,
+            stages: Parameters::default(),
+            requester: requester::Parameters::default(),
+            period,
+            sessions_before: 0,
+        }
+    }
+
+    /// Whether a monitor may be made with it.
+    pub(super) fn check(&self) -> Result<(), MonitorError> {
+        check_parameters(&self.stages).map_err(MonitorError::Stages)?;
+        let dt_max_ns = self.requester.dt_max_ns;
+        if self.period.is_zero() {
+            return Err(MonitorError::NoPeriod);
+        }
+        // A negative dt_max is refused by the requester.
+        if u128::try_from(dt_max_ns).is_ok_and(|dt_max_ns| dt_max_ns <= self.period.as_nanos()) {
+            return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
+        }
+        if self.sessions_before < 0 {
+            return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
+        }
+        Ok(())
+    }
+}
+
+/// Why a monitor could not be made. Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MonitorError {
+    /// A parameter of the stages is outside its domain.
+    Stages(InvalidInput),
+    /// A time of the requester is below 0.
+    Requester(RequesterError),
+    /// The nominal period is 0.
+    NoPeriod,
+    /// `requester.dt_max_ns` is not above the nominal period.
+    DtMaxNotAbovePeriod {
+        /// Largest inter-arrival time that is no violation, ns.
+        dt_max_ns: i64,
+        /// The nominal period.
+        period: Duration,
+    },
+    /// `sessions_before` is below 0.
+    SessionsBefore {
+        /// What was given.
+        sessions_before: i64,
+    },
+    /// A slice of the memory that is lent has too few elements.
+    Memory {
+        /// The slice.
+        field: &'static str,
+        /// How many it needs.
+        needed: usize,
+        /// How many it has.
+        given: usize,
+    },
+}
+
+impl fmt::Display for MonitorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Stages(problem) => write!(f, "settings.stages: {problem}"),
+            Self::Requester(error) => write!(f, "settings.requester: {error}"),
+            Self::NoPeriod => {
+                f.write_str("settings.period is 0; give the nominal period of the remote's results")
+            }
+            Self::DtMaxNotAbovePeriod { dt_max_ns, period } => write!(
+                f,
+                "settings.requester.dt_max_ns = {dt_max_ns} is not above settings.period = {} ns, \
+                 so that any jitter ends the session; give the period and its largest jitter",
+                period.as_nanos()
+            ),
+            Self::SessionsBefore { sessions_before } => write!(
+                f,
+                "settings.sessions_before = {sessions_before} is below 0; give the last session of \
+                 earlier lives, or 0"
+            ),
+            Self::Memory { field, needed, given } => {
+                write!(f, "memory.{field} has {given} elements; lend at least {needed}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for MonitorError {}

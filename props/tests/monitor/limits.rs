@@ -1,0 +1,168 @@
+//! What a monitor is refused for, and what does not fit into its memory.
+
+use std::time::Duration;
+
+use mufasa::input::cycle::{Detection, Route};
+use mufasa::input::profile::Profile;
+use mufasa::monitor::{Decision, Gap, Inputs, Message, MonitorError, Settings};
+use mufasa::offloading::requester::{Group, Groups, RequesterError};
+use mufasa::report::{InvalidInput, Problem};
+
+use super::kit::{Buffers, MS, Station, World, at, road, route, settings};
+
+fn refused(settings: Settings) -> (MonitorError, String) {
+    let mut buffers = Buffers::new(16, 40);
+    let error = buffers.monitor(settings).expect_err("refused");
+    (error, error.to_string())
+}
+
+/// `spec/5-interfaces.md#monitor.6`: equality is refused, and so is the default at 10 Hz.
+#[test]
+fn a_dt_max_that_is_not_above_the_period_is_refused() {
+    let period = Duration::from_millis(100);
+    let at_10_hz = Settings::new(period);
+    let (error, words) = refused(at_10_hz);
+    assert_eq!(error, MonitorError::DtMaxNotAbovePeriod { dt_max_ns: 100 * MS, period });
+    assert!(words.contains("dt_max_ns = 100000000") && words.contains("jitter"), "{words}");
+    let mut by_a_nanosecond = at_10_hz;
+    by_a_nanosecond.requester.dt_max_ns += 1;
+    assert!(Buffers::new(16, 40).monitor(by_a_nanosecond).is_ok());
+    assert!(Buffers::new(16, 40).monitor(Settings::new(Duration::from_millis(50))).is_ok());
+    assert_eq!(refused(Settings::new(Duration::ZERO)).0, MonitorError::NoPeriod);
+    let forever = MonitorError::DtMaxNotAbovePeriod { dt_max_ns: 100 * MS, period: Duration::MAX };
+    assert_eq!(refused(Settings::new(Duration::MAX)).0, forever);
+}
+
+/// `spec/5-interfaces.md#monitor.6`: "or a parameter outside its domain".
+#[test]
+fn parameters_outside_of_their_domain_are_refused() {
+    let mut wrong = settings();
+    wrong.stages.a_b = f64::NAN;
+    let (error, words) = refused(wrong);
+    assert!(matches!(error, MonitorError::Stages(InvalidInput { field: "parameters.a_b", .. })));
+    assert!(words.contains("a_b") && words.contains("finite"), "{words}");
+    let mut wrong = settings();
+    wrong.requester.t_wait_ns = -1;
+    let field = "t_wait_ns";
+    let below = MonitorError::Requester(RequesterError::NegativeParameter { field });
+    assert_eq!(refused(wrong).0, below);
+    let wrong = Settings { sessions_before: -1, ..settings() };
+    assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
+}
+
+/// `spec/5-interfaces.md#monitor.5`: memory that can never be enough is refused at once.
+#[test]
+fn too_little_memory_is_refused_by_name() {
+    let without = |change: fn(&mut Buffers), profile| {
+        let mut buffers = Buffers::new(16, 40);
+        change(&mut buffers);
+        let made = buffers.monitor(Settings { profile, ..settings() });
+        made.err().map(|error| match error {
+            MonitorError::Memory { field, needed, given } => (field, needed, given),
+            other => panic!("{other}"),
+        })
+    };
+    let stations = without(|it| it.stations.clear(), Profile::Paper);
+    assert_eq!(stations, Some(("stations", 1, 0)));
+    let few = without(|it| it.detections.truncate(11), Profile::Hardened);
+    assert_eq!(few, Some(("detections", 12, 11)));
+    let slots = without(|it| it.slots.truncate(207), Profile::Hardened);
+    assert_eq!(slots, Some(("slots", 208, 207)));
+    let nothing = |it: &mut Buffers| (it.detections.clear(), it.slots.clear()).1;
+    assert_eq!(without(nothing, Profile::Paper), None, "nothing is kept in this profile");
+}
+
+/// `spec/5-interfaces.md#monitor.5`: a list of detections that could not be kept makes its own cycle
+/// unsafe, and one item fewer does not.
+#[test]
+fn a_list_of_detections_that_does_not_fit_is_an_error() {
+    let cross_sections = road();
+    for (items, fits) in [(16, true), (17, false)] {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.monitor(settings()).expect("a monitor");
+        monitor.set_route(&route(&cross_sections)).expect("a route");
+        let world = World::at(0);
+        let detections: Vec<Detection> = world.detections.into_iter().cycle().take(items).collect();
+        let inputs = Inputs::new(at(0), world.ego).detections(at(0), &detections);
+        match monitor.cycle(&inputs) {
+            Decision::Safe { .. } => assert!(fits),
+            Decision::Unsafe { report, .. } => {
+                let (field, problem) = ("detections.items", Problem::ScratchTooSmall);
+                assert!(!fits);
+                assert_eq!(report, Err(InvalidInput { field, index: None, problem }));
+                assert_eq!(monitor.requester().hold_until_ns(), Some(10_000 * MS));
+            }
+        }
+    }
+}
+
+/// `spec/5-interfaces.md#monitor.5`: the route before stays; without any no cycle is safe.
+#[test]
+fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, cross_sections.len());
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    let world = World::at(0);
+    let inputs = Inputs::new(at(0), world.ego);
+    match monitor.cycle(&inputs) {
+        Decision::Unsafe { report, .. } => {
+            let error = report.expect_err("no route");
+            assert_eq!((error.field, error.problem), ("route.stations", Problem::TooFew));
+        }
+        decision @ Decision::Safe { .. } => panic!("{decision:?}"),
+    }
+    assert_eq!(monitor.set_route(&route(&cross_sections)), Ok(()));
+    let mut longer = cross_sections.clone();
+    longer.push(mufasa::input::cycle::CrossSection { x: 500.0, ..cross_sections[0] });
+    let refused = monitor.set_route(&route(&longer)).expect_err("one too many");
+    assert_eq!((refused.field, refused.problem), ("route", Problem::ScratchTooSmall));
+    let mut invalid = cross_sections.clone();
+    invalid[3].y = f64::NAN;
+    assert_eq!(monitor.set_route(&route(&invalid)).map_err(|it| it.index), Err(Some(3)));
+    assert!(matches!(monitor.cycle(&inputs), Decision::Safe { .. }), "the first one");
+    let shorter = Route { closed: false, cross_sections: &cross_sections[..2] };
+    assert_eq!(monitor.set_route(&shorter), Ok(()));
+}
+
+/// Times at the limits of 64 bits, forwards and backwards, with every input: no panic, and data that are
+/// not current never come out.
+#[test]
+fn times_at_the_limits_of_64_bits_do_no_harm() {
+    let cross_sections = road();
+    let times = [i64::MIN, i64::MIN + 1, -1, 0, 1, i64::MAX - 1, i64::MAX];
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let world = World::at(0);
+    let mut came_out = 0;
+    for (now_ns, stamp_ns) in
+        times.iter().flat_map(|now_ns| times.map(|stamp_ns| (*now_ns, stamp_ns)))
+    {
+        let (now, stamp) = (at(now_ns), at(stamp_ns));
+        let mut station = Station::default();
+        station.take(&monitor.offer(now, 1, Groups::ALL).expect("a station"));
+        station.take(&monitor.tick(now));
+        for (group, session) in Group::ALL.into_iter().zip(station.sessions) {
+            let Some(session) = session else { continue };
+            let _done = monitor.confirm(now, 1, group, session).expect("a station");
+        }
+        let items = world.tracks.clone();
+        let session = station.sessions[0].unwrap_or(0);
+        let message = Message { station: 1, session, generated: stamp, stamp, items };
+        let tracks = monitor.tracks(now, message).expect("a station");
+        let tracks = station.accepted(tracks);
+        let mut inputs = Inputs::new(now, world.ego)
+            .detections(stamp, &world.detections)
+            .lead(stamp, Gap::between_bumpers(20.0), 5.0)
+            .local_trajectory(stamp, &world.points);
+        if let Some(tracks) = &tracks {
+            inputs = inputs.remote_tracks(tracks);
+        }
+        if let Decision::Safe { tracks: Some(tracks), .. } = monitor.cycle(&inputs) {
+            let age = i128::from(now_ns) - i128::from(tracks.stamp_ns);
+            assert!((0..=i128::from(100 * MS)).contains(&age));
+            came_out += 1;
+        }
+    }
+    assert!(came_out > 0);
+}

@@ -1,0 +1,297 @@
+//! Mistakes that the plain calls take without a word, and what the monitor makes of them.
+
+use mufasa::input::cycle::{Cycle, DetectionList, Lead, TrackList, Trajectory, TrajectoryPoint};
+use mufasa::input::profile::Profile;
+use mufasa::monitor::{Arrival, Decision, Gap, Inputs, Message, Monitor, Time};
+use mufasa::offloading::requester::{
+    Event, EventKind, Group, Groups, Requester, Source, StationRecord,
+};
+use mufasa::report::{FailedStage, Outcome, Rule, Stage};
+use mufasa::services::configuration::Configuration;
+
+use super::kit::{Buffers, MS, Station, World, at, message, road, route, seconds, settings};
+use super::plain::check_plainly;
+
+/// The plain record of a world, without history.
+fn record<'w>(
+    world: &'w World,
+    cross_sections: &'w [mufasa::input::cycle::CrossSection],
+    configuration: Configuration,
+) -> Cycle<'w> {
+    let stamp_ns = world.now_ns;
+    Cycle {
+        profile: Profile::Hardened,
+        parameters: settings().stages,
+        now_ns: stamp_ns,
+        configuration,
+        ego: world.ego,
+        trajectory: Some(Trajectory { stamp_ns, points: &world.points }),
+        tracks: Some(TrackList { stamp_ns, items: &world.tracks }),
+        detections: Some(DetectionList { stamp_ns, items: &world.detections }),
+        lead: None,
+        route: route(cross_sections),
+        grid: None,
+        detection_history: &[],
+    }
+}
+
+/// A period with a station: what the cycle says, as stage and rule; none while it is safe.
+fn period(
+    monitor: &mut Monitor<'_>,
+    station: &mut Station,
+    world: &World,
+) -> Option<(FailedStage, Option<Rule>)> {
+    let (tracks, points) = station.period(monitor, world);
+    let now = at(world.now_ns);
+    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+    if let Some(tracks) = &tracks {
+        inputs = inputs.remote_tracks(tracks);
+    }
+    if let Some(points) = &points {
+        inputs = inputs.remote_trajectory(points);
+    }
+    match monitor.cycle(&inputs) {
+        Decision::Safe { actions, .. } => {
+            station.take(&actions);
+            None
+        }
+        Decision::Unsafe { report, actions } => {
+            station.take(&actions);
+            let report = report.expect("valid input");
+            let rule = report.stages.iter().find_map(|outcome| match outcome {
+                Outcome::Failed(witness) => Some(witness.rule),
+                Outcome::Passed
+                | Outcome::Skipped(_)
+                | Outcome::NotApplicable(_)
+                | Outcome::NotScheduled => None,
+            });
+            Some((report.failed_stage.expect("unsafe"), rule))
+        }
+    }
+}
+
+/// The world with the tracks of the remote 3 m aside.
+fn forged(now_ns: i64) -> World {
+    let mut world = World::at(now_ns);
+    world.tracks[0].y = 3.0;
+    world
+}
+
+/// `check(..)?` and `is_ok()` accept an unsafe cycle; a decision has no such answer, and what was
+/// checked is not in the unsafe branch. `spec/5-interfaces.md#monitor.1`.
+#[test]
+fn an_unsafe_cycle_is_not_taken_for_a_safe_one() {
+    let cross_sections = road();
+    let plain = forged(1_000 * MS);
+    assert!(check_plainly(&record(&plain, &cross_sections, Configuration::AllRemote)).is_ok());
+
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut station = Station::default();
+    for i in 0..10 {
+        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
+    }
+    assert_eq!(monitor.configuration(), Configuration::AllRemote);
+    let failed = period(&mut monitor, &mut station, &forged(1_000 * MS));
+    assert_eq!(failed.map(|(stage, _)| stage), Some(FailedStage::Stage(Stage::I)));
+}
+
+/// `step(&verdict).unwrap();` throws the fallback away, or nobody calls it; after `cycle` the requester
+/// has fallen back, whatever is done with the decision. `spec/5-interfaces.md#monitor.3`.
+#[test]
+fn a_fallback_cannot_be_thrown_away() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut station = Station::default();
+    for i in 0..10 {
+        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
+    }
+    let world = forged(1_000 * MS);
+    let now = at(world.now_ns);
+    let (tracks, points) = station.period(&mut monitor, &world);
+    let (tracks, points) = (tracks.expect("accepted"), points.expect("accepted"));
+    let inputs = Inputs::new(now, world.ego)
+        .detections(now, &world.detections)
+        .remote_tracks(&tracks)
+        .remote_trajectory(&points);
+    let _ = monitor.cycle(&inputs);
+    assert_eq!(monitor.configuration(), Configuration::Local);
+    assert_eq!(Group::ALL.map(|group| monitor.source(group)), [Source::Local; 2]);
+    assert_eq!(monitor.requester().hold_until_ns(), Some(world.now_ns + 10_000 * MS));
+    // The same data again: of an ended session, they count as missing.
+    match monitor.cycle(&inputs) {
+        Decision::Safe { tracks: None, trajectory: None, report, .. } => {
+            assert!(report.stages.iter().all(|stage| *stage == Outcome::NotScheduled));
+        }
+        decision => panic!("{decision:?}"),
+    }
+}
+
+/// With `Configuration::Local` every record is safe; the monitor knows which groups are remote.
+/// `spec/5-interfaces.md#monitor.2`.
+#[test]
+fn a_wrong_configuration_cannot_be_given() {
+    let (cross_sections, world) = (road(), forged(1_000 * MS));
+    let local = check_plainly(&record(&world, &cross_sections, Configuration::Local));
+    assert_eq!(local.map(|report| report.failed_stage), Ok(None));
+    // `an_unsafe_cycle_is_not_taken_for_a_safe_one`: the same data are unsafe in the monitor.
+}
+
+/// A car that crosses the road at 5 m/s, 6.5 m ahead of the CAV at `end_ns`, and a track of it that
+/// stands.
+fn crossing(now_ns: i64, end_ns: i64) -> World {
+    let mut world = World::at(now_ns);
+    let x = World::at(end_ns).ego.x + 6.5;
+    let y = 4.7 + 5.0 * seconds(end_ns - now_ns);
+    world.add([x, y], [0.0, -1.0], [0.0, 0.0]);
+    world
+}
+
+/// A car crosses at 5 m/s, and the remote says that it stands: without the lists kept between cycles
+/// that is safe in every cycle, and the monitor, which has them, sees the car move.
+/// `spec/5-interfaces.md#monitor.4`.
+#[test]
+fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
+    let (end_ns, cross_sections) = (1_500 * MS, road());
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut station = Station::default();
+    let mut found = None;
+    for i in 0..=15 {
+        let world = crossing(100 * i * MS, end_ns);
+        let forgotten = check_plainly(&record(&world, &cross_sections, Configuration::AllRemote));
+        assert_eq!(forgotten.map(|report| report.failed_stage), Ok(None), "at {i}");
+        found = found.or(period(&mut monitor, &mut station, &world));
+    }
+    assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
+}
+
+/// Detections that were not current are no history: the same drive with late scans until its last cycle
+/// is as one without any. `spec/5-interfaces.md#monitor.4`.
+#[test]
+fn detections_that_were_not_current_are_not_kept() {
+    let (end_ns, cross_sections) = (1_100 * MS, road());
+    for (late_ns, is_safe) in [(100 * MS, false), (100 * MS + 1, true)] {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.monitor(settings()).expect("a monitor");
+        monitor.set_route(&route(&cross_sections)).expect("a route");
+        let mut station = Station::default();
+        let mut last = None;
+        for i in 0..=11 {
+            let world = crossing(100 * i * MS, end_ns);
+            let stamp_ns = world.now_ns - if i < 11 { late_ns } else { 0 };
+            let scanned = crossing(stamp_ns, end_ns).detections;
+            let (tracks, points) = station.period(&mut monitor, &world);
+            let now = at(world.now_ns);
+            let mut inputs = Inputs::new(now, world.ego).detections(at(stamp_ns), &scanned);
+            // Only the last cycle has anything to check.
+            if let (11, Some(tracks), Some(points)) = (i, &tracks, &points) {
+                inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
+            }
+            last = Some(matches!(monitor.cycle(&inputs), Decision::Safe { .. }));
+        }
+        assert_eq!(last, Some(is_safe), "{late_ns} ns late");
+    }
+}
+
+/// Microseconds for nanoseconds: data five seconds old are 5 ms old to the plain requester. A bare number
+/// is no `Time`, and one that says its unit is right. `spec/5-interfaces.md#monitor.2`.
+#[test]
+fn data_five_seconds_old_are_not_fresh_in_microseconds() {
+    let (now_us, generated_us) = (10_000_000, 5_000_000);
+    let mut table = [StationRecord::FREE; 1];
+    let mut requester =
+        Requester::new(Profile::Hardened, settings().requester, &mut table).expect("a requester");
+    let confirm = EventKind::Confirm { station: 1, group: Group::Mot, session: 1 };
+    let offer = EventKind::Offer { station: 1, groups: Groups::ALL };
+    let (group, session) = (Group::Mot, 1);
+    let data = EventKind::Data { station: 1, group, session, generated_ns: generated_us };
+    let mut last = None;
+    for kind in [offer, EventKind::Tick, confirm, data] {
+        last = Some(requester.step(&Event { t_ns: now_us, kind }).expect("a station").to_vec());
+    }
+    assert_eq!(last, Some(Vec::new()), "the plain requester uses it");
+
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    let now = Time::from_microseconds(now_us).expect("a time");
+    let generated = Time::from_microseconds(generated_us).expect("a time");
+    let _none = monitor.offer(now, 1, Groups::ALL).expect("a station");
+    let _requests = monitor.tick(now);
+    let _none = monitor.confirm(now, 1, Group::Mot, 1).expect("a station");
+    let old = Message { generated, ..message(1, now, Vec::new()) };
+    match monitor.tracks(now, old).expect("a station") {
+        Arrival::Dropped(actions) => assert_eq!(actions.len(), 2, "dropped and released"),
+        Arrival::Accepted(element) => panic!("{element:?}"),
+    }
+}
+
+/// A gap of 10 m bumper to bumper, below s_follow at 5 m/s behind a car that stands, is 13.65 m from the
+/// rear axle, above it. `Gap` says from where; a bare number does not compile.
+#[test]
+fn a_gap_from_the_rear_axle_is_not_taken_for_one_between_bumpers() {
+    let (cross_sections, world) = (road(), World::at(1_000 * MS));
+    let lead = |gap| Some(Lead { stamp_ns: world.now_ns, gap, speed: 0.0 });
+    let verdict = |gap| {
+        let mut cycle = record(&world, &cross_sections, Configuration::AllRemote);
+        cycle.lead = lead(gap);
+        check_plainly(&cycle).expect("valid").failed_stage
+    };
+    let (free, measured) = (10.0, 13.65);
+    assert_eq!((verdict(measured), verdict(free)), (None, Some(FailedStage::Stage(Stage::Iv))));
+    let gap = Gap::from_reference_point(measured, &world.ego).metres();
+    assert!((gap - free).abs() < 1e-9, "{gap}");
+    assert_eq!(verdict(gap), Some(FailedStage::Stage(Stage::Iv)));
+}
+
+/// Late, repeated, of another session, of an older element, empty: what becomes of each.
+/// `spec/5-interfaces.md#monitor.2`.
+#[test]
+fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut station = Station::default();
+    for i in 0..3 {
+        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
+    }
+    let session = station.sessions[1].expect("PLAN is remote");
+    let world = World::at(300 * MS);
+    let now = at(world.now_ns);
+    let (_, first) = station.period(&mut monitor, &world);
+    let first = first.expect("accepted");
+    let repeated = message(session, now, world.points.clone());
+    let repeated = monitor.trajectory(now, repeated).expect("a station");
+    assert!(matches!(repeated, Arrival::Dropped(_)), "twice");
+    let other = message(session + 7, now, world.points.clone());
+    let other = monitor.trajectory(now, other).expect("a station");
+    assert!(matches!(other, Arrival::Dropped(_)), "of another session");
+    let world = World::at(320 * MS);
+    let now = at(world.now_ns);
+    let newer = monitor.trajectory(now, message(session, now, world.points.clone()));
+    let Ok(Arrival::Accepted(newer)) = newer else { panic!("in time and newer") };
+    let come_out = |monitor: &mut Monitor<'_>, token| {
+        let own = Inputs::new(now, world.ego).detections(now, &world.detections);
+        match monitor.cycle(&own.remote_trajectory(token)) {
+            Decision::Safe { trajectory, .. } => trajectory.map(|it| it.stamp_ns),
+            Decision::Unsafe { report, .. } => panic!("{report:?}"),
+        }
+    };
+    assert_eq!(come_out(&mut monitor, &first), None, "passed over for the older one");
+    assert_eq!(come_out(&mut monitor, &newer), Some(world.now_ns));
+    let now = at(400 * MS);
+    let nothing = message(session, now, Vec::<TrajectoryPoint>::new());
+    let Ok(Arrival::Accepted(nothing)) = monitor.trajectory(now, nothing) else { panic!("empty") };
+    let inputs = Inputs::new(now, world.ego).remote_trajectory(&nothing);
+    match monitor.cycle(&inputs) {
+        Decision::Unsafe { report: Ok(report), .. } => {
+            assert_eq!(report.failed_stage, Some(FailedStage::Input), "empty");
+        }
+        decision => panic!("{decision:?}"),
+    }
+}

@@ -1,0 +1,185 @@
+//! What the monitor does, by the plain calls: the requester, the stages without any index, and a list of
+//! lists (`spec/5-interfaces.md#monitor`).
+
+use mufasa::input::cycle::{
+    Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
+};
+use mufasa::input::profile::Profile;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::monitor::Settings;
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, Requester, Sessions, StationRecord, Suspended,
+};
+use mufasa::report::{InvalidInput, Report};
+use mufasa::services::configuration::Group;
+use mufasa::stages::check;
+
+use super::kit::{MS, place};
+
+/// A remote list as it was received.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Received<T> {
+    pub session: i64,
+    pub generated_ns: i64,
+    pub stamp_ns: i64,
+    pub items: Vec<T>,
+}
+
+/// What the CAV has of its own in a cycle.
+#[derive(Clone)]
+pub struct Own<'c> {
+    pub now_ns: i64,
+    pub ego: Ego,
+    pub detections: Option<(i64, &'c [Detection])>,
+    pub lead: Option<Lead>,
+    pub grid: Option<Grid<'c>>,
+    pub tracks: Option<(i64, &'c [Track])>,
+    pub trajectory: Option<(i64, &'c [TrajectoryPoint])>,
+    pub route: Route<'c>,
+}
+
+/// What a cycle ended in.
+pub struct Ended {
+    pub report: Result<Report, InvalidInput>,
+    pub actions: Vec<Action>,
+    /// Whether tracks and trajectory come out.
+    pub verified: [bool; 2],
+    /// Of remote data.
+    pub sessions: Sessions,
+    /// Of the history.
+    pub lists: usize,
+}
+
+/// The plain calls and what they need.
+pub struct Plain<'a> {
+    settings: Settings,
+    pub requester: Requester<'a>,
+    /// Session and generation time of the last element that was used.
+    last: [Option<(i64, i64)>; 2],
+    kept: Vec<(i64, Vec<Detection>)>,
+}
+
+impl<'a> Plain<'a> {
+    pub fn new(settings: Settings, table: &'a mut [StationRecord]) -> Self {
+        let fresh = Requester::new(settings.profile, settings.requester, table);
+        let mut parts = fresh.expect("a requester").suspend().parts();
+        parts.sessions = settings.sessions_before;
+        let requester = Requester::resume(Suspended::from_parts(&parts), table);
+        Self { settings, requester, last: [None; 2], kept: Vec::new() }
+    }
+
+    pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
+        let actions = self.requester.step(&Event { t_ns, kind }).expect("a station").to_vec();
+        if let EventKind::Data { group, session, generated_ns, .. } = kind
+            && !actions.contains(&Action::Drop(group))
+        {
+            self.last[place(group)] = Some((session, generated_ns));
+        }
+        actions
+    }
+
+    /// A cycle with the lists that were received, whether the requester used them or not.
+    pub fn cycle(
+        &mut self,
+        own: &Own<'_>,
+        tracks: Option<&Received<Track>>,
+        points: Option<&Received<TrajectoryPoint>>,
+    ) -> Ended {
+        let [mot, plan] = Group::ALL.map(|group| self.requester.session_of(group).is_some());
+        let tracks = tracks.filter(|it| self.is_last(Group::Mot, it.session, it.generated_ns));
+        let points = points.filter(|it| self.is_last(Group::Plan, it.session, it.generated_ns));
+        let used_tracks = if mot { tracks.map(|it| (it.stamp_ns, &*it.items)) } else { own.tracks };
+        let used_points =
+            if plan { points.map(|it| (it.stamp_ns, &*it.items)) } else { own.trajectory };
+        let history = self.history(own);
+        let history: Vec<_> =
+            history.iter().map(|(stamp_ns, items)| list(*stamp_ns, items)).collect();
+        let cycle = Cycle {
+            profile: self.settings.profile,
+            parameters: self.settings.stages,
+            now_ns: own.now_ns,
+            configuration: self.requester.configuration(),
+            ego: own.ego,
+            trajectory: used_points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
+            tracks: used_tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
+            detections: own.detections.map(|(stamp_ns, items)| list(stamp_ns, items)),
+            lead: own.lead,
+            route: own.route,
+            grid: own.grid,
+            detection_history: &history,
+        };
+        let (report, lists) = (check_plainly(&cycle), history.len());
+        let safe = report.is_ok_and(|report| report.failed_stage.is_none());
+        let current = |stamp_ns: i64| {
+            let age_ns = i128::from(own.now_ns) - i128::from(stamp_ns);
+            (0..=i128::from(self.settings.stages.max_age_ns)).contains(&age_ns)
+        };
+        let is_out = |stamp: Option<i64>| safe && stamp.is_some_and(current);
+        let verified = [
+            mot && is_out(used_tracks.map(|it| it.0)),
+            (mot || plan) && is_out(used_points.map(|it| it.0)),
+        ];
+        let sessions = Sessions {
+            mot: tracks.filter(|_| verified[0]).map(|it| it.session),
+            plan: points.filter(|_| plan && verified[1]).map(|it| it.session),
+        };
+        if report.is_ok()
+            && let Some((stamp_ns, items)) = own.detections.filter(|it| current(it.0))
+        {
+            self.keep(stamp_ns, items);
+        }
+        let actions = self.step(own.now_ns, EventKind::Verdict { safe, sessions });
+        Ended { report, actions, verified, sessions, lists }
+    }
+
+    fn is_last(&self, group: Group, session: i64, generated_ns: i64) -> bool {
+        let running = self.requester.session_of(group).map(|running| running.session);
+        running == Some(session) && self.last[place(group)] == Some((session, generated_ns))
+    }
+
+    /// The lists nearest to 300, 500 and 800 ms, the youngest first.
+    fn history(&self, own: &Own<'_>) -> Vec<(i64, Vec<Detection>)> {
+        let (Some((now_ns, _)), Profile::Hardened) = (own.detections, self.settings.profile) else {
+            return Vec::new();
+        };
+        let age = |stamp_ns: i64| now_ns.saturating_sub(stamp_ns);
+        let mut found: Vec<(i64, Vec<Detection>)> = Vec::new();
+        for wanted_ns in [300 * MS, 500 * MS, 800 * MS] {
+            let usable = self.kept.iter().filter(|it| (200 * MS..=1000 * MS).contains(&age(it.0)));
+            let nearest =
+                usable.min_by_key(|it| ((age(it.0) - wanted_ns).unsigned_abs(), age(it.0)));
+            found.extend(nearest.cloned());
+        }
+        found.sort_by_key(|it| std::cmp::Reverse(it.0));
+        found.dedup_by_key(|it| it.0);
+        found
+    }
+
+    fn keep(&mut self, stamp_ns: i64, items: &[Detection]) {
+        let last_ns = self.kept.iter().map(|it| it.0).max();
+        if let Some(last_ns) = last_ns {
+            let since_ns = stamp_ns.saturating_sub(last_ns);
+            if since_ns < -1000 * MS {
+                self.kept.clear();
+            } else if since_ns < 83_333_334 {
+                return;
+            }
+        }
+        self.kept.push((stamp_ns, items.to_vec()));
+        let many = self.kept.len().saturating_sub(12);
+        self.kept.drain(..many);
+    }
+}
+
+fn list(stamp_ns: i64, items: &[Detection]) -> DetectionList<'_> {
+    DetectionList { stamp_ns, items }
+}
+
+/// The stages with scratch of the size that the cycle asks for.
+pub fn check_plainly(cycle: &Cycle<'_>) -> Result<Report, InvalidInput> {
+    let sizes = Sizes::for_cycle(cycle);
+    let mut rows = vec![Row::default(); sizes.rows];
+    let mut columns = vec![Column::default(); sizes.columns];
+    check(cycle, &mut Scratch::new(&mut rows, &mut columns))
+}

@@ -1,0 +1,95 @@
+//! What the CAV has of its own in a sequence of cycles, for both sides.
+
+use mufasa::input::cycle::{Detection, Ego, Grid, Lead, Track, TrajectoryPoint};
+use mufasa::monitor::{Gap, GridMap, Inputs};
+use mufasa::report::{InvalidInput, Outcome, Report, Witness};
+use mufasa_props::bridge::Owned;
+
+use super::kit::{World, at};
+use super::plain::Own;
+
+/// What is around at a time.
+pub struct Scene<'c> {
+    pub ego: Ego,
+    pub detections: Option<(i64, Vec<Detection>)>,
+    pub tracks: Option<(i64, Vec<Track>)>,
+    pub points: Option<(i64, Vec<TrajectoryPoint>)>,
+    pub lead: Option<Lead>,
+    pub grid: Option<Grid<'c>>,
+}
+
+/// A cycle of the generators that stands still, or a road on which all drive.
+pub enum Base {
+    Still(Box<Owned>),
+    Road,
+}
+
+impl Base {
+    pub fn scene(&self, now_ns: i64) -> Scene<'_> {
+        match self {
+            Self::Road => {
+                let World { ego, detections, tracks, points, .. } = World::at(now_ns);
+                Scene {
+                    ego,
+                    detections: Some((now_ns, detections)),
+                    tracks: Some((now_ns, tracks)),
+                    points: Some((now_ns, points)),
+                    lead: Some(Lead { stamp_ns: now_ns, gap: 19.0, speed: 5.0 }),
+                    grid: None,
+                }
+            }
+            Self::Still(owned) => {
+                let it = owned.borrow(&[]);
+                let moved = |stamp_ns: i64| stamp_ns - it.now_ns + now_ns;
+                let point = |p: &TrajectoryPoint| TrajectoryPoint { t_ns: moved(p.t_ns), ..*p };
+                Scene {
+                    ego: it.ego,
+                    detections: it.detections.map(|l| (moved(l.stamp_ns), l.items.to_vec())),
+                    tracks: it.tracks.map(|l| (moved(l.stamp_ns), l.items.to_vec())),
+                    points: it
+                        .trajectory
+                        .map(|l| (moved(l.stamp_ns), l.points.iter().map(point).collect())),
+                    lead: it.lead.map(|l| Lead { stamp_ns: moved(l.stamp_ns), ..l }),
+                    grid: it.grid.map(|g| Grid { stamp_ns: moved(g.stamp_ns), ..g }),
+                }
+            }
+        }
+    }
+}
+
+/// The same for the monitor.
+pub fn inputs<'c>(own: &Own<'c>) -> Inputs<'c> {
+    let mut inputs = Inputs::new(at(own.now_ns), own.ego);
+    if let Some((stamp_ns, items)) = own.detections {
+        inputs = inputs.detections(at(stamp_ns), items);
+    }
+    if let Some(Lead { stamp_ns, gap, speed }) = own.lead {
+        inputs = inputs.lead(at(stamp_ns), Gap::between_bumpers(gap), speed);
+    }
+    if let Some(grid) = own.grid {
+        let Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown } = grid;
+        let map = GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown };
+        inputs = inputs.grid(at(stamp_ns), map);
+    }
+    if let Some((stamp_ns, items)) = own.tracks {
+        inputs = inputs.local_tracks(at(stamp_ns), items);
+    }
+    if let Some((stamp_ns, points)) = own.trajectory {
+        inputs = inputs.local_trajectory(at(stamp_ns), points);
+    }
+    inputs
+}
+
+/// The same but for the segment of a witness: with an index of two that are equally near either may be
+/// named.
+pub fn same(one: &Result<Report, InvalidInput>, other: &Result<Report, InvalidInput>) -> bool {
+    let plain = |outcome: Outcome| match outcome {
+        Outcome::Failed(witness) => Outcome::Failed(Witness { segment: None, ..witness }),
+        other => other,
+    };
+    let text = |report: &Result<Report, InvalidInput>| {
+        let report = report.map(|report| Report { stages: report.stages.map(plain), ..report });
+        format!("{report:?}")
+    };
+    text(one) == text(other)
+}
