@@ -8,6 +8,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Every status has to be looked at. */
+#if defined(__GNUC__) || defined(__clang__)
+#define MUFASA_MUST_USE __attribute__((warn_unused_result))
+#else
+#define MUFASA_MUST_USE
+#endif
+
+// First number of the version of this interface; `mufasa_version` says that of the library.
+#define MUFASA_VERSION_MAJOR 0
+
+// Second number.
+#define MUFASA_VERSION_MINOR 1
+
+// Third number.
+#define MUFASA_VERSION_PATCH 0
+
 // An index needs memory aligned to this many bytes, as `malloc` gives it.
 #define MUFASA_DETECTION_INDEX_ALIGN 8
 
@@ -25,6 +41,9 @@
 
 // A requester needs memory aligned to this many bytes, as `malloc` gives it.
 #define MUFASA_REQUESTER_ALIGN 8
+
+// A monitor needs memory aligned to this many bytes, as `malloc` gives it.
+#define MUFASA_MONITOR_ALIGN 8
 
 // What a function says about the call itself. Anything but `Ok` is a fault of the calling
 // program, not of the data of the cycle.
@@ -45,7 +64,7 @@ enum MufasaStatus
   MUFASA_STATUS_MEMORY_TOO_SMALL = 4,
   // The array for actions has fewer than MUFASA_MAX_ACTIONS places.
   MUFASA_STATUS_TOO_FEW_ACTIONS = 5,
-  // A parameter of the requester is below 0.
+  // A parameter of the requester, or a number of sessions, is below 0.
   MUFASA_STATUS_NEGATIVE_PARAMETER = 6,
   // An event names a station below 1.
   MUFASA_STATUS_INVALID_STATION = 7,
@@ -53,6 +72,14 @@ enum MufasaStatus
   MUFASA_STATUS_TABLE_FULL = 8,
   // A list of detections of which there is no index, as it is not valid.
   MUFASA_STATUS_INVALID_LIST = 9,
+  // A parameter of the stages is outside its domain.
+  MUFASA_STATUS_INVALID_PARAMETER = 10,
+  // The nominal period is not above 0.
+  MUFASA_STATUS_INVALID_PERIOD = 11,
+  // dt_max is not above the nominal period, so that any jitter would end a session.
+  MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD = 12,
+  // A value of the route is outside its domain.
+  MUFASA_STATUS_INVALID_ROUTE = 13,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -374,6 +401,9 @@ typedef uint32_t MufasaEventType;
 // A list of detections with its index in the memory of the caller; its content may change from
 // version to version.
 typedef struct MufasaDetectionIndex MufasaDetectionIndex;
+
+// A monitor in the memory of the caller; its content may change from version to version.
+typedef struct MufasaMonitor MufasaMonitor;
 
 // A requester in the memory of the caller; its content may change from version to version.
 typedef struct MufasaRequester MufasaRequester;
@@ -726,9 +756,106 @@ typedef struct MufasaRequesterState {
   int64_t hold_until_ns;
 } MufasaRequesterState;
 
+// What a monitor is made with. The last five fields say how much memory it needs; what is longer is
+// refused when it comes.
+typedef struct MufasaMonitorSettings {
+  // A MufasaProfile.
+  uint32_t profile;
+  // Parameters of the stages.
+  struct MufasaParameters stages;
+  // Times of the requester.
+  struct MufasaRequesterParameters requester;
+  // The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+  // at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
+  // the paper's; at 10 Hz choose a larger one.)
+  int64_t period_ns;
+  // At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
+  // numbered on from here, so that no message of an earlier life fits.
+  int64_t sessions_before;
+  // Stations that ever offer something, at least 1.
+  size_t most_stations;
+  // Tracks of a list.
+  size_t most_tracks;
+  // Points of a trajectory.
+  size_t most_points;
+  // Detections of a list, at least 1 in the hardened profile.
+  size_t most_detections;
+  // Cross sections of a route.
+  size_t most_cross_sections;
+} MufasaMonitorSettings;
+
+// What has to be done about an event, in this order.
+typedef struct MufasaActions {
+  // How many; of the array the rest means nothing.
+  size_t len;
+  // The actions.
+  struct MufasaAction items[MUFASA_MAX_ACTIONS];
+} MufasaActions;
+
+// A message of a station with tracks.
+typedef struct MufasaTrackMessage {
+  // Id of the station, at least 1.
+  int64_t station;
+  // The session that it names.
+  int64_t session;
+  // When the station made it, on the CAV's clock.
+  int64_t generated_ns;
+  // The tracks; they are copied.
+  struct MufasaTrackList tracks;
+} MufasaTrackMessage;
+
+// A message of a station with a trajectory.
+typedef struct MufasaTrajectoryMessage {
+  // Id of the station, at least 1.
+  int64_t station;
+  // The session that it names.
+  int64_t session;
+  // When the station made it, on the CAV's clock.
+  int64_t generated_ns;
+  // The trajectory; it is copied.
+  struct MufasaTrajectory trajectory;
+} MufasaTrajectoryMessage;
+
+// What the CAV knows when a cycle begins; times on its monotonic clock, units and frames as in
+// MufasaCycle. Profile, parameters, configuration, route, the station's data and earlier detections are
+// not among it: the monitor has them.
+typedef struct MufasaMonitorInputs {
+  // The CAV.
+  struct MufasaEgo ego;
+  // The detections of all local detectors, of which the monitor keeps a copy; may be null.
+  const struct MufasaDetectionList *detections;
+  // The leading vehicle, its gap bumper to bumper; may be null.
+  const struct MufasaLead *lead;
+  // The occupancy grid map; may be null.
+  const struct MufasaGrid *grid;
+  // Tracks of the CAV's own MOT, used while MOT is not remote; may be null.
+  const struct MufasaTrackList *local_tracks;
+  // The trajectory of the CAV's own planner, used while PLAN is not remote; may be null.
+  const struct MufasaTrajectory *local_trajectory;
+} MufasaMonitorInputs;
+
+// The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
+// its next call.
+typedef struct MufasaDecision {
+  // The verdict and its reasons; the requester has been told. Anything but SAFE has made every group
+  // local.
+  struct MufasaReport report;
+  // Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
+  const struct MufasaTrackList *tracks;
+  // Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
+  // of the station, or while MOT alone is remote that of the CAV's own planner; else null.
+  const struct MufasaTrajectory *trajectory;
+  // Releases to be sent, and local services that start or stop.
+  struct MufasaActions actions;
+} MufasaDecision;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+// The version of the library: 1000000 times the first number, 1000 times the second, and the third. Header
+// and library belong together only when these are those of the header.
+uint32_t mufasa_version(void);
 
 // Bytes of memory for the index of a list of so many detections; 2048 are enough for every list.
 size_t mufasa_detection_index_bytes(size_t items_len);
@@ -749,6 +876,7 @@ size_t mufasa_detection_index_bytes(size_t items_len);
 // `list` is null or points to a list, whose items are as many as it says; `memory` points to
 // `bytes` bytes that nobody else uses as long as the index is used; `index` is null or can be
 // written to.
+MUFASA_MUST_USE
 MufasaStatus mufasa_detection_index_init(const struct MufasaDetectionList *list,
                                          void *memory,
                                          size_t bytes,
@@ -773,6 +901,7 @@ size_t mufasa_scratch_bytes(const struct MufasaCycle *cycle);
 // given beside it, which nobody writes to during the call. `scratch` points to `scratch_bytes`
 // bytes that nobody else uses during the call and that overlap nothing in the cycle and not the
 // report; their content means nothing before and after.
+MUFASA_MUST_USE
 MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
                           void *scratch,
                           size_t scratch_bytes,
@@ -785,6 +914,7 @@ MufasaStatus mufasa_check(const struct MufasaCycle *cycle,
 // # Safety
 // As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
 // from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
+MUFASA_MUST_USE
 MufasaStatus mufasa_check_with(const struct MufasaCycle *cycle,
                                const struct MufasaDetectionIndex *const *indexes,
                                size_t indexes_len,
@@ -806,6 +936,7 @@ size_t mufasa_requester_bytes(size_t stations);
 // # Safety
 // `parameters` is null or points to parameters; `memory` points to `bytes` bytes that nobody
 // else uses as long as the requester is used; `requester` is null or can be written to.
+MUFASA_MUST_USE
 MufasaStatus mufasa_requester_init(uint32_t profile,
                                    const struct MufasaRequesterParameters *parameters,
                                    size_t stations,
@@ -820,6 +951,7 @@ MufasaStatus mufasa_requester_init(uint32_t profile,
 // `requester` is null or comes from `mufasa_requester_init`, in memory that nobody else wrote to,
 // and no other call uses it at the same time; `event` is null or points to an event; `actions`
 // is null or has `capacity` places; `actions_len` is null or can be written to.
+MUFASA_MUST_USE
 MufasaStatus mufasa_requester_step(struct MufasaRequester *requester,
                                    const struct MufasaEvent *event,
                                    struct MufasaAction *actions,
@@ -830,8 +962,103 @@ MufasaStatus mufasa_requester_step(struct MufasaRequester *requester,
 //
 // # Safety
 // `requester` as for `mufasa_requester_step`; `state` is null or can be written to.
+MUFASA_MUST_USE
 MufasaStatus mufasa_requester_state(const struct MufasaRequester *requester,
                                     struct MufasaRequesterState *state);
+
+// The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
+// 256 detections and 1024 cross sections.
+struct MufasaMonitorSettings mufasa_monitor_settings_default(int64_t period_ns);
+
+// Bytes of memory for a monitor with these settings; SIZE_MAX when they cannot be read.
+//
+// # Safety
+// `settings` is null or points to settings.
+size_t mufasa_monitor_bytes(const struct MufasaMonitorSettings *settings);
+
+// Makes a monitor in `memory`, whose content means nothing before: everything local, no offers, no
+// route, nothing seen yet. `*monitor` is where it is; it needs no end, and may not be moved. When the
+// status is not OK there is none, and `*monitor`, if it can be written to, is null.
+//
+// # Safety
+// `settings` is null or points to settings; `memory` points to `bytes` bytes that nobody else uses as
+// long as the monitor is used; `monitor` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_init(const struct MufasaMonitorSettings *settings,
+                                 void *memory,
+                                 size_t bytes,
+                                 struct MufasaMonitor **monitor);
+
+// From now on the CAV follows this route, of which a copy and an index are kept. When the status is
+// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain.
+//
+// # Safety
+// `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other
+// call uses it at the same time; `route` is null or points to a route with as many cross sections as
+// it says.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_set_route(struct MufasaMonitor *monitor,
+                                      const struct MufasaRoute *route);
+
+// Takes an event and writes what has to be done about it. DATA and VERDICT are UNKNOWN_VALUE here: data
+// come with their contents (`mufasa_monitor_tracks`, `mufasa_monitor_trajectory`), and the verdict is
+// `mufasa_monitor_cycle`'s. When the status is not OK nothing has changed, and there are no actions.
+// TICK is to be given in each period, before its cycle.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `event` is null or points to an event; `actions` is null
+// or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_step(struct MufasaMonitor *monitor,
+                                 const struct MufasaEvent *event,
+                                 struct MufasaActions *actions);
+
+// Tracks of a station arrive: used are those of the running session of MOT, in time, and newer than the
+// last. They are copied, and come out of the next cycle if it is safe. When one of `actions` is DROP they
+// are of no use; a violation of quality of service ends the session, too. MEMORY_TOO_SMALL: there are
+// more than the settings say; nothing has changed, as for every status but OK.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `message` is null or points to a message with as many
+// tracks as it says; `actions` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_tracks(struct MufasaMonitor *monitor,
+                                   int64_t now_ns,
+                                   const struct MufasaTrackMessage *message,
+                                   struct MufasaActions *actions);
+
+// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN.
+//
+// # Safety
+// As for `mufasa_monitor_tracks`.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_trajectory(struct MufasaMonitor *monitor,
+                                       int64_t now_ns,
+                                       const struct MufasaTrajectoryMessage *message,
+                                       struct MufasaActions *actions);
+
+// Decides on the inputs and the last elements that were used, and tells the requester: to be called in
+// each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
+// the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
+// say) its verdict is ERROR, and every group is local as after any other unsafe cycle.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `inputs` is null or points to inputs, every pointer in which
+// is null or points to what its type says, in the number that is given beside it, which nobody writes to
+// during the call; `decision` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_cycle(struct MufasaMonitor *monitor,
+                                  int64_t now_ns,
+                                  const struct MufasaMonitorInputs *inputs,
+                                  struct MufasaDecision *decision);
+
+// Writes the state of the monitor's requester.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `state` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_state(const struct MufasaMonitor *monitor,
+                                  struct MufasaRequesterState *state);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -50,6 +50,7 @@ pub unsafe extern "C" fn mufasa_scratch_bytes(cycle: *const MufasaCycle) -> usiz
 /// given beside it, which nobody writes to during the call. `scratch` points to `scratch_bytes`
 /// bytes that nobody else uses during the call and that overlap nothing in the cycle and not the
 /// report; their content means nothing before and after.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_check(
     cycle: *const MufasaCycle,
@@ -68,6 +69,7 @@ pub unsafe extern "C" fn mufasa_check(
 /// # Safety
 /// As for `mufasa_check`; `indexes` points to `indexes_len` pointers, each of which is null or comes
 /// from `mufasa_detection_index_init`, in memory that nobody else writes to during the call.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_check_with(
     cycle: *const MufasaCycle,

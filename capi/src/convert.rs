@@ -16,17 +16,18 @@ use mufasa::services::configuration::Configuration;
 
 use crate::cycle::{
     MufasaConfiguration, MufasaCrossSection, MufasaCycle, MufasaDetectionList, MufasaEgo,
-    MufasaGrid, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectoryPoint,
+    MufasaGrid, MufasaProfile, MufasaTrack, MufasaTrackList, MufasaTrajectory,
+    MufasaTrajectoryPoint,
 };
 use crate::detection_index::{DETECTIONS, Kept, detection};
 use crate::memory::{Arena, list, optional};
 use crate::status::MufasaStatus;
 
 /// The sizes of `spec/4-arithmetic.md#domain` and one.
-const TRACKS: usize = 1025;
+pub(crate) const TRACKS: usize = 1025;
 const HISTORY: usize = 5;
-const POINTS: usize = 1025;
-const CROSS_SECTIONS: usize = 8193;
+pub(crate) const POINTS: usize = 1025;
+pub(crate) const CROSS_SECTIONS: usize = 8193;
 const BITMAP_BYTES: usize = (1 << 21) + 1;
 
 /// How many elements of each kind scratch memory has to hold.
@@ -111,15 +112,7 @@ pub(crate) unsafe fn cycle<'a>(
     arena: &mut Arena<'a>,
 ) -> Result<Cycle<'a>, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
-    let trajectory = match unsafe { optional(raw.trajectory) }? {
-        None => None,
-        Some(it) => {
-            // SAFETY: as above.
-            let points = unsafe { list(it.points, it.points_len, POINTS) }?;
-            let points = arena.keep(points.iter().map(trajectory_point))?;
-            Some(Trajectory { stamp_ns: it.stamp_ns, points })
-        }
-    };
+    let trajectory = unsafe { trajectory(raw.trajectory, arena) }?;
     // SAFETY: as above.
     let detections = match unsafe { optional(raw.detections) }? {
         None => None,
@@ -223,7 +216,21 @@ unsafe fn detection_history<'a>(
 
 /// # Safety
 /// As for [`cycle`].
-unsafe fn tracks<'a>(
+pub(crate) unsafe fn trajectory<'a>(
+    raw: *const MufasaTrajectory,
+    arena: &mut Arena<'a>,
+) -> Result<Option<Trajectory<'a>>, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let Some(it) = unsafe { optional(raw) }? else { return Ok(None) };
+    // SAFETY: as above.
+    let points = unsafe { list(it.points, it.points_len, POINTS) }?;
+    let points = arena.keep(points.iter().map(trajectory_point))?;
+    Ok(Some(Trajectory { stamp_ns: it.stamp_ns, points }))
+}
+
+/// # Safety
+/// As for [`cycle`].
+pub(crate) unsafe fn tracks<'a>(
     raw: *const MufasaTrackList,
     arena: &mut Arena<'a>,
 ) -> Result<Option<TrackList<'a>>, MufasaStatus> {
@@ -237,7 +244,7 @@ unsafe fn tracks<'a>(
 
 /// # Safety
 /// As for [`cycle`].
-unsafe fn grid<'a>(raw: *const MufasaGrid) -> Result<Option<Grid<'a>>, MufasaStatus> {
+pub(crate) unsafe fn grid<'a>(raw: *const MufasaGrid) -> Result<Option<Grid<'a>>, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
     let Some(it) = unsafe { optional(raw) }? else { return Ok(None) };
     let unknown = if it.unknown.is_null() {
@@ -284,22 +291,22 @@ pub(crate) const fn configuration_number(configuration: Configuration) -> Mufasa
     }
 }
 
-fn ego(raw: &MufasaEgo) -> Ego {
+pub(crate) fn ego(raw: &MufasaEgo) -> Ego {
     let MufasaEgo { x, y, cos, sin, speed, length, width, center_offset } = *raw;
     Ego { x, y, cos, sin, speed, length, width, center_offset }
 }
 
-fn trajectory_point(raw: &MufasaTrajectoryPoint) -> TrajectoryPoint {
+pub(crate) fn trajectory_point(raw: &MufasaTrajectoryPoint) -> TrajectoryPoint {
     let MufasaTrajectoryPoint { t_ns, x, y, cos, sin } = *raw;
     TrajectoryPoint { t_ns, x, y, cos, sin }
 }
 
-fn track(raw: &MufasaTrack) -> Track {
+pub(crate) fn track(raw: &MufasaTrack) -> Track {
     let MufasaTrack { id, x, y, cos, sin, vx, vy, length, width } = *raw;
     Track { id, x, y, cos, sin, vx, vy, length, width }
 }
 
-fn cross_section(raw: &MufasaCrossSection) -> CrossSection {
+pub(crate) fn cross_section(raw: &MufasaCrossSection) -> CrossSection {
     let MufasaCrossSection { x, y, left, right } = *raw;
     CrossSection { x, y, left, right }
 }

@@ -57,6 +57,7 @@ pub extern "C" fn mufasa_detection_index_bytes(items_len: usize) -> usize {
 /// `list` is null or points to a list, whose items are as many as it says; `memory` points to
 /// `bytes` bytes that nobody else uses as long as the index is used; `index` is null or can be
 /// written to.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_detection_index_init(
     list: *const MufasaDetectionList,

@@ -7,6 +7,10 @@
 //!
 //! No panic crosses the border: lints forbid what panics, and an `extern "C"` function that did would
 //! end the process instead of unwinding into C.
+//!
+//! Without the feature `std` (on by default) it is built on `core` alone, for targets without an operating
+//! system; a panic would then end in the `abort` that the program has.
+#![cfg_attr(not(feature = "std"), no_std)]
 #![cfg_attr(
     not(test),
     deny(
@@ -22,10 +26,23 @@ pub mod check;
 pub mod cycle;
 pub mod detection_index;
 pub mod event;
+pub mod monitor;
 pub mod parameters;
 pub mod report;
 pub mod requester;
 pub mod status;
+pub mod version;
 
 mod convert;
 mod memory;
+
+/// None is known; a library without `std` must say what becomes of one.
+#[cfg(not(feature = "std"))]
+#[panic_handler]
+fn ends(_: &core::panic::PanicInfo<'_>) -> ! {
+    unsafe extern "C" {
+        fn abort() -> !;
+    }
+    // SAFETY: `abort` of the C library takes nothing and does not return.
+    unsafe { abort() }
+}

@@ -28,6 +28,18 @@ pub(crate) unsafe fn required<'a, T>(pointer: *const T) -> Result<&'a T, MufasaS
     unsafe { optional(pointer) }?.ok_or(MufasaStatus::NullPointer)
 }
 
+/// As [`required`], to be written to.
+///
+/// # Safety
+/// A pointer that is not null has to point to a `T` that nobody else reads or writes during `'a`.
+pub(crate) unsafe fn required_mut<'a, T>(pointer: *mut T) -> Result<&'a mut T, MufasaStatus> {
+    if !pointer.is_aligned() {
+        return Err(MufasaStatus::Misaligned);
+    }
+    // SAFETY: null gives `None`; otherwise it is aligned (checked), and the caller's alone.
+    unsafe { pointer.as_mut() }.ok_or(MufasaStatus::NullPointer)
+}
+
 /// The first `most` elements of an array; of an empty one the pointer may be anything.
 ///
 /// # Safety
@@ -93,6 +105,11 @@ impl<'a> Arena<'a> {
         // nobody else's (the caller's duty).
         let rest = unsafe { slice::from_raw_parts_mut(memory.cast(), bytes) };
         Ok(Self { rest })
+    }
+
+    /// What was not handed out: where it begins, and its bytes.
+    pub(crate) fn rest(&mut self) -> (*mut c_void, usize) {
+        (self.rest.as_mut_ptr().cast(), self.rest.len())
     }
 
     /// Moves elements into the memory.

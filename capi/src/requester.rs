@@ -93,6 +93,7 @@ pub extern "C" fn mufasa_requester_bytes(stations: usize) -> usize {
 /// # Safety
 /// `parameters` is null or points to parameters; `memory` points to `bytes` bytes that nobody
 /// else uses as long as the requester is used; `requester` is null or can be written to.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_requester_init(
     profile: u32,
@@ -117,6 +118,7 @@ pub unsafe extern "C" fn mufasa_requester_init(
 /// `requester` is null or comes from `mufasa_requester_init`, in memory that nobody else wrote to,
 /// and no other call uses it at the same time; `event` is null or points to an event; `actions`
 /// is null or has `capacity` places; `actions_len` is null or can be written to.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_requester_step(
     requester: *mut MufasaRequester,
@@ -162,6 +164,7 @@ pub unsafe extern "C" fn mufasa_requester_step(
 ///
 /// # Safety
 /// `requester` as for `mufasa_requester_step`; `state` is null or can be written to.
+#[must_use]
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_requester_state(
     requester: *const MufasaRequester,
@@ -173,7 +176,13 @@ pub unsafe extern "C" fn mufasa_requester_state(
         Err(status) => return status,
     };
     // The state does not depend on the table.
-    let requester = Requester::resume(stored.suspended, &mut []);
+    let told = state_of(&Requester::resume(stored.suspended, &mut []));
+    // SAFETY: the caller's duty.
+    status(unsafe { put(state, told) })
+}
+
+/// The state for C.
+pub(crate) fn state_of(requester: &Requester<'_>) -> MufasaRequesterState {
     let group = |group| {
         let (kind, station, session, deadline_ns) = match requester.state(group) {
             GroupState::Local => (MufasaGroupStateKind::Local, 0, 0, 0),
@@ -187,15 +196,13 @@ pub unsafe extern "C" fn mufasa_requester_state(
         let source = requester.source(group).station();
         MufasaGroupState { kind, station, session, deadline_ns, source }
     };
-    let told = MufasaRequesterState {
+    MufasaRequesterState {
         mot: group(Group::Mot),
         plan: group(Group::Plan),
         configuration: convert::configuration_number(requester.configuration()),
         has_hold: u32::from(requester.hold_until_ns().is_some()),
         hold_until_ns: requester.hold_until_ns().unwrap_or(0),
-    };
-    // SAFETY: the caller's duty.
-    status(unsafe { put(state, told) })
+    }
 }
 
 /// # Safety
@@ -275,7 +282,8 @@ fn status(result: Result<(), MufasaStatus>) -> MufasaStatus {
     }
 }
 
-fn refused(error: RequesterError) -> MufasaStatus {
+/// Why an event was not taken.
+pub(crate) fn refused(error: RequesterError) -> MufasaStatus {
     match error {
         RequesterError::NegativeParameter { .. } => MufasaStatus::NegativeParameter,
         RequesterError::Station { .. } => MufasaStatus::InvalidStation,

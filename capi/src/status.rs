@@ -17,7 +17,7 @@ pub enum MufasaStatus {
     MemoryTooSmall = 4,
     /// The array for actions has fewer than MUFASA_MAX_ACTIONS places.
     TooFewActions = 5,
-    /// A parameter of the requester is below 0.
+    /// A parameter of the requester, or a number of sessions, is below 0.
     NegativeParameter = 6,
     /// An event names a station below 1.
     InvalidStation = 7,
@@ -25,4 +25,12 @@ pub enum MufasaStatus {
     TableFull = 8,
     /// A list of detections of which there is no index, as it is not valid.
     InvalidList = 9,
+    /// A parameter of the stages is outside its domain.
+    InvalidParameter = 10,
+    /// The nominal period is not above 0.
+    InvalidPeriod = 11,
+    /// dt_max is not above the nominal period, so that any jitter would end a session.
+    DtMaxNotAbovePeriod = 12,
+    /// A value of the route is outside its domain.
+    InvalidRoute = 13,
 }

@@ -1,5 +1,5 @@
-//! Compiles and runs `tests/check.c` against the header and the static library, and compiles the
-//! header as C++.
+//! Compiles and runs C programs against the header and the static library, and compiles the header as
+//! C++.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -45,21 +45,63 @@ fn compile(compiler: &str, arguments: &[&OsStr]) {
     assert!(output.status.success(), "{compiler}: {}", text(&output));
 }
 
+/// Compiles a program of this crate with the library, runs it, and gives what it says.
+fn says(compiler: &str, language: [&str; 3], source: &str) -> String {
+    let library = libraries().join("libmufasa_capi.a");
+    assert!(library.exists(), "{} was not built", library.display());
+    let [standard, option, name] = language;
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let (include, source) = (here().join("include"), here().join(source));
+    let mut arguments: Vec<&OsStr> = [standard, "-g", "-I"].map(OsStr::new).to_vec();
+    arguments.extend([include.as_os_str(), "-x".as_ref(), option.as_ref(), source.as_os_str()]);
+    arguments.extend(["-x".as_ref(), "none".as_ref(), library.as_os_str()]);
+    arguments.extend(SYSTEM_LIBRARIES.map(OsStr::new));
+    arguments.extend(["-o".as_ref(), program.as_os_str()]);
+    compile(compiler, &arguments);
+    let output = run(&program, &[]).expect("the program that was just built");
+    assert!(output.status.success(), "{}", text(&output));
+    text(&output)
+}
+
 #[test]
 fn a_c_program_gets_what_the_header_promises() {
     let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
-    let library = libraries().join("libmufasa_capi.a");
-    assert!(library.exists(), "{} was not built", library.display());
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("check");
-    let (include, source) = (here().join("include"), here().join("tests/check.c"));
-    let mut arguments: Vec<&OsStr> = ["-std=c11", "-g", "-I"].map(OsStr::new).to_vec();
-    arguments.extend([include.as_os_str(), source.as_os_str(), library.as_os_str()]);
-    arguments.extend(SYSTEM_LIBRARIES.map(OsStr::new));
-    arguments.extend(["-o".as_ref(), program.as_os_str()]);
-    compile(cc, &arguments);
-    let output = run(&program, &[]).expect("the program that was just built");
-    assert!(output.status.success(), "{}", text(&output));
-    assert!(text(&output).contains("all holds"), "{}", text(&output));
+    assert!(says(cc, ["-std=c11", "c", "check"], "tests/check.c").contains("all holds"));
+    assert!(says(cc, ["-std=c11", "c", "monitor"], "tests/monitor.c").contains("all holds"));
+}
+
+#[test]
+fn the_vehicle_loop_offloads_in_c_and_in_cpp() {
+    let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
+    let Some(cxx) = compiler(&["c++", "g++", "clang++"]) else { return };
+    let in_c = says(cc, ["-std=c11", "c", "vehicle_c"], "examples/vehicle.c");
+    assert!(in_c.ends_with("98 of 200 cycles offloaded, 1 fallback\n"), "{in_c}");
+    assert_eq!(in_c, says(cxx, ["-std=c++17", "c++", "vehicle_cpp"], "examples/vehicle.c"));
+}
+
+/// The same lines compile when each status is looked at.
+#[test]
+fn a_status_that_is_not_looked_at_does_not_compile() {
+    let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
+    let calls = |[before, after]: [&str; 2]| {
+        format!(
+            "#include \"mufasa.h\"\nint main(void) {{\n\
+             struct MufasaDecision decision; struct MufasaActions actions;\n\
+             {before}mufasa_monitor_cycle(NULL, 0, NULL, &decision){after};\n\
+             {before}mufasa_monitor_step(NULL, NULL, &actions){after};\n\
+             {before}mufasa_check(NULL, NULL, 0, NULL){after};\n return 0;\n}}\n"
+        )
+    };
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("status.c");
+    let include = here().join("include");
+    for (lines, complaints) in [(calls(["", ""]), 3), (calls(["if (", ") return 1"]), 0)] {
+        fs::write(&source, lines).expect("a source can be written");
+        let mut arguments =
+            ["-std=c11", "-S", "-Wall", "-o", "/dev/null", "-I"].map(OsStr::new).to_vec();
+        arguments.extend([include.as_os_str(), source.as_os_str()]);
+        let said = text(&run(cc, &arguments).expect("a compiler that starts"));
+        assert_eq!(said.matches("-Wunused-result").count(), complaints, "{said}");
+    }
 }
 
 #[test]

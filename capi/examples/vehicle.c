@@ -1,0 +1,168 @@
+/* A vehicle loop at 10 Hz around the monitor, with a stand-in for the road and for a station. From 4 s to 5 s
+ * the station's tracks are 3 m aside: the monitor falls back to the local services, waits t_wait, and
+ * offloads again. Compiles as C and as C++. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mufasa.h"
+
+#define MS INT64_C(1000000)
+#define CARS 2
+#define POINTS 30
+#define CROSS_SECTIONS 31
+
+/* What the station was asked for: the sessions of MOT and PLAN, 0 for none. */
+static int64_t asked[2], running[2];
+static size_t fallbacks;
+
+static void check(MufasaStatus status, const char *what) {
+  if (status == MUFASA_STATUS_OK) return;
+  fprintf(stderr, "%s: status %d\n", what, (int)status);
+  exit(1);
+}
+
+/* Where actions go: to the network, and to the vehicle's own services. */
+static void take(const struct MufasaActions *actions) {
+  for (size_t i = 0; i < actions->len; ++i) {
+    const struct MufasaAction *action = &actions->items[i];
+    const int plan = action->group == MUFASA_GROUP_PLAN;
+    switch (action->action_type) {
+      case MUFASA_ACTION_TYPE_REQUEST: asked[plan] = action->session; break;
+      case MUFASA_ACTION_TYPE_RELEASE: running[plan] = 0; break;
+      case MUFASA_ACTION_TYPE_ACTIVATE: printf("        local %s starts\n", plan ? "PLAN" : "MOT"); break;
+      case MUFASA_ACTION_TYPE_DEACTIVATE: printf("        local %s stops\n", plan ? "PLAN" : "MOT"); break;
+      case MUFASA_ACTION_TYPE_DROP: break; /* an element that the monitor did not take */
+    }
+  }
+}
+
+static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
+  struct MufasaActions actions;
+  check(mufasa_monitor_step(monitor, &event, &actions), "an event");
+  take(&actions);
+}
+
+static struct MufasaMonitor *make_monitor(void) {
+  struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(100 * MS);
+  settings.requester.dt_max_ns = 150 * MS; /* above the period: 100 ms, the default, is refused */
+  settings.most_detections = 16;
+  struct MufasaMonitor *monitor;
+  const size_t bytes = mufasa_monitor_bytes(&settings);
+  check(mufasa_monitor_init(&settings, malloc(bytes), bytes, &monitor), "a monitor");
+
+  static struct MufasaCrossSection road[CROSS_SECTIONS]; /* straight, 300 m, 6 m wide */
+  for (int i = 0; i < CROSS_SECTIONS; ++i) {
+    const double x = 10.0 * (i - 5);
+    road[i].x = road[i].left[0] = road[i].right[0] = x;
+    road[i].left[1] = 3.0;
+    road[i].right[1] = -3.0;
+  }
+  struct MufasaRoute route;
+  memset(&route, 0, sizeof route);
+  route.cross_sections = road;
+  route.cross_sections_len = CROSS_SECTIONS;
+  check(mufasa_monitor_set_route(monitor, &route), "the route");
+  return monitor;
+}
+
+/* The vehicle at 5 m/s, a car 20 m ahead and one beside the road; everything of one period. */
+struct world {
+  struct MufasaMonitorInputs inputs;
+  struct MufasaLead lead;
+  struct MufasaDetection detections[CARS];
+  struct MufasaDetectionList detection_list;
+  struct MufasaTrack tracks[CARS];
+  struct MufasaTrajectoryPoint points[POINTS];
+  struct MufasaTrajectory plan;
+};
+
+static void look(struct world *w, int64_t now_ns, double aside) {
+  memset(w, 0, sizeof *w);
+  const double x = 5e-9 * (double)now_ns, front = x + 1.4 + 0.5 * 4.5, ahead = front + 20.0 + 2.25;
+  struct MufasaEgo ego;
+  ego.x = x, ego.y = 0, ego.cos = 1, ego.sin = 0, ego.speed = 5;
+  ego.length = 4.5, ego.width = 1.9, ego.center_offset = 1.4;
+  for (int i = 0; i < CARS; ++i) {
+    struct MufasaDetection *seen = &w->detections[i];
+    seen->x = ahead + 20.0 * i, seen->y = 8.0 * i;
+    seen->cos = 1, seen->length = 4.5, seen->width = 1.9;
+    struct MufasaTrack *track = &w->tracks[i];
+    track->id = 7 + i, track->x = seen->x, track->y = seen->y + (i == 0 ? aside : 0.0);
+    track->cos = 1, track->vx = 5, track->length = 4.5, track->width = 1.9;
+  }
+  for (int i = 0; i < POINTS; ++i) {
+    w->points[i].t_ns = now_ns + 100 * MS * i;
+    w->points[i].x = x + 0.5 * i;
+    w->points[i].cos = 1;
+  }
+  w->detection_list.stamp_ns = w->lead.stamp_ns = w->plan.stamp_ns = now_ns;
+  w->detection_list.items = w->detections, w->detection_list.items_len = CARS;
+  w->lead.gap = 20.0, w->lead.speed = 5.0; /* bumper to bumper */
+  w->plan.points = w->points, w->plan.points_len = POINTS;
+  w->inputs.ego = ego, w->inputs.detections = &w->detection_list, w->inputs.lead = &w->lead;
+  w->inputs.local_trajectory = &w->plan;
+}
+
+/* What came over the network since the last period. */
+static void receive(struct MufasaMonitor *monitor, int64_t now_ns, const struct world *w) {
+  struct MufasaActions actions;
+  if (running[0] != 0) {
+    struct MufasaTrackMessage message;
+    message.station = 1, message.session = running[0], message.generated_ns = now_ns;
+    message.tracks.stamp_ns = now_ns, message.tracks.items = w->tracks, message.tracks.items_len = CARS;
+    check(mufasa_monitor_tracks(monitor, now_ns, &message, &actions), "tracks");
+    take(&actions);
+  }
+  if (running[1] != 0) {
+    struct MufasaTrajectoryMessage message;
+    message.station = 1, message.session = running[1], message.generated_ns = now_ns;
+    message.trajectory = w->plan;
+    check(mufasa_monitor_trajectory(monitor, now_ns, &message, &actions), "a trajectory");
+    take(&actions);
+  }
+}
+
+int main(void) {
+  struct MufasaMonitor *monitor = make_monitor();
+  size_t offloaded = 0;
+  for (int cycle = 0; cycle < 200; ++cycle) {
+    const int64_t now_ns = 100 * MS * cycle;
+    struct MufasaEvent event;
+    memset(&event, 0, sizeof event);
+    event.t_ns = now_ns, event.station = 1;
+    if (cycle == 0) {
+      event.event_type = MUFASA_EVENT_TYPE_OFFER;
+      event.groups = MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN;
+      step(monitor, event);
+    }
+    event.event_type = MUFASA_EVENT_TYPE_CONFIRM;
+    for (int plan = 0; plan < 2; ++plan) {
+      if (asked[plan] == 0) continue;
+      event.group = plan ? MUFASA_GROUP_PLAN : MUFASA_GROUP_MOT;
+      event.session = running[plan] = asked[plan];
+      asked[plan] = 0;
+      step(monitor, event);
+    }
+    event.event_type = MUFASA_EVENT_TYPE_TICK;
+    step(monitor, event);
+
+    struct world w;
+    look(&w, now_ns, cycle >= 40 && cycle < 50 ? 3.0 : 0.0);
+    receive(monitor, now_ns, &w);
+
+    /* The one way to what the station sent. */
+    struct MufasaDecision decision;
+    check(mufasa_monitor_cycle(monitor, now_ns, &w.inputs, &decision), "a cycle");
+    if (decision.report.verdict != MUFASA_VERDICT_SAFE) {
+      printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.1 * cycle,
+             (int)decision.report.failed_stage);
+      ++fallbacks;
+    }
+    if (decision.trajectory != NULL) ++offloaded; /* else the vehicle drives its own plan */
+    take(&decision.actions);
+  }
+  printf("%zu of 200 cycles offloaded, %zu fallback\n", offloaded, fallbacks);
+  free(monitor);
+  return fallbacks == 1 && offloaded > 80 ? 0 : 1;
+}

@@ -1,0 +1,374 @@
+//! The calls of a monitor.
+
+use core::ffi::c_void;
+use core::ptr::null_mut;
+
+use mufasa::input::cycle::{CrossSection, Ego, Grid, Route, Track, TrajectoryPoint};
+use mufasa::monitor::{Gap, GridMap, Inputs, Time};
+use mufasa::offloading::requester::EventKind;
+use mufasa::report::Problem;
+
+use super::decision::{MufasaActions, MufasaDecision, actions_of, nothing_decided};
+use super::element::{MufasaTrackMessage, MufasaTrajectoryMessage, Stored, message};
+use super::place::{self, MufasaMonitor, MufasaMonitorInputs};
+use super::settings::MufasaMonitorSettings;
+use crate::convert;
+use crate::cycle::MufasaRoute;
+use crate::detection_index::{DETECTIONS, detection};
+use crate::event::{self, MufasaEvent};
+use crate::memory::{Arena, list, optional, put, required, required_mut};
+use crate::requester::{self, MufasaRequesterState};
+use crate::status::MufasaStatus;
+
+/// Makes a monitor in `memory`, whose content means nothing before: everything local, no offers, no
+/// route, nothing seen yet. `*monitor` is where it is; it needs no end, and may not be moved. When the
+/// status is not OK there is none, and `*monitor`, if it can be written to, is null.
+///
+/// # Safety
+/// `settings` is null or points to settings; `memory` points to `bytes` bytes that nobody else uses as
+/// long as the monitor is used; `monitor` is null or can be written to.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_init(
+    settings: *const MufasaMonitorSettings,
+    memory: *mut c_void,
+    bytes: usize,
+    monitor: *mut *mut MufasaMonitor,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let (made, status) = match unsafe { place::init(settings, memory, bytes) } {
+        Ok(made) => (made, MufasaStatus::Ok),
+        Err(status) => (null_mut(), status),
+    };
+    // SAFETY: the caller's duty.
+    unsafe { put(monitor, made) }.map_or_else(|fault| fault, |()| status)
+}
+
+/// From now on the CAV follows this route, of which a copy and an index are kept. When the status is
+/// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain.
+///
+/// # Safety
+/// `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other
+/// call uses it at the same time; `route` is null or points to a route with as many cross sections as
+/// it says.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_set_route(
+    monitor: *mut MufasaMonitor,
+    route: *const MufasaRoute,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    unsafe { set_route(monitor, route) }.map_or_else(|fault| fault, |()| MufasaStatus::Ok)
+}
+
+/// Takes an event and writes what has to be done about it. DATA and VERDICT are UNKNOWN_VALUE here: data
+/// come with their contents (`mufasa_monitor_tracks`, `mufasa_monitor_trajectory`), and the verdict is
+/// `mufasa_monitor_cycle`'s. When the status is not OK nothing has changed, and there are no actions.
+/// TICK is to be given in each period, before its cycle.
+///
+/// # Safety
+/// `monitor` as for `mufasa_monitor_set_route`; `event` is null or points to an event; `actions` is null
+/// or can be written to.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_step(
+    monitor: *mut MufasaMonitor,
+    event: *const MufasaEvent,
+    actions: *mut MufasaActions,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let call = || unsafe { step(monitor, event) };
+    // SAFETY: as above.
+    unsafe { tell(actions, call) }
+}
+
+/// Tracks of a station arrive: used are those of the running session of MOT, in time, and newer than the
+/// last. They are copied, and come out of the next cycle if it is safe. When one of `actions` is DROP they
+/// are of no use; a violation of quality of service ends the session, too. MEMORY_TOO_SMALL: there are
+/// more than the settings say; nothing has changed, as for every status but OK.
+///
+/// # Safety
+/// `monitor` as for `mufasa_monitor_set_route`; `message` is null or points to a message with as many
+/// tracks as it says; `actions` is null or can be written to.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_tracks(
+    monitor: *mut MufasaMonitor,
+    now_ns: i64,
+    message: *const MufasaTrackMessage,
+    actions: *mut MufasaActions,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let call = || unsafe { tracks(monitor, Time::from_nanoseconds(now_ns), message) };
+    // SAFETY: as above.
+    unsafe { tell(actions, call) }
+}
+
+/// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN.
+///
+/// # Safety
+/// As for `mufasa_monitor_tracks`.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_trajectory(
+    monitor: *mut MufasaMonitor,
+    now_ns: i64,
+    message: *const MufasaTrajectoryMessage,
+    actions: *mut MufasaActions,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty.
+    let call = || unsafe { trajectory(monitor, Time::from_nanoseconds(now_ns), message) };
+    // SAFETY: as above.
+    unsafe { tell(actions, call) }
+}
+
+/// Decides on the inputs and the last elements that were used, and tells the requester: to be called in
+/// each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
+/// the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
+/// say) its verdict is ERROR, and every group is local as after any other unsafe cycle.
+///
+/// # Safety
+/// `monitor` as for `mufasa_monitor_set_route`; `inputs` is null or points to inputs, every pointer in which
+/// is null or points to what its type says, in the number that is given beside it, which nobody writes to
+/// during the call; `decision` is null or can be written to.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_cycle(
+    monitor: *mut MufasaMonitor,
+    now_ns: i64,
+    inputs: *const MufasaMonitorInputs,
+    decision: *mut MufasaDecision,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty, here and below.
+    let monitor = match unsafe { required_mut(monitor) } {
+        Ok(monitor) => monitor,
+        Err(status) => {
+            // SAFETY: as above.
+            return unsafe { put(decision, nothing_decided()) }
+                .map_or_else(|_| status, |()| status);
+        }
+    };
+    // SAFETY: as above.
+    let (status, told) = match unsafe { cycle(monitor, now_ns, inputs) } {
+        Ok(told) => (MufasaStatus::Ok, told),
+        Err(status) => (status, fall_back(monitor, now_ns)),
+    };
+    // SAFETY: as above.
+    unsafe { put(decision, told) }.map_or_else(|fault| fault, |()| status)
+}
+
+/// Writes the state of the monitor's requester.
+///
+/// # Safety
+/// `monitor` as for `mufasa_monitor_set_route`; `state` is null or can be written to.
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mufasa_monitor_state(
+    monitor: *const MufasaMonitor,
+    state: *mut MufasaRequesterState,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty, here and below.
+    match unsafe { required(monitor) } {
+        Ok(it) => {
+            let told = requester::state_of(it.monitor.requester());
+            // SAFETY: as above.
+            unsafe { put(state, told) }.map_or_else(|fault| fault, |()| MufasaStatus::Ok)
+        }
+        Err(status) => status,
+    }
+}
+
+/// Writes the actions of a call, or that there are none. That they can be written is known before anything
+/// is done.
+///
+/// # Safety
+/// `actions` is null or can be written to.
+unsafe fn tell(
+    actions: *mut MufasaActions,
+    call: impl FnOnce() -> Result<MufasaActions, MufasaStatus>,
+) -> MufasaStatus {
+    // SAFETY: the caller's duty, here and below.
+    if let Err(status) = unsafe { put(actions, actions_of(&[])) } {
+        return status;
+    }
+    match call() {
+        // SAFETY: as above.
+        Ok(told) => unsafe { put(actions, told) }.map_or_else(|fault| fault, |()| MufasaStatus::Ok),
+        Err(status) => status,
+    }
+}
+
+/// # Safety
+/// As for [`mufasa_monitor_set_route`].
+unsafe fn set_route(
+    monitor: *mut MufasaMonitor,
+    route: *const MufasaRoute,
+) -> Result<(), MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let MufasaMonitor { monitor, most_cross_sections, scratch, scratch_bytes, .. } =
+        unsafe { required_mut(monitor) }?;
+    // SAFETY: as above.
+    let raw = unsafe { required(route) }?;
+    fits(raw.cross_sections_len, *most_cross_sections)?;
+    // SAFETY: the memory is the monitor's, and nothing in it is used after the call.
+    let mut arena = unsafe { Arena::new(*scratch, *scratch_bytes) }?;
+    // SAFETY: the caller's duty.
+    let cross_sections =
+        unsafe { list(raw.cross_sections, raw.cross_sections_len, convert::CROSS_SECTIONS) }?;
+    let cross_sections: &[CrossSection] =
+        arena.keep(cross_sections.iter().map(convert::cross_section))?;
+    let taken = monitor.set_route(&Route { closed: raw.closed != 0, cross_sections });
+    taken.map_err(|invalid| match invalid.problem {
+        Problem::ScratchTooSmall => MufasaStatus::MemoryTooSmall,
+        _ => MufasaStatus::InvalidRoute,
+    })
+}
+
+/// # Safety
+/// As for [`mufasa_monitor_step`].
+unsafe fn step(
+    monitor: *mut MufasaMonitor,
+    event: *const MufasaEvent,
+) -> Result<MufasaActions, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let event = event::event_of(unsafe { required(event) }?)?;
+    // SAFETY: as above.
+    let monitor = &mut unsafe { required_mut(monitor) }?.monitor;
+    let now = Time::from_nanoseconds(event.t_ns);
+    let actions = match event.kind {
+        EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
+        EventKind::Withdraw { station } => monitor.withdraw(now, station),
+        EventKind::Lost { station } => monitor.lost(now, station),
+        EventKind::Area { groups } => Ok(monitor.area(now, groups)),
+        EventKind::Tick => Ok(monitor.tick(now)),
+        EventKind::Confirm { station, group, session } => {
+            monitor.confirm(now, station, group, session)
+        }
+        EventKind::Reject { station, group, session } => {
+            monitor.reject(now, station, group, session)
+        }
+        EventKind::Data { .. } | EventKind::Verdict { .. } => {
+            return Err(MufasaStatus::UnknownValue);
+        }
+    };
+    actions.map(|actions| actions_of(&actions)).map_err(requester::refused)
+}
+
+/// # Safety
+/// As for [`mufasa_monitor_tracks`].
+unsafe fn tracks(
+    monitor: *mut MufasaMonitor,
+    now: Time,
+    raw: *const MufasaTrackMessage,
+) -> Result<MufasaActions, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let MufasaMonitor { monitor, tracks: received, .. } = unsafe { required_mut(monitor) }?;
+    // SAFETY: as above.
+    let MufasaTrackMessage { station, session, generated_ns, tracks } = unsafe { required(raw) }?;
+    // SAFETY: as above.
+    let items = unsafe { list(tracks.items, tracks.items_len, convert::TRACKS) }?;
+    let items = received.store(items.iter().map(convert::track));
+    let items = items.ok_or(MufasaStatus::MemoryTooSmall)?;
+    let message = message((*station, *session, *generated_ns), tracks.stamp_ns, items);
+    let arrival = monitor.tracks(now, message).map_err(requester::refused)?;
+    Ok(received.take(arrival))
+}
+
+/// # Safety
+/// As for [`mufasa_monitor_trajectory`].
+unsafe fn trajectory(
+    monitor: *mut MufasaMonitor,
+    now: Time,
+    raw: *const MufasaTrajectoryMessage,
+) -> Result<MufasaActions, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let MufasaMonitor { monitor, trajectory: received, .. } = unsafe { required_mut(monitor) }?;
+    // SAFETY: as above.
+    let raw = unsafe { required(raw) }?;
+    let MufasaTrajectoryMessage { station, session, generated_ns, trajectory } = raw;
+    // SAFETY: as above.
+    let points = unsafe { list(trajectory.points, trajectory.points_len, convert::POINTS) }?;
+    let items = received.store(points.iter().map(convert::trajectory_point));
+    let items = items.ok_or(MufasaStatus::MemoryTooSmall)?;
+    let message = message((*station, *session, *generated_ns), trajectory.stamp_ns, items);
+    let arrival = monitor.trajectory(now, message).map_err(requester::refused)?;
+    Ok(received.take(arrival))
+}
+
+/// # Safety
+/// As for [`mufasa_monitor_cycle`].
+unsafe fn cycle(
+    monitor: &mut MufasaMonitor,
+    now_ns: i64,
+    raw: *const MufasaMonitorInputs,
+) -> Result<MufasaDecision, MufasaStatus> {
+    // SAFETY: the caller's duty, here and below.
+    let raw = unsafe { required(raw) }?;
+    let (most_detections, scratch, scratch_bytes) =
+        (monitor.most_detections, monitor.scratch, monitor.scratch_bytes);
+    // SAFETY: the memory is the monitor's, and nothing in it is used after the call.
+    let mut arena = unsafe { Arena::new(scratch, scratch_bytes) }?;
+    let MufasaMonitor { monitor, tracks, trajectory, verdicts, .. } = monitor;
+    let now = Time::from_nanoseconds(now_ns);
+    let mut inputs = Inputs::new(now, convert::ego(&raw.ego));
+    // SAFETY: the caller's duty, here and below.
+    if let Some(it) = unsafe { optional(raw.detections) }? {
+        fits(it.items_len, most_detections)?;
+        // SAFETY: as above.
+        let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
+        let items = arena.keep(items.iter().map(detection))?;
+        inputs = inputs.detections(Time::from_nanoseconds(it.stamp_ns), items);
+    }
+    // SAFETY: as above.
+    if let Some(it) = unsafe { optional(raw.lead) }? {
+        let stamp = Time::from_nanoseconds(it.stamp_ns);
+        inputs = inputs.lead(stamp, Gap::between_bumpers(it.gap), it.speed);
+    }
+    // SAFETY: as above.
+    if let Some(Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown }) =
+        unsafe { convert::grid(raw.grid) }?
+    {
+        let map = GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown };
+        inputs = inputs.grid(Time::from_nanoseconds(stamp_ns), map);
+    }
+    // SAFETY: as above.
+    if let Some(it) = unsafe { convert::tracks(raw.local_tracks, &mut arena) }? {
+        fits(it.items.len(), tracks.capacity())?;
+        inputs = inputs.local_tracks(Time::from_nanoseconds(it.stamp_ns), it.items);
+    }
+    // SAFETY: as above.
+    if let Some(it) = unsafe { convert::trajectory(raw.local_trajectory, &mut arena) }? {
+        fits(it.points.len(), trajectory.capacity())?;
+        inputs = inputs.local_trajectory(Time::from_nanoseconds(it.stamp_ns), it.points);
+    }
+    if let Some(element) = tracks.accepted() {
+        inputs = inputs.remote_tracks::<Stored<Track>>(element);
+    }
+    if let Some(element) = trajectory.accepted() {
+        inputs = inputs.remote_trajectory::<Stored<TrajectoryPoint>>(element);
+    }
+    Ok(verdicts.tell(monitor.cycle(&inputs)))
+}
+
+/// Whether a list is no longer than the settings say.
+const fn fits(len: usize, most: usize) -> Result<(), MufasaStatus> {
+    if len <= most { Ok(()) } else { Err(MufasaStatus::MemoryTooSmall) }
+}
+
+/// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number.
+fn fall_back(monitor: &mut MufasaMonitor, now_ns: i64) -> MufasaDecision {
+    let nowhere = Ego {
+        x: 0.0,
+        y: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+        speed: 0.0,
+        length: 1.0,
+        width: f64::NAN,
+        center_offset: 0.0,
+    };
+    let MufasaMonitor { monitor, verdicts, .. } = monitor;
+    let inputs = Inputs::new(Time::from_nanoseconds(now_ns), nowhere);
+    let actions = verdicts.tell(monitor.cycle(&inputs)).actions;
+    MufasaDecision { actions, ..nothing_decided() }
+}

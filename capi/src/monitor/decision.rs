@@ -1,0 +1,125 @@
+//! What a cycle ends in, and what has to be done about an event.
+
+use core::ptr::null;
+
+use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
+use mufasa::monitor::{Decision, Verified};
+use mufasa::offloading::requester::Action;
+
+use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
+use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
+use crate::report::{self, MufasaReport};
+
+/// What has to be done about an event, in this order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaActions {
+    /// How many; of the array the rest means nothing.
+    pub len: usize,
+    /// The actions.
+    pub items: [MufasaAction; MUFASA_MAX_ACTIONS],
+}
+
+/// The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
+/// its next call.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaDecision {
+    /// The verdict and its reasons; the requester has been told. Anything but SAFE has made every group
+    /// local.
+    pub report: MufasaReport,
+    /// Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
+    pub tracks: *const MufasaTrackList,
+    /// Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
+    /// of the station, or while MOT alone is remote that of the CAV's own planner; else null.
+    pub trajectory: *const MufasaTrajectory,
+    /// Releases to be sent, and local services that start or stop.
+    pub actions: MufasaActions,
+}
+
+/// Where verified data are for C to read.
+pub(super) struct Verdicts {
+    pub(super) tracks: &'static mut [MufasaTrack],
+    pub(super) points: &'static mut [MufasaTrajectoryPoint],
+    pub(super) track_list: MufasaTrackList,
+    pub(super) trajectory: MufasaTrajectory,
+}
+
+impl Verdicts {
+    /// The decision for C. A list is there as long as the lists that were given: they fit.
+    pub(super) fn tell(&mut self, decision: Decision<'_>) -> MufasaDecision {
+        match decision {
+            Decision::Safe { tracks, trajectory, report, actions } => MufasaDecision {
+                report: report::report_of(&report),
+                tracks: tracks.map_or(null(), |list| self.keep_tracks(list)),
+                trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(it)),
+                actions: actions_of(&actions),
+            },
+            Decision::Unsafe { report, actions } => MufasaDecision {
+                report: match report {
+                    Ok(report) => report::report_of(&report),
+                    Err(problem) => report::error(Some(problem)),
+                },
+                tracks: null(),
+                trajectory: null(),
+                actions: actions_of(&actions),
+            },
+        }
+    }
+
+    fn keep_tracks(&mut self, list: Verified<'_, TrackList<'_>>) -> *const MufasaTrackList {
+        if list.items.len() > self.tracks.len() {
+            return null();
+        }
+        self.tracks.iter_mut().zip(list.items).for_each(|(place, it)| *place = track(it));
+        let (items, items_len) = (self.tracks.as_ptr(), list.items.len());
+        self.track_list = MufasaTrackList { stamp_ns: list.stamp_ns, items, items_len };
+        &raw const self.track_list
+    }
+
+    fn keep_trajectory(&mut self, it: Verified<'_, Trajectory<'_>>) -> *const MufasaTrajectory {
+        if it.points.len() > self.points.len() {
+            return null();
+        }
+        self.points.iter_mut().zip(it.points).for_each(|(place, it)| *place = point(it));
+        let (points, points_len) = (self.points.as_ptr(), it.points.len());
+        self.trajectory = MufasaTrajectory { stamp_ns: it.stamp_ns, points, points_len };
+        &raw const self.trajectory
+    }
+}
+
+/// A decision without data or actions, of a call that could not be carried out.
+pub(super) fn nothing_decided() -> MufasaDecision {
+    MufasaDecision {
+        report: report::error(None),
+        tracks: null(),
+        trajectory: null(),
+        actions: actions_of(&[]),
+    }
+}
+
+/// The actions for C.
+pub(super) fn actions_of(actions: &[Action]) -> MufasaActions {
+    let nothing = MufasaAction {
+        action_type: MufasaActionType::Drop,
+        group: MufasaGroup::Mot,
+        station: 0,
+        session: 0,
+    };
+    let mut told = MufasaActions { len: 0, items: [nothing; MUFASA_MAX_ACTIONS] };
+    for (place, action) in told.items.iter_mut().zip(actions) {
+        *place = event::action(*action);
+        told.len = told.len.saturating_add(1);
+    }
+    told
+}
+
+fn track(it: &Track) -> MufasaTrack {
+    let Track { id, x, y, cos, sin, vx, vy, length, width } = *it;
+    MufasaTrack { id, x, y, cos, sin, vx, vy, length, width }
+}
+
+fn point(it: &TrajectoryPoint) -> MufasaTrajectoryPoint {
+    let TrajectoryPoint { t_ns, x, y, cos, sin } = *it;
+    MufasaTrajectoryPoint { t_ns, x, y, cos, sin }
+}

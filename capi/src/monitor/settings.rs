@@ -1,0 +1,85 @@
+//! What a monitor is made with.
+
+use core::time::Duration;
+
+use mufasa::monitor::{MonitorError, Settings};
+
+use crate::convert;
+use crate::cycle::MufasaProfile;
+use crate::parameters::{MufasaParameters, MufasaRequesterParameters};
+use crate::status::MufasaStatus;
+
+/// What a monitor is made with. The last five fields say how much memory it needs; what is longer is
+/// refused when it comes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct MufasaMonitorSettings {
+    /// A MufasaProfile.
+    pub profile: u32,
+    /// Parameters of the stages.
+    pub stages: MufasaParameters,
+    /// Times of the requester.
+    pub requester: MufasaRequesterParameters,
+    /// The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+    /// at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
+    /// the paper's; at 10 Hz choose a larger one.)
+    pub period_ns: i64,
+    /// At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
+    /// numbered on from here, so that no message of an earlier life fits.
+    pub sessions_before: i64,
+    /// Stations that ever offer something, at least 1.
+    pub most_stations: usize,
+    /// Tracks of a list.
+    pub most_tracks: usize,
+    /// Points of a trajectory.
+    pub most_points: usize,
+    /// Detections of a list, at least 1 in the hardened profile.
+    pub most_detections: usize,
+    /// Cross sections of a route.
+    pub most_cross_sections: usize,
+}
+
+/// The hardened profile and the paper's times in a first life, for 8 stations, 128 tracks, 128 points,
+/// 256 detections and 1024 cross sections.
+#[unsafe(no_mangle)]
+pub extern "C" fn mufasa_monitor_settings_default(period_ns: i64) -> MufasaMonitorSettings {
+    MufasaMonitorSettings {
+        profile: MufasaProfile::Hardened as u32,
+        stages: mufasa::input::parameters::Parameters::default().into(),
+        requester: mufasa::offloading::requester::Parameters::default().into(),
+        period_ns,
+        sessions_before: 0,
+        most_stations: 8,
+        most_tracks: 128,
+        most_points: 128,
+        most_detections: 256,
+        most_cross_sections: 1024,
+    }
+}
+
+impl MufasaMonitorSettings {
+    /// Those of `mufasa`.
+    pub(super) fn of_monitor(&self) -> Result<Settings, MufasaStatus> {
+        let period_ns = u64::try_from(self.period_ns).map_err(|_| MufasaStatus::InvalidPeriod)?;
+        Ok(Settings {
+            profile: convert::profile(self.profile)?,
+            stages: self.stages.into(),
+            requester: self.requester.into(),
+            period: Duration::from_nanos(period_ns),
+            sessions_before: self.sessions_before,
+        })
+    }
+}
+
+/// Why there is no monitor.
+pub(super) fn refused(error: MonitorError) -> MufasaStatus {
+    match error {
+        MonitorError::Stages(_) => MufasaStatus::InvalidParameter,
+        MonitorError::Requester(_) | MonitorError::SessionsBefore { .. } => {
+            MufasaStatus::NegativeParameter
+        }
+        MonitorError::NoPeriod => MufasaStatus::InvalidPeriod,
+        MonitorError::DtMaxNotAbovePeriod { .. } => MufasaStatus::DtMaxNotAbovePeriod,
+        MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
+    }
+}

@@ -1,0 +1,220 @@
+/* What the monitor promises, from C: who gets data, what is refused, and that nothing is safe by default. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mufasa.h"
+
+static int failures;
+
+/* Names what does not hold and goes on. */
+#define EXPECT(condition)                                                    \
+  do {                                                                       \
+    if (!(condition)) {                                                      \
+      printf("%s:%d: does not hold: %s\n", __FILE__, __LINE__, #condition);  \
+      ++failures;                                                            \
+    }                                                                        \
+  } while (0)
+
+#define MS INT64_C(1000000)
+
+static struct MufasaCrossSection road[2] = {{0, 0, {0, 3}, {0, -3}}, {200, 0, {200, 3}, {200, -3}}};
+static const struct MufasaRoute route = {0, road, 2};
+static struct MufasaDetection seen[2] = {{15, 0, 1, 0, 4.5, 1.8}, {25, 1, 1, 0, 4.5, 1.8}};
+static struct MufasaDetectionList detections = {0, seen, 1};
+static struct MufasaTrajectoryPoint points[3] = {{0, 0, 0, 1, 0}, {0, 0.5, 0, 1, 0}, {0, 1, 0, 1, 0}};
+static struct MufasaTrack tracks[3] = {{7, 15, 0, 1, 0, 0, 0, 4.5, 1.8}, {8, 25, 1, 1, 0, 0, 0, 4.5, 1.8}};
+static struct MufasaMonitorInputs inputs;
+static struct MufasaLead lead = {0, 30, 0};
+static struct MufasaTrajectory own;
+static struct MufasaActions actions;
+static struct MufasaDecision decision;
+static char memory[1 << 18];
+
+static struct MufasaMonitorSettings settings(void) {
+  struct MufasaMonitorSettings it = mufasa_monitor_settings_default(20 * MS);
+  it.profile = MUFASA_PROFILE_PAPER;
+  it.most_stations = it.most_tracks = it.most_detections = 2;
+  it.most_points = 3;
+  it.most_cross_sections = 2;
+  return it;
+}
+
+static MufasaStatus make(const struct MufasaMonitorSettings *it, struct MufasaMonitor **monitor) {
+  memset(memory, 0x55, sizeof memory);
+  const size_t bytes = mufasa_monitor_bytes(it);
+  EXPECT(bytes < sizeof memory);
+  const MufasaStatus status = mufasa_monitor_init(it, memory, bytes, monitor);
+  EXPECT(memory[bytes] == 0x55);
+  return status;
+}
+
+static MufasaStatus step(struct MufasaMonitor *monitor, uint32_t type, int64_t t_ns, uint32_t group, int64_t session) {
+  const struct MufasaEvent event = {.t_ns = t_ns, .event_type = type, .group = group, .groups = 3,
+                                    .station = 1, .session = session};
+  return mufasa_monitor_step(monitor, &event, &actions);
+}
+
+/* Both groups remote at 4 ms: sessions 1 and 2 of station 1. */
+static struct MufasaMonitor *offloading(void) {
+  const struct MufasaMonitorSettings it = settings();
+  struct MufasaMonitor *monitor = NULL;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_OK);
+  EXPECT(mufasa_monitor_set_route(monitor, &route) == MUFASA_STATUS_OK);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_OFFER, 0, 0, 0) == MUFASA_STATUS_OK && actions.len == 0);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, 1 * MS, 0, 0) == MUFASA_STATUS_OK && actions.len == 2);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_OK);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_CONFIRM, 4 * MS, MUFASA_GROUP_PLAN, 2) == MUFASA_STATUS_OK);
+  struct MufasaRequesterState state;
+  EXPECT(mufasa_monitor_state(monitor, &state) == MUFASA_STATUS_OK);
+  EXPECT(state.configuration == MUFASA_CONFIGURATION_ALL_REMOTE);
+  return monitor;
+}
+
+static int is_local(const struct MufasaMonitor *monitor) {
+  struct MufasaRequesterState state;
+  return mufasa_monitor_state(monitor, &state) == MUFASA_STATUS_OK &&
+         state.configuration == MUFASA_CONFIGURATION_LOCAL;
+}
+
+/* Tracks and a trajectory that agree with the detections, made 2 ms before `now_ns`. */
+static MufasaStatus receive(struct MufasaMonitor *monitor, int64_t now_ns, int64_t session, size_t how_many) {
+  const struct MufasaTrackMessage message = {1, session, now_ns - 2 * MS, {now_ns, tracks, how_many}};
+  return mufasa_monitor_tracks(monitor, now_ns, &message, &actions);
+}
+
+static MufasaStatus plan(struct MufasaMonitor *monitor, int64_t now_ns, int64_t session) {
+  for (int i = 0; i < 3; ++i) points[i].t_ns = now_ns + 100 * MS * i;
+  const struct MufasaTrajectoryMessage message = {1, session, now_ns - 2 * MS, {now_ns, points, 3}};
+  return mufasa_monitor_trajectory(monitor, now_ns, &message, &actions);
+}
+
+static void cycle(struct MufasaMonitor *monitor, int64_t now_ns) {
+  detections.stamp_ns = lead.stamp_ns = own.stamp_ns = now_ns;
+  memset(&decision, 0xff, sizeof decision);
+  EXPECT(mufasa_monitor_cycle(monitor, now_ns, &inputs, &decision) == MUFASA_STATUS_OK);
+}
+
+static void data_come_out_of_a_safe_cycle_alone(void) {
+  struct MufasaMonitor *monitor = offloading();
+  /* Nothing was received yet. */
+  cycle(monitor, 5 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE);
+  EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
+
+  EXPECT(receive(monitor, 10 * MS, 1, 1) == MUFASA_STATUS_OK && actions.len == 0);
+  EXPECT(plan(monitor, 10 * MS, 2) == MUFASA_STATUS_OK && actions.len == 0);
+  tracks[0].x = -1e300; /* a copy was made */
+  cycle(monitor, 11 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE);
+  EXPECT(decision.tracks != NULL && decision.tracks->items_len == 1);
+  EXPECT(decision.tracks->items[0].id == 7 && decision.tracks->items[0].x == 15);
+  EXPECT(decision.trajectory != NULL && decision.trajectory->points_len == 3);
+  EXPECT(decision.trajectory->points[2].x == 1);
+  tracks[0].x = 15;
+
+  /* Dropped: another session; not newer than the last. The last one used is still there. */
+  EXPECT(receive(monitor, 12 * MS, 9, 2) == MUFASA_STATUS_OK);
+  EXPECT(actions.len == 1 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
+  EXPECT(receive(monitor, 10 * MS, 1, 2) == MUFASA_STATUS_OK && actions.len == 1);
+  cycle(monitor, 13 * MS);
+  EXPECT(decision.tracks != NULL && decision.tracks->items_len == 1);
+
+  /* A track that nothing backs: unsafe, and nothing comes out, then or later. */
+  tracks[0].x = 14;
+  EXPECT(receive(monitor, 14 * MS, 1, 1) == MUFASA_STATUS_OK && actions.len == 0);
+  cycle(monitor, 15 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_UNSAFE);
+  EXPECT(decision.report.failed_stage == MUFASA_FAILED_STAGE_I);
+  EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
+  EXPECT(decision.actions.len == 4 && is_local(monitor));
+  tracks[0].x = 15;
+  EXPECT(receive(monitor, 16 * MS, 1, 1) == MUFASA_STATUS_OK && actions.len == 1);
+  cycle(monitor, 17 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE);
+  EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
+}
+
+/* A fault of the call ends offloading like any unsafe cycle. */
+static void faults_fall_back(void) {
+  struct MufasaMonitor *monitor = offloading();
+  memset(&decision, 0xff, sizeof decision);
+  EXPECT(mufasa_monitor_cycle(monitor, 5 * MS, NULL, &decision) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && decision.trajectory == NULL);
+  EXPECT(decision.actions.len == 4 && is_local(monitor));
+  monitor = offloading();
+  detections.items_len = 3; /* more than the settings say */
+  EXPECT(mufasa_monitor_cycle(monitor, 5 * MS, &inputs, &decision) == MUFASA_STATUS_MEMORY_TOO_SMALL);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
+  detections.items_len = 1;
+  monitor = offloading();
+  inputs.ego.width = -1; /* invalid local input */
+  cycle(monitor, 5 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
+  EXPECT(strcmp(decision.report.input.field, "ego.width") == 0);
+  inputs.ego.width = 1.9;
+  EXPECT(mufasa_monitor_cycle(monitor, 6 * MS, &inputs, NULL) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_cycle(NULL, 6 * MS, &inputs, &decision) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && decision.actions.len == 0);
+}
+
+static void events_that_are_not_for_the_caller(void) {
+  struct MufasaMonitor *monitor = offloading();
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_DATA, 5 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_VERDICT, 5 * MS, 0, 0) == MUFASA_STATUS_UNKNOWN_VALUE);
+  EXPECT(actions.len == 0 && !is_local(monitor));
+  EXPECT(receive(monitor, 6 * MS, 1, 3) == MUFASA_STATUS_MEMORY_TOO_SMALL && actions.len == 0);
+  EXPECT(mufasa_monitor_tracks(monitor, 6 * MS, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_step(monitor, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_step(monitor, NULL, NULL) == MUFASA_STATUS_NULL_POINTER);
+  struct MufasaRoute other = route;
+  other.cross_sections_len = 1;
+  EXPECT(mufasa_monitor_set_route(monitor, &other) == MUFASA_STATUS_INVALID_ROUTE);
+  EXPECT(mufasa_monitor_set_route(monitor, NULL) == MUFASA_STATUS_NULL_POINTER);
+  /* Late by 1 ns: the session ends. */
+  const struct MufasaTrackMessage late = {1, 1, 0, {60 * MS, tracks, 1}};
+  EXPECT(mufasa_monitor_tracks(monitor, 50 * MS + 1, &late, &actions) == MUFASA_STATUS_OK);
+  EXPECT(actions.len == 3 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
+}
+
+static void settings_that_no_monitor_can_keep(void) {
+  struct MufasaMonitorSettings it = settings();
+  struct MufasaMonitor *monitor = (struct MufasaMonitor *)memory;
+  it.requester.dt_max_ns = it.period_ns;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD && monitor == NULL);
+  it = settings();
+  it.period_ns = 0;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_INVALID_PERIOD);
+  it = settings();
+  it.stages.a_b = 0;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_INVALID_PARAMETER);
+  it = settings();
+  it.sessions_before = -1;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_NEGATIVE_PARAMETER);
+  it = settings();
+  it.profile = 7;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_UNKNOWN_VALUE);
+  it = settings();
+  const size_t bytes = mufasa_monitor_bytes(&it);
+  EXPECT(mufasa_monitor_bytes(NULL) == SIZE_MAX);
+  EXPECT(mufasa_monitor_init(&it, memory, bytes - 1, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
+  EXPECT(mufasa_monitor_init(&it, memory + 1, bytes, &monitor) == MUFASA_STATUS_MISALIGNED);
+  EXPECT(mufasa_monitor_init(&it, NULL, bytes, &monitor) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_init(NULL, memory, bytes, &monitor) == MUFASA_STATUS_NULL_POINTER);
+  it.most_tracks = SIZE_MAX;
+  EXPECT(mufasa_monitor_init(&it, memory, bytes, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
+}
+
+int main(void) {
+  inputs.ego = (struct MufasaEgo){0, 0, 1, 0, 5, 4.8, 1.9, 1.4};
+  inputs.detections = &detections;
+  inputs.lead = &lead;
+  data_come_out_of_a_safe_cycle_alone();
+  faults_fall_back();
+  events_that_are_not_for_the_caller();
+  settings_that_no_monitor_can_keep();
+  EXPECT(mufasa_version() ==
+         MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH);
+  if (failures == 0) printf("all holds\n");
+  return failures != 0;
+}
