@@ -474,7 +474,8 @@ typedef struct MufasaParameters {
   double delta;
 } MufasaParameters;
 
-// Pose, speed and size of the CAV.
+// Pose, speed and size of the CAV: x, y is its reference point (the rear axle, or up to length/2 ahead of it), and the
+// centre of its rectangle is `center_offset` ahead of that.
 typedef struct MufasaEgo {
   double x;
   double y;
@@ -549,6 +550,8 @@ typedef struct MufasaTrackList {
 // The leading vehicle.
 typedef struct MufasaLead {
   int64_t stamp_ns;
+  // Bumper to bumper: from the front edge of the CAV's rectangle to the nearest point of the leading
+  // vehicle, along the reference path.
   double gap;
   double speed;
 } MufasaLead;

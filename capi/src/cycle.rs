@@ -27,7 +27,8 @@ pub enum MufasaConfiguration {
     PlanRemote = 4,
 }
 
-/// Pose, speed and size of the CAV.
+/// Pose, speed and size of the CAV: x, y is its reference point (the rear axle, or up to length/2 ahead of it), and the
+/// centre of its rectangle is `center_offset` ahead of that.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
@@ -125,6 +126,8 @@ pub struct MufasaDetectionList {
 #[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaLead {
     pub stamp_ns: i64,
+    /// Bumper to bumper: from the front edge of the CAV's rectangle to the nearest point of the leading
+    /// vehicle, along the reference path.
     pub gap: f64,
     pub speed: f64,
 }

@@ -8,11 +8,11 @@ use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
-use crate::numbers::time::elapsed_ns;
 use crate::offloading::requester::{Actions, Event, EventKind, Running, Sessions, Source};
 use crate::report::{InvalidInput, Problem, Report};
 use crate::services::configuration::{Configuration, Group};
 use crate::stages::check_with;
+use crate::stages::given::is_current;
 
 impl Monitor<'_> {
     /// Decides on the inputs and tells the requester: after an unsafe cycle no group is remote, and
@@ -119,10 +119,8 @@ impl Monitor<'_> {
         let report = self.check(inputs, tracks, trajectory);
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
 
-        let current = |stamp_ns: i64| {
-            let age_ns = elapsed_ns(stamp_ns, now_ns);
-            0 <= age_ns && age_ns <= self.settings.stages.max_age_ns
-        };
+        let max_age_ns = self.settings.stages.max_age_ns;
+        let current = |stamp_ns| is_current(stamp_ns, now_ns, max_age_ns);
         let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
         let trajectory = trajectory.filter(|it| is_checked && current(it.stamp_ns));
@@ -184,8 +182,7 @@ impl Monitor<'_> {
         }
         let [own, ..] = selection.indexes;
         let shape = own.shape();
-        let age_ns = elapsed_ns(list.stamp_ns, now_ns);
-        if 0 <= age_ns && age_ns <= self.settings.stages.max_age_ns {
+        if is_current(list.stamp_ns, now_ns, self.settings.stages.max_age_ns) {
             self.history.keep(&list, shape);
         }
         Ok(report)

@@ -146,7 +146,7 @@ pub struct Detection {
 pub struct Lead {
     /// Time of measurement.
     pub stamp_ns: i64,
-    /// Free distance, m.
+    /// Free distance bumper to bumper, m.
     pub gap: f64,
     /// v_lead, m/s.
     pub speed: f64,

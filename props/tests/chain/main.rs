@@ -93,11 +93,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         Cell::Model,
         "adds no verdict: its parts are the model's, each by itself",
     ),
-    (
-        "spec/5-interfaces.md#monitor",
-        Cell::Proof,
-        "tested against the plain calls; what does not compile is in its documentation",
-    ),
     ("spec/5-interfaces.md#monitor", Cell::Vector, "no record drives events and cycles together"),
     (
         "spec/5-interfaces.md#monitor",
