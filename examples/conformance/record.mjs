@@ -37,7 +37,7 @@ function convert(value, key) {
     return Object.fromEntries(Object.entries(value).map(([k, it]) => [k, convert(it, k)]));
   }
   const isText = ["kind", "id", "profile", "configuration", "occupied", "unknown"].includes(key);
-  if (isText && (typeof value === "string")) return value;
+  if (isText && typeof value === "string") return value;
   const isInteger = key.endsWith("_ns") || ["n", "work_limit", "miss_budget", "id"].includes(key);
   if (isInteger) return BigInt(value);
   return typeof value === "string" ? Number(value) : value;
@@ -52,7 +52,8 @@ export function readCycle(record) {
   for (const [key, [value]] of Object.entries(PARAMETERS)) cycle.parameters[key] ??= value;
   if (cycle.grid) {
     for (const key of ["occupied", "unknown"]) {
-      cycle.grid[key] &&= Buffer.from(cycle.grid[key], "base64");
+      const text = cycle.grid[key] ?? null;
+      cycle.grid[key] = text === null ? null : Buffer.from(text, "base64");
     }
   }
   return cycle;
@@ -116,7 +117,7 @@ function checkGrid(grid) {
   for (const side of [grid.width, grid.height]) within(side, [1, 2 ** 15]);
   within(grid.width * grid.height, [1, 2 ** 24]);
   for (const bitmap of [grid.occupied, grid.unknown]) {
-    if (bitmap && bitmap.length !== Math.ceil((grid.width * grid.height) / 8)) throw new Invalid();
+    if (bitmap !== null && bitmap.length !== Math.ceil((grid.width * grid.height) / 8)) throw new Invalid();
   }
 }
 
