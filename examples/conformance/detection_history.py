@@ -8,7 +8,6 @@ stay small where coordinates are large.
 import math
 from collections import Counter
 
-import bugs
 from geometry import EPS, distance
 
 S = 10**9  # ns
@@ -53,7 +52,7 @@ class Seen:
         self.reference = nearest_to_half_a_second(self.lists)
         # The place of a track is where it is t_D - t_T after its stamp.
         self.shift = 0.0
-        if received and now["detections"] and bugs.ON != "no-shift":
+        if received and now["detections"]:
             self.shift = (cycle["detections"]["stamp_ns"] - received["stamp_ns"]) / S
         self.own = [self.own_origins(one) for one in self.lists]
         self.backed = [self.is_backed(i) for i in range(len(self.tracks))]
@@ -140,7 +139,7 @@ class Seen:
             for item in one["items"]:
                 if self.past_gap(item, self.tracks[i], one) <= self.reach(one) + EPS:
                     yield detection, velocity(item, detection, one)
-        if bugs.ON == "only-explained" or self.reference is None:
+        if self.reference is None:
             return
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
         disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]

@@ -3,7 +3,7 @@
 //
 // It answers the record `cycle` of spec/5-interfaces.md (read by json.hpp and record.hpp), one line
 // each. It is no part of the project: it shows how little a program needs to be judged by
-// `mufasa conform`, and with `--bug NAME` that `mufasa conform` finds what it has to find.
+// `mufasa conform`.
 //
 // Every comparison that could accept is made cautious by kEps: coordinates reach 2^24 m, where
 // doubles are 2e-9 m apart, and spec/4-arithmetic.md lets a program reject within delta of a
@@ -17,7 +17,6 @@
 namespace {
 
 constexpr double kEps = 4e-9;  // m; above what rounding did so far, below the smallest delta (1e-8)
-std::string bug;               // the bug that is switched on
 
 double distance(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -69,8 +68,7 @@ bool mean_is_small(const Cycle& c, std::vector<Object> rows, std::vector<Object>
     costs.emplace_back();
     for (auto& b : columns) costs.back().push_back(distance(a, b));
   }
-  double mean = assignment_cost(costs) / double(rows.size()), theta_tr = c.parameters.theta_tr;
-  return bug == "le-for-lt" ? mean <= theta_tr : mean < theta_tr - kEps;
+  return assignment_cost(costs) / double(rows.size()) < c.parameters.theta_tr - kEps;
 }
 
 // A track so near the border of the field of view that rounding decides is tried both ways.
@@ -175,7 +173,6 @@ bool stage_ii(const Cycle& c) {
   for (std::size_t i = 0; i + 1 < c.stations.size(); ++i)
     pairs.emplace_back(c.stations[i], c.stations[i + 1]);
   if (c.closed) pairs.emplace_back(c.stations.back(), c.stations.front());
-  if (bug == "off-by-one-lane") pairs.pop_back();
   return std::all_of(c.trajectory->items.begin(), c.trajectory->items.end(), [&](auto& p) {
     return in_corridor(p, pairs) || std::any_of(pairs.begin(), pairs.end(), [&](auto& pair) {
       return segment_distance(p, pair.first, pair.second) <= c.parameters.theta_map - kEps;
@@ -219,8 +216,7 @@ double s_b(const Cycle& c, double v) { return v * v / (2 * c.parameters.a_b); }
 double s_cav(const Cycle& c) { return c.parameters.safety_time * c.ego.speed; }
 
 bool stage_iii(const Cycle& c) {
-  double horizon = bug == "wrong-horizon" ? s_b(c, c.ego.speed) : s_cav(c);
-  for (auto& point : points_within(c, horizon)) {
+  for (auto& point : points_within(c, s_cav(c))) {
     double t = double(point.t_ns - c.tracks->stamp_ns) / 1e9;
     for (auto& item : c.tracks->items)
       if (collides(c, point, item, item.vx * t, item.vy * t)) return false;
@@ -260,8 +256,7 @@ bool marked(const Grid& g, std::int64_t column, std::int64_t row, double r) {
 bool stage_v(const Cycle& c) {
   const Grid& g = *c.grid;
   double n = double(c.parameters.n), length = c.ego.length, width = c.ego.width;
-  double square = length / n * (length / n) + width * width;
-  double r = (bug == "no-sqrt" ? square : std::sqrt(square)) / 2 + kEps;
+  double r = std::sqrt(length / n * (length / n) + width * width) / 2 + kEps;
   double norm = g.cos * g.cos + g.sin * g.sin;
   std::map<std::pair<double, double>, bool> known;
   for (auto& point : points_within(c, s_b(c, c.ego.speed))) {
@@ -300,7 +295,7 @@ std::string failed_stage(Cycle c) {
   if (!stage_ii(c)) return "ii";
   bool ran_iii = current(c.tracks) && c.configuration != "MotRemote";
   if (ran_iii && !stage_iii(c)) return "iii";
-  bool ran_iv = detections && (!ran_iii || bug == "missing-skip");
+  bool ran_iv = detections && !ran_iii;
   if (ran_iv && !stage_iv(c)) return "iv";
   bool always = c.configuration == "MotRemote";
   bool run_v = always || (c.configuration == "AllRemote" && !ran_iii && !ran_iv);
@@ -326,17 +321,7 @@ std::string answer(const std::string& line) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  const std::set<std::string> bugs = {"le-for-lt", "no-sqrt", "missing-skip", "wrong-horizon",
-                                      "off-by-one-lane", "nan-accepted"};
-  if (count == 3 && std::string(arguments[1]) == "--bug") bug = arguments[2];
-  if (count != 1 && !bugs.count(bug)) {
-    std::cerr << "usage: mufasa_cpp [--bug NAME], NAME one of:";
-    for (auto& name : bugs) std::cerr << ' ' << name;
-    std::cerr << '\n';
-    return 2;
-  }
-  accept_nan = bug == "nan-accepted";
+int main() {
   std::ios::sync_with_stdio(false);
   for (std::string line; std::getline(std::cin, line);) std::cout << answer(line) << std::endl;
 }

@@ -4,13 +4,11 @@ exactly), from the text of spec/ alone.
 
 It answers the records `cycle` (read by record.py, judged by paper.py or hardened.py), `offloading`
 (offloading.py) and `composition` (composition.py) of spec/5-interfaces.md, one line each. It is no
-part of the project: it shows how little a program needs to be judged by `mufasa conform`, and with
-`--bug NAME` that `mufasa conform` finds what it has to find.
+part of the project: it shows how little a program needs to be judged by `mufasa conform`.
 """
 import json
 import sys
 
-import bugs
 import hardened
 import paper
 from composition import answer_composition
@@ -65,11 +63,6 @@ def answer(line):
 
 
 def main():
-    if len(sys.argv) not in (1, 3) or (sys.argv[1:] and sys.argv[1] != "--bug"):
-        sys.exit(f"usage: mufasa_py.py [--bug {'|'.join(bugs.NAMES)}]")
-    bugs.ON = sys.argv[2] if sys.argv[1:] else None
-    if bugs.ON not in (None, *bugs.NAMES):
-        sys.exit(f"no such bug: {bugs.ON}; give one of {', '.join(bugs.NAMES)}")
     for line in sys.stdin.buffer:
         sys.stdout.write(json.dumps(answer(line)) + "\n")
         sys.stdout.flush()

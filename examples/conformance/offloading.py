@@ -4,7 +4,6 @@ In the paper profile the local services of a group stop at the confirmation, in 
 (H-08, make before break) at the first safe verdict on data of the session: until then they compute
 as well, and leaving the session activates nothing.
 """
-import bugs
 from record import I64_MAX, TIMES, Broken, choice, fields, integer, listed
 
 GROUPS = ("mot", "plan")
@@ -38,10 +37,8 @@ class Requester:
         self.actions.append((order, GROUPS.index(g), action))
 
     def hold(self, now_ns):
-        if bugs.ON != "no-hold":
-            until_ns = self.later(now_ns, "t_wait_ns")
-            old_ns = self.hold_until_ns
-            self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)
+        until_ns, old_ns = self.later(now_ns, "t_wait_ns"), self.hold_until_ns
+        self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)
 
     def violate(self, g, now_ns):
         self.leave(g)

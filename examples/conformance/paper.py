@@ -2,7 +2,6 @@
 import itertools
 import math
 
-import bugs
 from geometry import (EPS, assignment_cost, distance, in_corridor, rectangles_meet,
                       segment_distance)
 
@@ -42,8 +41,7 @@ def mean_is_small(cycle, tracks):
     if len(rows) > len(columns):
         rows, columns = columns, rows
     mean = assignment_cost([[distance(a, b) for b in columns] for a in rows]) / k
-    theta_tr = cycle["parameters"]["theta_tr"]
-    return mean <= theta_tr if bugs.ON == "le-for-lt" else mean < theta_tr - EPS
+    return mean < cycle["parameters"]["theta_tr"] - EPS
 
 
 def stage_i(cycle):
@@ -59,8 +57,6 @@ def segments(route):
     pairs = list(zip(stations, stations[1:]))
     if route["closed"]:
         pairs.append((stations[-1], stations[0]))
-    if bugs.ON == "off-by-one-lane":
-        pairs.pop()
     return pairs
 
 
@@ -104,9 +100,8 @@ def s_valid(cycle):
 
 
 def stage_iii(cycle):
-    stamp_ns, v_now = cycle["tracks"]["stamp_ns"], cycle["ego"]["speed"]
-    horizon = s_b(cycle, v_now) if bugs.ON == "wrong-horizon" else s_cav(cycle)
-    for point in points_within(cycle, horizon):
+    stamp_ns = cycle["tracks"]["stamp_ns"]
+    for point in points_within(cycle, s_cav(cycle)):
         t = (point["t_ns"] - stamp_ns) / 1e9
         for item in cycle["tracks"]["items"]:
             if collides(cycle, point, item, item["vx"] * t, item["vy"] * t):
@@ -138,8 +133,6 @@ def marked(grid, column, row, r):
 
 def disk_radius(cycle):
     length, width, n = cycle["ego"]["length"], cycle["ego"]["width"], cycle["parameters"]["n"]
-    if bugs.ON == "no-sqrt":
-        return ((length / n)**2 + width**2) / 2
     return math.sqrt((length / n)**2 + width**2) / 2
 
 
@@ -189,7 +182,7 @@ def failed_stage(cycle):
     ran_iii = now["tracks"] and configuration != "MotRemote"
     if ran_iii and not stage_iii(cycle):
         return "iii"
-    ran_iv = now["detections"] and (not ran_iii or bugs.ON == "missing-skip")
+    ran_iv = now["detections"] and not ran_iii
     if ran_iv and not stage_iv(cycle):
         return "iv"
     always = configuration == "MotRemote"

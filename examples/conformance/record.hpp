@@ -49,8 +49,6 @@ struct Cycle {
   std::optional<Grid> grid;
 };
 
-inline bool accept_nan = false;  // the bug nan-accepted
-
 // Schema.
 
 inline void read_pose(const Value& v, Pose& p) {
@@ -200,8 +198,7 @@ inline Cycle read_cycle(const Value& v) {
 constexpr std::int64_t kS60 = 60000000000;
 
 template <class T> void within(T value, T least, T most) {
-  if (accept_nan ? value < least || value > most : !(least <= value && value <= most))
-    throw Invalid{};
+  if (!(least <= value && value <= most)) throw Invalid{};
 }
 // Whether cos^2 + sin^2 is within 1e-6 of 1, without a rounding: each square as a sum of two
 // doubles, and the large parts cancel exactly.
@@ -220,7 +217,7 @@ inline void check_pose(const Pose& p) {
   within(p.y, -far, far);
   within(p.cos, -2.0, 2.0);
   within(p.sin, -2.0, 2.0);
-  if (!is_direction(p.cos, p.sin) && !(accept_nan && std::isnan(p.cos + p.sin))) throw Invalid{};
+  if (!is_direction(p.cos, p.sin)) throw Invalid{};
 }
 inline void check_box(const Box& b) {
   check_pose(b);

@@ -10,7 +10,7 @@ use mufasa_props::conformance::name;
 use mufasa_props::differential::{Generator, Tally, near_threshold, runner};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{
-    detections, grid, input, map_validation, schedule, track_validation, tracks, whole,
+    detections, grid, input, map_validation, roads, schedule, track_validation, tracks, whole,
 };
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -52,8 +52,15 @@ fn map_validation_is_aimed() {
 }
 
 #[test]
+fn roads_are_aimed() {
+    measure("roads", roads::cycle, near_threshold, &["ii", "safe"]);
+    measure("roads alike", roads::alike, near_threshold, &["ii", "safe"]);
+}
+
+#[test]
 fn tracks_are_aimed() {
     measure("stage iii", tracks::cycle, near_threshold, &["iii", "safe"]);
+    measure("stage iii before its list", tracks::before, near_threshold, &["iii", "safe"]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};
-use mufasa_props::strategy::map_validation;
+use mufasa_props::strategy::{map_validation, roads};
 
 #[test]
 fn paper() {
@@ -15,4 +15,14 @@ fn paper() {
 fn hardened() {
     agree("stage ii", Profile::Hardened, map_validation::cycle, near_threshold)
         .assert_aimed(&["ii", "safe"]);
+}
+
+#[test]
+fn roads_paper() {
+    agree("roads", Profile::Paper, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
+}
+
+#[test]
+fn roads_hardened() {
+    agree("roads", Profile::Hardened, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
 }

@@ -16,3 +16,15 @@ fn hardened() {
     agree("stage iii", Profile::Hardened, tracks::cycle, near_threshold)
         .assert_aimed(&["iii", "safe"]);
 }
+
+#[test]
+fn before_its_list_paper() {
+    agree("stage iii before its list", Profile::Paper, tracks::before, near_threshold)
+        .assert_aimed(&["iii", "safe"]);
+}
+
+#[test]
+fn before_its_list_hardened() {
+    agree("stage iii before its list", Profile::Hardened, tracks::before, near_threshold)
+        .assert_aimed(&["iii", "safe"]);
+}

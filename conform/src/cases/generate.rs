@@ -3,7 +3,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
-use mufasa_props::strategy::{composition, input, requester, schedule, whole};
+use mufasa_props::strategy::{composition, input, requester, roads, schedule, tracks, whole};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -11,6 +11,10 @@ use crate::cases::damage::Damage;
 use crate::cases::question::{Damaged, Question};
 use crate::judge::class::Kind;
 use mufasa_records::Trace;
+
+/// So many cases in succession are on roads that are alike, and one in so many of these groups is.
+const NEIGHBOURS: u64 = 4;
+const SUCCESSIONS: u64 = 16;
 
 /// Where the cases of a campaign come from.
 #[derive(Clone, Debug)]
@@ -61,7 +65,19 @@ impl Generator {
             Kind::Offloading => long_tape().new_tree(&mut runner).map(|t| t.current()),
         };
         // Vectors of any numbers reject nothing; an empty tape is the simplest case.
-        drawn.unwrap_or_default()
+        let mut tape = drawn.unwrap_or_default();
+        if self.kind(case) == Kind::Cycle && self.is_succession(case) {
+            // The first choice of a cycle is its shape, and this the last of them.
+            tape.iter_mut().take(1).for_each(|choice| *choice = u32::MAX);
+        }
+        tape
+    }
+
+    /// Whether a case is one of neighbours whose roads are alike, so that of two cycles in
+    /// succession the second shows what a program keeps of the route of the first. A program that
+    /// keeps it longer meets others of them, in every shard.
+    fn is_succession(&self, case: u64) -> bool {
+        mix(self.seed ^ mix(case / NEIGHBOURS)).is_multiple_of(SUCCESSIONS)
     }
 
     /// What a tape says.
@@ -100,12 +116,18 @@ impl Generator {
     }
 }
 
-/// A cycle at the threshold of a stage, of the schedule, or of what is valid.
+/// A cycle at the threshold of a stage, of the schedule, or of what is valid; on a road that bends
+/// or closes, before the stamp of its tracks, or on one of the roads that are alike.
 fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    match draw.below(10) {
-        0..=7 => whole::cycle(draw, profile),
-        8 => schedule::cycle(draw, profile),
-        _ => input::cycle(draw, profile),
+    match draw.below(20) {
+        0..=14 => whole::cycle(draw, profile),
+        15 => schedule::cycle(draw, profile),
+        16 | 17 => input::cycle(draw, profile),
+        18 => match draw.below(2) {
+            0 => roads::cycle(draw, profile),
+            _ => tracks::before(draw, profile),
+        },
+        _ => roads::alike(draw, profile),
     }
 }
 
@@ -119,6 +141,9 @@ pub fn mix(value: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::report::{Outcome, Reading};
+    use mufasa_model::stages::check;
+
     use super::*;
 
     #[test]
@@ -129,6 +154,53 @@ mod tests {
             let line = |seed| generator(seed).question(case).line("x");
             assert_eq!(line(1), line(1));
             assert_ne!(line(1), line(2), "case {case}");
+        }
+    }
+
+    #[test]
+    fn in_succession_come_cycles_on_roads_that_are_alike_but_not_equal() {
+        let generator = Generator { seed: 0, profile: Profile::Paper, kinds: Kind::ALL.into() };
+        let cycle = |case| match generator.question(case) {
+            Question::Cycle(cycle) => Some(cycle),
+            _ => None,
+        };
+        let (mut pairs, mut closed, mut telling) = (0, 0, 0);
+        for case in 0..4000 {
+            let (Some(one), Some(two)) = (cycle(case), cycle(case + 1)) else { continue };
+            let ends = |cycle: &Cycle| {
+                let sections = &cycle.route.cross_sections;
+                (sections.len(), sections.first().cloned(), sections.last().cloned())
+            };
+            if ends(&one) == ends(&two) && one.route != two.route {
+                pairs += 1;
+                closed += u32::from(one.route.closed != two.route.closed);
+                let kept = Cycle { route: one.route.clone(), ..*two.clone() };
+                let verdict =
+                    |cycle: &Cycle| check(cycle, Reading::Exact).map(|it| it.failed_stage);
+                telling += u32::from(verdict(&kept) != verdict(&two));
+            }
+        }
+        assert!(pairs > 50 && closed > 10 && telling > 15, "{pairs} {closed} {telling}");
+    }
+
+    #[test]
+    fn some_trajectories_begin_before_the_stamp_of_the_tracks() {
+        for profile in [Profile::Paper, Profile::Hardened] {
+            let generator = Generator { seed: 0, profile, kinds: vec![Kind::Cycle] };
+            let begins_before = |case: &u64| {
+                let Question::Cycle(cycle) = generator.question(*case) else { return false };
+                let (Some(tracks), Some(trajectory)) = (&cycle.tracks, &cycle.trajectory) else {
+                    return false;
+                };
+                let moves = tracks.items.iter().any(|it| it.vx.hypot(it.vy) > 1.0);
+                let runs = matches!(
+                    check(&cycle, Reading::Exact).map(|it| it.stages[2].clone()),
+                    Ok(Outcome::Passed | Outcome::Failed(_))
+                );
+                moves && runs && trajectory.points[0].t_ns + 10_000_000 < tracks.stamp_ns
+            };
+            let count = (0..1000).filter(begins_before).count();
+            assert!(count > 3, "{profile:?}: {count}");
         }
     }
 

@@ -3,4 +3,5 @@
 pub mod advice;
 pub mod junit;
 pub mod report;
+pub mod seeded;
 pub mod summary;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::error::ConformError;
 use crate::judge::class::Kind;
 use crate::results::summary::{Campaign, CaseCount, Found, Summary};
-use crate::results::{advice, junit};
+use crate::results::{advice, junit, seeded};
 use mufasa_records::files;
 
 /// So many vectors that disagree are named; the summary has all.
@@ -61,9 +61,14 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-/// Prints what was asked, the rules that broke with their counts, what to mend first, and one
-/// sentence.
+/// Prints what was asked, the rules that broke with their counts, what to mend first, one sentence,
+/// and what a clean run means.
 pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    counts(summary, out)?;
+    seeded::words(summary).map_or(Ok(()), |words| writeln!(out, "{words}"))
+}
+
+fn counts(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "\n{}", coverage(&summary.groups))?;
     advice::print(summary, out)?;
     for kind in &summary.given_up {

@@ -20,8 +20,9 @@ use mufasa_model::input::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 
 use crate::attacks::error::InjectError;
 use crate::attacks::injection::{Attack, Injection};
-use crate::attacks::planner::Planner;
+use crate::attacks::planner::{Planner, driven_line};
 use crate::drive::Drive;
+use crate::geometry::Polyline;
 
 /// The same drive under attack.
 ///
@@ -40,14 +41,19 @@ pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError
     let is_driven = injection.attack.is_driven();
     let mut onset: Option<Onset> = None;
     let mut changed: Vec<usize> = Vec::new();
-    let mut end = attacked.cycles.len();
+    let (mut end, mut at_the_end) = (attacked.cycles.len(), false);
     for (i, cycle) in attacked.cycles.iter_mut().map(|c| &mut c.cycle).enumerate() {
         let in_span = (injection.from_s..=injection.to_s).contains(&since_s(cycle));
         if in_span && injection.attack.reaches(cycle) {
             if onset.is_none() {
-                onset = Onset::new(cycle, injection.attack, drive.lead_range_m);
+                let clean = drive.cycles[i..].iter().map(|it| &it.cycle);
+                onset = Onset::new(cycle, injection.attack, drive.lead_range_m, clean);
             }
             let Some(onset) = &mut onset else { continue };
+            if is_driven && onset.is_at_the_end(cycle) {
+                (end, at_the_end) = (i, true);
+                break;
+            }
             attack(cycle, injection.attack, onset);
             changed.extend((*cycle != drive.cycles[i].cycle).then_some(i));
         } else if is_driven && onset.is_some() {
@@ -69,6 +75,11 @@ pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError
             "from its first attacked cycle on the CAV drives what it is sent; the drive ends with \
              the attack",
         ));
+        if at_the_end {
+            attacked.notes.push(String::from(
+                "the drive ends where the CAV has come to the end of the road that is known",
+            ));
+        }
         attacked.notes.extend(meeting::note(&attacked.cycles, &drive.cycles, since_s));
     }
     Ok(attacked)
@@ -103,6 +114,8 @@ struct Onset {
     scan_ns: i64,
     trajectory: Option<Trajectory>,
     planner: Planner,
+    /// What the CAV follows when it drives what it is sent.
+    line: Polyline,
     lead_range_m: f64,
     /// The object that the attack is on, as long as it is received.
     target: Option<i64>,
@@ -111,12 +124,19 @@ struct Onset {
 impl Onset {
     /// The attack begins with this cycle; an attack that would have the CAV drive what it is sent
     /// begins when there is something to hide.
-    fn new(cycle: &Cycle, attack: Attack, lead_range_m: f64) -> Option<Self> {
+    fn new<'a>(
+        cycle: &Cycle,
+        attack: Attack,
+        lead_range_m: f64,
+        clean: impl Iterator<Item = &'a Cycle>,
+    ) -> Option<Self> {
+        let line = if attack.is_driven() { driven_line(clean) } else { Polyline::new(Vec::new()) };
         let onset = || Self {
             now_ns: cycle.now_ns,
             scan_ns: cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns),
             trajectory: cycle.trajectory.clone(),
-            planner: Planner::new(cycle),
+            planner: Planner::along(line.clone(), cycle),
+            line: line.clone(),
             lead_range_m,
             target: None,
         };
@@ -125,6 +145,17 @@ impl Onset {
             change(&mut told, attack, &mut onset());
         }
         (!attack.is_driven() || told != *cycle).then(onset)
+    }
+
+    /// Whether the CAV has come to the end of its line when it drives what it is sent.
+    fn is_at_the_end(&self, cycle: &Cycle) -> bool {
+        let mut there = cycle.clone();
+        self.planner.execute(&mut there, self.time_s(cycle), &[], self.lead_range_m);
+        Planner::along(self.line.clone(), &there).is_at_the_end(&there)
+    }
+
+    fn time_s(&self, cycle: &Cycle) -> f64 {
+        seconds(cycle.now_ns.saturating_sub(self.now_ns))
     }
 }
 
@@ -140,10 +171,10 @@ const SLIDE: f64 = 1.4;
 
 fn attack(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
     if attack.is_driven() {
-        let time_s = seconds(cycle.now_ns.saturating_sub(onset.now_ns));
+        let time_s = onset.time_s(cycle);
         let objects = cycle.tracks.as_ref().map_or_else(Vec::new, |t| t.items.clone());
         onset.planner.execute(cycle, time_s, &objects, onset.lead_range_m);
-        Planner::new(cycle).replan(cycle, false, 0.0);
+        Planner::along(onset.line.clone(), cycle).replan(cycle, false, 0.0);
     }
     change(cycle, attack, onset);
 }

@@ -19,6 +19,9 @@ const ASIDE: [f64; 2] = [15.0, 2.0];
 /// Ghosts: ahead along the path and to the left, m; ids count down from the first.
 const GHOSTS: [(i64, Point); 3] = [(-1, [15.0, 0.0]), (-2, [10.0, 4.0]), (-3, [20.0, -4.0])];
 
+/// Points of a line are at least so far apart, m, so that it has a direction where the CAV creeps.
+const APART: f64 = 0.5;
+
 /// The planner at one instant.
 pub(crate) struct Planner {
     path: Polyline,
@@ -28,23 +31,34 @@ pub(crate) struct Planner {
     s: f64,
     lateral: f64,
     speed: f64,
+    /// Whether it plans no farther than its path goes.
+    ends: bool,
 }
 
 impl Planner {
+    /// A planner that follows the reference path, as far aside of it as the CAV is.
     pub(crate) fn new(cycle: &Cycle) -> Self {
-        let mut points: Vec<Point> =
-            cycle.route.cross_sections.iter().map(|s| [s.x, s.y]).collect();
-        if cycle.route.closed {
-            points.extend(points.first().copied());
-        }
-        let path = Polyline::new(points);
+        let path = reference_path(cycle);
         let foot = path.project([cycle.ego.x, cycle.ego.y]);
         let width = foot.map_or(3.5, |f| {
             let section = &cycle.route.cross_sections[path.locate(f.s).0];
             distance(section.left, section.right)
         });
+        Self { width, ends: false, ..Self::along(path, cycle) }
+    }
+
+    /// A planner that follows a line; it needs no width.
+    pub(crate) fn along(path: Polyline, cycle: &Cycle) -> Self {
+        let foot = path.project([cycle.ego.x, cycle.ego.y]);
         let (s, lateral) = foot.map_or((0.0, 0.0), |f| (f.s, f.lateral));
-        Self { path, width, s, lateral, speed: cycle.ego.speed }
+        Self { path, width: 0.0, s, lateral, speed: cycle.ego.speed, ends: true }
+    }
+
+    /// Whether the path ends before a CAV that brakes from now on stands: then nobody knows how it
+    /// would go on.
+    pub(crate) fn is_at_the_end(&self, cycle: &Cycle) -> bool {
+        let braking_s = self.speed / cycle.parameters.a_b;
+        self.s + self.after(braking_s + STEP_S).0 > self.path.length()
     }
 
     /// Way made good and speed after a time.
@@ -83,6 +97,10 @@ impl Planner {
             let u = (driven / ramp).min(1.0);
             let lateral = self.lateral + aside * u * u * (3.0 - 2.0 * u);
             let made = if backwards { -driven } else { driven };
+            // A planner plans no farther than it knows the road.
+            if self.ends && self.s + made > self.path.length() {
+                break;
+            }
             let Some([x, y]) = self.place(self.s + made, lateral) else { return };
             // The heading is that of the step, or of its reverse when driving backwards.
             let last = &points[points.len() - 1];
@@ -132,6 +150,45 @@ impl Planner {
         };
         GHOSTS.map(ghost).to_vec()
     }
+}
+
+fn reference_path(cycle: &Cycle) -> Polyline {
+    let mut points: Vec<Point> = cycle.route.cross_sections.iter().map(|s| [s.x, s.y]).collect();
+    if cycle.route.closed {
+        points.extend(points.first().copied());
+    }
+    Polyline::new(points)
+}
+
+/// The way of a CAV as it was driven and, at its end, planned, and from there on the reference path,
+/// as far aside of it as that end is: a line that keeps to the lane as far as the drive does.
+pub(crate) fn driven_line<'a>(cycles: impl Iterator<Item = &'a Cycle>) -> Polyline {
+    let mut points: Vec<Point> = Vec::new();
+    let mut push = |p: Point| {
+        if points.last().is_none_or(|last| distance(*last, p) >= APART) {
+            points.push(p);
+        }
+    };
+    let mut last = None;
+    for cycle in cycles {
+        push([cycle.ego.x, cycle.ego.y]);
+        last = Some(cycle);
+    }
+    let planned = last.iter().filter_map(|it| it.trajectory.as_ref()).flat_map(|it| &it.points);
+    planned.for_each(|point| push([point.x, point.y]));
+    let Some(path) = last.map(reference_path) else { return Polyline::new(points) };
+    if let Some(foot) = points.last().and_then(|end| path.project(*end)) {
+        let from = path.locate(foot.s).0;
+        for (i, pair) in path.points.windows(2).enumerate().skip(from) {
+            let along = sub(pair[1], pair[0]);
+            let length = distance(pair[0], pair[1]);
+            if length > 0.0 && path.arc[i + 1] > foot.s + APART {
+                let left = scale([-along[1], along[0]], foot.lateral / length);
+                points.push(add(pair[1], left));
+            }
+        }
+    }
+    Polyline::new(points)
 }
 
 fn seen(track: &Track) -> Seen {

@@ -248,3 +248,29 @@ fn attacks_change_remote_data_only() {
         }
     }
 }
+
+/// The way that is driven under attack is the recorded one, whatever the reference path does: it is
+/// not the injector that leaves the lane.
+#[test]
+fn under_attack_the_cav_stays_where_it_drove() {
+    let mut clean = demo(&options(Profile::Paper));
+    for cycle in &mut clean.cycles {
+        // Of few cross sections: the reference path cuts the curve.
+        let sections = &mut cycle.cycle.route.cross_sections;
+        let last = sections.len() - 1;
+        let mut index = 0..=last;
+        sections.retain(|_| index.next().is_some_and(|i| i % 12 == 0 || i == last));
+    }
+    let way: Vec<(f64, f64)> =
+        clean.cycles.iter().map(|it| (it.cycle.ego.x, it.cycle.ego.y)).collect();
+    for attack in ["empty-tracks@2..8", "false-sizes@2..8", "missing-track@2..8"] {
+        let attacked = inject(&clean, &attack.parse().unwrap()).unwrap();
+        assert!(attacked.cycles.len() > 70, "{attack}: {:?}", attacked.notes);
+        for it in &attacked.cycles[20..] {
+            let ego = &it.cycle.ego;
+            let aside = way.iter().map(|(x, y)| (ego.x - x).hypot(ego.y - y));
+            let aside = aside.fold(f64::INFINITY, f64::min);
+            assert!(aside < 0.7, "{attack}: {aside} m off in {}", it.id);
+        }
+    }
+}

@@ -17,6 +17,7 @@ pub mod map_validation;
 pub mod moving;
 pub mod obstacle;
 pub mod requester;
+pub mod roads;
 pub mod schedule;
 pub mod steps;
 pub mod track_validation;

@@ -52,6 +52,28 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle
 }
 
+/// A cycle that stage iii decides by where a track was: the trajectory begins before the stamp of the
+/// list, so that the time of prediction is negative.
+pub fn before(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let frame = base::frame(draw);
+    let mut cycle = base::cycle(draw, frame, profile, Configuration::PlanRemote);
+    obstacle::widen(&mut cycle, frame);
+    let horizon = obstacle::horizon_of_tracks(&cycle);
+    let found = obstacle::decisive(draw, &mut cycle, horizon);
+    // The hardened profile lets it begin as long ago as data may be old (H-07).
+    let earlier_ns = match profile {
+        Profile::Hardened => draw.pick(&[60_000_000, 20_000_000, 100_000_000]),
+        Profile::Paper => draw.pick(&[600_000_000, 100_000_000, 3_000_000_000]),
+    };
+    for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
+        point.t_ns -= earlier_ns;
+    }
+    let stamp_ns = cycle.now_ns;
+    let items = vec![moving(draw, &cycle, found, stamp_ns)];
+    cycle.tracks = Some(TrackList { stamp_ns, items });
+    cycle
+}
+
 /// The obstacle as a track that is in its place when the CAV is at its trajectory point; it
 /// stands, or moves off, or moves anyhow.
 fn moving(draw: &mut Draw<'_>, cycle: &Cycle, found: Obstacle, stamp_ns: i64) -> Track {

@@ -1,0 +1,245 @@
+//! What a clean run means: how many of the bugs that were seeded into programs such a run finds.
+//! The record is written by `examples/conformance/campaign --write`.
+
+use serde::Deserialize;
+
+use crate::judge::class::Kind;
+use crate::results::summary::{Campaign, Summary};
+
+const RECORD: &str = include_str!("../../data/seeded-bugs.json");
+
+/// A bug counts as found by so many cases when they find it with this share of the seeds, percent.
+const LIKELY: u64 = 95;
+
+/// What was measured.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    /// Seeds tried with each bug.
+    seeds: u64,
+    /// Cases of each seed.
+    most: u64,
+    bugs: Vec<Bug>,
+}
+
+/// A bug of a program under test.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Bug {
+    name: String,
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the table in the documents"))]
+    program: String,
+    profile: String,
+    /// Of the records in which it shows.
+    kind: Kind,
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the table in the documents"))]
+    about: String,
+    /// Vectors that find it.
+    vectors: u64,
+    /// By seed: the first random case that finds it, from 1 on.
+    first: Vec<Option<u64>>,
+}
+
+impl Bug {
+    /// Whether so many cases find it with `LIKELY` percent of the seeds.
+    fn is_likely_found(&self, cases: u64) -> bool {
+        let found = self.first.iter().flatten().filter(|first| **first <= cases).count() as u64;
+        !self.first.is_empty() && 100 * found >= LIKELY * self.first.len() as u64
+    }
+}
+
+/// Of the seeded bugs of this profile and these kinds those that the vectors find, and those that as
+/// many random cases do; `None` for a run that is not clean, of drives, or with a tolerance.
+pub fn words(summary: &Summary) -> Option<String> {
+    let campaign = &summary.campaign;
+    let is_clean = summary.classes.is_empty() && summary.is_complete() && summary.skipped == 0;
+    let is_plain = campaign.drives.is_empty() && campaign.tolerance.is_none();
+    // It is a file of this package; a test reads it.
+    let record = serde_json::from_str(RECORD).ok()?;
+    (is_clean && is_plain && !summary.is_empty()).then(|| of_record(&record, campaign))?
+}
+
+fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
+    let is_asked =
+        |bug: &&Bug| bug.profile == campaign.profile && campaign.kinds.contains(&bug.kind);
+    let bugs: Vec<&Bug> = record.bugs.iter().filter(is_asked).collect();
+    if bugs.is_empty() {
+        return None;
+    }
+    let cases = campaign.cases.min(record.most);
+    let by_vectors = |bug: &&&Bug| campaign.vectors > 0 && bug.vectors > 0;
+    let by_cases = |bug: &&&Bug| bug.is_likely_found(cases);
+    let mut ways = Vec::new();
+    if campaign.vectors > 0 {
+        ways.push(format!("the vectors find {}", bugs.iter().filter(by_vectors).count()));
+    }
+    if cases > 0 {
+        let (count, seeds) = (bugs.iter().filter(by_cases).count(), record.seeds);
+        ways.push(format!(
+            "{cases} random cases find {count} with a chance of at least {LIKELY} % ({seeds} seeds)"
+        ));
+    }
+    let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
+    let missed: Vec<&str> = missed.map(|bug| bug.name.as_str()).collect();
+    let missed = if missed.is_empty() { String::from("none") } else { missed.join(", ") };
+    Some(format!(
+        "what that means: of {} bugs seeded in programs, of this profile and these kinds, {};\n\
+         not found so: {missed}",
+        bugs.len(),
+        ways.join(", ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn campaign(profile: &str, kinds: &[Kind], vectors: u64, cases: u64) -> Campaign {
+        Campaign {
+            command: Vec::new(),
+            profile: profile.to_owned(),
+            seed: 0,
+            vectors,
+            cases,
+            kinds: kinds.into(),
+            drives: Vec::new(),
+            time_limit_ms: 1000,
+            tolerance: None,
+            of: 1,
+        }
+    }
+
+    fn summary(campaign: Campaign) -> Summary {
+        Summary {
+            vectors: campaign.vectors,
+            asked: campaign.cases,
+            campaign,
+            shards: vec![0],
+            skipped: 0,
+            tolerated: 0,
+            late: 0,
+            starts: 1,
+            interrupted: false,
+            given_up: Vec::new(),
+            groups: Vec::new(),
+            classes: Vec::new(),
+        }
+    }
+
+    /// The record as plain JSON, read another way than the code reads it.
+    fn counts(profile: &str, kinds: &[&str], cases: u64) -> [usize; 3] {
+        let record: serde_json::Value = serde_json::from_str(RECORD).expect("JSON");
+        let bugs = record["bugs"].as_array().expect("bugs").iter();
+        let bugs: Vec<_> = bugs
+            .filter(|bug| {
+                bug["profile"] == profile && kinds.iter().any(|kind| bug["kind"] == **kind)
+            })
+            .collect();
+        let likely = |bug: &&&serde_json::Value| {
+            let firsts = bug["first"].as_array().expect("first");
+            let late = firsts.iter().filter(|it| it.as_u64().is_none_or(|it| it > cases)).count();
+            20 * late <= firsts.len()
+        };
+        let by_vectors = bugs.iter().filter(|bug| bug["vectors"] != 0).count();
+        [bugs.len(), by_vectors, bugs.iter().filter(likely).count()]
+    }
+
+    #[test]
+    fn a_clean_run_says_what_the_record_says() {
+        for (profile, kinds, names, cases) in [
+            ("paper", &[Kind::Cycle][..], &["cycle"][..], 1000),
+            ("paper", &Kind::ALL, &["cycle", "offloading", "composition", "line"], 10_000),
+            ("hardened", &[Kind::Cycle, Kind::Offloading], &["cycle", "offloading"], 50_000),
+        ] {
+            let [all, by_vectors, by_cases] = counts(profile, names, cases);
+            let said = words(&summary(campaign(profile, kinds, 100, cases))).expect("a clean run");
+            assert!(said.contains(&format!("of {all} bugs seeded")), "{said}");
+            assert!(said.contains(&format!("the vectors find {by_vectors},")), "{said}");
+            let cases = cases.min(10_000);
+            assert!(
+                said.contains(&format!(" {cases} random cases find {by_cases} with")),
+                "{said}"
+            );
+            assert!(all > 5 && by_vectors <= all && by_cases <= all);
+        }
+    }
+
+    #[test]
+    fn record_list_and_table_have_the_same_bugs() {
+        let read = |file: &str| {
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../").to_owned() + file;
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+        };
+        let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let seeds = usize::try_from(record.seeds).expect("few");
+        let (list, page) =
+            (read("examples/conformance/seeded_bugs.py"), read("docs/conformance.md"));
+        let starts = ["python(", "hardened(", "cpp(", "javascript("];
+        let of_list = list.lines().filter_map(|line| {
+            let line = line.strip_prefix("    ")?;
+            let rest = starts.iter().find_map(|start| line.strip_prefix(start))?;
+            rest.strip_prefix('"')?.split('"').next()
+        });
+        let named: Vec<&str> = record.bugs.iter().map(|bug| bug.name.as_str()).collect();
+        assert_eq!(named, of_list.collect::<Vec<_>>());
+        assert_eq!(named.len(), 30);
+        for Bug { name, program, profile, about, vectors, first, .. } in &record.bugs {
+            assert_eq!(first.len(), seeds, "{name}");
+            let chance = |cases: u64| {
+                let found = first.iter().flatten().filter(|it| **it <= cases).count();
+                format!("{} %", 100 * found / seeds)
+            };
+            let vectors = if *vectors > 0 { vectors.to_string() } else { String::from("-") };
+            let chances = [100, 1000, 10_000].map(chance).join(" | ");
+            let row =
+                format!("| {program} | {profile} | {name} | {about} | {vectors} | {chances} |\n");
+            assert!(page.contains(&row), "docs/conformance.md has another table: {row}");
+        }
+    }
+
+    #[test]
+    fn what_neither_way_finds_is_named() {
+        let bug = |name: &str, vectors, first: &[Option<u64>]| Bug {
+            name: name.to_owned(),
+            program: String::new(),
+            profile: "paper".to_owned(),
+            kind: Kind::Cycle,
+            about: String::new(),
+            vectors,
+            first: first.into(),
+        };
+        let bugs = vec![
+            bug("hidden", 0, &[Some(99), None]),
+            bug("written", 2, &[None, None]),
+            bug("drawn", 0, &[Some(1), Some(100)]),
+        ];
+        let record = Record { seeds: 2, most: 1000, bugs };
+        let say = |vectors, cases| {
+            of_record(&record, &campaign("paper", &[Kind::Cycle], vectors, cases)).expect("words")
+        };
+        assert_eq!(
+            say(5, 100),
+            "what that means: of 3 bugs seeded in programs, of this profile and these kinds, the \
+             vectors find 1, 100 random cases find 1 with a chance of at least 95 % (2 seeds);\n\
+             not found so: hidden"
+        );
+        assert!(say(5, 99).ends_with(
+            "find 0 with a chance of at least 95 % (2 seeds);\nnot found so: hidden, drawn"
+        ));
+        assert!(say(0, 100).ends_with("not found so: hidden, written"));
+        assert!(!say(0, 100).contains("vectors") && !say(5, 0).contains("random"));
+        assert_eq!(of_record(&record, &campaign("hardened", &[Kind::Cycle], 5, 100)), None);
+    }
+
+    #[test]
+    fn only_a_clean_and_whole_run_says_it() {
+        let clean = || summary(campaign("paper", &[Kind::Cycle], 10, 100));
+        assert!(words(&clean()).is_some());
+        let tolerance = Some(1e-6);
+        let tolerant = Campaign { tolerance, ..clean().campaign };
+        assert_eq!(words(&Summary { campaign: tolerant, ..clean() }), None);
+        assert_eq!(words(&Summary { interrupted: true, ..clean() }), None);
+        assert_eq!(words(&Summary { skipped: 1, ..clean() }), None);
+        assert_eq!(words(&Summary { shards: Vec::new(), ..clean() }), None);
+    }
+}

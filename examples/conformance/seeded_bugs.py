@@ -1,0 +1,148 @@
+"""The bugs that are seeded into the programs under test: which text becomes which.
+
+A program with a bug is a copy in which each `old` text, which stands there once, is the `new` one.
+"""
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Bug:
+    name: str
+    program: str  # Python, C++ or JavaScript
+    profile: str
+    kind: str  # of the records in which it shows
+    about: str
+    changes: tuple  # of (file, old, new)
+
+
+def python(name, file, old, new, about, kind="cycle"):
+    return Bug(name, "Python", "paper", kind, about, ((file, old, new),))
+
+
+def hardened(name, file, old, new, about, kind="cycle"):
+    return Bug(name, "Python", "hardened", kind, about, ((file, old, new),))
+
+
+def cpp(name, about, *changes, file="mufasa_cpp.cpp"):
+    return Bug(name, "C++", "paper", "cycle", about, tuple((file, *change) for change in changes))
+
+
+def javascript(name, about, *changes, file="mufasa_js.mjs"):
+    changes = tuple((file, *change) for change in changes)
+    return Bug(name, "JavaScript", "paper", "cycle", about, changes)
+
+
+GREEDY = """    free, total = set(range(len(costs[0]))), 0.0
+    for row in costs:
+        best = min(free, key=row.__getitem__)
+        free.remove(best)
+        total += row[best]
+    return total
+"""
+
+BUGS = [
+    python("le-for-lt", "paper.py", 'mean < cycle["parameters"]["theta_tr"] - EPS',
+           'mean <= cycle["parameters"]["theta_tr"]',
+           "stage i: mean <= theta_tr, in place of <, and no margin"),
+    python("greedy-assignment", "geometry.py", "    columns = len(costs[0])\n    row_of",
+           GREEDY + "    columns = len(costs[0])\n    row_of",
+           "stage i: each track takes the nearest detection that is left"),
+    python("other-diagonal", "geometry.py",
+           "((local[0], local[1], local[2]), (local[0], local[2], local[3]))",
+           "((local[0], local[1], local[3]), (local[1], local[2], local[3]))",
+           "stage ii: the corridor is split along the other diagonal"),
+    python("wrong-horizon", "paper.py", "points_within(cycle, s_cav(cycle))",
+           'points_within(cycle, s_b(cycle, cycle["ego"]["speed"]))',
+           "stage iii looks as far as s_b, not s_CAV"),
+    python("no-sqrt", "paper.py", "return math.sqrt((length / n)**2 + width**2) / 2",
+           "return ((length / n)**2 + width**2) / 2",
+           "stage v: the radius of the disks without the square root"),
+    python("no-hold", "offloading.py",
+           "self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)", "pass",
+           "a fallback does not bar offloading", "offloading"),
+    python("hold-moved-back", "offloading.py",
+           "self.hold_until_ns = until_ns if old_ns is None else max(old_ns, until_ns)",
+           "self.hold_until_ns = until_ns",
+           "a hold ends t_wait after the last fallback, even when an earlier one lasts longer",
+           "offloading"),
+    python("no-saturation", "offloading.py", "return min(now_ns + self.parameters[key], I64_MAX)",
+           "return now_ns + self.parameters[key]",
+           "a hold or deadline may lie beyond 64 bits", "offloading"),
+    python("cycles-composed", "composition.py", "return bool(rest)", "return False",
+           "services that need each other in a circle are composed", "composition"),
+    python("key-twice", "mufasa_py.py",
+           'return dict(pairs) if len(dict(pairs)) == len(pairs) else {**dict(pairs), "twice": None}',
+           "return dict(pairs)", "of a key that stands twice the last value counts", "line"),
+    hardened("any-number-missed", "hardened.py", 'spare = min(parameters["miss_budget"], backed)',
+             "spare = backed", "H-01: any number of backed tracks may be left out"),
+    hardened("no-shift", "detection_history.py", 'if received and now["detections"]:', "if False:",
+             "H-01, H-13: a track is taken where it was received, not at its place"),
+    hardened("nothing-beyond-the-end", "stopping.py", "if way[-1] < stop + EPS:", "if False:",
+             "H-04: what lies beyond the end of a trajectory is not examined"),
+    hardened("no-next-point", "stopping.py",
+             "is_next = before <= (1 + 1e-6) * beyond + EPS", "is_next = False",
+             "H-04: the first point beyond s_stop is not examined"),
+    hardened("unknown-is-free", "closed_cells.py",
+             '[grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]',
+             '[grid["occupied"]]', "H-06: unknown cells count as free"),
+    hardened("against-the-lane", "hardened_ii.py", "        if any(between(a, b, p)[0] < EPS",
+             "        if False and any(between(a, b, p)[0] < EPS",
+             "H-07: a heading against the lane is accepted"),
+    hardened("stop-at-confirmation", "offloading.py",
+             "            if not self.hardened:\n                self.stop_local(g)",
+             "            self.stop_local(g)",
+             "H-08: local services stop at the confirmation", "offloading"),
+    hardened("second-too-old", "detection_history.py", "if S // 5 <= age_ns <= S and",
+             "if S // 5 <= age_ns < S and", "H-13: a list of exactly 1 s ago is not used"),
+    hardened("only-explained", "detection_history.py", "if self.reference is None:", "if True:",
+             "H-13 looks at the motion of explained detections only, no branch (b)"),
+    cpp("off-by-one-lane", "stage ii: the last segment of route and corridor is left out",
+        ("  return std::all_of(c.trajectory->", "  pairs.pop_back();\n  return std::all_of(c.trajectory->")),
+    cpp("route-kept", "stage ii: a route is kept under its number of cross sections and first x",
+        ("  Pairs pairs;\n", "  static std::map<std::pair<std::size_t, double>, Pairs> routes;\n"
+         "  Pairs& pairs = routes[{c.stations.size(), c.stations[0].x}];\n"
+         "  const bool is_new = pairs.empty();\n"),
+        ("i + 1 < c.stations.size(); ++i)", "is_new && i + 1 < c.stations.size(); ++i)"),
+        ("  if (c.closed) pairs", "  if (c.closed && is_new) pairs")),
+    cpp("never-before", "stage iii: a negative time of prediction counts as 0",
+        ("double t = double(point.t_ns - c.tracks->stamp_ns) / 1e9;",
+         "double t = std::max(double(point.t_ns - c.tracks->stamp_ns) / 1e9, 0.0);")),
+    cpp("missing-skip", "stage iv runs although stage iii ran",
+        ("bool ran_iv = detections && !ran_iii;", "bool ran_iv = detections;")),
+    cpp("border-left-out", "stage i: a track as far off as the farthest detection is not assigned",
+        ("    else if (d <= r + kEps) border.push_back(item);\n", "")),
+    cpp("nan-accepted", "what is refused is value < least or value > most, and NaN is neither",
+        ("if (!(least <= value && value <= most))", "if (value < least || value > most)"),
+        ("if (!is_direction(p.cos, p.sin))",
+         "if (!is_direction(p.cos, p.sin) && !std::isnan(p.cos + p.sin))"), file="record.hpp"),
+    javascript("integers-rounded", "times and ids are read as doubles",
+               ('JSON.parse(line.replace(tokens, (it) => (/^-?\\d{16,}$/.test(it) ? `"${it}"` : it)))',
+                "JSON.parse(line)"), file="record.mjs"),
+    javascript("never-closed", "stage ii: a closed route has no segment from its end to its start",
+               ("if (closed) pairs.push", "if (false) pairs.push")),
+    javascript("last-route-kept", "stage ii: the route of the cycle before is taken for this one when "
+               "their number of cross sections, first and last are equal",
+               ("function segments({ stations, closed }) {\n",
+                "let kept = {};\nfunction segments({ stations, closed }) {\n"
+                "  const key = JSON.stringify([stations.length, stations[0], stations.at(-1)]);\n"
+                "  if (kept.key === key) return kept.pairs;\n"),
+               ("  return pairs;\n", "  kept = { key, pairs };\n  return pairs;\n")),
+    javascript("touching-is-free", "rectangles that only touch do not collide, and no margin",
+               ("[[pose, ego, EPS]", "[[pose, ego, 0]"),
+               ("<= reach.reduce", "< reach.reduce")),
+    javascript("rows-padded", "stage v: each row of a bitmap begins with a byte",
+               ("const index = 8 * at + bit;", "const padded = 8 * Math.ceil(width / 8);\n"
+                "      const at0 = 8 * at + bit, index = at0 % padded + width * Math.floor(at0 / padded);")),
+]
+
+
+def seed(bug, sources, folder):
+    """Writes the sources with the bug to a folder."""
+    for source in sources:
+        text = source.read_text()
+        for file, old, new in bug.changes:
+            if file == source.name:
+                if text.count(old) != 1:
+                    raise ValueError(f"{bug.name}: {file} has {text.count(old)} times: {old}")
+                text = text.replace(old, new)
+        (folder / source.name).write_text(text)
