@@ -325,8 +325,9 @@ unsafe fn cycle(
         inputs = inputs.lead(stamp, Gap::between_bumpers(it.gap), it.speed);
     }
     // SAFETY: as above.
+    let grid = unsafe { convert::grid(raw.grid) }?;
     if let Some(Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown }) =
-        unsafe { convert::grid(raw.grid) }?
+        grid
     {
         let map = GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown };
         inputs = inputs.grid(Time::from_nanoseconds(stamp_ns), map);
@@ -347,7 +348,7 @@ unsafe fn cycle(
     if let Some(element) = trajectory.accepted() {
         inputs = inputs.remote_trajectory::<Stored<TrajectoryPoint>>(element);
     }
-    Ok(verdicts.tell(monitor.cycle(&inputs)))
+    Ok(verdicts.tell(&monitor.cycle(&inputs)))
 }
 
 /// Whether a list is no longer than the settings say.
@@ -369,6 +370,6 @@ fn fall_back(monitor: &mut MufasaMonitor, now_ns: i64) -> MufasaDecision {
     };
     let MufasaMonitor { monitor, verdicts, .. } = monitor;
     let inputs = Inputs::new(Time::from_nanoseconds(now_ns), nowhere);
-    let actions = verdicts.tell(monitor.cycle(&inputs)).actions;
+    let actions = verdicts.tell(&monitor.cycle(&inputs)).actions;
     MufasaDecision { actions, ..nothing_decided() }
 }

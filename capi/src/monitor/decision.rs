@@ -47,27 +47,27 @@ pub(super) struct Verdicts {
 
 impl Verdicts {
     /// The decision for C. A list is there as long as the lists that were given: they fit.
-    pub(super) fn tell(&mut self, decision: Decision<'_>) -> MufasaDecision {
+    pub(super) fn tell(&mut self, decision: &Decision<'_>) -> MufasaDecision {
         match decision {
             Decision::Safe { tracks, trajectory, report, actions } => MufasaDecision {
-                report: report::report_of(&report),
-                tracks: tracks.map_or(null(), |list| self.keep_tracks(list)),
-                trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(it)),
-                actions: actions_of(&actions),
+                report: report::report_of(report),
+                tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
+                trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
+                actions: actions_of(actions),
             },
             Decision::Unsafe { report, actions } => MufasaDecision {
                 report: match report {
-                    Ok(report) => report::report_of(&report),
-                    Err(problem) => report::error(Some(problem)),
+                    Ok(report) => report::report_of(report),
+                    Err(problem) => report::error(Some(*problem)),
                 },
                 tracks: null(),
                 trajectory: null(),
-                actions: actions_of(&actions),
+                actions: actions_of(actions),
             },
         }
     }
 
-    fn keep_tracks(&mut self, list: Verified<'_, TrackList<'_>>) -> *const MufasaTrackList {
+    fn keep_tracks(&mut self, list: &Verified<'_, TrackList<'_>>) -> *const MufasaTrackList {
         if list.items.len() > self.tracks.len() {
             return null();
         }
@@ -77,7 +77,7 @@ impl Verdicts {
         &raw const self.track_list
     }
 
-    fn keep_trajectory(&mut self, it: Verified<'_, Trajectory<'_>>) -> *const MufasaTrajectory {
+    fn keep_trajectory(&mut self, it: &Verified<'_, Trajectory<'_>>) -> *const MufasaTrajectory {
         if it.points.len() > self.points.len() {
             return null();
         }

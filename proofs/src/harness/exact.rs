@@ -53,6 +53,7 @@ pub fn verify_limbs_multiply_by_powers_of_two() {
     // Shifted by less than 64 bits, of which none is lost in three limbs.
     let low = u128::from(number[0]) << at;
     let high = (u128::from(number[1]) << at) + (low >> 64);
+    #[allow(clippy::cast_possible_truncation, reason = "the lower half is what is wanted")]
     let [a, b, c] = [low, high, high >> 64].map(|part| (part & u128::from(u64::MAX)) as u64);
     // Limb by limb: a comparison of arrays is a loop over bytes.
     let [d, e, f, g] = found;
