@@ -40,7 +40,9 @@ impl Base {
             }
             Self::Still(owned) => {
                 let it = owned.borrow(&[]);
-                let moved = |stamp_ns: i64| stamp_ns - it.now_ns + now_ns;
+                // A time at the limits of 64 bits stays there: it is invalid for both.
+                let moved =
+                    |stamp_ns: i64| stamp_ns.saturating_sub(it.now_ns).saturating_add(now_ns);
                 let point = |p: &TrajectoryPoint| TrajectoryPoint { t_ns: moved(p.t_ns), ..*p };
                 Scene {
                     ego: it.ego,
