@@ -1,20 +1,9 @@
 /* What the C interface promises, from C: verdicts, errors of the call, and a requester's trace. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "expect.h"
 #include "mufasa.h"
-
-static int failures;
-
-/* Names what does not hold and goes on. */
-#define EXPECT(condition)                                                    \
-  do {                                                                       \
-    if (!(condition)) {                                                      \
-      printf("%s:%d: does not hold: %s\n", __FILE__, __LINE__, #condition);  \
-      ++failures;                                                            \
-    }                                                                        \
-  } while (0)
 
 #define SECOND INT64_C(1000000000)
 
@@ -394,6 +383,5 @@ int main(void) {
   faults_of_the_call();
   trace();
   faults_of_the_requester();
-  if (failures == 0) printf("all holds\n");
-  return failures != 0;
+  return report_failures();
 }

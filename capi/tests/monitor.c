@@ -1,20 +1,9 @@
 /* What the monitor promises, from C: who gets data, what is refused, and that nothing is safe by default. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "expect.h"
 #include "mufasa.h"
-
-static int failures;
-
-/* Names what does not hold and goes on. */
-#define EXPECT(condition)                                                    \
-  do {                                                                       \
-    if (!(condition)) {                                                      \
-      printf("%s:%d: does not hold: %s\n", __FILE__, __LINE__, #condition);  \
-      ++failures;                                                            \
-    }                                                                        \
-  } while (0)
 
 #define MS INT64_C(1000000)
 
@@ -215,6 +204,5 @@ int main(void) {
   settings_that_no_monitor_can_keep();
   EXPECT(mufasa_version() ==
          MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH);
-  if (failures == 0) printf("all holds\n");
-  return failures != 0;
+  return report_failures();
 }

@@ -44,6 +44,13 @@ impl Buffers {
         let memory = Memory { stations, rows, columns, detections, slots, cross_sections, blocks };
         Monitor::new(settings, memory)
     }
+
+    /// A monitor with the settings of this kit, on this road.
+    pub fn on(&mut self, road: &[CrossSection]) -> Monitor<'_> {
+        let mut monitor = self.monitor(settings()).expect("a monitor");
+        monitor.set_route(&route(road)).expect("a route");
+        monitor
+    }
 }
 
 /// 10 Hz, and 150 ms until a session is silent.

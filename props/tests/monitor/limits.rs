@@ -79,8 +79,7 @@ fn a_list_of_detections_that_does_not_fit_is_an_error() {
     let cross_sections = road();
     for (items, fits) in [(16, true), (17, false)] {
         let mut buffers = Buffers::new(16, 40);
-        let mut monitor = buffers.monitor(settings()).expect("a monitor");
-        monitor.set_route(&route(&cross_sections)).expect("a route");
+        let mut monitor = buffers.on(&cross_sections);
         let world = World::at(0);
         let detections: Vec<Detection> = world.detections.into_iter().cycle().take(items).collect();
         let inputs = Inputs::new(at(0), world.ego).detections(at(0), &detections);
@@ -131,8 +130,7 @@ fn times_at_the_limits_of_64_bits_do_no_harm() {
     let cross_sections = road();
     let times = [i64::MIN, i64::MIN + 1, -1, 0, 1, i64::MAX - 1, i64::MAX];
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut monitor = buffers.on(&cross_sections);
     let world = World::at(0);
     let mut came_out = 0;
     for (now_ns, stamp_ns) in

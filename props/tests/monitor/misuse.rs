@@ -35,6 +35,15 @@ fn record<'w>(
     }
 }
 
+/// A station after so many safe periods.
+fn driven(monitor: &mut Monitor<'_>, periods: i64) -> Station {
+    let mut station = Station::default();
+    for i in 0..periods {
+        assert_eq!(period(monitor, &mut station, &World::at(100 * i * MS)), None);
+    }
+    station
+}
+
 /// A period with a station: what the cycle says, as stage and rule; none while it is safe.
 fn period(
     monitor: &mut Monitor<'_>,
@@ -86,12 +95,8 @@ fn an_unsafe_cycle_is_not_taken_for_a_safe_one() {
     assert!(check_plainly(&record(&plain, &cross_sections, Configuration::AllRemote)).is_ok());
 
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
-    let mut station = Station::default();
-    for i in 0..10 {
-        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
-    }
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = driven(&mut monitor, 10);
     assert_eq!(monitor.configuration(), Configuration::AllRemote);
     let failed = period(&mut monitor, &mut station, &forged(1_000 * MS));
     assert_eq!(failed.map(|(stage, _)| stage), Some(FailedStage::Stage(Stage::I)));
@@ -103,12 +108,8 @@ fn an_unsafe_cycle_is_not_taken_for_a_safe_one() {
 fn a_fallback_cannot_be_thrown_away() {
     let cross_sections = road();
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
-    let mut station = Station::default();
-    for i in 0..10 {
-        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
-    }
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = driven(&mut monitor, 10);
     let world = forged(1_000 * MS);
     let now = at(world.now_ns);
     let (tracks, points) = station.period(&mut monitor, &world);
@@ -157,8 +158,7 @@ fn crossing(now_ns: i64, end_ns: i64) -> World {
 fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
     let (end_ns, cross_sections) = (1_500 * MS, road());
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
+    let mut monitor = buffers.on(&cross_sections);
     let mut station = Station::default();
     let mut found = None;
     for i in 0..=15 {
@@ -177,8 +177,7 @@ fn detections_that_were_not_current_are_not_kept() {
     let (end_ns, cross_sections) = (1_100 * MS, road());
     for (late_ns, is_safe) in [(100 * MS, false), (100 * MS + 1, true)] {
         let mut buffers = Buffers::new(16, 40);
-        let mut monitor = buffers.monitor(settings()).expect("a monitor");
-        monitor.set_route(&route(&cross_sections)).expect("a route");
+        let mut monitor = buffers.on(&cross_sections);
         let mut station = Station::default();
         let mut last = None;
         for i in 0..=11 {
@@ -254,12 +253,8 @@ fn a_gap_from_the_rear_axle_is_not_taken_for_one_between_bumpers() {
 fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let cross_sections = road();
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
-    let mut station = Station::default();
-    for i in 0..3 {
-        assert_eq!(period(&mut monitor, &mut station, &World::at(100 * i * MS)), None);
-    }
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = driven(&mut monitor, 3);
     let session = station.sessions[1].expect("PLAN is remote");
     let world = World::at(300 * MS);
     let now = at(world.now_ns);

@@ -42,8 +42,7 @@ fn killed_and_started_again_offloading_is_reached_anew() {
         let mut kept = (None, None);
         let mut sessions_before = 0;
         {
-            let mut monitor = buffers.monitor(settings()).expect("a monitor");
-            monitor.set_route(&route(&cross_sections)).expect("a route");
+            let mut monitor = buffers.on(&cross_sections);
             for i in 0..killed_after {
                 let world = World::at(100 * i * MS);
                 kept = station.period(&mut monitor, &world);
