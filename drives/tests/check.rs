@@ -9,7 +9,7 @@ use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::{Hold, RequesterRun};
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::{Findings, records, report};
-use mufasa_drives::{Drive, DriveCycle, Stream};
+use mufasa_drives::{Attack, Drive, DriveCycle, Injection, Stream, inject};
 use mufasa_model::input::cycle::DetectionList;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Stage};
@@ -77,6 +77,49 @@ fn unsafe_cycles_in_the_wait_start_no_fallback_and_the_one_at_its_end_does() {
     assert!(text.contains("at 0.5 s: stage iii, point 3 meets track 7 (4.6 m < 5 m)"), "{text}");
     assert!(text.contains("all local, wait until 10.5 s"), "{text}");
     assert!(text.contains("0.6 s to 10.4 s: 3 more unsafe during that wait (iii 3)"), "{text}");
+}
+
+/// The first stage that fails keeps the others from running; what they would have said is counted.
+#[test]
+fn stages_are_also_counted_on_their_own() {
+    let mut drive = drive(6, |index| index == 2 || index == 4);
+    // In cycle 4 the trajectory leaves the road, too, so that stage ii fails before stage iii runs.
+    for point in &mut drive.cycles[4].cycle.trajectory.as_mut().unwrap().points {
+        point.y += 0.8 * (point.x - 4.0) / 5.0;
+    }
+    let checked = checked(&drive);
+    let first = |index: usize| checked.judged[index].model.as_ref().unwrap().failed_stage;
+    assert_eq!(first(2), Some(FailedStage::Stage(Stage::Iii)));
+    assert_eq!(first(4), Some(FailedStage::Stage(Stage::Ii)));
+    assert_eq!(checked.judged[3].alone, []);
+    assert_eq!(checked.judged[2].alone, [Stage::Iii, Stage::Iv]);
+    assert_eq!(checked.judged[4].alone, [Stage::Ii, Stage::Iii, Stage::Iv]);
+    assert_eq!(checked.alone(), [0, 1, 2, 2, 0]);
+    let text = text(&checked);
+    assert!(text.contains("run on its own, fails: i 0, ii 1, iii 2, iv 2, v 0"), "{text}");
+    let line: Value = serde_json::from_str(&records::lines(&checked).unwrap()[4]).unwrap();
+    assert_eq!(line["alone"], serde_json::json!(["ii", "iii", "iv"]));
+}
+
+/// The known road ends at 390 m, and so does the last plan. A CAV that drives what it is sent at 10 m/s comes near it, as the clean
+/// one does, and nobody knows what comes behind: its drive ends where it could just stop before.
+#[test]
+fn an_attacked_drive_ends_where_the_known_road_does() {
+    let mut clean = drive(390, |index| index == 389);
+    clean.cycles[389].cycle.trajectory.as_mut().unwrap().points.truncate(2);
+    let clean = Stream::from(clean);
+    let injection = Injection { attack: Attack::EmptyTracks, from_s: 1.0, to_s: f64::INFINITY };
+    let attacked = inject(&clean, &injection).unwrap();
+    let note = "the drive ends where the CAV has come to the end of the road that is known";
+    assert!(attacked.notes.iter().any(|it| it == note), "{:?}", attacked.notes);
+    let last = attacked.cycle(attacked.count() - 1).cycle;
+    let braking = last.ego.speed.powi(2) / (2.0 * last.parameters.a_b);
+    let left = 390.0 - last.ego.x;
+    assert!((braking..braking + 15.0).contains(&left), "{left} m left, {braking} m to brake");
+    let early = Injection { to_s: 20.0, ..injection };
+    let attacked = inject(&clean, &early).unwrap();
+    assert!(!attacked.notes.iter().any(|it| it == note), "{:?}", attacked.notes);
+    assert_eq!(attacked.count(), 201);
 }
 
 #[test]

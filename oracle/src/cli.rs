@@ -153,15 +153,8 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
         pictures: arguments.svg.clone(),
     };
     let attacked = |drive: drive::Stream| {
-        if arguments.inject.is_empty() {
-            return Ok(drive);
-        }
-        // An attack is on a drive as a whole: its cycles are all held at once.
         let injections = &mut arguments.inject.iter();
-        let attacked = injections.try_fold(drive.collect(), |drive, it| {
-            inject(&drive, it).map_err(|error| error.of(&drive))
-        });
-        attacked.map(drive::Stream::from)
+        injections.try_fold(drive, |drive, it| inject(&drive, it).map_err(|error| error.of(&drive)))
     };
     let drives = drive::streams(&arguments.files, &options);
     let drives: Vec<_> = drives.into_iter().map(|drive| drive.and_then(attacked)).collect();

@@ -11,7 +11,7 @@ use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::Hold;
 use mufasa_drives::check::table;
 use mufasa_drives::check::{self, Findings, complain, counted, pictures, report, words};
-use mufasa_drives::{self as drive, Attack, DEMO, Drive, Injection, Options};
+use mufasa_drives::{self as drive, Attack, DEMO, Injection, Options, Stream};
 use mufasa_records::files;
 use mufasa_records::names;
 
@@ -88,7 +88,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
 }
 
 /// Writes the files of the drive and reads them, in the hardened and in the paper profile.
-fn prepare(folder: &Path) -> Result<[Drive; 2], String> {
+fn prepare(folder: &Path) -> Result<[Stream; 2], String> {
     let cannot = |file: &Path, error| format!("{}: cannot be written: {error}", file.display());
     files::prepare(folder).map_err(|error| cannot(folder, error))?;
     let paths = DEMO.map(|(name, _)| folder.join(name));
@@ -97,20 +97,20 @@ fn prepare(folder: &Path) -> Result<[Drive; 2], String> {
     }
     let read = |profile| {
         let options = Options { profile, ..Options::default() };
-        let drives = drive::read(&paths, &options);
+        let drives = drive::streams(&paths, &options);
         drives.into_iter().next().ok_or("no drive is built in".to_owned())
     };
     let in_words = |error: drive::ReadError| error.to_string();
     Ok([read(Profile::Hardened)?.map_err(in_words)?, read(Profile::Paper)?.map_err(in_words)?])
 }
 
-fn introduction(drive: &Drive, out: &mut impl Write) -> io::Result<()> {
+fn introduction(drive: &Stream, out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
         "A made-up drive behind another car, {} at 10 Hz. Object tracking, environment model and\n\
          planning run on a server (AllRemote). Every cycle is judged twice: by the exact model\n\
          and by the implementation.\n",
-        counted(drive.cycles.len(), "cycle")
+        counted(drive.count(), "cycle")
     )
 }
 
@@ -119,7 +119,7 @@ impl Case {
         self.attack.map_or("clean", Attack::name)
     }
 
-    fn drive(&self, clean: &Drive) -> io::Result<Drive> {
+    fn drive(&self, clean: &Stream) -> io::Result<Stream> {
         match self.attack {
             None => Ok(clean.clone()),
             Some(attack) => {
@@ -144,7 +144,7 @@ struct Demo<'a> {
 }
 
 impl Demo<'_> {
-    fn case(&mut self, case: &Case, clean: &Drive, out: &mut impl Write) -> io::Result<()> {
+    fn case(&mut self, case: &Case, clean: &Stream, out: &mut impl Write) -> io::Result<()> {
         let checked = self.check(case.drive(clean)?);
         self.draw(&checked);
         let [model, implementation] = checked.tallies();
@@ -173,8 +173,8 @@ impl Demo<'_> {
     }
 
     /// Judges a drive.
-    fn check(&mut self, drive: Drive) -> Checked {
-        let progress = check::progress(drive.cycles.len());
+    fn check(&mut self, drive: Stream) -> Checked {
+        let progress = check::progress(drive.count());
         let checked = Checked::new(drive, &Parameters::default(), false, || progress.inc(1));
         progress.finish_and_clear();
         self.findings.add(&checked);

@@ -51,25 +51,49 @@ pub use self::requester::{
     action_from_impl, configuration_from_impl, event_to_impl, group_to_impl, groups_to_impl,
     parameters_to_impl, source_from_impl, state_from_impl,
 };
-pub use self::verdict::{invalid_input_from_impl, report_from_impl};
+pub use self::verdict::{
+    invalid_input_from_impl, outcome_from_impl, report_from_impl, stage_to_impl,
+};
 pub use crate::conformance::{Answer, Disagreement, conforms, stage_conforms};
 
+use mufasa::input::cycle::Cycle as ImplCycle;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::stages::ValidCycle;
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::report::{InvalidInput, Report};
+use mufasa_model::report::{InvalidInput, Outcome, Report, Stage};
+use mufasa_model::stages::{Scheduled, scheduled};
 
 /// The implementation's answer to one cycle, with scratch of exactly the size it asks for
 /// (`spec/4-arithmetic.md#conformance-of-an-implementation`). `Err` is invalid local input.
 pub fn check_impl(cycle: &Cycle) -> Result<Report, InvalidInput> {
+    with_impl(cycle, |cycle, scratch| match mufasa::stages::check(cycle, scratch) {
+        Ok(report) => Ok(report_from_impl(&report)),
+        Err(problem) => Err(invalid_input_from_impl(&problem)),
+    })
+}
+
+/// The stages of the configuration of which each, run on its own, finds a safety issue, to the
+/// implementation; none in a cycle with invalid input.
+pub fn failing_alone(cycle: &Cycle) -> Vec<Stage> {
+    let never =
+        |stage: &Stage| scheduled(cycle.profile, cycle.configuration, *stage) == Scheduled::Never;
+    with_impl(cycle, |cycle, scratch| {
+        let Ok(valid) = ValidCycle::new(cycle, None, scratch) else { return Vec::new() };
+        let mut fails = |stage: &Stage| {
+            let outcome = valid.stage(stage_to_impl(*stage), scratch);
+            matches!(outcome_from_impl(outcome), Outcome::Failed(_))
+        };
+        Stage::ALL.into_iter().filter(|stage| !never(stage) && fails(stage)).collect()
+    })
+}
+
+/// Runs a job on the cycle in the types of the implementation, with scratch of the size it asks for.
+fn with_impl<T>(cycle: &Cycle, job: impl FnOnce(&ImplCycle<'_>, &mut Scratch<'_>) -> T) -> T {
     let owned = to_impl(cycle);
     let history = owned.history();
     let borrowed = owned.borrow(&history);
     let sizes = Sizes::for_cycle(&borrowed);
     let mut rows = vec![Row::default(); sizes.rows];
     let mut columns = vec![Column::default(); sizes.columns];
-    let mut scratch = Scratch::new(&mut rows, &mut columns);
-    match mufasa::stages::check(&borrowed, &mut scratch) {
-        Ok(report) => Ok(report_from_impl(&report)),
-        Err(problem) => Err(invalid_input_from_impl(&problem)),
-    }
+    job(&borrowed, &mut Scratch::new(&mut rows, &mut columns))
 }

@@ -9,7 +9,7 @@ use mufasa_model::services::configuration::Configuration;
 
 use crate::cases::generate::mix;
 use crate::error::ConformError;
-use mufasa_drives::{self, Attack, Drive, Injection, Options, ReadError, inject};
+use mufasa_drives::{self, Attack, Drive, Injection, Options, ReadError, Stream, inject};
 
 /// Cycles before an attacked one that are attacked, too.
 const ATTACKED_BEFORE: usize = 10;
@@ -113,9 +113,9 @@ impl Ride {
                 }
                 let injection = Injection { attack, from_s: 0.0, to_s: f64::INFINITY };
                 // Where the attack changes nothing, or ends before this cycle, it is as it was.
-                let attacked = inject(&part, &injection).ok();
-                match attacked.and_then(|it| it.cycles.into_iter().nth(index - from)) {
-                    Some(it) => (format!("{name}+{}", attack.name()), it.cycle),
+                let attacked = inject(&Stream::from(part), &injection).ok();
+                match attacked.filter(|it| index - from < it.count()) {
+                    Some(it) => (format!("{name}+{}", attack.name()), it.cycle(index - from).cycle),
                     None => (name, clean),
                 }
             }

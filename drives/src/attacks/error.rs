@@ -6,7 +6,7 @@ use std::path::Path;
 use mufasa_model::services::configuration::Configuration;
 
 use crate::attacks::injection::Injection;
-use crate::drive::Drive;
+use crate::drive::Stream;
 use crate::readers::error::ReadError;
 
 /// Why an attack leaves a drive as it is.
@@ -36,7 +36,7 @@ pub enum InjectError {
 impl InjectError {
     /// The same as an error of the files of that drive.
     #[must_use]
-    pub fn of(&self, drive: &Drive) -> ReadError {
+    pub fn of(&self, drive: &Stream) -> ReadError {
         ReadError::file(Path::new(&drive.source), self.to_string())
     }
 }

@@ -10,6 +10,7 @@
 //! tracks, so where those hide objects the local trajectory believes them, too. In `PlanRemote`
 //! the tracks are the CAV's own, and an attack on tracks is none.
 
+mod course;
 pub mod error;
 pub mod injection;
 mod meeting;
@@ -18,13 +19,15 @@ mod planner;
 
 use mufasa_model::input::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 
+use crate::attacks::course::Course;
 use crate::attacks::error::InjectError;
 use crate::attacks::injection::{Attack, Injection};
-use crate::attacks::planner::{Planner, driven_line};
-use crate::drive::Drive;
+use crate::attacks::planner::Planner;
+use crate::drive::Stream;
 use crate::geometry::Polyline;
 
-/// The same drive under attack.
+/// The same drive under attack. The drive is gone through once for what the attack does, and its cycles
+/// are made again when they are asked for: none is kept.
 ///
 /// Attacks that hide objects or their motion are dangerous only when the CAV drives what it is
 /// sent, so in these it does: it leaves its recorded motion at the first attacked cycle, and the
@@ -33,73 +36,21 @@ use crate::geometry::Polyline;
 ///
 /// Errors: no cycle is changed, because none is in the span, or the data of the attack are local,
 /// absent, or as it would make them. An attacked drive that is safe is so in spite of the attack.
-pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError> {
-    let mut attacked = drive.clone();
-    attacked.name = format!("{}+{}", drive.name, injection.attack.name());
-    let start_ns = drive.cycles.first().map_or(0, |c| c.cycle.now_ns);
-    let since_s = |cycle: &Cycle| seconds(cycle.now_ns.saturating_sub(start_ns));
-    let is_driven = injection.attack.is_driven();
-    let mut onset: Option<Onset> = None;
-    let mut changed: Vec<usize> = Vec::new();
-    let (mut end, mut at_the_end) = (attacked.cycles.len(), false);
-    for (i, cycle) in attacked.cycles.iter_mut().map(|c| &mut c.cycle).enumerate() {
-        let in_span = (injection.from_s..=injection.to_s).contains(&since_s(cycle));
-        if in_span && injection.attack.reaches(cycle) {
-            if onset.is_none() {
-                let clean = drive.cycles[i..].iter().map(|it| &it.cycle);
-                onset = Onset::new(cycle, injection.attack, drive.lead_range_m, clean);
-            }
-            let Some(onset) = &mut onset else { continue };
-            if is_driven && onset.is_at_the_end(cycle) {
-                (end, at_the_end) = (i, true);
-                break;
-            }
-            attack(cycle, injection.attack, onset);
-            changed.extend((*cycle != drive.cycles[i].cycle).then_some(i));
-        } else if is_driven && onset.is_some() {
-            end = i;
-            break;
+pub fn inject(drive: &Stream, injection: &Injection) -> Result<Stream, InjectError> {
+    let (course, onset) = Course::of(drive, *injection)?;
+    let (attack, clean, targets) = (injection.attack, drive.clone(), course.targets);
+    let name = format!("{}+{}", drive.name, attack.name());
+    let count = targets.len();
+    let mut attacked = Stream::new(name, drive.source.clone(), count, move |index| {
+        let mut made = clean.cycle(index);
+        if let Some(target) = targets[index] {
+            apply(&mut made.cycle, attack, &onset, target);
         }
-    }
-    let Some(first) = changed.first() else {
-        return Err(unchanged(drive, injection, since_s));
-    };
-    attacked.notes.push(format!(
-        "attack {injection} s changes {} cycles, the first at {:.1} s",
-        changed.len(),
-        since_s(&drive.cycles[*first].cycle)
-    ));
-    if is_driven {
-        attacked.cycles.truncate(end);
-        attacked.notes.push(String::from(
-            "from its first attacked cycle on the CAV drives what it is sent; the drive ends with \
-             the attack",
-        ));
-        if at_the_end {
-            attacked.notes.push(String::from(
-                "the drive ends where the CAV has come to the end of the road that is known",
-            ));
-        }
-        attacked.notes.extend(meeting::note(&attacked.cycles, &drive.cycles, since_s));
-    }
+        made
+    });
+    attacked.lead_range_m = drive.lead_range_m;
+    attacked.notes = drive.notes.iter().cloned().chain(course.notes).collect();
     Ok(attacked)
-}
-
-/// Why the attack changed no cycle.
-fn unchanged(drive: &Drive, injection: &Injection, since_s: impl Fn(&Cycle) -> f64) -> InjectError {
-    let injection = *injection;
-    let cycles = || drive.cycles.iter().map(|c| &c.cycle);
-    let span = injection.from_s..=injection.to_s;
-    let mut in_span = cycles().filter(|cycle| span.contains(&since_s(cycle))).peekable();
-    match in_span.peek().map(|first| first.configuration) {
-        None => {
-            InjectError::Outside { injection, end_s: cycles().next_back().map_or(0.0, &since_s) }
-        }
-        Some(configuration) if !in_span.any(|cycle| injection.attack.is_remote(cycle)) => {
-            InjectError::Local { injection, configuration }
-        }
-        Some(_) => InjectError::Unchanged { injection },
-    }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "drives last minutes")]
@@ -117,34 +68,32 @@ struct Onset {
     /// What the CAV follows when it drives what it is sent.
     line: Polyline,
     lead_range_m: f64,
-    /// The object that the attack is on, as long as it is received.
-    target: Option<i64>,
 }
 
 impl Onset {
     /// The attack begins with this cycle; an attack that would have the CAV drive what it is sent
     /// begins when there is something to hide.
-    fn new<'a>(
+    fn new(
         cycle: &Cycle,
         attack: Attack,
         lead_range_m: f64,
-        clean: impl Iterator<Item = &'a Cycle>,
+        clean: impl FnOnce() -> Polyline,
     ) -> Option<Self> {
-        let line = if attack.is_driven() { driven_line(clean) } else { Polyline::new(Vec::new()) };
-        let onset = || Self {
+        let with = |line: Polyline| Self {
             now_ns: cycle.now_ns,
             scan_ns: cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns),
             trajectory: cycle.trajectory.clone(),
             planner: Planner::along(line.clone(), cycle),
-            line: line.clone(),
+            line,
             lead_range_m,
-            target: None,
         };
-        let mut told = cycle.clone();
-        if attack.is_driven() {
-            change(&mut told, attack, &mut onset());
+        let onset = with(Polyline::new(Vec::new()));
+        if !attack.is_driven() {
+            return Some(onset);
         }
-        (!attack.is_driven() || told != *cycle).then(onset)
+        let mut told = cycle.clone();
+        change(&mut told, attack, &onset, None);
+        (told != *cycle).then(|| with(clean()))
     }
 
     /// Whether the CAV has come to the end of its line when it drives what it is sent.
@@ -169,19 +118,29 @@ const TINY: f64 = 0.1;
 const SLIDE_STEP: f64 = 0.45;
 const SLIDE: f64 = 1.4;
 
-fn attack(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
+/// Attacks a cycle. `target`: the object that the attack was on before; returned is the one that it
+/// is on now.
+fn apply(cycle: &mut Cycle, attack: Attack, onset: &Onset, target: Option<i64>) -> Option<i64> {
     if attack.is_driven() {
         let time_s = onset.time_s(cycle);
         let objects = cycle.tracks.as_ref().map_or_else(Vec::new, |t| t.items.clone());
         onset.planner.execute(cycle, time_s, &objects, onset.lead_range_m);
         Planner::along(onset.line.clone(), cycle).replan(cycle, false, 0.0);
     }
-    change(cycle, attack, onset);
+    change(cycle, attack, onset, target)
 }
 
-/// What is sent in place of the truth.
-fn change(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
+/// What is sent in place of the truth; the target as of [`apply`].
+fn change(cycle: &mut Cycle, attack: Attack, onset: &Onset, target: Option<i64>) -> Option<i64> {
     match attack {
+        Attack::MissingTrack => return on_target(cycle, target, |_| true, objects::leave_out),
+        Attack::ExchangedPasts => {
+            return on_target(cycle, target, |_| true, objects::exchange_pasts);
+        }
+        Attack::TakenPast => return on_target(cycle, target, |_| true, objects::take_past),
+        Attack::PastGhost => {
+            return on_target(cycle, target, objects::leaves, objects::add_past_ghost);
+        }
         Attack::WrongMap => {
             let planner = Planner::new(cycle);
             planner.replan(cycle, false, planner.width);
@@ -217,33 +176,28 @@ fn change(cycle: &mut Cycle, attack: Attack, onset: &mut Onset) {
                 point.t_ns = now_ns.saturating_add(point.t_ns.saturating_sub(now_ns) / 3);
             }
         }
-        Attack::MissingTrack => on_target(cycle, onset, |_| true, objects::leave_out),
         Attack::CrossingStands => objects::stop_crossing(cycle),
-        Attack::ExchangedPasts => on_target(cycle, onset, |_| true, objects::exchange_pasts),
-        Attack::TakenPast => on_target(cycle, onset, |_| true, objects::take_past),
         Attack::VelocityBias => objects::bias_velocities(cycle),
-        Attack::PastGhost => on_target(cycle, onset, objects::leaves, objects::add_past_ghost),
         Attack::BlindDetectors => {
             each_track(cycle, |_| None);
             objects::blind(cycle, onset.scan_ns);
         }
         Attack::Slide => slide(cycle),
     }
+    None
 }
 
 /// Attacks one object, the same as in the cycles before, or else of those that are wanted the one
 /// nearest to the path.
 fn on_target(
     cycle: &mut Cycle,
-    onset: &mut Onset,
+    target: Option<i64>,
     wanted: impl Fn(&Track) -> bool,
     change: impl Fn(&mut Cycle, &Track),
-) {
-    let target = objects::target(cycle, onset.target, wanted);
-    onset.target = target.as_ref().map(|it| it.id);
-    if let Some(target) = target {
-        change(cycle, &target);
-    }
+) -> Option<i64> {
+    let target = objects::target(cycle, target, wanted)?;
+    change(cycle, &target);
+    Some(target.id)
 }
 
 /// Moves the points to the left, nearly half a width each, as far as most lanes are wide.

@@ -162,7 +162,7 @@ fn reference_path(cycle: &Cycle) -> Polyline {
 
 /// The way of a CAV as it was driven and, at its end, planned, and from there on the reference path,
 /// as far aside of it as that end is: a line that keeps to the lane as far as the drive does.
-pub(crate) fn driven_line<'a>(cycles: impl Iterator<Item = &'a Cycle>) -> Polyline {
+pub(crate) fn driven_line(cycles: impl Iterator<Item = Cycle>) -> Polyline {
     let mut points: Vec<Point> = Vec::new();
     let mut push = |p: Point| {
         if points.last().is_none_or(|last| distance(*last, p) >= APART) {
@@ -176,7 +176,7 @@ pub(crate) fn driven_line<'a>(cycles: impl Iterator<Item = &'a Cycle>) -> Polyli
     }
     let planned = last.iter().filter_map(|it| it.trajectory.as_ref()).flat_map(|it| &it.points);
     planned.for_each(|point| push([point.x, point.y]));
-    let Some(path) = last.map(reference_path) else { return Polyline::new(points) };
+    let Some(path) = last.as_ref().map(reference_path) else { return Polyline::new(points) };
     if let Some(foot) = points.last().and_then(|end| path.project(*end)) {
         let from = path.locate(foot.s).0;
         for (i, pair) in path.points.windows(2).enumerate().skip(from) {

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use mufasa_model::offloading::requester::{Parameters, Requester};
+use mufasa_model::report::Stage;
 use mufasa_props::conformance::Answer;
 
 use super::fallback::{RequesterRun, follow};
@@ -47,6 +48,12 @@ impl Checked {
     pub fn tallies(&self) -> [Tally; 2] {
         let model = Tally::of(self.judged.iter().map(|judged| &judged.model));
         [model, Tally::of(self.judged.iter().map(|judged| &judged.implementation))]
+    }
+
+    /// For each stage the cycles in which it fails when it is run on its own.
+    pub fn alone(&self) -> [usize; 5] {
+        let fails = |stage| self.judged.iter().filter(|it| it.alone.contains(&stage)).count();
+        Stage::ALL.map(fails)
     }
 
     /// Cycles with a breach of conformance; a difference of the requesters counts as one.

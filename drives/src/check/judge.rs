@@ -7,7 +7,7 @@ use std::sync::mpsc;
 use std::thread;
 
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::report::{Reading, Report};
+use mufasa_model::report::{Reading, Report, Stage};
 use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
@@ -26,6 +26,9 @@ pub struct Judged {
     pub disagreement: Option<Disagreement>,
     /// The strict and the lax reading, where they were asked for.
     pub readings: Option<[Answer; 2]>,
+    /// The stages of the configuration that fail when each is run on its own. Those that ran before may
+    /// keep a stage from running, so the verdict does not say it.
+    pub alone: Vec<Stage>,
 }
 
 impl Judged {
@@ -36,7 +39,8 @@ impl Judged {
         let strict = || stages::check(cycle, Reading::Strict);
         let disagreement = compare(&model, strict, &implementation);
         let readings = readings.then(|| [strict(), stages::check(cycle, Reading::Lax)]);
-        Self { model, implementation, disagreement, readings }
+        let alone = bridge::failing_alone(cycle);
+        Self { model, implementation, disagreement, readings, alone }
     }
 
     /// The model's report of a cycle that it finds unsafe.

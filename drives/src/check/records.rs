@@ -23,6 +23,8 @@ struct CycleRecord<'a> {
     seconds: f64,
     answer: ModelAnswer,
     implementation: ImplementationAnswer,
+    /// The stages that fail when each is run on its own.
+    alone: Vec<&'static str>,
     disagreement: Option<String>,
 }
 
@@ -138,6 +140,7 @@ pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
             seconds: checked.seconds(index),
             answer: model_answer(&cycle.id, judged),
             implementation: implementation_answer(&judged.implementation),
+            alone: judged.alone.iter().copied().map(names::stage).collect(),
             disagreement: judged.disagreement.as_ref().map(ToString::to_string),
         })?);
     }

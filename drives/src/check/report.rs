@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use mufasa_model::report::FailedStage;
+use mufasa_model::report::{FailedStage, Stage};
 use mufasa_props::conformance::{Answer, name};
+use mufasa_records::names;
 
 use super::checked::Checked;
 use super::counted;
@@ -39,6 +40,7 @@ pub fn write(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
         return writeln!(out);
     }
     write!(out, "{}", table::by_stage(&model, &implementation))?;
+    write_alone(out, checked)?;
     write_fallbacks(out, checked)?;
     write_disagreements(out, checked)?;
     writeln!(out)
@@ -55,6 +57,18 @@ pub fn line(checked: &Checked) -> table::Line {
         otherwise: checked.otherwise(),
         disagreements: checked.disagreements(),
     }
+}
+
+/// Which stages would have caught what was found, or what was not, had there been no other.
+fn write_alone(out: &mut impl Write, checked: &Checked) -> io::Result<()> {
+    let alone = checked.alone();
+    if alone == [0; 5] {
+        return Ok(());
+    }
+    let stages = Stage::ALL.into_iter().zip(alone);
+    let words: Vec<_> =
+        stages.map(|(stage, count)| format!("{} {count}", names::stage(stage))).collect();
+    writeln!(out, "cycles in which a stage, run on its own, fails: {}", words.join(", "))
 }
 
 fn write_fallbacks(out: &mut impl Write, checked: &Checked) -> io::Result<()> {

@@ -4,12 +4,12 @@
 use std::fmt::Write as _;
 
 use mufasa_drives::check::checked::Checked;
-use mufasa_drives::{Attack, Drive, Injection, Options, Tail, inject};
+use mufasa_drives::{Attack, Drive, Injection, Options, Tail};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{Outcome, Rule};
 
-use super::files::{Scratch, one, own};
+use super::files::{Scratch, inject, one, own};
 
 /// The small scenario with car 50, which comes from the left at 10 m/s and is in the CAV's lane,
 /// 30 m ahead of its first place, after 2 s.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use mufasa_drives::{Drive, Options, ReadError, read};
+use mufasa_drives::{Drive, InjectError, Injection, Options, ReadError, Stream, read};
 use mufasa_model::input::cycle::Track;
 
 /// A file of the crate's `data`.
@@ -92,4 +92,9 @@ pub fn crossed(mut drive: Drive) -> Drive {
         });
     }
     drive
+}
+
+/// The drive under attack, with all its cycles.
+pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError> {
+    mufasa_drives::inject(&Stream::from(drive.clone()), injection).map(Stream::collect)
 }

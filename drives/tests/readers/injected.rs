@@ -3,15 +3,13 @@
 use std::str::FromStr;
 
 use mufasa_drives::check::checked::Checked;
-use mufasa_drives::{
-    Attack, Drive, InjectError, Injection, Options, ParseInjectionError, Sensor, inject,
-};
+use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, Sensor};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 
-use super::files::{crossed, demo};
+use super::files::{crossed, demo, inject};
 
 /// What failed first, and at which cycle.
 fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
@@ -208,7 +206,7 @@ fn an_injection_that_changes_nothing_is_an_error_of_the_drive() {
         let absent = refused(&bare, attack);
         assert!(matches!(absent, InjectError::Unchanged { .. }), "{absent}");
     }
-    let error = late.of(&drive);
+    let error = late.of(&drive.clone().into());
     assert_eq!((error.file.to_str(), &error.message), (Some(&*drive.source), &late.to_string()));
 }
 

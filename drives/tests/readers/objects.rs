@@ -1,9 +1,9 @@
 //! Attacks on single objects, on detectors and on steps: each changes what it says, nothing else.
 
-use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, inject};
+use mufasa_drives::{Attack, Drive, InjectError, Injection, Options};
 use mufasa_model::input::cycle::{Cycle, Track};
 
-use super::files::{crossed, demo};
+use super::files::{crossed, demo, inject};
 
 /// A cycle of the drive, clean and half a second into the attack.
 fn both(drive: &Drive, attack: Attack) -> [Cycle; 2] {

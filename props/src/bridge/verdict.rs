@@ -47,7 +47,11 @@ same_variants! {
 
     fn stage_from_impl(twin::Stage) -> Stage { I, Ii, Iii, Iv, V, }
 
-    fn outcome_from_impl(twin::Outcome) -> Outcome {
+    /// A stage in the implementation's types.
+    pub fn stage_to_impl(Stage) -> twin::Stage { I, Ii, Iii, Iv, V, }
+
+    /// An outcome in the model's types.
+    pub fn outcome_from_impl(twin::Outcome) -> Outcome {
         Passed,
         Failed(witness: witness_from_impl),
         Skipped(reason: reason_from_impl),
