@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::readers::error::{ReadError, quoted};
-use crate::readers::{formats, npy, xml};
+use crate::readers::xml_parts::Parts;
+use crate::readers::{formats, npy};
 
 /// A file by what it holds.
 pub(crate) enum Content {
@@ -36,7 +37,7 @@ impl Content {
                 return Err(ReadError::file(path, message));
             }
         }
-        match xml::with_root(path, &text, |root| Ok(root.name().to_owned()))?.as_str() {
+        match Parts::of(path, &text)?.root(|root| Ok(root.name().to_owned()))?.as_str() {
             "commonRoad" => Ok(Self::Scenario(text)),
             "CommonRoadSolution" => Ok(Self::Solution(text)),
             other => {

@@ -20,6 +20,8 @@ mod surface;
 mod vehicle;
 mod xml;
 mod xml_limits;
+mod xml_marks;
+mod xml_parts;
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -10,7 +10,8 @@ use crate::geometry::{Point, Rectangle, add, cross, sub};
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::left_out::{self, LeftOut};
-use crate::readers::xml::{Element, with_root};
+use crate::readers::xml::Element;
+use crate::readers::xml_parts::Parts;
 use crate::recording::object::{Footprint, Motion, Object, State};
 
 /// A scenario as far as drives need it.
@@ -30,7 +31,8 @@ pub(crate) struct Scenario {
 
 /// Reads a scenario from the text of a file.
 pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
-    with_root(file, text, |root| {
+    let parts = Parts::of(file, text)?;
+    let (name, version, dt_ns) = parts.root(|root| {
         let version = root.attribute("commonRoadVersion")?;
         if !matches!(version, "2018b" | "2020a") {
             let message = format!(
@@ -39,33 +41,19 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
             );
             return Err(root.error("commonRoadVersion", message));
         }
-        let mut reader = Reader::default();
-        let (network, left_out) = lanelets(root)?;
-        let mut objects = Vec::new();
-        for element in root.children() {
-            let role = match element.name() {
-                "obstacle" => element.get("role")?.text(),
-                "dynamicObstacle" => "dynamic",
-                "staticObstacle" => "static",
-                "environmentObstacle" | "phantomObstacle" => {
-                    reader.left_out += 1;
-                    continue;
-                }
-                _ => continue,
-            };
-            objects.push(reader.object(element, role)?);
-        }
-        distinct_ids(root, &objects)?;
-        Ok(Scenario {
-            name: root.attribute("benchmarkID")?.to_owned(),
-            version: version.to_owned(),
-            dt_ns: time_step(root)?,
-            network,
-            objects,
-            notes: left_out::note(&left_out).into_iter().chain(reader.notes()).collect(),
-            left_out,
-        })
-    })
+        Ok((root.attribute("benchmarkID")?.to_owned(), version.to_owned(), time_step(root)?))
+    })?;
+    let mut reader = Reader::default();
+    parts.each_child(|child| reader.child(child))?;
+    let Reader { lanelets, left_out, objects, .. } = &reader;
+    // Where there is no other, the file has its bounds the wrong way round.
+    if let (true, Some(first)) = (lanelets.is_empty(), left_out.first()) {
+        return Err(first.error.clone());
+    }
+    parts.root(|root| distinct_ids(root, objects))?;
+    let notes = left_out::note(left_out).into_iter().chain(reader.notes()).collect();
+    let Reader { lanelets, left_out, objects, .. } = reader;
+    Ok(Scenario { name, version, dt_ns, network: Network { lanelets }, left_out, objects, notes })
 }
 
 fn time_step(root: Element<'_>) -> Result<i64, ReadError> {
@@ -84,31 +72,6 @@ fn distinct_ids(root: Element<'_>, objects: &[Object]) -> Result<(), ReadError> 
     match objects.iter().find(|o| !seen.insert(o.id)) {
         Some(o) => Err(root.error("id", format!("two obstacles have the id {}", o.id))),
         None => Ok(()),
-    }
-}
-
-/// The lanelets, and those that are left out of them because their bounds are on the wrong sides.
-fn lanelets(root: Element<'_>) -> Result<(Network, Vec<LeftOut>), ReadError> {
-    let mut map = BTreeMap::new();
-    let mut left_out = Vec::new();
-    let mut ids = BTreeSet::new();
-    for element in root.all("lanelet") {
-        let id = element.integer_attribute("id")?;
-        if !ids.insert(id) {
-            return Err(element.error("id", "two lanelets have this id"));
-        }
-        let lanelet = lanelet(element, id)?;
-        if leads(&lanelet) {
-            map.insert(id, lanelet);
-        } else {
-            let error = element.error("leftBound", "the left bound is not left of the right one");
-            left_out.push(LeftOut { lanelet, error });
-        }
-    }
-    // Where there is no other, the file has its bounds the wrong way round.
-    match left_out.first() {
-        Some(first) if map.is_empty() => Err(first.error.clone()),
-        _ => Ok((Network { lanelets: map }, left_out)),
     }
 }
 
@@ -153,10 +116,15 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
 /// What was met on the way.
 #[derive(Default)]
 struct Reader {
+    lanelets: BTreeMap<i64, Lanelet>,
+    /// Lanelets whose bounds are on the wrong sides.
+    left_out: Vec<LeftOut>,
+    ids: BTreeSet<i64>,
+    objects: Vec<Object>,
     intervals: usize,
     sets: usize,
     slivers: usize,
-    left_out: usize,
+    obstacles_left_out: usize,
 }
 
 impl Reader {
@@ -178,10 +146,44 @@ impl Reader {
         if self.slivers > 0 {
             notes.push(format!("{} occupied places widened to 0.01 m", self.slivers));
         }
-        if self.left_out > 0 {
-            notes.push(format!("{} environment and phantom obstacles left out", self.left_out));
+        if self.obstacles_left_out > 0 {
+            let count = self.obstacles_left_out;
+            notes.push(format!("{count} environment and phantom obstacles left out"));
         }
         notes
+    }
+
+    /// Takes a child of the root.
+    fn child(&mut self, element: Element<'_>) -> Result<(), ReadError> {
+        let role = match element.name() {
+            "lanelet" => return self.lanelet(element),
+            "obstacle" => element.get("role")?.text(),
+            "dynamicObstacle" => "dynamic",
+            "staticObstacle" => "static",
+            "environmentObstacle" | "phantomObstacle" => {
+                self.obstacles_left_out += 1;
+                return Ok(());
+            }
+            _ => return Ok(()),
+        };
+        let object = self.object(element, role)?;
+        self.objects.push(object);
+        Ok(())
+    }
+
+    fn lanelet(&mut self, element: Element<'_>) -> Result<(), ReadError> {
+        let id = element.integer_attribute("id")?;
+        if !self.ids.insert(id) {
+            return Err(element.error("id", "two lanelets have this id"));
+        }
+        let lanelet = lanelet(element, id)?;
+        if leads(&lanelet) {
+            self.lanelets.insert(id, lanelet);
+        } else {
+            let error = element.error("leftBound", "the left bound is not left of the right one");
+            self.left_out.push(LeftOut { lanelet, error });
+        }
+        Ok(())
     }
 
     fn object(&mut self, element: Element<'_>, role: &str) -> Result<Object, ReadError> {

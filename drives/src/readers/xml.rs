@@ -20,16 +20,34 @@ pub(crate) fn with_root<T>(
     if let Some(limit) = exceeded(text) {
         return Err(ReadError::file(file, limit.to_string()));
     }
+    with_part(file, text, 0, read)
+}
+
+/// Parses a part of a file that is a document of its own and gives its root element to `read`; `before`:
+/// lines of the file that are before it.
+pub(crate) fn with_part<T>(
+    file: &Path,
+    text: &str,
+    before: i64,
+    read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
+) -> Result<T, ReadError> {
     let document = Document::parse(text).map_err(|e| {
-        ReadError::file(file, format!("not well-formed XML: {e}")).line(e.pos().row)
+        let row = line(before, e.pos().row);
+        ReadError::file(file, format!("not well-formed XML: {e}")).line(row)
     })?;
-    read(Element { file, node: document.root_element() })
+    read(Element { file, before, node: document.root_element() })
+}
+
+/// The line of a file of a row of a part.
+fn line(before: i64, row: u32) -> u32 {
+    u32::try_from(before + i64::from(row)).unwrap_or(u32::MAX)
 }
 
 /// An element of a document.
 #[derive(Clone, Copy)]
 pub(crate) struct Element<'a> {
     file: &'a Path,
+    before: i64,
     node: Node<'a, 'a>,
 }
 
@@ -41,7 +59,8 @@ impl<'a> Element<'a> {
     /// An error at this element.
     pub(crate) fn error(self, field: &str, message: impl Into<String>) -> ReadError {
         let position = self.node.document().text_pos_at(self.node.range().start);
-        ReadError::file(self.file, message).line(position.row).at(self.path(), field)
+        let row = line(self.before, position.row);
+        ReadError::file(self.file, message).line(row).at(self.path(), field)
     }
 
     fn path(self) -> String {
@@ -59,8 +78,8 @@ impl<'a> Element<'a> {
     }
 
     pub(crate) fn children(self) -> impl Iterator<Item = Element<'a>> {
-        let file = self.file;
-        self.node.children().filter(Node::is_element).map(move |node| Element { file, node })
+        let nodes = self.node.children().filter(Node::is_element);
+        nodes.map(move |node| Element { node, ..self })
     }
 
     pub(crate) fn all(self, name: &'static str) -> impl Iterator<Item = Element<'a>> {

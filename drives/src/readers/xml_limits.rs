@@ -4,6 +4,8 @@
 
 use std::fmt;
 
+use crate::readers::xml_marks::{Kind, Marks};
+
 /// Limits of a document; files of `CommonRoad` nest less than 10 deep, have less than 10
 /// attributes on an element and hardly any namespace.
 const DEPTH_MAX: usize = 64;
@@ -34,74 +36,27 @@ impl fmt::Display for Limit {
 pub(crate) fn exceeded(text: &str) -> Option<Limit> {
     let mut depth: usize = 0;
     let mut namespaces: usize = 0;
-    let mut rest = text;
-    while let Some(start) = rest.find('<') {
-        rest = &rest[start..];
-        let end = if rest.starts_with("<!--") {
-            after(rest, 4, "-->")
-        } else if rest.starts_with("<![CDATA[") {
-            after(rest, 9, "]]>")
-        } else if rest.starts_with("<?") {
-            after(rest, 2, "?>")
-        } else if rest.starts_with("<!") {
-            None
-        } else if rest.starts_with("</") {
-            depth = depth.saturating_sub(1);
-            after(rest, 2, ">")
-        } else {
-            let tag = Tag::of(rest);
-            if tag.attributes > ATTRIBUTES_MAX {
-                return Some(Limit::Attributes);
+    for mark in Marks::of(text) {
+        match mark.kind {
+            Kind::Open { attributes } | Kind::Empty { attributes } => {
+                if attributes > ATTRIBUTES_MAX {
+                    return Some(Limit::Attributes);
+                }
+                // A value with this word counts as well.
+                namespaces += text[mark.range].matches("xmlns").count();
+                if namespaces > NAMESPACES_MAX {
+                    return Some(Limit::Namespaces);
+                }
+                depth += usize::from(matches!(mark.kind, Kind::Open { .. }));
             }
-            // A value with this word counts as well.
-            namespaces += rest[..tag.end.unwrap_or(rest.len())].matches("xmlns").count();
-            if namespaces > NAMESPACES_MAX {
-                return Some(Limit::Namespaces);
-            }
-            if tag.end.is_some_and(|end| !rest[..end].ends_with("/>")) {
-                depth += 1;
-            }
-            tag.end
-        };
+            Kind::Close => depth = depth.saturating_sub(1),
+            Kind::Other | Kind::Broken => {}
+        }
         if depth > DEPTH_MAX {
             return Some(Limit::Depth);
         }
-        rest = &rest[end?..];
     }
     None
-}
-
-/// Where `text` goes on after the first `mark` from byte `from`.
-fn after(text: &str, from: usize, mark: &str) -> Option<usize> {
-    text[from..].find(mark).map(|i| from + i + mark.len())
-}
-
-/// The tag of an element.
-struct Tag {
-    /// Where the text goes on after it; `None` where it does not end.
-    end: Option<usize>,
-    /// Values in quotes.
-    attributes: usize,
-}
-
-impl Tag {
-    /// The tag that a text starts with; `>` may stand in quotes.
-    fn of(text: &str) -> Self {
-        let mut quote = None;
-        let mut attributes = 0;
-        for (i, byte) in text.bytes().enumerate() {
-            match (quote, byte) {
-                (None, b'"' | b'\'') => {
-                    quote = Some(byte);
-                    attributes += 1;
-                }
-                (None, b'>') => return Self { end: Some(i + 1), attributes },
-                (Some(q), b) if q == b => quote = None,
-                _ => {}
-            }
-        }
-        Self { end: None, attributes }
-    }
 }
 
 #[cfg(test)]
