@@ -3,19 +3,27 @@
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::services::configuration::Configuration;
 
+use super::change::{Onset, apply};
 use super::error::InjectError;
 use super::injection::Injection;
+use super::meeting;
 use super::planner::driven_line;
-use super::{Onset, apply, meeting, seconds};
+use super::time::seconds;
 use crate::drive::Stream;
 
 /// What an attack does to a drive.
 pub(super) struct Course {
-    /// For every cycle of the attacked drive whether it is attacked, and then the object that the
-    /// attack was on before.
-    pub(super) targets: Vec<Option<Option<i64>>>,
+    /// For every cycle of the attacked drive whether and how it is attacked.
+    pub(super) targets: Vec<Option<Target>>,
     /// What is to be known of it.
     pub(super) notes: Vec<String>,
+}
+
+/// How a cycle is attacked.
+#[derive(Clone, Copy)]
+pub(super) struct Target {
+    /// The object that the attack was on before.
+    pub(super) before: Option<i64>,
 }
 
 impl Course {
@@ -36,7 +44,7 @@ struct Pass<'d> {
     drive: &'d Stream,
     injection: Injection,
     start_ns: Option<i64>,
-    targets: Vec<Option<Option<i64>>>,
+    targets: Vec<Option<Target>>,
     target: Option<i64>,
     onset: Option<Onset>,
     /// Cycles that are changed, and the time of the first, s.
@@ -102,7 +110,7 @@ impl<'d> Pass<'d> {
             self.at_the_end = true;
             return false;
         }
-        self.targets.push(Some(self.target));
+        self.targets.push(Some(Target { before: self.target }));
         let mut attacked = clean.clone();
         self.target = apply(&mut attacked, attack, onset, self.target);
         if attacked != *clean {

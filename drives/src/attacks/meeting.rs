@@ -2,6 +2,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Track};
 
+use super::time::seconds;
 use crate::geometry::{Rectangle, add, scale};
 
 /// A collision of the attacked CAV with an object that the CAV of the clean drive does not touch in
@@ -9,7 +10,7 @@ use crate::geometry::{Rectangle, add, scale};
 /// moved on to the cycle's time.
 pub(super) fn note(attacked: &Cycle, clean: &Cycle, at_s: f64) -> Option<String> {
     let tracks = clean.tracks.as_ref()?;
-    let later = super::seconds(clean.now_ns.saturating_sub(tracks.stamp_ns));
+    let later = seconds(clean.now_ns.saturating_sub(tracks.stamp_ns));
     let met = tracks.items.iter().find(|track| {
         let object = object(track, later);
         cav(attacked).meets(&object) && !cav(clean).meets(&object)

@@ -2,6 +2,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Track};
 
+use super::time::seconds;
 use crate::geometry::{Point, Polyline, add, cross, distance, dot, norm, scale, sub};
 
 /// Slower than this an object stands, m/s.
@@ -31,7 +32,7 @@ pub(super) fn target(
     }
     let far = |track: &Track| {
         let at = trajectory.points.iter().map(|point| {
-            let later = super::seconds(point.t_ns.saturating_sub(tracks.stamp_ns));
+            let later = seconds(point.t_ns.saturating_sub(tracks.stamp_ns));
             let there = add(place(track), scale(velocity(track), later));
             let (off, heading) = (sub(there, [point.x, point.y]), [point.cos, point.sin]);
             let (ahead, aside) = (dot(heading, off), cross(heading, off).abs());
@@ -45,7 +46,7 @@ pub(super) fn target(
 
 /// The same list without a track.
 pub(super) fn leave_out(cycle: &mut Cycle, left_out: &Track) {
-    super::each_track(cycle, |it| (it.id != left_out.id).then(|| it.clone()));
+    each_track(cycle, |it| (it.id != left_out.id).then(|| it.clone()));
 }
 
 /// Stops what crosses the reference path, more across than along.
@@ -60,9 +61,7 @@ pub(super) fn stop_crossing(cycle: &mut Cycle) {
         let along = path.project(place(track)).map_or([0.0, 0.0], |foot| foot.tangent);
         norm(v) >= MOVING && cross(along, v).abs() > dot(along, v).abs()
     };
-    super::each_track(cycle, |it| {
-        Some(if crosses(it) { moving(it, [0.0, 0.0]) } else { it.clone() })
-    });
+    each_track(cycle, |it| Some(if crosses(it) { moving(it, [0.0, 0.0]) } else { it.clone() }));
 }
 
 /// Gives a track and the one nearest to it velocities as if each had been, half a second ago,
@@ -86,7 +85,7 @@ pub(super) fn take_past(cycle: &mut Cycle, one: &Track) {
     let Some(other) = nearest(cycle, one) else { return };
     leave_out(cycle, &other);
     let v = from_past(one, &other);
-    super::each_track(cycle, |it| Some(if it.id == one.id { moving(it, v) } else { it.clone() }));
+    each_track(cycle, |it| Some(if it.id == one.id { moving(it, v) } else { it.clone() }));
 }
 
 /// The track nearest to another one, the first of several.
@@ -104,7 +103,7 @@ fn from_past(now: &Track, other: &Track) -> Point {
 
 /// Makes what moves a little faster than it is.
 pub(super) fn bias_velocities(cycle: &mut Cycle) {
-    super::each_track(cycle, |it| {
+    each_track(cycle, |it| {
         let v = velocity(it);
         let speed = norm(v);
         let faster = if speed >= MOVING { scale(v, (speed + BIAS) / speed) } else { v };
@@ -141,4 +140,11 @@ fn velocity(track: &Track) -> Point {
 
 fn moving(track: &Track, [vx, vy]: Point) -> Track {
     Track { vx, vy, ..track.clone() }
+}
+
+/// Changes each track of the list, or leaves it out.
+pub(super) fn each_track(cycle: &mut Cycle, change: impl Fn(&Track) -> Option<Track>) {
+    if let Some(list) = &mut cycle.tracks {
+        list.items = list.items.iter().filter_map(change).collect();
+    }
 }

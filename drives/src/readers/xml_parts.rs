@@ -119,8 +119,11 @@ mod tests {
             .replace("n='<'", "n='&lt;>'")
     }
 
+    /// Names and lines.
+    type Children = Vec<(String, Option<u32>)>;
+
     /// What is read of a document as a whole and in parts: names and the place of each child.
-    fn read(text: &str) -> [Result<Vec<(String, Option<u32>)>, ReadError>; 2] {
+    fn read(text: &str) -> [Result<Children, ReadError>; 2] {
         let file = Path::new("f.xml");
         let place = |child: Element<'_>| (child.name().to_owned(), child.error("", "").line);
         let whole = with_root(file, text, |root| Ok(root.children().map(place).collect()));
