@@ -45,8 +45,9 @@
 // A monitor needs memory aligned to this many bytes, as `malloc` gives it.
 #define MUFASA_MONITOR_ALIGN 8
 
-// What a function says about the call itself. Anything but `Ok` is a fault of the calling
-// program, not of the data of the cycle.
+// What a function says about the call itself, not about the data of a cycle. Most are faults of the
+// calling program. A station can cause `MemoryTooSmall` (a list longer than the settings say), `TableFull`
+// and `InvalidStation`: then its message was ignored, and nothing else has changed.
 enum MufasaStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -440,7 +441,7 @@ typedef struct MufasaParameters {
   double a_b;
   // Time of the safety distance required by law, s.
   double safety_time;
-  // Oldest age at which data count as current, ns.
+  // Oldest age at which data count as current, ns; what is later than now is not current either.
   int64_t max_age_ns;
   // Stage v: disks that cover the footprint.
   int64_t n;
@@ -1043,7 +1044,8 @@ MufasaStatus mufasa_monitor_trajectory(struct MufasaMonitor *monitor,
 // Decides on the inputs and the last elements that were used, and tells the requester: to be called in
 // each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
 // the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
-// say) its verdict is ERROR, and every group is local as after any other unsafe cycle.
+// say) its verdict is ERROR, and every group is local as after any other unsafe cycle. Where `decision`
+// itself is null or misaligned, or `monitor` is, nothing has happened.
 //
 // # Safety
 // `monitor` as for `mufasa_monitor_set_route`; `inputs` is null or points to inputs, every pointer in which

@@ -1,7 +1,8 @@
 //! Whether a call could be carried out at all.
 
-/// What a function says about the call itself. Anything but `Ok` is a fault of the calling
-/// program, not of the data of the cycle.
+/// What a function says about the call itself, not about the data of a cycle. Most are faults of the
+/// calling program. A station can cause `MemoryTooSmall` (a list longer than the settings say), `TableFull`
+/// and `InvalidStation`: then its message was ignored, and nothing else has changed.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MufasaStatus {

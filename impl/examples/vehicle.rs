@@ -38,6 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut station = Station::default();
     let (mut driven, mut fallbacks) = (Vec::new(), 0);
+    // The last verified trajectory: followed where a safe cycle has none and the own planner stands.
+    let mut kept = Vec::new();
     for cycle in 0..200 {
         let now = Time::from_milliseconds(100 * cycle)?;
         let world = World::at(now);
@@ -76,17 +78,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         // The one way to what the station sent.
         match monitor.cycle(&inputs) {
             Decision::Safe { trajectory: Some(trajectory), actions, .. } => {
+                kept = trajectory.points.to_vec();
                 driven.push(follow(trajectory));
                 station.take(&actions);
             }
             Decision::Safe { trajectory: None, actions, .. } => {
-                driven.push(follow_own(&own_plan));
+                driven.push(first(if station.planner_stands { &kept } else { &own_plan }));
                 station.take(&actions);
             }
             Decision::Unsafe { report, actions } => {
                 let why = report.map(|report| report.failed_stage);
                 println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
-                driven.push(follow_own(&own_plan));
+                driven.push(first(&own_plan));
                 station.take(&actions);
                 fallbacks += 1;
             }
@@ -109,7 +112,8 @@ fn follow(
     trajectory.points.first().copied()
 }
 
-fn follow_own(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
+/// The CAV's own plan, or a copy of what was verified.
+fn first(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
     points.first().copied()
 }
 
@@ -190,6 +194,8 @@ struct Station {
     asked: Vec<(Group, i64)>,
     mot: Option<i64>,
     plan: Option<i64>,
+    /// Whether the CAV's own planner is stopped.
+    planner_stands: bool,
 }
 
 impl Station {
@@ -202,8 +208,14 @@ impl Station {
                     *self.of(group) = Some(session);
                 }
                 Action::Release { group, .. } => *self.of(group) = None,
-                Action::Activate(group) => println!("        local services of {group:?} start"),
-                Action::Deactivate(group) => println!("        local services of {group:?} stop"),
+                Action::Activate(group) => {
+                    println!("        local services of {group:?} start");
+                    self.planner_stands &= group != Group::Plan;
+                }
+                Action::Deactivate(group) => {
+                    println!("        local services of {group:?} stop");
+                    self.planner_stands |= group == Group::Plan;
+                }
                 Action::Drop(_) => {}
             }
         }

@@ -98,7 +98,9 @@
 //!             let _stop_local_services = actions;
 //!         }
 //!         Decision::Safe { trajectory: None, actions, .. } => {
-//!             // The local planner goes on.
+//!             // Nothing current was there to be checked. The local planner is followed; where it is
+//!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
+//!             // copy: for at most `dt_max` and a period, then the session ends.
 //!             let _stop_local_services = actions;
 //!         }
 //!         Decision::Unsafe { report, actions } => {
@@ -118,7 +120,8 @@
 //! * All times are of one monotonic clock ([`monitor::Time`]); the stations' clocks are synchronised with
 //!   it. All places are in one right-handed frame (`spec/5-interfaces.md#cycle`).
 //! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.
-//! * Control follows the trajectory of a safe decision until the next one, and the local services'
+//! * Control follows the trajectory of a safe decision until the next one, a copy of the last verified
+//!   one while a safe decision has none and the local planner is stopped, and the local planner's
 //!   otherwise; a braking manoeuvre with `a_b` is within reach of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
 //! * A verdict is as good as the method: five findings are open in the hardened profile

@@ -125,7 +125,8 @@ pub unsafe extern "C" fn mufasa_monitor_trajectory(
 /// Decides on the inputs and the last elements that were used, and tells the requester: to be called in
 /// each period, offloading or not. Unless `decision` is null or misaligned it is always written; when
 /// the status is not OK (a pointer in the inputs that cannot be followed, a list longer than the settings
-/// say) its verdict is ERROR, and every group is local as after any other unsafe cycle.
+/// say) its verdict is ERROR, and every group is local as after any other unsafe cycle. Where `decision`
+/// itself is null or misaligned, or `monitor` is, nothing has happened.
 ///
 /// # Safety
 /// `monitor` as for `mufasa_monitor_set_route`; `inputs` is null or points to inputs, every pointer in which

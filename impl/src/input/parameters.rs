@@ -19,7 +19,7 @@ macro_rules! parameters {
             a_b: f64 = 8.0 in [0.1, 100.0];
             /// Time of the safety distance required by law, s.
             safety_time: f64 = 1.8 in [0.0, 60.0];
-            /// Oldest age at which data count as current, ns.
+            /// Oldest age at which data count as current, ns; what is later than now is not current either.
             max_age_ns: i64 = 100_000_000 in [0, 60_000_000_000];
             /// Stage v: disks that cover the footprint.
             n: i64 = 4 in [1, 64];

@@ -15,10 +15,15 @@ use crate::report::{InvalidInput, Report};
 pub enum Decision<'m> {
     /// No stage failed. The requester has been told.
     Safe {
-        /// The tracks of the station, while MOT is remote and they are current.
+        /// The tracks of the station, while MOT is remote and they are current. What is there was
+        /// compared with what the CAV sees; an object that is not there may still exist.
         tracks: Option<Verified<'m, TrackList<'m>>>,
         /// The trajectory that was checked, while a group is remote and it is current: that of the
-        /// station, or in MotRemote that of the CAV's own planner. In Local nothing is checked.
+        /// station, or in MotRemote that of the CAV's own planner. `None` in Local, where nothing is
+        /// checked and the local planner is followed; and while nothing current was there to check,
+        /// for at most dt_max and a period where the group is remote. Its local planner may be stopped
+        /// then: what is followed is the last verified trajectory, on a copy, and in MotRemote no own
+        /// plan that is older than `max_age_ns`.
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
         report: Report,

@@ -16,7 +16,8 @@ pub struct Message<L> {
     pub session: i64,
     /// When the station made it.
     pub generated: Time,
-    /// The stamp of the list: the time that tracks are valid for, or that of the trajectory.
+    /// The stamp of the list: the time that tracks are valid for, or that of the trajectory. Current is
+    /// what is not later than now and at most `max_age_ns` before it.
     pub stamp: Time,
     /// Tracks, or the points of a trajectory.
     pub items: L,
@@ -62,8 +63,8 @@ impl<L> fmt::Debug for Accepted<L> {
 pub enum Arrival<L> {
     /// It is of the running session and in time: to be checked in a cycle.
     Accepted(Accepted<L>),
-    /// It is of no use, and gone: late, not newer than the last one, or of no running session. A
-    /// violation of quality of service ends the session: then there are releases and activations, too.
+    /// It is of no use, and gone: late, not newer than the last one, of no running session, or with a
+    /// stamp that is not current. A violation of quality of service ends the session: then there are releases and activations, too.
     Dropped(Actions),
 }
 

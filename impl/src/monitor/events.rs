@@ -7,6 +7,10 @@ use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
 use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
 use crate::services::configuration::Group;
+use crate::stages::given::is_current;
+
+/// Sessions are numbered from 1.
+const NO_SESSION: i64 = 0;
 
 impl Monitor<'_> {
     /// A station offers groups; this replaces its previous offer.
@@ -73,7 +77,8 @@ impl Monitor<'_> {
         self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
 
-    /// Tracks arrive. Used is what is of the running session of MOT, in time, and newer than the last.
+    /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
+    /// with a stamp that is current.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn tracks<L: AsRef<[Track]>>(
@@ -84,8 +89,8 @@ impl Monitor<'_> {
         self.arrival(now, Group::Mot, message)
     }
 
-    /// A trajectory arrives. Used is what is of the running session of PLAN, in time, and newer than
-    /// the last.
+    /// A trajectory arrives. Used is what is of the running session of PLAN, in time, newer than
+    /// the last, and with a stamp that is current.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn trajectory<L: AsRef<[TrajectoryPoint]>>(
@@ -104,7 +109,13 @@ impl Monitor<'_> {
     ) -> Result<Arrival<L>, RequesterError> {
         let Message { station, session, generated, stamp, items } = message;
         let generated_ns = generated.as_nanoseconds();
-        let actions = self.step(now, EventKind::Data { station, group, session, generated_ns })?;
+        let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
+        // What is in time, and what no cycle could use, is of no session, so that it is no arrival.
+        let is_in_time = is_current(generated_ns, now_ns, self.settings.requester.l_max_ns);
+        let is_usable = is_current(stamp_ns, now_ns, self.settings.stages.max_age_ns);
+        let named = if is_in_time && !is_usable { NO_SESSION } else { session };
+        let data = EventKind::Data { station, group, session: named, generated_ns };
+        let actions = self.step(now, data)?;
         Ok(if actions.contains(&Action::Drop(group)) {
             Arrival::Dropped(actions)
         } else {

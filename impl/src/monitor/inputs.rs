@@ -49,8 +49,9 @@ impl<'c> Inputs<'c> {
         self
     }
 
-    /// With the leading vehicle, measured at `stamp`; its speed in m/s, >= 0. Source:
-    /// `spec/5-interfaces.md#cycle`.
+    /// With the leading vehicle, measured at `stamp`; its speed in m/s, >= 0. A lead that is absent or not
+    /// current means that nobody is ahead: then no stage looks at the gap, and no outcome shows it.
+    /// Source: `spec/5-interfaces.md#cycle`.
     pub const fn lead(mut self, stamp: Time, gap: Gap, speed_mps: f64) -> Self {
         let stamp_ns = stamp.as_nanoseconds();
         self.lead = Some(Lead { stamp_ns, gap: gap.m, speed: speed_mps });
@@ -73,7 +74,8 @@ impl<'c> Inputs<'c> {
         self
     }
 
-    /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote.
+    /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote. In
+    /// MotRemote one that is not current is not checked, and does not come out: do not drive it.
     /// Source: `spec/5-interfaces.md#monitor`.
     pub const fn local_trajectory(mut self, stamp: Time, points: &'c [TrajectoryPoint]) -> Self {
         self.local_trajectory = Some(Trajectory { stamp_ns: stamp.as_nanoseconds(), points });

@@ -47,7 +47,8 @@ pub struct Monitor<'a> {
 }
 
 impl<'a> Monitor<'a> {
-    /// Everything local, no offers, no route, nothing seen yet.
+    /// Everything local, no offers, no route, nothing seen yet; every group may be offloaded everywhere
+    /// until the first `area`.
     ///
     /// Errors: settings that no monitor can keep, such as a `dt_max` that is not above the period; too
     /// little memory. Source: `spec/5-interfaces.md#monitor`.

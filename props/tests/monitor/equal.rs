@@ -97,7 +97,12 @@ impl Pair<'_, '_, '_> {
         };
         let generated_ns = self.now_ns - age_ns;
         let scene = self.base.scene(self.now_ns);
-        let stamp = |stamp_ns: i64| stamp_ns - age_ns;
+        let stale_ns = if self.draw.one_in(20) {
+            self.draw.pick(&[-1, 0, 100 * MS, 100 * MS + 1, 1_000 * MS])
+        } else {
+            0
+        };
+        let stamp = |stamp_ns: i64| stamp_ns - age_ns - stale_ns;
         match group {
             Group::Mot => {
                 let (stamp_ns, mut items) = scene.tracks.unwrap_or((self.now_ns, Vec::new()));
@@ -126,8 +131,7 @@ impl Pair<'_, '_, '_> {
         Self: Keeps<T>,
     {
         let Received { session, generated_ns, stamp_ns, .. } = copy;
-        let kind = EventKind::Data { station, group, session, generated_ns };
-        let actions = self.plain.step(self.now_ns, kind);
+        let actions = self.plain.data(self.now_ns, (station, group), &copy);
         let (generated, stamp) = (at(generated_ns), at(stamp_ns));
         let items = copy.items.clone();
         match self.arrive(Message { station, session, generated, stamp, items }) {

@@ -7,8 +7,9 @@ use mufasa::input::profile::Profile;
 use mufasa::monitor::{Decision, Gap, Inputs, Message, MonitorError, Settings};
 use mufasa::offloading::requester::{Group, Groups, RequesterError};
 use mufasa::report::{InvalidInput, Problem};
+use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Station, World, at, road, route, settings};
+use super::kit::{Buffers, MS, Station, World, at, message, road, route, settings};
 
 fn refused(settings: Settings) -> (MonitorError, String) {
     let mut buffers = Buffers::new(16, 40);
@@ -163,4 +164,54 @@ fn times_at_the_limits_of_64_bits_do_no_harm() {
         }
     }
     assert!(came_out > 0);
+}
+
+/// `spec/5-interfaces.md#monitor.8`: results that are made in time and that no cycle can use, because their
+/// stamp is not current, end their session like silence; at the bound they are used.
+#[test]
+fn results_that_no_cycle_can_use_end_their_session() {
+    let cross_sections = road();
+    let max_age_ns = settings().stages.max_age_ns;
+    let mut activated = 0;
+    for (age_ns, is_used) in
+        [(0, true), (max_age_ns, true), (max_age_ns + 1, false), (-1, false), (i64::MAX / 2, false)]
+    {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.on(&cross_sections);
+        let mut station = Station::default();
+        for i in 0..20 {
+            let world = World::at(100 * i * MS);
+            let now = at(world.now_ns);
+            let (tracks, points) = if i < 5 {
+                station.period(&mut monitor, &world)
+            } else {
+                station.take(&monitor.tick(now));
+                let [mot, plan] = station.sessions;
+                let Some((mot, plan)) = mot.zip(plan) else { break };
+                let tracks = message(mot, now, world.tracks.clone());
+                let tracks = monitor.tracks(now, tracks).expect("a station");
+                let stamp = at(world.now_ns - age_ns);
+                let points = Message { stamp, ..message(plan, now, world.points.clone()) };
+                let points = monitor.trajectory(now, points).expect("a station");
+                (station.accepted(tracks), station.accepted(points))
+            };
+            assert_eq!(points.is_some(), i > 0 && (i < 5 || is_used), "{age_ns} in period {i}");
+            let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+            if let Some(tracks) = &tracks {
+                inputs = inputs.remote_tracks(tracks);
+            }
+            if let Some(points) = &points {
+                inputs = inputs.remote_trajectory(points);
+            }
+            let Decision::Safe { trajectory, actions, .. } = monitor.cycle(&inputs) else {
+                panic!("nothing is wrong with what is used");
+            };
+            assert_eq!(trajectory.is_some(), points.is_some());
+            station.take(&actions);
+        }
+        let is_remote = monitor.configuration() == Configuration::AllRemote;
+        assert_eq!(is_remote, is_used, "{age_ns}");
+        activated += usize::from(station.released > 0);
+    }
+    assert_eq!(activated, 3);
 }

@@ -69,6 +69,23 @@ impl<'a> Plain<'a> {
         Self { settings, requester, last: [None; 2], kept: Vec::new() }
     }
 
+    /// An element arrives; of one that is in time, but that no cycle could use now, the requester hears no
+    /// session.
+    pub fn data<T>(
+        &mut self,
+        t_ns: i64,
+        (station, group): (i64, Group),
+        received: &Received<T>,
+    ) -> Vec<Action> {
+        let &Received { session, generated_ns, stamp_ns, .. } = received;
+        let oldest_ns = i128::from(t_ns) - i128::from(self.settings.stages.max_age_ns);
+        let usable = stamp_ns <= t_ns && i128::from(stamp_ns) >= oldest_ns;
+        let latency_ns = i128::from(t_ns) - i128::from(generated_ns);
+        let late = latency_ns < 0 || latency_ns > i128::from(self.settings.requester.l_max_ns);
+        let session = if usable || late { session } else { 0 };
+        self.step(t_ns, EventKind::Data { station, group, session, generated_ns })
+    }
+
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
         let actions = self.requester.step(&Event { t_ns, kind }).expect("a station").to_vec();
         if let EventKind::Data { group, session, generated_ns, .. } = kind

@@ -1,6 +1,7 @@
 //! What happens to a requester, and what it does about it
 //! (`spec/2-offloading.md#requester`, `spec/5-interfaces.md#offloading-trace`).
 
+use core::fmt;
 use core::ops::Deref;
 
 use super::per_group::PerGroup;
@@ -163,7 +164,7 @@ pub enum Action {
 /// The actions of one event, in the order in which they are taken: drops, releases, activations
 /// and deactivations, requests; MOT before PLAN within each. Read it as a slice. Source:
 /// `spec/2-offloading.md#fallback`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 #[must_use = "actions have to be taken: a fallback is one"]
 pub struct Actions {
     items: [Action; Outbox::CAPACITY],
@@ -174,6 +175,12 @@ impl Actions {
     /// The actions in their order.
     pub fn as_slice(&self) -> &[Action] {
         self.items.get(..self.len).unwrap_or(&self.items)
+    }
+}
+
+impl fmt::Debug for Actions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.as_slice().fmt(f)
     }
 }
 
