@@ -1,6 +1,6 @@
 """The native part: the implementation, its monitor, readers of drives."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from datetime import timedelta
 from typing import Any, TypeVar, final, overload
 
@@ -182,7 +182,7 @@ class Decision:
     def actions(self) -> Actions:
         """Releases to be sent, and local services that start or stop."""
 
-_Verified = TypeVar("_Verified", VerifiedTracks, VerifiedTrajectory, Decision)
+_Verified = TypeVar("_Verified", bound=VerifiedTracks | VerifiedTrajectory | Decision)
 
 @final
 class Monitor:
@@ -211,7 +211,7 @@ class Monitor:
     def set_route(self, cross_sections: Rows, *, closed: bool = False) -> None:
         """From now on the CAV follows this route (``CrossSection``), of which a copy is kept."""
 
-    def offer(self, now: Time, station: int, groups: Iterable[Group]) -> Actions:
+    def offer(self, now: Time, station: int, groups: Sequence[Group]) -> Actions:
         """A station, at least 1, offers groups; this replaces its previous offer."""
 
     def withdraw(self, now: Time, station: int) -> Actions:
@@ -226,7 +226,7 @@ class Monitor:
     def reject(self, now: Time, station: int, group: Group, session: int) -> Actions:
         """A station rejects a session."""
 
-    def area(self, now: Time, groups: Iterable[Group]) -> Actions:
+    def area(self, now: Time, groups: Sequence[Group]) -> Actions:
         """From now on these groups may be offloaded (CODM)."""
 
     def tick(self, now: Time) -> Actions:
