@@ -5,7 +5,7 @@ use mufasa_props::bridge;
 use pyo3::prelude::*;
 
 use crate::actions::Actions;
-use crate::check::verdict;
+use crate::answers::verdict;
 use crate::errors::{UnsafeCycle, invalid};
 use crate::verified::{Call, Calls, VerifiedTracks, VerifiedTrajectory};
 

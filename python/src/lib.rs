@@ -9,7 +9,7 @@
 )]
 
 mod actions;
-mod check;
+mod answers;
 mod decision;
 mod drives;
 mod errors;
@@ -28,7 +28,7 @@ mod _native {
     #[pymodule_export]
     use crate::actions::Actions;
     #[pymodule_export]
-    use crate::check::check;
+    use crate::answers::check;
     #[pymodule_export]
     use crate::decision::Decision;
     #[pymodule_export]

@@ -10,7 +10,7 @@ use mufasa::offloading::requester::StationRecord;
 use self_cell::{MutBorrow, self_cell};
 
 /// The most detections of a list, and cross sections of a route (`spec/4-arithmetic.md#domain`): the
-/// memory is enough for all of the domain, 4 MB.
+/// memory is enough for all of the domain, 2.5 MB.
 const DETECTIONS: usize = 2048;
 const CROSS_SECTIONS: usize = 8192;
 

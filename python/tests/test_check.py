@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from dataclasses import dataclass
+from dataclasses import make_dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -141,20 +141,10 @@ def test_the_profile_can_be_another_one() -> None:
 
 
 def test_what_a_record_holds_may_be_of_other_types() -> None:
-    @dataclass
-    class Ego:
-        x: float
-        y: float
-        cos: float
-        sin: float
-        speed: float
-        length: float
-        width: float
-        center_offset: float
-
     plain = record()
     other = record()
-    other["ego"] = Ego(**{key: np.float64(it) for key, it in plain["ego"].items()})
+    own = make_dataclass("Own", list(plain["ego"]))
+    other["ego"] = own(**{key: np.float64(it) for key, it in plain["ego"].items()})
     other["now_ns"] = np.int64(plain["now_ns"])
     points = [TrajectoryPoint(**it) for it in plain["trajectory"]["points"]]
     other["trajectory"] = {**plain["trajectory"], "points": tuple(points)}

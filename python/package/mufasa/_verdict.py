@@ -38,6 +38,7 @@ class Verdict:
     """The answer of the implementation to one cycle. It is true when the cycle is safe, and only then."""
 
     id: str
+    """Of the record; empty for a cycle of a monitor."""
     safe: bool
     failed_stage: FailedStage | None
     input: InputProblem | None
