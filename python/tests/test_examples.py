@@ -17,7 +17,7 @@ ENDS = {
         "as recorded, hardened: 188 safe",
         "under attack, paper: 188 safe",
         "under attack, hardened: 152 safe, 36 stage iv",
-        "detections.items.length, item 0: not a finite number; give a finite one",
+        "route.stations.x, item 1: not a finite number; give a finite one",
         "from cycle 0 Local; from cycle 1 AllRemote; from cycle 131 Local",
     ],
 }
