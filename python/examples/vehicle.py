@@ -1,0 +1,149 @@
+"""A vehicle loop at 10 Hz around the monitor, with a stand-in for the road and for a station. From 4 s on
+to 5 s the station's tracks are 3 m aside: the monitor falls back to the local services, waits t_wait, and
+offloads again. The same loop as ``impl/examples/vehicle.rs``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from datetime import timedelta
+
+from mufasa import (
+    Activate,
+    Actions,
+    CrossSection,
+    Deactivate,
+    Detection,
+    Detections,
+    Ego,
+    Gap,
+    Group,
+    Lead,
+    Monitor,
+    Release,
+    Request,
+    Time,
+    Track,
+    Trajectory,
+    TrajectoryPoint,
+    VerifiedTrajectory,
+)
+
+PERIOD = timedelta(milliseconds=100)
+
+
+def main() -> None:
+    # 100 ms, the default of dt_max, would end the session at the first jitter: it is refused.
+    monitor = Monitor(PERIOD, parameters={"dt_max_ns": 150_000_000})
+    # A straight road of 300 m, 6 m wide.
+    road = [CrossSection(x, 0.0, (x, 3.0), (x, -3.0)) for x in range(-50, 260, 10)]
+    monitor.set_route(road)
+
+    station = Station()
+    driven: list[TrajectoryPoint] = []
+    fallbacks = 0
+    for cycle in range(200):
+        now = Time.from_milliseconds(100 * cycle)
+        world = World(now)
+
+        # What came over the network since the last period, and time itself.
+        if cycle == 0:
+            station.take(monitor.offer(now, 1, ["mot", "plan"]))
+        asked, station.asked = station.asked, []
+        for request in asked:
+            station.take(monitor.confirm(now, 1, request.group, request.session))
+        station.take(monitor.tick(now))
+        if (session := station.sessions.get("mot")) is not None:
+            aside = 3.0 if 40 <= cycle < 50 else 0.0
+            station.take(
+                monitor.tracks(
+                    now, station=1, session=session, generated=now, stamp=now, items=world.tracks(aside)
+                )
+            )
+        if (session := station.sessions.get("plan")) is not None:
+            station.take(
+                monitor.trajectory(
+                    now, station=1, session=session, generated=now, stamp=now, points=world.trajectory()
+                )
+            )
+
+        # What the CAV measured and planned itself; then the one way to what the station sent.
+        own_plan = world.trajectory()
+        decision = monitor.cycle(
+            now,
+            world.ego,
+            detections=Detections(now, world.detections()),
+            lead=Lead(now, Gap.between_bumpers(world.gap), 5.0),
+            local_trajectory=Trajectory(now, own_plan),
+        )
+        station.take(decision.actions)
+        if decision.safe and decision.trajectory is not None:
+            driven.append(follow(decision.trajectory))
+        else:
+            driven.append(own_plan[0])
+        if not decision.safe:
+            report = decision.report
+            why = decision.error if report is None else f"stage {report.failed_stage}"
+            print(f"{cycle / 10:4.1f} s: unsafe: {why}, back to the local services")
+            fallbacks += 1
+        if cycle % 10 == 0:
+            print(f"{cycle / 10:4.1f} s: {monitor.configuration}")
+
+    if fallbacks != 1 or monitor.configuration != "AllRemote":
+        raise SystemExit(f"{fallbacks} fallbacks, {monitor.configuration}")
+    print(f"{len(driven)} points driven, one fallback, offloading again")
+
+
+def follow(trajectory: VerifiedTrajectory) -> TrajectoryPoint:
+    """A controller for what others planned takes a verified trajectory and nothing else."""
+    return trajectory.points[0]
+
+
+class World:
+    """The CAV, driving at 5 m/s, a car 20 m ahead of it and one beside the road that do the same."""
+
+    gap = 20.0
+
+    def __init__(self, now: Time) -> None:
+        self.now = now
+        x = 5e-9 * now.nanoseconds
+        self.ego = Ego(x, 0.0, 1.0, 0.0, speed=5.0, length=4.5, width=1.9, center_offset=1.4)
+        self.ahead = x + self.ego.center_offset + 0.5 * self.ego.length + self.gap + 2.25
+
+    def detections(self) -> list[Detection]:
+        places = [(self.ahead, 0.0), (self.ahead + 20.0, 8.0)]
+        return [Detection(x, y, 1.0, 0.0, length=4.5, width=1.9) for x, y in places]
+
+    def tracks(self, aside: float) -> list[Track]:
+        places = [(7, self.ahead, aside), (8, self.ahead + 20.0, 8.0)]
+        return [Track(name, x, y, 1.0, 0.0, 5.0, 0.0, length=4.5, width=1.9) for name, x, y in places]
+
+    def trajectory(self) -> list[TrajectoryPoint]:
+        start_ns, x = self.now.nanoseconds, self.ego.x
+        return [
+            TrajectoryPoint(start_ns + i * 100_000_000, x + 0.5 * i, 0.0, 1.0, 0.0) for i in range(30)
+        ]
+
+
+@dataclass
+class Station:
+    """It confirms what it is asked for, and sends results until it is released."""
+
+    asked: list[Request] = field(default_factory=list)
+    sessions: dict[Group, int] = field(default_factory=dict)
+
+    def take(self, actions: Actions) -> None:
+        """Where the vehicle's actions go: to the network, and to its own services."""
+        for action in actions:
+            if isinstance(action, Request):
+                self.asked.append(action)
+                self.sessions[action.group] = action.session
+            elif isinstance(action, Release):
+                self.sessions.pop(action.group, None)
+            elif isinstance(action, Activate):
+                print(f"        local services of {action.group} start")
+            elif isinstance(action, Deactivate):
+                print(f"        local services of {action.group} stop")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,74 @@
+//! What has to be done about an event or a cycle.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use mufasa::offloading::requester::Action as NativeAction;
+use mufasa_model::offloading::requester::Action;
+use mufasa_props::bridge;
+use mufasa_records::names;
+use pyo3::prelude::*;
+use pyo3::types::{PyIterator, PyList};
+
+/// Actions in the order in which they are to be taken. They count as taken when they are iterated over
+/// or indexed; a monitor takes no further call before.
+#[pyclass(frozen, module = "mufasa")]
+pub struct Actions {
+    actions: Vec<Action>,
+    taken: AtomicBool,
+}
+
+impl Actions {
+    pub fn new(actions: &[NativeAction]) -> Self {
+        let actions: Vec<Action> = actions.iter().copied().map(bridge::action_from_impl).collect();
+        Self { taken: AtomicBool::new(actions.is_empty()), actions }
+    }
+
+    pub fn are_taken(&self) -> bool {
+        self.taken.load(Ordering::Relaxed)
+    }
+
+    fn list<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let actions: PyResult<Vec<_>> = self.actions.iter().map(|it| action(py, it)).collect();
+        PyList::new(py, actions?)
+    }
+
+    fn take<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        self.taken.store(true, Ordering::Relaxed);
+        self.list(py)
+    }
+}
+
+#[pymethods]
+impl Actions {
+    fn __len__(&self) -> usize {
+        self.actions.len()
+    }
+
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+        self.take(py)?.try_iter()
+    }
+
+    fn __getitem__<'py>(&self, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.take(index.py())?.as_any().get_item(index)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("Actions({})", self.list(py)?.repr()?))
+    }
+}
+
+/// An action as Python's.
+fn action<'py>(py: Python<'py>, action: &Action) -> PyResult<Bound<'py, PyAny>> {
+    let class = |name| py.import("mufasa._types")?.getattr(name);
+    match *action {
+        Action::Request { station, group, session } => {
+            class("Request")?.call1((station, names::group(group), session))
+        }
+        Action::Release { station, group, session } => {
+            class("Release")?.call1((station, names::group(group), session))
+        }
+        Action::Activate(group) => class("Activate")?.call1((names::group(group),)),
+        Action::Deactivate(group) => class("Deactivate")?.call1((names::group(group),)),
+        Action::Drop(group) => class("Drop")?.call1((names::group(group),)),
+    }
+}

@@ -1,0 +1,38 @@
+//! One record checked by the implementation (`spec/5-interfaces.md#cycle`).
+
+use mufasa_model::report::{InvalidInput, Report};
+use mufasa_props::bridge;
+use mufasa_records::answer::CycleAnswer;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use crate::errors::{invalid, word};
+
+/// Checks the record of a cycle, given as a line.
+///
+/// Errors: `InvalidInput`: no record of a cycle, or invalid local input.
+#[pyfunction]
+pub fn check<'py>(
+    py: Python<'py>,
+    record: &str,
+    profile: Option<&str>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (id, mut cycle) = mufasa_records::cycle_from_line(record, 1).map_err(|error| {
+        let (field, index, message) = (error.field, error.index, error.message);
+        invalid(InvalidInput { field, index, message })
+    })?;
+    if let Some(profile) = profile {
+        cycle.profile = word("profile", profile).map_err(invalid)?;
+    }
+    let report = py.detach(|| bridge::check_impl(&cycle)).map_err(invalid)?;
+    verdict(py, id, report)
+}
+
+/// The report as a `Verdict` of Python.
+pub fn verdict(py: Python<'_>, id: String, report: Report) -> PyResult<Bound<'_, PyAny>> {
+    // The implementation has one reading; Python leaves out what the answer says of the others.
+    let (strict, lax) = (report.clone(), report.clone());
+    let answer = serde_json::to_string(&CycleAnswer::new(id, report, &strict, &lax));
+    let answer = answer.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    py.import("mufasa._verdict")?.getattr("of_answer")?.call1((answer,))
+}

@@ -1,0 +1,45 @@
+//! The errors of `package/mufasa/_errors.py`.
+
+use mufasa_model::report::InvalidInput as Problem;
+use mufasa_records::names::Words;
+use pyo3::prelude::*;
+
+/// Classes of Python.
+mod classes {
+    use pyo3::import_exception;
+
+    import_exception!(mufasa._errors, ActionsNotTaken);
+    import_exception!(mufasa._errors, Expired);
+    import_exception!(mufasa._errors, InvalidInput);
+    import_exception!(mufasa._errors, OtherMonitor);
+    import_exception!(mufasa._errors, ReadError);
+    import_exception!(mufasa._errors, UnreadableInputs);
+    import_exception!(mufasa._errors, UnsafeCycle);
+}
+
+pub use classes::{
+    ActionsNotTaken, Expired, OtherMonitor, ReadError, UnreadableInputs, UnsafeCycle,
+};
+
+/// A problem as `InvalidInput`.
+pub fn invalid(problem: Problem) -> PyErr {
+    let Problem { field, index, message } = problem;
+    classes::InvalidInput::new_err((field, index, message))
+}
+
+/// A problem of a field that is in no list.
+pub fn wrong(field: &str, message: impl Into<String>) -> Problem {
+    Problem { field: field.to_owned(), index: None, message: message.into() }
+}
+
+/// The value of a word. Errors: a word that is none of those there are.
+pub fn word<T: Words>(field: &str, found: &str) -> Result<T, Problem> {
+    let value = T::ALL.iter().copied().find(|value| value.word() == found);
+    value.ok_or_else(|| {
+        let words: Vec<&str> = T::ALL.iter().map(|value| value.word()).collect();
+        wrong(
+            field,
+            format!("must be {}, not {}", words.join(" or "), mufasa_records::shown(found)),
+        )
+    })
+}

@@ -1,0 +1,342 @@
+//! `mufasa::monitor::Monitor` as a Python object (`spec/5-interfaces.md#monitor`).
+
+use std::time::Duration;
+
+use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
+use mufasa::monitor::{
+    Accepted, Arrival, Message, Monitor as NativeMonitor, MonitorError, Settings,
+    Time as NativeTime,
+};
+use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
+use mufasa_model::offloading::requester::Group;
+use mufasa_props::bridge;
+use mufasa_records::{names, record};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+use crate::actions::Actions;
+use crate::decision::Decision;
+use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, word, wrong};
+use crate::inputs::{Given, Own};
+use crate::items;
+use crate::place::Place;
+use crate::quantities::Time;
+use crate::verified::{Calls, VerifiedTracks, VerifiedTrajectory};
+
+/// The monitor of one CAV: events go in, actions come out; remote data come out of `cycle` alone.
+#[pyclass(module = "mufasa")]
+pub struct Monitor {
+    place: Place,
+    calls: Calls,
+    /// The last elements that the requester used: out of reach until a cycle has checked them.
+    tracks: Option<Accepted<Vec<Track>>>,
+    trajectory: Option<Accepted<Vec<TrajectoryPoint>>>,
+    /// Of the last call.
+    to_do: Option<Py<Actions>>,
+    last: NativeTime,
+}
+
+#[pymethods]
+impl Monitor {
+    #[new]
+    #[pyo3(signature = (
+        period, *, profile = "hardened", parameters = None, sessions_before = 0, most_stations = 64
+    ))]
+    fn new(
+        period: Duration,
+        profile: &str,
+        parameters: Option<&Bound<'_, PyAny>>,
+        sessions_before: i64,
+        most_stations: usize,
+    ) -> PyResult<Self> {
+        let mut settings = Settings { sessions_before, ..Settings::new(period) };
+        settings.profile = bridge::profile_to_impl(word("profile", profile).map_err(invalid)?);
+        if let Some(parameters) = parameters {
+            let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,))?;
+            let object = serde_json::from_str(&json.extract::<String>()?)
+                .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
+            let (stages, requester) = record::parameters::settings(object).map_err(invalid)?;
+            settings.stages = bridge::cycle_parameters(&stages);
+            settings.requester = bridge::parameters_to_impl(&requester);
+        }
+        let place = Place::with(settings, most_stations).map_err(no_monitor)?;
+        let (tracks, trajectory, to_do) = (None, None, None);
+        let last = NativeTime::from_nanoseconds(0);
+        Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })
+    }
+
+    /// From now on the CAV follows this route, of which a copy is kept.
+    #[pyo3(signature = (cross_sections, *, closed = false))]
+    fn set_route(
+        &mut self,
+        py: Python<'_>,
+        cross_sections: &Bound<'_, PyAny>,
+        closed: bool,
+    ) -> PyResult<()> {
+        self.begin(py)?;
+        let cross_sections: Vec<CrossSection> =
+            items::list(cross_sections, "route.stations").map_err(invalid)?;
+        let route = Route { closed, cross_sections: &cross_sections };
+        let set = self.place.with_dependent_mut(|_, monitor| monitor.set_route(&route));
+        set.map_err(|problem| invalid(bridge::invalid_input_from_impl(&problem)))
+    }
+
+    /// A station offers groups; this replaces its previous offer.
+    fn offer(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        station: i64,
+        groups: Vec<String>,
+    ) -> PyResult<Py<Actions>> {
+        let groups = set(&groups)?;
+        self.event(py, now, |monitor, now| monitor.offer(now, station, groups))
+    }
+
+    /// A station withdraws its offer.
+    fn withdraw(&mut self, py: Python<'_>, now: Time, station: i64) -> PyResult<Py<Actions>> {
+        self.event(py, now, |monitor, now| monitor.withdraw(now, station))
+    }
+
+    /// A station can no longer be reached.
+    fn lost(&mut self, py: Python<'_>, now: Time, station: i64) -> PyResult<Py<Actions>> {
+        self.event(py, now, |monitor, now| monitor.lost(now, station))
+    }
+
+    /// A station confirms a session.
+    fn confirm(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        station: i64,
+        group: &str,
+        session: i64,
+    ) -> PyResult<Py<Actions>> {
+        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
+        self.event(py, now, |monitor, now| monitor.confirm(now, station, group, session))
+    }
+
+    /// A station rejects a session.
+    fn reject(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        station: i64,
+        group: &str,
+        session: i64,
+    ) -> PyResult<Py<Actions>> {
+        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
+        self.event(py, now, |monitor, now| monitor.reject(now, station, group, session))
+    }
+
+    /// From now on these groups may be offloaded (CODM).
+    fn area(&mut self, py: Python<'_>, now: Time, groups: Vec<String>) -> PyResult<Py<Actions>> {
+        let groups = set(&groups)?;
+        self.event(py, now, |monitor, now| Ok(monitor.area(now, groups)))
+    }
+
+    /// Time passes: to be called in each period, before its cycle.
+    fn tick(&mut self, py: Python<'_>, now: Time) -> PyResult<Py<Actions>> {
+        self.event(py, now, |monitor, now| Ok(monitor.tick(now)))
+    }
+
+    /// Tracks of a station arrive; they are copied.
+    #[pyo3(signature = (now, *, station, session, generated, stamp, items))]
+    fn tracks(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        station: i64,
+        session: i64,
+        generated: Time,
+        stamp: Time,
+        items: &Bound<'_, PyAny>,
+    ) -> PyResult<Py<Actions>> {
+        self.begin(py)?;
+        let items = items::list(items, "tracks.items").map_err(invalid)?;
+        let (generated, stamp) = (generated.time, stamp.time);
+        let message = Message { station, session, generated, stamp, items };
+        let arrival = self.place.with_dependent_mut(|_, it| it.tracks(now.time, message));
+        let to_do = take(arrival.map_err(refused)?, &mut self.tracks);
+        self.told(py, now.time, &to_do)
+    }
+
+    /// A trajectory of a station arrives; it is copied.
+    #[pyo3(signature = (now, *, station, session, generated, stamp, points))]
+    fn trajectory(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        station: i64,
+        session: i64,
+        generated: Time,
+        stamp: Time,
+        points: &Bound<'_, PyAny>,
+    ) -> PyResult<Py<Actions>> {
+        self.begin(py)?;
+        let items = items::list(points, "trajectory.points").map_err(invalid)?;
+        let (generated, stamp) = (generated.time, stamp.time);
+        let message = Message { station, session, generated, stamp, items };
+        let arrival = self.place.with_dependent_mut(|_, it| it.trajectory(now.time, message));
+        let to_do = take(arrival.map_err(refused)?, &mut self.trajectory);
+        self.told(py, now.time, &to_do)
+    }
+
+    /// Decides on the inputs and tells the requester: to be called in each period, offloading or not.
+    #[pyo3(signature = (
+        now, ego, *, detections = None, lead = None, grid = None, local_tracks = None,
+        local_trajectory = None
+    ))]
+    fn cycle(
+        &mut self,
+        now: &Bound<'_, PyAny>,
+        ego: &Bound<'_, PyAny>,
+        detections: Option<&Bound<'_, PyAny>>,
+        lead: Option<&Bound<'_, PyAny>>,
+        grid: Option<&Bound<'_, PyAny>>,
+        local_tracks: Option<&Bound<'_, PyAny>>,
+        local_trajectory: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Py<Decision>> {
+        let py = now.py();
+        self.begin(py)?;
+        let given = Given { now, ego, detections, lead, grid, local_tracks, local_trajectory };
+        match Own::read(&given) {
+            Ok(own) => self.decide(py, &own),
+            Err(problem) => {
+                let unsafe_cycle = self.decide(py, &Own::nowhere(self.last))?;
+                let actions = unsafe_cycle.get().to_do(py).clone().unbind();
+                let (field, index, message) = (problem.field, problem.index, problem.message);
+                Err(UnreadableInputs::new_err((field, index, message, actions)))
+            }
+        }
+    }
+
+    /// The same data or decision, if they are of this monitor's last call.
+    ///
+    /// Errors: `OtherMonitor`, `Expired`.
+    fn own<'py>(&self, verified: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(it) = verified.cast::<VerifiedTrajectory>() {
+            it.get().call.is_last_of(&self.calls)?;
+        } else if let Ok(it) = verified.cast::<VerifiedTracks>() {
+            it.get().call.is_last_of(&self.calls)?;
+        } else if let Ok(it) = verified.cast::<Decision>() {
+            it.get().call.is_last_of(&self.calls)?;
+        } else {
+            return Err(PyTypeError::new_err("only what a cycle gave can be verified"));
+        }
+        Ok(verified.clone())
+    }
+
+    /// Which groups are remote.
+    #[getter]
+    fn configuration(&self) -> &'static str {
+        let configuration = self.place.with_dependent(|_, monitor| monitor.configuration());
+        names::configuration(bridge::configuration_from_impl(configuration))
+    }
+
+    /// The station whose results of a group may reach control; 0 is the CAV.
+    fn source(&self, group: &str) -> PyResult<i64> {
+        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
+        Ok(self.place.with_dependent(|_, monitor| monitor.source(group).station()))
+    }
+
+    /// The running session of a group that is remote.
+    fn session_of<'py>(&self, py: Python<'py>, group: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
+        let running = self.place.with_dependent(|_, it| it.requester().session_of(group));
+        let class = || py.import("mufasa._types")?.getattr("Session");
+        running.map(|it| class()?.call1((it.station, it.session))).transpose()
+    }
+
+    /// The last session, for `sessions_before` of the next life.
+    #[getter]
+    fn sessions(&self) -> i64 {
+        self.place.with_dependent(|_, monitor| monitor.requester().sessions())
+    }
+
+    /// No request is sent before this time; it stays when it has passed.
+    #[getter]
+    fn hold_until(&self) -> Option<Time> {
+        let hold_ns = self.place.with_dependent(|_, it| it.requester().hold_until_ns());
+        hold_ns.map(|ns| Time { time: NativeTime::from_nanoseconds(ns) })
+    }
+}
+
+impl Monitor {
+    /// A call begins: what was verified before has expired. Errors: actions of the last one are left.
+    fn begin(&mut self, py: Python<'_>) -> PyResult<()> {
+        self.calls.begin();
+        match &self.to_do {
+            Some(actions) if !actions.get().are_taken() => {
+                Err(ActionsNotTaken::new_err((actions.clone_ref(py),)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn event(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        call: impl FnOnce(&mut NativeMonitor<'_>, NativeTime) -> Result<NativeActions, RequesterError>,
+    ) -> PyResult<Py<Actions>> {
+        self.begin(py)?;
+        let to_do = self.place.with_dependent_mut(|_, monitor| call(monitor, now.time));
+        self.told(py, now.time, &to_do.map_err(refused)?)
+    }
+
+    /// What has to be done about a call that was taken.
+    fn told(&mut self, py: Python<'_>, now: NativeTime, to_do: &[Action]) -> PyResult<Py<Actions>> {
+        self.last = now;
+        let actions = Py::new(py, Actions::new(to_do))?;
+        self.to_do = Some(actions.clone_ref(py));
+        Ok(actions)
+    }
+
+    fn decide(&mut self, py: Python<'_>, own: &Own) -> PyResult<Py<Decision>> {
+        self.last = own.now();
+        let Self { place, calls, tracks, trajectory, .. } = self;
+        let inputs = own.with(tracks.as_ref(), trajectory.as_ref());
+        let decision = place
+            .with_dependent_mut(|_, monitor| Decision::new(py, calls, &monitor.cycle(&inputs)))?;
+        self.to_do = Some(decision.to_do(py).clone().unbind());
+        Py::new(py, decision)
+    }
+}
+
+/// Keeps an element that was accepted; what has to be done about one that was not.
+fn take<L>(arrival: Arrival<L>, last: &mut Option<Accepted<L>>) -> Vec<Action> {
+    match arrival {
+        Arrival::Accepted(element) => {
+            *last = Some(element);
+            Vec::new()
+        }
+        Arrival::Dropped(actions) => actions.to_vec(),
+    }
+}
+
+fn set(groups: &[String]) -> PyResult<Groups> {
+    let mut set = Groups::NONE;
+    for group in groups {
+        let group: Group = word("groups", group).map_err(invalid)?;
+        set = set.with(bridge::group_to_impl(group));
+    }
+    Ok(set)
+}
+
+fn refused(error: RequesterError) -> PyErr {
+    invalid(wrong("station", error.to_string()))
+}
+
+fn no_monitor(error: MonitorError) -> PyErr {
+    let field = match error {
+        MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
+        MonitorError::NoPeriod => "period",
+        MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
+        MonitorError::SessionsBefore { .. } => "sessions_before",
+        MonitorError::Memory { .. } => "most_stations",
+    };
+    let message = error.to_string();
+    let message = message.trim_start_matches("settings.").trim_start_matches("requester.");
+    invalid(wrong(field, message))
+}

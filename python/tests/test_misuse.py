@@ -1,0 +1,316 @@
+"""What must not be done with a monitor, and what happens to who does it."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from collections.abc import Callable
+from datetime import timedelta
+from typing import Any
+
+import mufasa
+import pytest
+from conftest import PERIOD, Scene, at
+from mufasa import Detections, Drop, Gap, InvalidInput, Lead, Monitor, Release, Time, Tracks
+
+
+def test_nothing_of_an_unsafe_cycle_can_be_had(scene: Scene) -> None:
+    monitor = scene.offloading()
+    scene.send(monitor, 10, tracks=scene.aside)
+    decision = scene.decide(monitor, 10)
+    assert not decision.safe and not decision
+    assert decision.report is not None and decision.report.failed_stage == "i"
+    for name in ("tracks", "trajectory"):
+        with pytest.raises(mufasa.UnsafeCycle):
+            getattr(decision, name)
+    assert monitor.configuration == "Local"
+
+
+def test_a_safe_cycle_gives_what_the_station_sent(scene: Scene) -> None:
+    decision = scene.safe(scene.offloading(), 10)
+    assert decision and decision.tracks is not None and decision.trajectory is not None
+    assert decision.tracks.items == scene.tracks
+    assert decision.trajectory.points == scene.plan(10)
+    assert (decision.trajectory.station, decision.trajectory.stamp) == (1, at(10))
+
+
+def test_local_cycles_verify_nothing(scene: Scene) -> None:
+    decision = scene.decide(scene.monitor(), 10)
+    assert decision.safe and decision.tracks is None and decision.trajectory is None
+
+
+CALLS: dict[str, Callable[[Monitor], object]] = {
+    "tick": lambda it: it.tick(at(20)),
+    "offer": lambda it: it.offer(at(20), 2, ["mot"]),
+    "withdraw": lambda it: it.withdraw(at(20), 2),
+    "lost": lambda it: it.lost(at(20), 2),
+    "confirm": lambda it: it.confirm(at(20), 2, "mot", 9),
+    "reject": lambda it: it.reject(at(20), 2, "mot", 9),
+    "area": lambda it: it.area(at(20), ["mot", "plan"]),
+    "tracks": lambda it: Scene.send(it, 20),
+    "set_route": lambda it: it.set_route(Scene.road),
+    "cycle": lambda it: Scene.safe(it, 20),
+    "a call that raises": lambda it: it.set_route([]),
+    "a cycle that raises": lambda it: it.cycle(20, Scene.ego),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_verified_data_expire_with_the_next_call(scene: Scene, name: str) -> None:
+    monitor = scene.offloading()
+    decision = scene.safe(monitor, 10)
+    tracks, trajectory = decision.tracks, decision.trajectory
+    assert tracks is not None and trajectory is not None
+    # Looking is no call.
+    assert monitor.configuration == "AllRemote" and monitor.source("plan") == 1
+    assert trajectory.points and tracks.items
+    try:
+        CALLS[name](monitor)
+    except InvalidInput:
+        pass
+    for data, names in (
+        (trajectory, ("points", "stamp", "station")),
+        (tracks, ("items", "stamp", "station")),
+        (decision, ("tracks", "trajectory")),
+    ):
+        for part in names:
+            with pytest.raises(mufasa.Expired):
+                getattr(data, part)
+        with pytest.raises(mufasa.Expired):
+            monitor.own(data)
+    assert decision.safe, "the verdict itself stays what it was"
+
+
+def test_data_of_another_monitor_are_told_apart(scene: Scene) -> None:
+    one, other = scene.offloading(), scene.offloading()
+    decisions = [scene.safe(monitor, 10) for monitor in (one, other)]
+    for name in ("tracks", "trajectory"):
+        own, foreign = (getattr(decision, name) for decision in decisions)
+        assert one.own(own) is own
+        with pytest.raises(mufasa.OtherMonitor):
+            one.own(foreign)
+    with pytest.raises(mufasa.OtherMonitor):
+        one.own(decisions[1])
+    with pytest.raises(TypeError):
+        one.own(scene.plan(10))  # type: ignore[type-var]
+
+
+@pytest.mark.parametrize(
+    "kind", [mufasa.VerifiedTracks, mufasa.VerifiedTrajectory, mufasa.Decision, mufasa.Actions]
+)
+def test_nobody_makes_verified_data(kind: Any) -> None:
+    with pytest.raises(TypeError):
+        kind()
+    with pytest.raises(TypeError):
+        kind.__new__(kind)
+    with pytest.raises(TypeError):
+        type("Forged", (kind,), {})
+
+
+def test_verified_data_can_be_neither_changed_nor_copied(scene: Scene) -> None:
+    trajectory = scene.safe(scene.offloading(), 10).trajectory
+    assert trajectory is not None
+    with pytest.raises(AttributeError):
+        trajectory.points = []  # type: ignore[misc]
+    trajectory.points.clear()
+    assert trajectory.points == scene.plan(10)
+    with pytest.raises(TypeError):
+        copy.copy(trajectory)
+    with pytest.raises(TypeError):
+        pickle.dumps(trajectory)
+
+
+def test_what_was_handed_in_is_out_of_reach(scene: Scene) -> None:
+    monitor = scene.offloading()
+    tracks, points = list(scene.tracks), scene.plan(10)
+    scene.send(monitor, 10, tracks, points)
+    tracks.clear()
+    points[0] = points[0]._replace(x=40.0)
+    shown = {name for name in dir(monitor) if not name.startswith("_")}
+    calls = "set_route offer withdraw lost confirm reject area tick tracks trajectory cycle own"
+    assert shown == {*calls.split(), *"configuration source session_of sessions hold_until".split()}
+    decision = scene.decide(monitor, 10)
+    assert decision.tracks is not None and decision.tracks.items == scene.tracks
+    assert decision.trajectory is not None and decision.trajectory.points == scene.plan(10)
+
+
+def test_a_fallback_cannot_be_thrown_away(scene: Scene) -> None:
+    monitor = scene.offloading()
+    scene.send(monitor, 10, tracks=scene.aside)
+    monitor.cycle(at(10), scene.ego, detections=Detections(at(10), scene.parked))
+    for call in (lambda: monitor.tick(at(20)), lambda: monitor.cycle(at(20), scene.ego)):
+        with pytest.raises(mufasa.ActionsNotTaken) as left:
+            call()
+    # The monitor goes on with who takes them.
+    released = [action for action in left.value.actions if isinstance(action, Release)]
+    assert [action.group for action in released] == ["mot", "plan"]
+    assert not monitor.tick(at(30))
+
+
+def test_requests_and_drops_cannot_be_thrown_away(scene: Scene) -> None:
+    monitor = scene.monitor()
+    monitor.offer(at(0), 1, ["mot"])
+    requests = monitor.tick(at(0))
+    assert len(requests) == 1
+    with pytest.raises(mufasa.ActionsNotTaken):
+        monitor.tick(at(10))
+    assert requests[0] == mufasa.Request(1, "mot", 1) and requests[-1:] == list(requests)
+    now = at(20)
+    late = monitor.tracks(now, station=1, session=7, generated=now, stamp=now, items=[])
+    with pytest.raises(mufasa.ActionsNotTaken):
+        monitor.tick(at(30))
+    assert list(late) == [Drop("mot")]
+    assert not monitor.tick(at(30))
+
+
+def test_neither_configuration_nor_history_is_an_argument(scene: Scene) -> None:
+    monitor = scene.offloading()
+    for name in ("configuration", "profile", "detection_history", "tracks", "trajectory"):
+        with pytest.raises(TypeError, match=name):
+            monitor.cycle(at(10), scene.ego, **{name: None})
+    with pytest.raises(AttributeError):
+        monitor.configuration = "Local"  # type: ignore[misc]
+
+
+@pytest.mark.parametrize("bare", [5_000_000, 0.1, None, timedelta(seconds=1), "now"])
+def test_a_bare_number_is_no_time(scene: Scene, bare: Any) -> None:
+    monitor = scene.offloading()
+    calls: list[Callable[[], object]] = [
+        lambda: monitor.tick(bare),
+        lambda: monitor.offer(bare, 1, ["mot"]),
+        lambda: monitor.lost(bare, 1),
+        lambda: monitor.tracks(at(1), station=1, session=1, generated=bare, stamp=at(1), items=[]),
+        lambda: monitor.trajectory(at(1), station=1, session=1, generated=at(1), stamp=bare, points=[]),
+    ]
+    for call in calls:
+        with pytest.raises(TypeError):
+            call()
+    assert monitor.configuration == "AllRemote"
+    wrong = {
+        "now": {"now": bare},
+        "detections.stamp": {"detections": Detections(bare, [])},
+        "tracks.stamp": {"local_tracks": Tracks(bare, [])},
+        "lead.stamp": {"lead": Lead(bare, Gap.between_bumpers(20.0), 0.0)},
+    }
+    for field, given in wrong.items():
+        with pytest.raises(mufasa.UnreadableInputs) as error:
+            scene.offloading().cycle(given.pop("now", at(1)), scene.ego, **given)
+        assert error.value.field == field
+
+
+@pytest.mark.parametrize("bare", [25.0, 25, "25"])
+def test_a_bare_number_is_no_gap(scene: Scene, bare: Any) -> None:
+    with pytest.raises(mufasa.UnreadableInputs, match=r"mufasa\.Gap") as error:
+        scene.monitor().cycle(at(1), scene.ego, lead=scene.lead(1, bare))
+    assert error.value.field == "lead.gap"
+
+
+def test_a_gap_says_from_where(scene: Scene) -> None:
+    assert Gap.from_reference_point(13.65, scene.ego).metres == pytest.approx(10.0)
+    assert Gap.from_reference_point(13.65, scene.ego._asdict()).metres == pytest.approx(10.0)
+    assert Gap.between_bumpers(10.0).metres == 10.0
+
+
+def test_inputs_that_cannot_be_read_end_in_the_fallback(scene: Scene) -> None:
+    monitor = scene.offloading()
+    scene.safe(monitor, 10)
+    with pytest.raises(mufasa.UnreadableInputs) as error:
+        monitor.cycle(at(20), {"x": 0.0})
+    assert error.value.field == "ego.y"
+    assert monitor.configuration == "Local"
+    with pytest.raises(mufasa.ActionsNotTaken):
+        monitor.tick(at(30))
+    assert [it for it in error.value.actions if isinstance(it, Release)]
+    assert not monitor.tick(at(30))
+
+
+@pytest.mark.parametrize(
+    ("settings", "field"),
+    [
+        ({"parameters": {}}, "dt_max_ns"),
+        ({"parameters": {"dt_max_ns": 100_000_000}}, "dt_max_ns"),
+        ({"parameters": {"dt_max_ns": -1}}, "parameters.dt_max_ns"),
+        ({"parameters": {"dt_max": 0.15}}, "dt_max"),
+        ({"parameters": {"a_b": 0.0}}, "parameters.a_b"),
+        ({"parameters": {"theta_tr": "wide"}}, "theta_tr"),
+        ({"sessions_before": -1}, "sessions_before"),
+        ({"most_stations": 0}, "most_stations"),
+        ({"profile": "lax"}, "profile"),
+    ],
+)
+def test_settings_that_no_monitor_can_keep(settings: dict[str, Any], field: str) -> None:
+    with pytest.raises(InvalidInput) as error:
+        Scene.monitor(**settings)
+    assert error.value.field == field
+
+
+def test_a_period_is_a_time_above_0() -> None:
+    with pytest.raises(InvalidInput) as error:
+        mufasa.Monitor(timedelta(0))
+    assert error.value.field == "period"
+    with pytest.raises(TypeError):
+        mufasa.Monitor(0.1)  # type: ignore[arg-type]
+    assert mufasa.Monitor(PERIOD / 2).configuration == "Local"
+
+
+def test_no_message_of_an_earlier_life_fits(scene: Scene) -> None:
+    first = scene.offloading()
+    assert first.sessions == 2
+    second = scene.offloading(sessions_before=first.sessions)
+    now = at(10)
+    dropped = second.tracks(
+        now, station=1, session=1, generated=now, stamp=now, items=scene.tracks
+    )
+    assert list(dropped) == [Drop("mot")]
+    running = second.session_of("mot")
+    assert running is not None and running == (1, 3)
+
+
+@pytest.mark.parametrize(("generated", "session"), [(at(-50), 1), (at(10), 2), (at(5), 1)])
+def test_late_foreign_and_repeated_data_are_not_used(
+    scene: Scene, generated: Time, session: int
+) -> None:
+    monitor = scene.offloading()
+    scene.safe(monitor, 5)
+    now = at(10)
+    answer = monitor.tracks(
+        now, station=1, session=session, generated=generated, stamp=now, items=scene.aside
+    )
+    assert list(answer)[0] == Drop("mot")
+    # The last element that was used still decides, or none after a violation of quality of service.
+    assert scene.decide(monitor, 10).report is not None
+
+
+def test_a_station_below_1_is_refused_and_nothing_has_changed(scene: Scene) -> None:
+    monitor = scene.offloading(most_stations=1)
+    calls: list[Callable[[], object]] = [
+        lambda: monitor.lost(at(1), 0),
+        lambda: monitor.offer(at(1), 2, ["mot"]),
+    ]
+    for call in calls:
+        with pytest.raises(InvalidInput) as error:
+            call()
+        assert error.value.field == "station"
+    with pytest.raises(InvalidInput) as error:
+        monitor.offer(at(1), 1, ["tracking"])  # type: ignore[list-item]
+    assert error.value.field == "groups"
+    with pytest.raises(TypeError):
+        monitor.offer(at(1), 1, "mot")  # type: ignore[arg-type]
+    assert monitor.configuration == "AllRemote"
+
+
+def test_inputs_that_call_the_monitor_get_an_error(scene: Scene) -> None:
+    monitor = scene.offloading()
+
+    class Meddling:
+        x = y = sin = 0.0
+        cos = length = width = 1.0
+
+        @property
+        def speed(self) -> float:
+            list(monitor.tick(at(999)))
+            return 0.0
+
+    with pytest.raises(mufasa.UnreadableInputs) as error:
+        monitor.cycle(at(10), Meddling())  # type: ignore[arg-type]
+    assert error.value.field == "ego.speed" and monitor.configuration == "Local"
