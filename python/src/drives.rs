@@ -55,9 +55,8 @@ impl Stream {
     fn attacked(&self, py: Python<'_>, attack: &str) -> PyResult<Self> {
         let wrong = |error: String| invalid(wrong("attack", error));
         let injection: Injection = attack.parse().map_err(|it| wrong(format!("{it}")))?;
-        let attacked =
-            py.detach(|| mufasa_drives::inject(&self.stream.clone().collect(), &injection));
-        Ok(Self { stream: attacked.map_err(|error| wrong(error.to_string()))?.into() })
+        let attacked = py.detach(|| mufasa_drives::inject(&self.stream, &injection));
+        Ok(Self { stream: attacked.map_err(|error| wrong(error.to_string()))? })
     }
 }
 
