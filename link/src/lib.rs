@@ -1,3 +1,5 @@
 //! The link between a vehicle and a station that computes for it.
 
+pub mod clock;
 pub mod message;
+pub mod transport;
