@@ -2,4 +2,8 @@
 
 pub mod clock;
 pub mod message;
+pub mod play;
+pub mod run;
+pub mod station;
 pub mod transport;
+pub mod vehicle;
