@@ -57,14 +57,19 @@ pub enum PlayError {
 impl fmt::Display for PlayError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Short { cycles } => write!(f, "{cycles} cycles are too few: at least two have a period"),
+            Self::Short { cycles } => {
+                write!(f, "{cycles} cycles are too few: at least two have a period")
+            }
             Self::Order { index } => write!(
                 f,
                 "cycle {index}: now_ns is not 40 ms to 10 s later than in the cycle before; give the cycles \
                  of one drive in their order"
             ),
             Self::Settings { index } => {
-                write!(f, "cycle {index}: another profile or other parameters than the first cycle has")
+                write!(
+                    f,
+                    "cycle {index}: another profile or other parameters than the first cycle has"
+                )
             }
         }
     }
@@ -172,7 +177,8 @@ impl Played {
 
 /// The points of a trajectory, so much later.
 pub(crate) fn moved(trajectory: Trajectory<'_>, later_ns: i64) -> Vec<TrajectoryPoint> {
-    let moved = |it: &TrajectoryPoint| TrajectoryPoint { t_ns: it.t_ns.saturating_add(later_ns), ..*it };
+    let moved =
+        |it: &TrajectoryPoint| TrajectoryPoint { t_ns: it.t_ns.saturating_add(later_ns), ..*it };
     trajectory.points.iter().map(moved).collect()
 }
 

@@ -5,6 +5,8 @@ use std::thread;
 use std::time::Duration;
 
 use mufasa::monitor::Settings;
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_props::bridge;
 
 use crate::clock::SharedClock;
 use crate::message::EncodeError;
@@ -91,8 +93,7 @@ pub fn both(
 ) -> Result<StationSummary, VehicleError> {
     let has_ended = AtomicBool::new(false);
     thread::scope(|scope| {
-        let serving =
-            scope.spawn(|| station(station_id, offered, clock, of_station, &has_ended));
+        let serving = scope.spawn(|| station(station_id, offered, clock, of_station, &has_ended));
         let driven = run.run(driven, clock, of_vehicle, tally, stop);
         has_ended.store(true, Ordering::Relaxed);
         let served = serving.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -103,4 +104,16 @@ pub fn both(
 fn until(due_ns: i64, clock: SharedClock) -> Duration {
     let ns = u64::try_from(due_ns.saturating_sub(clock.now_ns())).unwrap_or(0);
     Duration::from_nanos(ns).min(LOOK)
+}
+
+/// The settings of a monitor for a drive: its profile, parameters and period, and the times of the
+/// requester. The sessions are numbered by the vehicle.
+pub fn settings(played: &Played, requester: &Parameters) -> Settings {
+    Settings {
+        profile: bridge::profile_to_impl(played.profile()),
+        stages: bridge::cycle_parameters(played.parameters()),
+        requester: bridge::parameters_to_impl(requester),
+        period: Duration::from_nanos(played.period_ns().unsigned_abs()),
+        sessions_before: 0,
+    }
 }

@@ -1,13 +1,24 @@
 //! What a vehicle and a station say to each other, and how it is written in bytes
 //! (`spec/6-link.md`).
 
+mod asn1;
+mod bytes;
+mod cam;
+mod clock;
+mod codec;
+mod cpm;
 mod error;
 mod frame;
+mod header;
+mod objects;
+mod quantity;
+mod trajectory;
+mod vehicle;
 
 use mufasa::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
 use mufasa::services::configuration::{Group, Groups};
 
-pub use self::error::{DecodeError, EncodeError, Problem};
+pub use self::error::{DecodeError, EncodeError, Pdu, Place, Problem};
 pub use self::frame::Frame;
 
 /// One message between a vehicle and a station. Source: `spec/6-link.md#messages`.
@@ -108,14 +119,12 @@ pub enum Payload {
 ///
 /// Errors: a value that the formats cannot hold; nothing is clipped. Source: `spec/6-link.md#limits`.
 pub fn encode(message: &Message, frame: &Frame) -> Result<Vec<u8>, EncodeError> {
-    let _ = (message, frame);
-    todo!("the encoder is the next step")
+    bytes::encode(&codec::write(message, frame)?)
 }
 
 /// The message that these bytes are; whoever sent them, it does not panic and needs bounded memory.
 ///
 /// Errors: bytes that are no message, or one that breaks a rule. Source: `spec/6-link.md#limits`.
 pub fn decode(bytes: &[u8], frame: &Frame) -> Result<Message, DecodeError> {
-    let _ = (bytes, frame);
-    todo!("the decoder is the next step")
+    codec::read(bytes::decode(Pdu::Message, bytes)?, frame)
 }

@@ -160,7 +160,8 @@ impl Coverage {
     }
 
     fn used(&self, at_ns: i64, group: &str, station: i64, digest: u64) -> Result<(), Uncovered> {
-        let Some((_, safe, configuration)) = self.decided.as_ref().filter(|it| it.0 == at_ns) else {
+        let Some((_, safe, configuration)) = self.decided.as_ref().filter(|it| it.0 == at_ns)
+        else {
             return Err(Uncovered::NoDecision);
         };
         let remote: &[&str] = match configuration.as_str() {
@@ -169,9 +170,10 @@ impl Coverage {
             "PlanRemote" => &["plan"],
             _ => &[],
         };
-        let session = self.groups.get(group).filter(|it| {
-            it.running.is_some_and(|(of_station, _)| of_station == station)
-        });
+        let session = self
+            .groups
+            .get(group)
+            .filter(|it| it.running.is_some_and(|(of_station, _)| of_station == station));
         match session {
             _ if !safe => Err(Uncovered::Unsafe),
             _ if !remote.contains(&group) => Err(Uncovered::Local),
@@ -192,7 +194,7 @@ impl Digest for Track {
     fn add(&self, to: &mut DefaultHasher) {
         let Self { id, x, y, cos, sin, vx, vy, length, width } = self;
         id.hash(to);
-        [x, y, cos, sin, vx, vy, length, width].map(|it| it.to_bits().hash(to));
+        [x, y, cos, sin, vx, vy, length, width].map(f64::to_bits).hash(to);
     }
 }
 
@@ -200,7 +202,7 @@ impl Digest for TrajectoryPoint {
     fn add(&self, to: &mut DefaultHasher) {
         let Self { t_ns, x, y, cos, sin } = self;
         t_ns.hash(to);
-        [x, y, cos, sin].map(|it| it.to_bits().hash(to));
+        [x, y, cos, sin].map(f64::to_bits).hash(to);
     }
 }
 
@@ -224,8 +226,20 @@ mod tests {
             What::Began,
             What::Requested { group: group.clone(), station, session },
             What::Confirmed { group: group.clone(), station, session },
-            What::Arrived { group: group.clone(), station, session, latency_ns: 1, accepted: true, digest },
-            What::Decided { cycle: 3, configuration: "AllRemote".to_owned(), safe: true, failed: None },
+            What::Arrived {
+                group: group.clone(),
+                station,
+                session,
+                latency_ns: 1,
+                accepted: true,
+                digest,
+            },
+            What::Decided {
+                cycle: 3,
+                configuration: "AllRemote".to_owned(),
+                safe: true,
+                failed: None,
+            },
             What::Used { group, station, digest },
         ];
         what.map(|what| Entry { at_ns: 5, what }).into()
@@ -250,7 +264,10 @@ mod tests {
         };
         let found: Vec<_> = (1..5).map(without).collect();
         let none = Some(Uncovered::NoSession);
-        assert_eq!(found, [none.clone(), none.clone(), Some(Uncovered::Other), Some(Uncovered::NoDecision)]);
+        assert_eq!(
+            found,
+            [none.clone(), none.clone(), Some(Uncovered::Other), Some(Uncovered::NoDecision)]
+        );
         let with = |index: usize, what: What| {
             let mut entries = session();
             entries.insert(index, Entry { at_ns: 5, what });

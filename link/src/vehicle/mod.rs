@@ -245,7 +245,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 let came = came(Group::Mot, session);
                 let digest = digest(stamp_ns, &tracks);
                 let arrival = self.monitor.tracks(now, came.with(stamp_ns, tracks));
-                self.tracks = self.arrived(now_ns, before, &came, digest, arrival).or(self.tracks.take());
+                self.tracks =
+                    self.arrived(now_ns, before, &came, digest, arrival).or(self.tracks.take());
             }
             Payload::Trajectory { session, stamp_ns, points } => {
                 let came = came(Group::Plan, session);
@@ -378,7 +379,9 @@ impl<'a, T: Transport> Vehicle<'a, T> {
     ) {
         let actions = match answer {
             Ok(actions) => actions,
-            Err(RequesterError::TableFull { .. }) => return self.tally.dropped("too many stations"),
+            Err(RequesterError::TableFull { .. }) => {
+                return self.tally.dropped("too many stations");
+            }
             Err(RequesterError::Station { .. } | RequesterError::NegativeParameter { .. }) => {
                 return self.tally.dropped("no station");
             }
@@ -433,9 +436,8 @@ impl Came {
 fn session(state: GroupState) -> Option<(i64, i64)> {
     match state {
         GroupState::Local => None,
-        GroupState::Requested { station, session, .. } | GroupState::Remote { station, session } => {
-            Some((station, session))
-        }
+        GroupState::Requested { station, session, .. }
+        | GroupState::Remote { station, session } => Some((station, session)),
     }
 }
 

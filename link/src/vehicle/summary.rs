@@ -277,7 +277,10 @@ mod tests {
     fn a_spread_is_that_of_nearest_ranks() {
         let times: Vec<i64> = (1..=200).rev().map(|us| us * 1_000).collect();
         let spread = Spread::of(&times);
-        assert_eq!((spread.count, spread.p50_us, spread.p99_us, spread.max_us), (200, 100.0, 198.0, 200.0));
+        assert_eq!(
+            (spread.count, spread.p50_us, spread.p99_us, spread.max_us),
+            (200, 100.0, 198.0, 200.0)
+        );
         assert_eq!(Spread::of(&[]), Spread::default());
     }
 }
