@@ -194,7 +194,7 @@ impl Digest for Track {
     fn add(&self, to: &mut DefaultHasher) {
         let Self { id, x, y, cos, sin, vx, vy, length, width } = self;
         id.hash(to);
-        [x, y, cos, sin, vx, vy, length, width].map(f64::to_bits).hash(to);
+        [x, y, cos, sin, vx, vy, length, width].map(|it| it.to_bits()).hash(to);
     }
 }
 
@@ -202,7 +202,7 @@ impl Digest for TrajectoryPoint {
     fn add(&self, to: &mut DefaultHasher) {
         let Self { t_ns, x, y, cos, sin } = self;
         t_ns.hash(to);
-        [x, y, cos, sin].map(f64::to_bits).hash(to);
+        [x, y, cos, sin].map(|it| it.to_bits()).hash(to);
     }
 }
 

@@ -33,6 +33,10 @@ use crate::transport::{Address, Transport};
 /// How long before its first decision a vehicle begins, ns.
 const BEFORE_THE_FIRST_NS: i64 = 100_000_000;
 
+/// When the program is so late to sense a cycle, ns, the world waits for it: what the drive holds would be
+/// older than its stamps say it was.
+const PAUSED_AFTER_NS: i64 = 20_000_000;
+
 /// A station of which nothing was heard for so long is lost, ns: its offers come twice a second.
 const LOST_AFTER_NS: i64 = 3_000_000_000;
 
@@ -128,8 +132,15 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         }
         let played = self.played;
         let Some(cycle) = played.cycle(self.next) else { return Ok(None) };
-        let later_ns = self.begin_ns.saturating_sub(played.begin_ns());
-        let sensed_ns = Played::sensed_ns(cycle).saturating_add(later_ns);
+        let mut later_ns = self.begin_ns.saturating_sub(played.begin_ns());
+        let mut sensed_ns = Played::sensed_ns(cycle).saturating_add(later_ns);
+        if !self.is_sensed && now_ns.saturating_sub(sensed_ns) > PAUSED_AFTER_NS {
+            let pause_ns = whole_milliseconds(now_ns.saturating_sub(sensed_ns));
+            self.begin_ns = self.begin_ns.saturating_add(pause_ns);
+            (later_ns, sensed_ns) =
+                (later_ns.saturating_add(pause_ns), sensed_ns.saturating_add(pause_ns));
+            self.tally.paused();
+        }
         let decided_ns = cycle.now_ns.saturating_add(later_ns);
         if !self.is_sensed && now_ns >= sensed_ns {
             self.is_sensed = true;

@@ -48,6 +48,8 @@ pub struct Summary {
     pub safe: u64,
     /// Those that were not, by what failed: `input`, a stage, `no_obstacle_check`, or `error`.
     pub unsafe_by_stage: Counts,
+    /// Cycles before which the drive was held, because this computer was more than 20 ms late.
+    pub paused: u64,
     /// Cycles in which a remote result reached control.
     pub offloaded: u64,
     /// Time of these cycles, s.
@@ -190,6 +192,10 @@ impl Tally {
             self.summary.used += 1;
             self.note(now_ns, what);
         }
+    }
+
+    pub(super) fn paused(&mut self) {
+        self.summary.paused += 1;
     }
 
     pub(super) fn accepted(&mut self, group: Group, latency_ns: i64) {

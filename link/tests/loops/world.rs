@@ -42,7 +42,8 @@ pub struct World {
 
 /// Somebody else who talks, with the frame of the messages.
 pub struct Somebody {
-    pub channels: Channels,
+    pub hub: Hub,
+    channels: Channels,
     pub frame: Frame,
     pub now_ns: i64,
 }
@@ -111,6 +112,7 @@ impl World {
         let settings: Settings = settings(&played, &self.requester);
         let hub = Hub::default();
         let mut somebody = Somebody {
+            hub: hub.clone(),
             channels: hub.join(Address::Vehicle(99)),
             frame: played.frame().expect("a frame"),
             now_ns: START_NS,
