@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use mufasa::input::cycle::Ego;
+use mufasa::input::cycle::{Ego, TrajectoryPoint};
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{Message, Payload, decode};
 use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
@@ -67,27 +67,29 @@ fn bytes_that_are_no_message_are_counted_and_change_nothing() {
 }
 
 #[test]
-fn an_emptied_track_list_in_the_running_session_is_caught_and_starts_the_hold() {
-    let running = Rc::new(RefCell::new((None, None)));
+fn a_trajectory_in_the_running_session_that_leaves_the_road_is_caught_and_starts_the_hold() {
+    let heard = Rc::new(RefCell::new((None, None)));
     let seen = while_somebody(move |ms, by| {
-        let (ear, session) = &mut *running.borrow_mut();
+        let (ear, last) = &mut *heard.borrow_mut();
         let ear = ear.get_or_insert_with(|| by.hub.join(VEHICLE));
         while let Some(bytes) = ear.receive(0) {
-            if let Ok(Message { payload: Payload::Tracks { session: heard, .. }, .. }) =
-                decode(&bytes, &by.frame)
+            if let Ok(Message {
+                payload: Payload::Trajectory { session, stamp_ns, points }, ..
+            }) = decode(&bytes, &by.frame)
             {
-                *session = Some(heard);
+                *last = Some((session, stamp_ns, points));
             }
         }
-        if let (4_000..4_100, Some(session)) = (ms, *session) {
-            let stamp_ns = by.now_ns - 30 * MS;
-            let tracks = Payload::Tracks { session, stamp_ns, tracks: vec![] };
-            let forged = message(by, 1, 1, tracks);
+        if let (4_090, Some((session, stamp_ns, points))) = (ms, last.clone()) {
+            let aside = |it: TrajectoryPoint| TrajectoryPoint { y: it.y + 5.0, ..it };
+            let points = points.into_iter().map(aside).collect();
+            let forged = message(by, 1, 1, Payload::Trajectory { session, stamp_ns, points });
             by.say(VEHICLE, &forged);
         }
     });
     // Nothing tells that the station did not send it, but the stages do.
     assert_eq!(seen.vehicle.fallbacks, 1, "{:?}", seen.vehicle.unsafe_by_stage);
+    assert_eq!(seen.vehicle.unsafe_by_stage.get("ii"), Some(&1));
     assert_eq!(seen.vehicle.left["unsafe"], 2);
     let t_wait_ms = Parameters::default().t_wait_ns / MS;
     let again = seen.offloaded_after(4_200);
@@ -133,8 +135,8 @@ fn who_takes_the_id_of_the_vehicle_ends_its_sessions_and_no_more() {
         }
     });
     assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
-    assert!(seen.vehicle.left["rejected"] >= 2, "{:?}", seen.vehicle.left);
-    // The made-up sessions end with the lease of a second, and higher numbers are taken again.
+    // The vehicle is told of each session that it did not ask for, and releases it.
+    assert!(seen.vehicle.sent["release"] >= 40, "{:?}", seen.vehicle.sent);
     assert_eq!(seen.at(7_500), Configuration::AllRemote, "{:?}", seen.changes);
 }
 
