@@ -121,10 +121,10 @@ pub fn main() -> ExitCode {
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
         Command::Vehicle(arguments) => {
-            linked(|stop| crate::link::vehicle(&arguments, stop, &mut out))
+            Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
         }
         Command::Station(arguments) => {
-            linked(|stop| crate::link::station(&arguments, stop, &mut out))
+            Ok(linked(|stop| crate::link::station(&arguments, stop, &mut out)))
         }
         Command::Completions(CompletionsArguments { shell }) => {
             clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
@@ -273,12 +273,12 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
 }
 
 /// Runs a program of the link, which ends at the first interrupt.
-fn linked(run: impl FnOnce(&Arc<AtomicBool>) -> Result<u8, String>) -> io::Result<u8> {
+fn linked(run: impl FnOnce(&Arc<AtomicBool>) -> Result<u8, String>) -> u8 {
     let stop = match interrupts() {
         Ok(stop) => stop,
-        Err(error) => return Ok(refused(&format!("interrupts: {error}"))),
+        Err(error) => return refused(&format!("interrupts: {error}")),
     };
-    Ok(run(&stop).unwrap_or_else(|message| refused(&message)))
+    run(&stop).unwrap_or_else(|message| refused(&message))
 }
 
 /// What the first interrupt sets; the second ends this program at once.

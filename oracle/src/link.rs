@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use comfy_table::Table;
+use comfy_table::{Table, presets};
 use mufasa_drives::{Drive, Injection, Options, demo, inject, read};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
@@ -71,10 +71,11 @@ pub fn vehicle(
     };
     let summary = tally.summary();
     write_json(arguments.json.as_deref(), &summary)?;
-    let written = writeln!(out, "{}", of_vehicle(&summary)).and_then(|()| match &station {
-        Some(station) => writeln!(out, "{}", of_station(station)),
-        None => Ok(()),
-    });
+    let written =
+        writeln!(out, "{}", of_vehicle(&summary).trim_fmt()).and_then(|()| match &station {
+            Some(station) => writeln!(out, "{}", of_station(station).trim_fmt()),
+            None => Ok(()),
+        });
     words(written)?;
     Ok(code(&summary))
 }
@@ -98,7 +99,7 @@ pub fn station(
     let clock = words(SharedClock::new())?;
     let summary = words(run::station(arguments.id, &played, clock, &mut broker, stop))?;
     write_json(arguments.json.as_deref(), &summary)?;
-    words(writeln!(out, "{}", of_station(&summary)))?;
+    words(writeln!(out, "{}", of_station(&summary).trim_fmt()))?;
     Ok(0)
 }
 
@@ -196,7 +197,7 @@ fn of_station(summary: &StationSummary) -> Table {
 
 fn table(who: &str) -> Table {
     let mut table = Table::new();
-    table.load_preset(comfy_table::presets::NOTHING);
+    table.load_style(presets::NOTHING);
     table.set_header([who, ""]);
     table
 }

@@ -151,9 +151,10 @@ impl<'a, T: Transport> Station<'a, T> {
                     return add(&mut self.summary.dropped, "without a session");
                 }
                 let replay = self.replays.entry(requester).or_default();
-                let Some(trajectory) = replay.state(self.played, stamp_ns, &ego) else {
+                if !replay.locate(self.played, stamp_ns, &ego) {
                     return add(&mut self.summary.dropped, "off the drive");
-                };
+                }
+                let trajectory = replay.trajectory(self.played, stamp_ns);
                 if let (Some(session), Some((stamp_ns, points))) =
                     (self.session(requester, Group::Plan), trajectory)
                 {

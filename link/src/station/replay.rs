@@ -13,21 +13,26 @@ pub(super) struct Replay {
 }
 
 impl Replay {
-    /// Takes the state of the vehicle, and plans: the trajectory of the cycle that it senses, with its
-    /// stamp, if there is one. `None`: it is not on the drive.
-    pub(super) fn state(
-        &mut self,
+    /// Takes the state of the vehicle at a time, ns. Whether it is on the drive.
+    pub(super) fn locate(&mut self, played: &Played, stamp_ns: i64, ego: &Ego) -> bool {
+        let about_ns = self.later_ns.map(|later_ns| stamp_ns.saturating_sub(later_ns));
+        let Some(cycle) = played.find(ego, about_ns).and_then(|index| played.cycle(index)) else {
+            return false;
+        };
+        self.later_ns = Some(stamp_ns.saturating_sub(Played::sensed_ns(cycle)));
+        true
+    }
+
+    /// Plans for that time: the trajectory of the drive with its stamp, if there is one.
+    pub(super) fn trajectory(
+        &self,
         played: &Played,
         stamp_ns: i64,
-        ego: &Ego,
-    ) -> Option<Option<(i64, Vec<TrajectoryPoint>)>> {
-        let about_ns = self.later_ns.map(|later_ns| stamp_ns.saturating_sub(later_ns));
-        let cycle = played.cycle(played.find(ego, about_ns)?)?;
-        let later_ns = stamp_ns.saturating_sub(Played::sensed_ns(cycle));
-        self.later_ns = Some(later_ns);
-        let owned = bridge::to_impl(cycle);
-        let trajectory = owned.borrow(&[]).trajectory;
-        Some(trajectory.map(|it| (it.stamp_ns.saturating_add(later_ns), moved(it, later_ns))))
+    ) -> Option<(i64, Vec<TrajectoryPoint>)> {
+        let later_ns = self.later_ns?;
+        let owned = bridge::to_impl(played.at(stamp_ns.saturating_sub(later_ns))?);
+        let trajectory = owned.borrow(&[]).trajectory?;
+        Some((trajectory.stamp_ns.saturating_add(later_ns), moved(trajectory, later_ns)))
     }
 
     /// Tracks what was detected at that time: the tracks of the drive with their stamp, numbered from 0,
