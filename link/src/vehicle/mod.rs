@@ -4,30 +4,29 @@
 //! and does what is due. A period has two moments. When a cycle is *sensed* the vehicle sends its state,
 //! its detections and signs of life; 30 ms later it is *decided*, with what has come until then.
 
+mod decide;
 pub mod log;
 pub mod memory;
 pub mod summary;
+mod take;
 
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use mufasa::input::cycle::{Grid, Track, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{
-    Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message as Received, Monitor, MonitorError,
-    Settings, Time, Verified,
-};
-use mufasa::offloading::requester::{Action, Actions, GroupState, RequesterError, Source};
+use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa::monitor::{Accepted, Monitor, MonitorError, Settings, Time};
+use mufasa::offloading::requester::{Action, Actions, GroupState, RequesterError};
 use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_model::input::cycle::{Cycle, Route};
 use mufasa_props::bridge;
 use mufasa_records::names;
 
-use self::log::{What, digest};
+use self::log::What;
 use self::memory::Lent;
 use self::summary::Tally;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
-use crate::play::{Played, moved};
+use crate::play::Played;
 use crate::transport::{Address, Transport};
 
 /// How long before its first decision a vehicle begins, ns.
@@ -216,90 +215,6 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         }
     }
 
-    /// Takes a message; whatever it is, nothing worse happens than that it is counted.
-    fn take(&mut self, now_ns: i64, bytes: &[u8]) {
-        let message = match message::decode(bytes, &self.frame) {
-            Ok(message) => message,
-            Err(error) => return self.tally.malformed(&error),
-        };
-        let Message { sender: station, receiver, generated_ns, payload } = message;
-        if receiver != self.id && receiver != 0 {
-            return self.tally.dropped("for another");
-        }
-        self.tally.received(&payload);
-        let before = self.states();
-        let now = time(now_ns);
-        let came = |group, session| Came { group, station, session, generated_ns };
-        match payload {
-            Payload::Offer { groups } => {
-                let answer = self.monitor.offer(now, station, groups);
-                if answer.is_ok() {
-                    self.heard.insert(station, now_ns);
-                }
-                self.answered(now_ns, before, answer, "offer");
-            }
-            Payload::Withdraw => {
-                self.heard.remove(&station);
-                let answer = self.monitor.withdraw(now, station);
-                self.answered(now_ns, before, answer, "withdrawn");
-            }
-            Payload::Confirm { group, session } => {
-                self.tally.note(now_ns, What::Confirmed { group: word(group), station, session });
-                let answer = self.monitor.confirm(now, station, group, session);
-                self.answered(now_ns, before, answer, "confirmed");
-            }
-            Payload::Reject { group, session } => {
-                let answer = self.monitor.reject(now, station, group, session);
-                self.answered(now_ns, before, answer, "rejected");
-            }
-            Payload::Tracks { session, stamp_ns, tracks } => {
-                let came = came(Group::Mot, session);
-                let digest = digest(stamp_ns, &tracks);
-                let arrival = self.monitor.tracks(now, came.with(stamp_ns, tracks));
-                self.tracks =
-                    self.arrived(now_ns, before, &came, digest, arrival).or(self.tracks.take());
-            }
-            Payload::Trajectory { session, stamp_ns, points } => {
-                let came = came(Group::Plan, session);
-                let digest = digest(stamp_ns, &points);
-                let arrival = self.monitor.trajectory(now, came.with(stamp_ns, points));
-                self.trajectory =
-                    self.arrived(now_ns, before, &came, digest, arrival).or(self.trajectory.take());
-            }
-            Payload::Request { .. }
-            | Payload::Release { .. }
-            | Payload::Alive { .. }
-            | Payload::State { .. }
-            | Payload::Detections { .. } => self.tally.dropped("of a vehicle"),
-        }
-    }
-
-    /// What became of a result: it is kept to be checked, or it is gone.
-    fn arrived<L>(
-        &mut self,
-        now_ns: i64,
-        before: [GroupState; 2],
-        came: &Came,
-        digest: u64,
-        arrival: Result<Arrival<L>, RequesterError>,
-    ) -> Option<Accepted<L>> {
-        let Came { group, station, session, generated_ns } = *came;
-        let latency_ns = now_ns.saturating_sub(generated_ns);
-        let accepted = matches!(arrival, Ok(Arrival::Accepted(_)));
-        let what =
-            What::Arrived { group: word(group), station, session, latency_ns, accepted, digest };
-        self.tally.note(now_ns, what);
-        match arrival {
-            Ok(Arrival::Accepted(element)) => {
-                self.tally.accepted(group, latency_ns);
-                return Some(element);
-            }
-            Ok(Arrival::Dropped(actions)) => self.answered(now_ns, before, Ok(actions), "late"),
-            Err(error) => self.answered(now_ns, before, Err(error), "late"),
-        }
-        None
-    }
-
     /// Decides what time alone decides.
     fn tick(&mut self, now_ns: i64) {
         let lost: Vec<i64> = (self.heard.iter())
@@ -315,68 +230,6 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         let before = self.states();
         let actions = self.monitor.tick(time(now_ns));
         self.answered(now_ns, before, Ok(actions), "silent");
-    }
-
-    /// Decides a cycle, and lets control have what it may have.
-    fn decide(&mut self, now_ns: i64, cycle: &Cycle, later_ns: i64) -> Result<(), VehicleError> {
-        let later = |stamp_ns: i64| time(stamp_ns.saturating_add(later_ns));
-        let owned = bridge::to_impl(cycle);
-        let known = owned.borrow(&[]);
-        if self.route.as_ref() != Some(&cycle.route) {
-            self.monitor.set_route(&known.route).map_err(VehicleError::Route)?;
-            self.route = Some(cycle.route.clone());
-        }
-        let points = known.trajectory.map(|it| moved(it, later_ns));
-        let mut inputs = Inputs::new(time(now_ns), known.ego);
-        if let Some(list) = known.detections {
-            inputs = inputs.detections(later(list.stamp_ns), list.items);
-        }
-        if let Some(lead) = known.lead {
-            inputs = inputs.lead(later(lead.stamp_ns), Gap::between_bumpers(lead.gap), lead.speed);
-        }
-        if let Some(grid) = known.grid {
-            inputs = inputs.grid(later(grid.stamp_ns), grid_map(&grid));
-        }
-        if let Some(list) = known.tracks {
-            inputs = inputs.local_tracks(later(list.stamp_ns), list.items);
-        }
-        if let (Some(trajectory), Some(points)) = (known.trajectory, &points) {
-            inputs = inputs.local_trajectory(later(trajectory.stamp_ns), points);
-        }
-        if let Some(tracks) = &self.tracks {
-            inputs = inputs.remote_tracks(tracks);
-        }
-        if let Some(trajectory) = &self.trajectory {
-            inputs = inputs.remote_trajectory(trajectory);
-        }
-        let before = self.states();
-        let configuration = self.monitor.configuration();
-        let begun = Instant::now();
-        let decision = self.monitor.cycle(&inputs);
-        let took = begun.elapsed();
-        let (report, actions) = match &decision {
-            Decision::Safe { report, actions, .. } => (Ok(*report), *actions),
-            Decision::Unsafe { report, actions } => (*report, *actions),
-        };
-        let is_safe = matches!(decision, Decision::Safe { .. });
-        self.tally.decided(now_ns, self.next, configuration, is_safe, &report, took);
-        if let Decision::Safe { tracks, trajectory, .. } = decision {
-            let follow = |it: &Verified<'_, Trajectory<'_>>| digest(it.stamp_ns, it.points);
-            let used = [
-                tracks.map(|it| (Group::Mot, it.source(), digest(it.stamp_ns, it.items))),
-                trajectory.map(|it| (Group::Plan, it.source(), follow(&it))),
-            ];
-            let remote = |(group, source, digest)| match source {
-                Source::Remote { station } => {
-                    Some(What::Used { group: word(group), station, digest })
-                }
-                Source::Local => None,
-            };
-            let used = used.into_iter().flatten().filter_map(remote).collect();
-            self.tally.used(now_ns, self.played.period_ns(), used);
-        }
-        self.answered(now_ns, before, Ok(actions), "unsafe");
-        Ok(())
     }
 
     /// Does what the requester wants; `why` a session has ended, if one has. `before`: the states of the
@@ -429,32 +282,12 @@ impl<'a, T: Transport> Vehicle<'a, T> {
     }
 }
 
-/// A result that came.
-struct Came {
-    group: Group,
-    station: i64,
-    session: i64,
-    generated_ns: i64,
-}
-
-impl Came {
-    fn with<T>(&self, stamp_ns: i64, items: Vec<T>) -> Received<Vec<T>> {
-        let Self { station, session, generated_ns, .. } = *self;
-        Received { station, session, generated: time(generated_ns), stamp: time(stamp_ns), items }
-    }
-}
-
 fn session(state: GroupState) -> Option<(i64, i64)> {
     match state {
         GroupState::Local => None,
         GroupState::Requested { station, session, .. }
         | GroupState::Remote { station, session } => Some((station, session)),
     }
-}
-
-fn grid_map<'c>(grid: &Grid<'c>) -> GridMap<'c> {
-    let Grid { stamp_ns: _, x, y, cos, sin, resolution, width, height, occupied, unknown } = *grid;
-    GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown }
 }
 
 fn time(ns: i64) -> Time {
