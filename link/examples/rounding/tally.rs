@@ -15,6 +15,8 @@ pub struct Change {
     pub cycle: String,
     pub before: Answer,
     pub after: Result<Answer, EncodeError>,
+    /// How little would have turned the verdict before, m.
+    pub slack_m: Option<f64>,
 }
 
 /// What became of the cycles of one profile on one way.
@@ -27,8 +29,8 @@ pub struct Tally {
     to_unsafe: usize,
     to_safe: usize,
     other: usize,
-    /// How often which verdict became which, by stage and rule.
-    kinds: BTreeMap<[String; 2], usize>,
+    /// How often which verdict became which, by stage and rule, and the greatest slack of them.
+    kinds: BTreeMap<[String; 2], (usize, Option<f64>)>,
     changed: Vec<serde_json::Value>,
 }
 
@@ -41,7 +43,7 @@ impl Tally {
 
     pub fn add(&mut self, change: Change) {
         self.cycles += 1;
-        let Change { drive, cycle, before, after } = change;
+        let Change { drive, cycle, before, after, slack_m } = change;
         let after = match after {
             Ok(after) => after,
             Err(error) => {
@@ -59,11 +61,13 @@ impl Tally {
             [false, true] => self.to_safe += 1,
             [true, true] | [false, false] => self.other += 1,
         }
-        *self.kinds.entry(kinds).or_default() += 1;
+        let (count, slack) = self.kinds.entry(kinds).or_insert((0, Some(0.0)));
+        *count += 1;
+        *slack = slack.zip(slack_m).map(|(most, slack_m)| slack_m.max(most));
         let [before, after] = [before, after].map(|answer| words::answer(&answer));
         self.changed.push(json!({
             "profile": self.profile, "way": self.way, "drive": drive, "cycle": cycle, "before": before,
-            "after": after,
+            "after": after, "slack_m": slack_m,
         }));
     }
 }
@@ -93,14 +97,21 @@ pub fn tables(tallies: &[Tally]) -> String {
             "| {way} | {profile} | {drives} | {cycles} | {refused} | {to_unsafe} | {to_safe} | {other} |"
         );
     }
-    text.push_str("\n| sent | profile | before | after | cycles |\n|---|---|---|---|--:|\n");
+    text.push_str(
+        "\n| sent | profile | before | after | cycles | slack |\n|---|---|---|---|--:|--:|\n",
+    );
     for Tally { profile, way, kinds, refused, .. } in tallies {
-        for ([before, after], count) in kinds {
-            let _ = writeln!(text, "| {way} | {profile} | {before} | {after} | {count} |");
+        for ([before, after], (count, slack_m)) in kinds {
+            let slack =
+                slack_m.map_or("-".to_owned(), |slack_m| format!("{:.1} mm", slack_m * 1e3));
+            let _ =
+                writeln!(text, "| {way} | {profile} | {before} | {after} | {count} | {slack} |");
         }
         for (place, count) in refused {
-            let _ =
-                writeln!(text, "| {way} | {profile} | any | `{place}` does not fit | {count} |");
+            let _ = writeln!(
+                text,
+                "| {way} | {profile} | any | `{place}` does not fit | {count} | - |"
+            );
         }
     }
     text
