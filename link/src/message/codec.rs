@@ -160,3 +160,6 @@ impl From<asn1::Group> for Group {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
