@@ -169,13 +169,12 @@ fn of_vehicle(summary: &Summary) -> Table {
     row("latency of tracks", spread(summary.latency_tracks));
     row("latency of trajectories", spread(summary.latency_trajectories));
     row("Monitor::cycle", spread(summary.monitor));
-    row("sent", counts(&summary.sent));
-    row("  could not be written", counts(&summary.unsent));
-    row("received", counts(&summary.received));
-    row("  dropped", counts(&summary.dropped));
-    row("  malformed", counts(&summary.malformed));
-    row("  shed by the transport", summary.shed.to_string());
-    row("connections", connections(summary.connections, summary.last_error.as_deref()));
+    let Summary { sent, unsent, received, dropped, malformed, .. } = summary;
+    let (shed, connected) = (summary.shed, summary.connections);
+    let error = summary.last_error.as_deref();
+    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
+        .into_iter()
+        .for_each(|(name, value)| row(name, value));
     table
 }
 
@@ -185,14 +184,31 @@ fn of_station(summary: &StationSummary) -> Table {
         table.add_row([name.to_owned(), value]);
     };
     row("most sessions at a time", summary.sessions.to_string());
-    row("sent", counts(&summary.sent));
-    row("  could not be written", counts(&summary.unsent));
-    row("received", counts(&summary.received));
-    row("  dropped", counts(&summary.dropped));
-    row("  malformed", counts(&summary.malformed));
-    row("  shed by the transport", summary.shed.to_string());
-    row("connections", connections(summary.connections, summary.last_error.as_deref()));
+    let StationSummary { sent, unsent, received, dropped, malformed, .. } = summary;
+    let (shed, connected) = (summary.shed, summary.connections);
+    let error = summary.last_error.as_deref();
+    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
+        .into_iter()
+        .for_each(|(name, value)| row(name, value));
     table
+}
+
+/// What went to and fro.
+fn traffic(
+    [sent, unsent, received, dropped, malformed]: [&Counts; 5],
+    shed: u64,
+    connected: u64,
+    error: Option<&str>,
+) -> [(&'static str, String); 7] {
+    [
+        ("sent", counts(sent)),
+        ("  could not be written", counts(unsent)),
+        ("received", counts(received)),
+        ("  dropped", counts(dropped)),
+        ("  malformed", counts(malformed)),
+        ("  shed by the transport", shed.to_string()),
+        ("connections", connections(connected, error)),
+    ]
 }
 
 fn table(who: &str) -> Table {

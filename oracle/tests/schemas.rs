@@ -119,12 +119,12 @@ fn the_summary_of_a_vehicle_is_what_its_schema_says() {
     some_cycles(&folder);
     let text = fs::read_to_string(folder.join("cycles.jsonl")).expect("it was written");
     let mut cycle = parsed(text.lines().next().expect("a cycle"));
-    let mut lines = String::new();
-    for index in 0..4 {
+    let at = |index: i64| {
         cycle["now_ns"] = (1_000_000_000 + index * 100_000_000).into();
-        lines += &format!("{cycle}\n");
-    }
-    fs::write(folder.join("drive.jsonl"), lines).expect("it can be written");
+        cycle.to_string()
+    };
+    let lines: Vec<_> = (0..4).map(at).collect();
+    fs::write(folder.join("drive.jsonl"), lines.join("\n")).expect("it can be written");
     let text = run(&folder, &["vehicle", "drive.jsonl", "--json", "vehicle.json"]);
     assert!(text.contains("station"), "both are in one process: {text}");
     let text = fs::read_to_string(folder.join("vehicle.json")).expect("it was written");

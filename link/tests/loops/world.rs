@@ -22,6 +22,9 @@ pub const START_NS: i64 = 1_790_000_000_000_000_000;
 
 pub const MS: i64 = 1_000_000;
 
+/// Called each ms with the time since the start, ms, and a way to send as anybody.
+pub type Also = Box<dyn FnMut(i64, &mut Somebody)>;
+
 /// What happens in a world.
 pub struct World {
     pub profile: Profile,
@@ -34,8 +37,8 @@ pub struct World {
     pub station: Vec<(i64, i64)>,
     /// Times in ms, at which the vehicle is started anew.
     pub restarts: Vec<i64>,
-    /// Called each ms with the time since the start, ms, and a way to send as anybody.
-    pub also: Box<dyn FnMut(i64, &mut Somebody)>,
+    /// Who else talks.
+    pub also: Also,
     /// Times in ms after which all ends.
     pub until: i64,
 }
