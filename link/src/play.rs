@@ -204,6 +204,18 @@ mod tests {
     }
 
     #[test]
+    fn where_the_vehicle_stands_the_time_tells_the_cycle() {
+        let mut drive = demo();
+        let ego = drive.cycles[10].cycle.ego.clone();
+        drive.cycles[10..20].iter_mut().for_each(|it| it.cycle.ego = ego.clone());
+        let played = Played::new(drive).unwrap();
+        let cycle = played.cycle(15).unwrap();
+        let (ego, sensed_ns) = (Played::sensed(cycle), Played::sensed_ns(cycle));
+        assert_eq!(played.find(&ego, Some(sensed_ns + 40_000_000)), Some(15));
+        assert_eq!(played.find(&ego, None), Some(10));
+    }
+
+    #[test]
     fn who_is_elsewhere_is_not_followed() {
         let played = Played::new(demo()).unwrap();
         let ego = Played::sensed(played.cycle(0).unwrap());

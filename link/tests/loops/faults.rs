@@ -1,8 +1,13 @@
 //! What happens to messages, stations and vehicles; each ends as the spec says, and is offloaded again.
 
-use mufasa::services::configuration::Configuration;
+use std::cell::RefCell;
+use std::rc::Rc;
 
-use crate::world::{Seen, World};
+use mufasa::services::configuration::Configuration;
+use mufasa_link::message::{Payload, decode};
+use mufasa_link::transport::{Address, Transport};
+
+use crate::world::{Seen, Somebody, World};
 
 /// What must hold whatever happens.
 fn holds(seen: &Seen) {
@@ -76,12 +81,27 @@ fn a_station_that_is_killed_is_left_and_used_again_when_it_is_back() {
 }
 
 #[test]
-fn a_vehicle_that_is_killed_is_served_again_at_once() {
-    // The station still has its sessions: the new ones, with higher numbers, take their place.
-    let seen = World { restarts: vec![4_050], ..World::default() }.drive();
+fn a_vehicle_that_is_killed_is_served_again_at_once_in_sessions_of_higher_numbers() {
+    let asked = Rc::new(RefCell::new((None, Vec::new())));
+    let heard = Rc::clone(&asked);
+    let also = move |_: i64, by: &mut Somebody| {
+        let (ear, sessions) = &mut *heard.borrow_mut();
+        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Station(1)));
+        while let Some(bytes) = ear.receive(0) {
+            let message = decode(&bytes, &by.frame).expect("a message of the vehicle");
+            if let Payload::Request { session, .. } = message.payload {
+                sessions.push(session);
+            }
+        }
+    };
+    // The station still has its sessions: the new ones take their place.
+    let seen = World { restarts: vec![4_050], also: Box::new(also), ..World::default() }.drive();
     holds(&seen);
     offloaded_around(&seen, [4_000, 4_050]);
     assert_eq!((seen.vehicle.drives, seen.station.sessions), (2, 2));
+    let sessions = &asked.borrow().1;
+    assert_eq!(sessions.len(), 4);
+    assert!(sessions.is_sorted_by(|a, b| a < b), "{sessions:?}");
 }
 
 #[test]

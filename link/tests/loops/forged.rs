@@ -1,10 +1,12 @@
 //! Somebody else talks: nobody signs anything, so what they say looks like a station's or a vehicle's.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa_drives::{Options, demo};
 use mufasa_link::message::{Message, Payload, decode};
 use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
 use mufasa_model::offloading::requester::Parameters;
@@ -60,8 +62,7 @@ fn bytes_that_are_no_message_are_counted_and_change_nothing() {
     });
     assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
-    let count =
-        |malformed: &std::collections::BTreeMap<String, u64>| malformed.values().sum::<u64>();
+    let count = |malformed: &BTreeMap<String, u64>| malformed.values().sum::<u64>();
     assert!(count(&seen.vehicle.malformed) > 30_000, "{:?}", seen.vehicle.malformed);
     assert!(count(&seen.station.malformed) > 30_000, "{:?}", seen.station.malformed);
 }
@@ -148,23 +149,65 @@ fn a_second_vehicle_is_served_beside_the_first() {
                 let request = message(by, 2, 1, Payload::Request { group, session: 5 });
                 by.say(Address::Station(1), &request);
             }
-            let elsewhere = Ego {
-                x: 1e4,
-                y: 1e4,
-                cos: 1.0,
-                sin: 0.0,
-                speed: 0.0,
-                length: 4.5,
-                width: 1.9,
-                center_offset: 1.4,
-            };
-            let state = Payload::State { stamp_ns: by.now_ns, ego: elsewhere };
+            let state = Payload::State { stamp_ns: by.now_ns, ego: at(1e4) };
             let state = message(by, 2, 1, state);
             by.say(Address::Station(1), &state);
+            // What is meant for it is not for the first.
+            let for_it = message(by, 1, 2, Payload::Withdraw);
+            by.say(VEHICLE, &for_it);
         }
     });
     assert_eq!(seen.station.sessions, 4);
     assert!(seen.station.dropped["off the drive"] > 100, "{:?}", seen.station.dropped);
+    assert!(seen.vehicle.dropped["for another"] > 100, "{:?}", seen.vehicle.dropped);
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
     assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
+}
+
+#[test]
+fn results_are_sent_in_running_sessions_alone() {
+    let answers = Rc::new(RefCell::new((None, BTreeMap::new())));
+    let heard = Rc::clone(&answers);
+    let place = demo(&Options::default()).unwrap().cycle(0).cycle.ego;
+    while_somebody(move |ms, by| {
+        let (ear, answers) = &mut *heard.borrow_mut();
+        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Vehicle(2)));
+        while let Some(bytes) = ear.receive(0) {
+            match decode(&bytes, &by.frame).expect("a message of the station").payload {
+                Payload::Tracks { session, .. } => {
+                    *answers.entry(("tracks", session)).or_insert(0) += 1
+                }
+                Payload::Trajectory { session, .. } => {
+                    *answers.entry(("trajectory", session)).or_insert(0) += 1;
+                }
+                _ => {}
+            }
+        }
+        if ms % 100 == 0 {
+            // MOT runs from 2 s on, PLAN never, whatever is asked in its name.
+            if ms == 2_000 {
+                let request = Payload::Request { group: Group::Mot, session: 5 };
+                let request = message(by, 2, 1, request);
+                by.say(Address::Station(1), &request);
+            }
+            let ego = Ego { x: place.x, y: place.y, cos: place.cos, sin: place.sin, ..at(0.0) };
+            for payload in [
+                Payload::Alive { group: Group::Mot, session: 5 },
+                Payload::Alive { group: Group::Plan, session: 6 },
+                Payload::State { stamp_ns: by.now_ns, ego },
+                Payload::Detections { stamp_ns: by.now_ns, ego, detections: vec![] },
+            ] {
+                let said = message(by, 2, 1, payload);
+                by.say(Address::Station(1), &said);
+            }
+        }
+    });
+    let answers = &answers.borrow().1;
+    assert_eq!(answers.keys().collect::<Vec<_>>(), [&("tracks", 5)], "{answers:?}");
+    assert!((160..=170).contains(&answers[&("tracks", 5)]), "{answers:?}");
+}
+
+/// A vehicle that stands somewhere.
+fn at(x: f64) -> Ego {
+    Ego { x, y: x, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4 }
 }
