@@ -47,7 +47,7 @@ pub(super) fn write(sender: u32, time: u16, vehicle: Vehicle) -> Result<State, E
         None,
     );
     let cam = CAM {
-        header: header::header(Pdu::Cam, sender),
+        header: header::of(Pdu::Cam, sender),
         cam: CoopAwareness::new(GenerationDeltaTime(time), parameters),
     };
     Ok(State { centre_offset, cam: Etsi(bytes::encode(&cam)?.into()) })

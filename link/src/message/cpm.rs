@@ -131,7 +131,7 @@ fn write(
     let objects = (!objects.is_empty()).then_some(PerceivedObjectContainer(objects));
     let parameters = CpmParameters::new(management, data, None, objects, None, count);
     let cpm = CPM {
-        header: header::header(Pdu::Cpm, sender),
+        header: header::of(Pdu::Cpm, sender),
         cpm: CollectivePerceptionMessage::new(GenerationDeltaTime(time), parameters),
     };
     Ok(Etsi(bytes::encode(&cpm)?.into()))

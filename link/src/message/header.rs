@@ -16,7 +16,7 @@ fn ids(pdu: Pdu) -> (u8, u8) {
 }
 
 /// The header of a CAM or CPM of this sender.
-pub(super) fn header(pdu: Pdu, sender: u32) -> ItsPduHeader {
+pub(super) fn of(pdu: Pdu, sender: u32) -> ItsPduHeader {
     let (protocol_version, message_id) = ids(pdu);
     ItsPduHeader { protocol_version, message_id, station_id: StationID(sender) }
 }

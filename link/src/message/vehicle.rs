@@ -1,4 +1,4 @@
-//! The vehicle in the data elements that CAM and CPM share (`spec/6-link.md#vehicle`).
+//! The vehicle in the data elements that CAM and CPM share (`spec/6-link.md#cam`).
 
 use c_its_parser::standards::cdd_1_3_1_1::its_container::{
     Altitude, AltitudeConfidence, AltitudeValue, Heading, HeadingConfidence, HeadingValue,

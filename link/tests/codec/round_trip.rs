@@ -17,8 +17,8 @@ fn direction() -> impl Strategy<Value = [f64; 2]> {
 
 fn rectangle() -> impl Strategy<Value = Detection> {
     let size = || prop_oneof![0.01..100.0, (1_u16..1000).prop_map(|count| f64::from(count) / 10.0)];
-    // From the vehicle of `ego` as from the reference position within what a distance can be.
-    (-700.0..700.0, -700.0..700.0, direction(), size(), size()).prop_map(
+    // At most 1300 m from a vehicle of `ego`, along any axes.
+    (-600.0..600.0, -600.0..600.0, direction(), size(), size()).prop_map(
         |(x, y, [cos, sin], length, width)| {
             let [origin_x, origin_y] = frame().point();
             Detection { x: origin_x + x, y: origin_y + y, cos, sin, length, width }
@@ -209,7 +209,7 @@ fn a_message_of_every_kind_arrives() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
     // spec/6-link.md#rounding.1 spec/6-link.md#rounding.2 spec/6-link.md#times.1
     #[test]

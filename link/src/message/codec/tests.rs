@@ -111,6 +111,22 @@ fn envelopes() {
     assert!(error.is_err(), "{error:?}");
 }
 
+/// `spec/6-link.md#limits.3`: a byte too many, after the message and after what is in it.
+#[test]
+fn trailing_bytes() {
+    let mut written = bytes::encode(&tracks()).unwrap();
+    written.push(0);
+    let error = decode(&written, &frame()).unwrap_err();
+    assert_eq!(error, DecodeError::Trailing { pdu: Pdu::Message, bytes: 1 });
+    let mut message = tracks();
+    let asn1::Payload::Tracks(asn1::Tracks { cpm: Etsi(inner), .. }) = &mut message.payload else {
+        panic!("{message:?}")
+    };
+    *inner = [inner, &[0][..]].concat().into();
+    let error = decode(&bytes::encode(&message).unwrap(), &frame()).unwrap_err();
+    assert_eq!(error, DecodeError::Trailing { pdu: Pdu::Cpm, bytes: 1 });
+}
+
 /// `spec/6-link.md#frame.2`
 #[test]
 fn other_frames() {
