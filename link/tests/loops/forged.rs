@@ -175,7 +175,7 @@ fn results_are_sent_in_running_sessions_alone() {
         while let Some(bytes) = ear.receive(0) {
             match decode(&bytes, &by.frame).expect("a message of the station").payload {
                 Payload::Tracks { session, .. } => {
-                    *answers.entry(("tracks", session)).or_insert(0) += 1
+                    *answers.entry(("tracks", session)).or_insert(0) += 1;
                 }
                 Payload::Trajectory { session, .. } => {
                     *answers.entry(("trajectory", session)).or_insert(0) += 1;
