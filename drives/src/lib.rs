@@ -17,7 +17,7 @@ pub use attacks::injection::{Attack, Injection, ParseInjectionError};
 pub use drive::{Drive, DriveCycle, Stream};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};
-pub use readers::{read, streams};
+pub use readers::{demo, read, streams};
 
 /// The drive of the demo, a `CommonRoad` scenario and its solution: names of the files and their text.
 pub const DEMO: [(&str, &str); 2] = [

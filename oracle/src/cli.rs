@@ -1,6 +1,7 @@
 //! The command line: commands, exit codes, and quiet ends when nobody reads on.
 
 mod arguments;
+pub(crate) mod link;
 
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -18,6 +19,7 @@ use self::arguments::{
     ExploreArguments, ManArguments, MergeCommand, OracleArguments, ProveArguments,
     SchemasArguments, VectorsArguments,
 };
+use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
 use crate::explore;
@@ -72,6 +74,10 @@ enum Command {
     Explore(ExploreArguments),
     /// Prove what is claimed with every engine that is here, and list what is proved.
     Prove(ProveArguments),
+    /// Drive a drive with requester and monitor, beside a station or over a broker.
+    Vehicle(VehicleArguments),
+    /// Serve vehicles over a broker, with stand-in services.
+    Station(StationArguments),
     /// Write what a shell needs to complete what is typed on standard output.
     Completions(CompletionsArguments),
     /// Write the manual pages.
@@ -114,6 +120,12 @@ pub fn main() -> ExitCode {
         Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
+        Command::Vehicle(arguments) => {
+            Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
+        }
+        Command::Station(arguments) => {
+            Ok(linked(|stop| crate::link::station(&arguments, stop, &mut out)))
+        }
         Command::Completions(CompletionsArguments { shell }) => {
             clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
             Ok(0)
@@ -251,6 +263,15 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
             Ok(refused(&error.to_string()))
         }
     }
+}
+
+/// Runs a program of the link, which ends at the first interrupt.
+fn linked(run: impl FnOnce(&Arc<AtomicBool>) -> Result<u8, String>) -> u8 {
+    let stop = match interrupts() {
+        Ok(stop) => stop,
+        Err(error) => return refused(&format!("interrupts: {error}")),
+    };
+    run(&stop).unwrap_or_else(|message| refused(&message))
 }
 
 /// What the first interrupt sets; the second ends this program at once.

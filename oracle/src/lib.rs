@@ -5,6 +5,7 @@ pub mod compose;
 pub mod demo;
 pub mod document;
 pub mod explore;
+mod link;
 pub mod parameters_file;
 pub mod prove;
 pub mod schemas;

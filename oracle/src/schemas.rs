@@ -5,6 +5,8 @@ use std::path::Path;
 
 use mufasa_conform::Summary;
 use mufasa_drives::check;
+use mufasa_link::station::StationSummary;
+use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use serde_json::Value;
 
@@ -12,12 +14,15 @@ use crate::explore::report::ExplorationReport;
 use crate::prove::claim::Claim;
 
 /// The schemas by the stem of their file's name: those of records and answers, of a line of `check
-/// --json`, of the summary of `conform`, of a line of `prove` and of what `explore` writes.
+/// --json`, of the summary of `conform`, of a line of `prove`, of what `vehicle` and `station` write at their end and of what
+/// `explore` writes.
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
     schemas.extend(check::records::schemas());
     schemas.push(("conform-summary", schema::written::<Summary>()));
     schemas.push(("claim", schema::written::<Claim>()));
+    schemas.push(("vehicle-summary", schema::written::<vehicle::summary::Summary>()));
+    schemas.push(("station-summary", schema::written::<StationSummary>()));
     schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
     schemas
 }

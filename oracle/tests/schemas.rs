@@ -114,6 +114,25 @@ fn an_exploration_is_what_its_schema_says() {
 }
 
 #[test]
+fn the_summary_of_a_vehicle_is_what_its_schema_says() {
+    let (validators, folder) = (validators(), folder("vehicle"));
+    some_cycles(&folder);
+    let text = fs::read_to_string(folder.join("cycles.jsonl")).expect("it was written");
+    let mut cycle = parsed(text.lines().next().expect("a cycle"));
+    let at = |index: i64| {
+        cycle["now_ns"] = (1_000_000_000 + index * 100_000_000).into();
+        cycle.to_string()
+    };
+    let lines: Vec<_> = (0..4).map(at).collect();
+    fs::write(folder.join("drive.jsonl"), lines.join("\n")).expect("it can be written");
+    let text = run(&folder, &["vehicle", "drive.jsonl", "--json", "vehicle.json"]);
+    assert!(text.contains("station"), "both are in one process: {text}");
+    let text = fs::read_to_string(folder.join("vehicle.json")).expect("it was written");
+    assert_eq!(parsed(&text)["cycles"], 4);
+    assert_valid(&validators["vehicle-summary"], &parsed(&text));
+}
+
+#[test]
 fn every_schema_gets_a_file() {
     let folder = folder("files");
     run(&folder, &["schemas", "--out", "all"]);

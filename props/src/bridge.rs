@@ -48,8 +48,8 @@ mod verdict;
 
 pub use self::cycle::{Owned, cycle_parameters, profile_to_impl, to_impl};
 pub use self::requester::{
-    action_from_impl, configuration_from_impl, event_to_impl, group_to_impl, groups_to_impl,
-    parameters_to_impl, source_from_impl, state_from_impl,
+    action_from_impl, configuration_from_impl, event_to_impl, group_from_impl, group_to_impl,
+    groups_to_impl, parameters_to_impl, source_from_impl, state_from_impl,
 };
 pub use self::verdict::{
     invalid_input_from_impl, outcome_from_impl, report_from_impl, stage_to_impl,

@@ -27,6 +27,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::DEMO;
 use crate::drive::{Drive, DriveCycle, Stream};
 use crate::options::{Options, Sensor};
 use content::Content;
@@ -84,6 +85,16 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
     drives.extend(unsolved(scenario, options));
     name_apart(&mut drives);
     drives
+}
+
+/// The drive of the demo, which is built in.
+///
+/// Errors: an option that no cycle of it can be made with.
+pub fn demo(options: &Options) -> Result<Stream, ReadError> {
+    let [(scenario_file, scenario), (solution_file, solution)] = DEMO;
+    let files = [scenario_file, solution_file].map(Path::new);
+    let scenario = scenario::read(files[0], scenario)?;
+    commonroad::solved(&scenario, &solution::read(files[1], solution)?, files, options)
 }
 
 /// Gives drives of the same name numbers from 2 on.

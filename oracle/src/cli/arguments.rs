@@ -308,7 +308,7 @@ impl CheckArguments {
     }
 }
 
-fn profile() -> impl TypedValueParser<Value = Profile> {
+pub(super) fn profile() -> impl TypedValueParser<Value = Profile> {
     one_of([Profile::Paper, Profile::Hardened], names::profile)
 }
 
@@ -351,7 +351,7 @@ fn number(low: f64, high: f64) -> impl Fn(&str) -> Result<f64, String> + Clone +
 }
 
 /// A whole number within limits.
-fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
+pub(super) fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
 where
     T: Copy + PartialOrd + Display + FromStr + Send + Sync,
 {

@@ -23,7 +23,8 @@ same_variants! {
     /// A group in the implementation's type.
     pub fn group_to_impl(Group) -> twin::Group { Mot, Plan, }
 
-    fn group_from_impl(twin::Group) -> Group { Mot, Plan, }
+    /// A group in the model's type.
+    pub fn group_from_impl(twin::Group) -> Group { Mot, Plan, }
 
     fn kind_to_impl(EventKind) -> twin::EventKind {
         Offer { station, groups: groups_to_impl },

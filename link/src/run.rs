@@ -1,0 +1,119 @@
+//! Vehicle and station in real time.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use mufasa::monitor::Settings;
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_props::bridge;
+
+use crate::clock::SharedClock;
+use crate::message::EncodeError;
+use crate::play::Played;
+use crate::station::{Station, StationSummary};
+use crate::transport::Transport;
+use crate::vehicle::memory::Lent;
+use crate::vehicle::summary::Tally;
+use crate::vehicle::{Vehicle, VehicleError};
+
+/// The longest that is waited without a look at whether the program is to stop.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// A vehicle to be run.
+#[derive(Clone, Debug)]
+pub struct VehicleRun {
+    /// Its station id, 1 to 4294967295.
+    pub id: i64,
+    /// Those of its monitor.
+    pub settings: Settings,
+    /// How often it drives the drive; each time it is started anew.
+    pub laps: u32,
+}
+
+impl VehicleRun {
+    /// Drives until the drive has ended so often, or until `stop` is set.
+    ///
+    /// Errors: settings, or a route, that no monitor can keep.
+    pub fn run(
+        &self,
+        played: &Played,
+        clock: SharedClock,
+        transport: &mut impl Transport,
+        tally: &mut Tally,
+        stop: &AtomicBool,
+    ) -> Result<(), VehicleError> {
+        let mut lent = Lent::new(played);
+        for _ in 0..self.laps {
+            let (id, now_ns) = (self.id, clock.now_ns());
+            let mut vehicle =
+                Vehicle::new(id, now_ns, played, self.settings, &mut lent, transport, tally)?;
+            while let Some(due_ns) = vehicle.step(clock.now_ns())? {
+                if stop.load(Ordering::Relaxed) {
+                    vehicle.leave(clock.now_ns());
+                    return Ok(());
+                }
+                vehicle.wait(until(due_ns, clock));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Runs a station until `stop` is set.
+///
+/// Errors: a drive too far from the origin of its frame.
+pub fn station(
+    id: i64,
+    played: &Played,
+    clock: SharedClock,
+    transport: &mut impl Transport,
+    stop: &AtomicBool,
+) -> Result<StationSummary, EncodeError> {
+    let mut station = Station::new(id, played, transport)?;
+    while !stop.load(Ordering::Relaxed) {
+        let due_ns = station.step(clock.now_ns());
+        station.wait(until(due_ns, clock));
+    }
+    Ok(station.end(clock.now_ns()))
+}
+
+/// Vehicle and station in one process, each on its own thread and transport, until the drive has ended.
+/// `offered`: the drive as the station, whose id is given, replays it; it may be attacked.
+///
+/// Errors: those of the vehicle and of the station.
+pub fn both(
+    run: &VehicleRun,
+    station_id: i64,
+    [driven, offered]: [&Played; 2],
+    clock: SharedClock,
+    (of_vehicle, of_station): (&mut impl Transport, &mut (impl Transport + Send)),
+    tally: &mut Tally,
+    stop: &AtomicBool,
+) -> Result<StationSummary, VehicleError> {
+    let has_ended = AtomicBool::new(false);
+    thread::scope(|scope| {
+        let serving = scope.spawn(|| station(station_id, offered, clock, of_station, &has_ended));
+        let driven = run.run(driven, clock, of_vehicle, tally, stop);
+        has_ended.store(true, Ordering::Relaxed);
+        let served = serving.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        driven.and(served.map_err(VehicleError::Frame))
+    })
+}
+
+fn until(due_ns: i64, clock: SharedClock) -> Duration {
+    let ns = u64::try_from(due_ns.saturating_sub(clock.now_ns())).unwrap_or(0);
+    Duration::from_nanos(ns).min(LOOK)
+}
+
+/// The settings of a monitor for a drive: its profile, parameters and period, and the times of the
+/// requester. The sessions are numbered by the vehicle.
+pub fn settings(played: &Played, requester: &Parameters) -> Settings {
+    Settings {
+        profile: bridge::profile_to_impl(played.profile()),
+        stages: bridge::cycle_parameters(played.parameters()),
+        requester: bridge::parameters_to_impl(requester),
+        period: Duration::from_nanos(played.period_ns().unsigned_abs()),
+        sessions_before: 0,
+    }
+}

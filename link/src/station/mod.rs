@@ -1,0 +1,225 @@
+//! The station: the provider, with stand-in services that replay a drive.
+//!
+//! As the vehicle it has no clock and waits for nothing.
+
+mod replay;
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use mufasa::services::configuration::{Group, Groups};
+use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventKind, Reply};
+use mufasa_props::bridge;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use self::replay::Replay;
+use crate::message::{self, EncodeError, Frame, Message, Payload};
+use crate::play::Played;
+use crate::transport::{Address, Transport};
+use crate::vehicle::summary::{Counts, add, kind, malformed, unsent};
+
+/// Sessions that it runs at the same time.
+const CAPACITY: usize = 8;
+
+/// How long it waits for a sign of life, ns. `spec/2-offloading.md`
+const LEASE_NS: i64 = mufasa_model::offloading::provider::DEFAULT_LEASE_NS;
+
+/// How often it says what it offers, ns.
+const OFFERED_EVERY_NS: i64 = 500_000_000;
+
+/// Messages that are taken in one step at most.
+const AT_ONCE: usize = 64;
+
+/// A station that offers both groups.
+#[derive(Debug)]
+pub struct Station<'a, T> {
+    id: i64,
+    played: &'a Played,
+    frame: Frame,
+    transport: &'a mut T,
+    provider: Provider,
+    /// Where in the drive each vehicle with a session is.
+    replays: BTreeMap<i64, Replay>,
+    offered_ns: Option<i64>,
+    summary: StationSummary,
+}
+
+/// What a station did.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct StationSummary {
+    /// Messages that were sent, by kind.
+    pub sent: Counts,
+    /// Messages that could not be written, by kind and field.
+    pub unsent: Counts,
+    /// Messages that could be read, by kind.
+    pub received: Counts,
+    /// What of that was not used.
+    pub dropped: Counts,
+    /// Bytes that are no message, by what is wrong.
+    pub malformed: Counts,
+    /// Most sessions at a time.
+    pub sessions: usize,
+    /// Messages that the transport threw away: too many waited, or too long.
+    pub shed: u64,
+    /// Connections of the transport.
+    pub connections: u64,
+    /// Why the last connection failed or ended.
+    pub last_error: Option<String>,
+}
+
+impl<'a, T: Transport> Station<'a, T> {
+    /// A station without sessions. `id`: its station id, 1 to 4294967295.
+    ///
+    /// Errors: a drive too far from the origin of its frame.
+    pub fn new(id: i64, played: &'a Played, transport: &'a mut T) -> Result<Self, EncodeError> {
+        Ok(Self {
+            id,
+            played,
+            frame: played.frame()?,
+            transport,
+            provider: Provider::new(CAPACITY, LEASE_NS),
+            replays: BTreeMap::new(),
+            offered_ns: None,
+            summary: StationSummary::default(),
+        })
+    }
+
+    /// Takes what has arrived, and does what is due. Returns when something is due next, ns.
+    pub fn step(&mut self, now_ns: i64) -> i64 {
+        for _ in 0..AT_ONCE {
+            let Some(bytes) = self.transport.receive(now_ns) else { break };
+            self.take(now_ns, &bytes);
+        }
+        self.happens(now_ns, ProviderEventKind::Tick);
+        let is_due = |last_ns: i64| now_ns.saturating_sub(last_ns) >= OFFERED_EVERY_NS;
+        if self.offered_ns.is_none_or(is_due) {
+            self.offered_ns = Some(now_ns);
+            self.send(now_ns, 0, Payload::Offer { groups: Groups::ALL });
+        }
+        self.offered_ns.unwrap_or(now_ns).saturating_add(OFFERED_EVERY_NS)
+    }
+
+    /// Waits until something arrives, at most so long.
+    pub fn wait(&mut self, at_most: Duration) {
+        self.transport.wait(at_most);
+    }
+
+    /// Withdraws what it offers. Returns what it did.
+    pub fn end(mut self, now_ns: i64) -> StationSummary {
+        self.send(now_ns, 0, Payload::Withdraw);
+        self.summary()
+    }
+
+    /// What it did so far.
+    pub fn summary(&self) -> StationSummary {
+        let health = self.transport.health();
+        StationSummary {
+            shed: health.shed,
+            connections: health.connections,
+            last_error: health.last_error,
+            ..self.summary.clone()
+        }
+    }
+
+    /// Takes a message; whatever it is, nothing worse happens than that it is counted.
+    fn take(&mut self, now_ns: i64, bytes: &[u8]) {
+        let message = match message::decode(bytes, &self.frame) {
+            Ok(message) => message,
+            Err(error) => return add(&mut self.summary.malformed, &malformed(&error)),
+        };
+        let Message { sender: requester, receiver, generated_ns: _, payload } = message;
+        if receiver != self.id {
+            return add(&mut self.summary.dropped, "for another");
+        }
+        add(&mut self.summary.received, kind(&payload));
+        match payload {
+            Payload::Request { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Request { requester, group, session });
+            }
+            Payload::Release { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Release { requester, group, session });
+            }
+            Payload::Alive { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Heard { requester, group, session });
+            }
+            Payload::State { stamp_ns, ego } => {
+                if !self.has_session(requester) {
+                    return add(&mut self.summary.dropped, "without a session");
+                }
+                let replay = self.replays.entry(requester).or_default();
+                if !replay.locate(self.played, stamp_ns, &ego) {
+                    return add(&mut self.summary.dropped, "off the drive");
+                }
+                let trajectory = replay.trajectory(self.played, stamp_ns);
+                if let (Some(session), Some((stamp_ns, points))) =
+                    (self.session(requester, Group::Plan), trajectory)
+                {
+                    self.send(now_ns, requester, Payload::Trajectory { session, stamp_ns, points });
+                }
+            }
+            Payload::Detections { stamp_ns, .. } => {
+                let tracks =
+                    self.replays.get(&requester).and_then(|it| it.tracks(self.played, stamp_ns));
+                if let (Some(session), Some((stamp_ns, tracks))) =
+                    (self.session(requester, Group::Mot), tracks)
+                {
+                    self.send(now_ns, requester, Payload::Tracks { session, stamp_ns, tracks });
+                }
+            }
+            Payload::Offer { .. }
+            | Payload::Withdraw
+            | Payload::Confirm { .. }
+            | Payload::Reject { .. }
+            | Payload::Tracks { .. }
+            | Payload::Trajectory { .. } => add(&mut self.summary.dropped, "of a station"),
+        }
+    }
+
+    /// Tells the provider, and the requester what it says.
+    fn happens(&mut self, t_ns: i64, kind: ProviderEventKind) {
+        let reply = self.provider.step(&ProviderEvent { t_ns, kind });
+        match reply {
+            Some(Reply::Confirm { requester, group, session }) => {
+                let group = bridge::group_to_impl(group);
+                self.send(t_ns, requester, Payload::Confirm { group, session });
+            }
+            Some(Reply::Reject { requester, group, session }) => {
+                let group = bridge::group_to_impl(group);
+                self.send(t_ns, requester, Payload::Reject { group, session });
+            }
+            None => {}
+        }
+        self.summary.sessions = self.summary.sessions.max(self.provider.load());
+        // Of who has no session nothing is remembered.
+        let provider = &self.provider;
+        self.replays.retain(|requester, _| has_session(provider, *requester));
+    }
+
+    fn has_session(&self, requester: i64) -> bool {
+        has_session(&self.provider, requester)
+    }
+
+    fn session(&self, requester: i64, group: Group) -> Option<i64> {
+        self.provider.session(requester, bridge::group_from_impl(group))
+    }
+
+    fn send(&mut self, now_ns: i64, vehicle: i64, payload: Payload) {
+        let message = Message { sender: self.id, receiver: vehicle, generated_ns: now_ns, payload };
+        match message::encode(&message, &self.frame) {
+            Ok(bytes) => {
+                add(&mut self.summary.sent, kind(&message.payload));
+                self.transport.send(now_ns, Address::Vehicle(vehicle), bytes);
+            }
+            Err(error) => add(&mut self.summary.unsent, &unsent(&message.payload, &error)),
+        }
+    }
+}
+
+fn has_session(provider: &Provider, requester: i64) -> bool {
+    let groups = Group::ALL.map(bridge::group_from_impl);
+    groups.into_iter().any(|group| provider.session(requester, group).is_some())
+}

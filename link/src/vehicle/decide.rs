@@ -1,0 +1,89 @@
+//! How a vehicle decides a cycle.
+
+use std::time::Instant;
+
+use mufasa::input::cycle::{Grid, Trajectory};
+use mufasa::monitor::{Decision, Gap, GridMap, Inputs, Verified};
+use mufasa::offloading::requester::Source;
+use mufasa::services::configuration::Group;
+use mufasa_model::input::cycle::Cycle;
+use mufasa_props::bridge;
+
+use super::log::{What, digest};
+use super::{Vehicle, VehicleError, time, word};
+use crate::play::moved;
+use crate::transport::Transport;
+
+impl<T: Transport> Vehicle<'_, T> {
+    /// Decides a cycle, and lets control have what it may have.
+    pub(super) fn decide(
+        &mut self,
+        now_ns: i64,
+        cycle: &Cycle,
+        later_ns: i64,
+    ) -> Result<(), VehicleError> {
+        let later = |stamp_ns: i64| time(stamp_ns.saturating_add(later_ns));
+        let owned = bridge::to_impl(cycle);
+        let known = owned.borrow(&[]);
+        if self.route.as_ref() != Some(&cycle.route) {
+            self.monitor.set_route(&known.route).map_err(VehicleError::Route)?;
+            self.route = Some(cycle.route.clone());
+        }
+        let points = known.trajectory.map(|it| moved(it, later_ns));
+        let mut inputs = Inputs::new(time(now_ns), known.ego);
+        if let Some(list) = known.detections {
+            inputs = inputs.detections(later(list.stamp_ns), list.items);
+        }
+        if let Some(lead) = known.lead {
+            inputs = inputs.lead(later(lead.stamp_ns), Gap::between_bumpers(lead.gap), lead.speed);
+        }
+        if let Some(grid) = known.grid {
+            inputs = inputs.grid(later(grid.stamp_ns), grid_map(&grid));
+        }
+        if let Some(list) = known.tracks {
+            inputs = inputs.local_tracks(later(list.stamp_ns), list.items);
+        }
+        if let (Some(trajectory), Some(points)) = (known.trajectory, &points) {
+            inputs = inputs.local_trajectory(later(trajectory.stamp_ns), points);
+        }
+        if let Some(tracks) = &self.tracks {
+            inputs = inputs.remote_tracks(tracks);
+        }
+        if let Some(trajectory) = &self.trajectory {
+            inputs = inputs.remote_trajectory(trajectory);
+        }
+        let before = self.states();
+        let configuration = self.monitor.configuration();
+        let begun = Instant::now();
+        let decision = self.monitor.cycle(&inputs);
+        let took = begun.elapsed();
+        let (report, actions) = match &decision {
+            Decision::Safe { report, actions, .. } => (Ok(*report), *actions),
+            Decision::Unsafe { report, actions } => (*report, *actions),
+        };
+        let is_safe = matches!(decision, Decision::Safe { .. });
+        self.tally.decided(now_ns, self.next, configuration, is_safe, &report, took);
+        if let Decision::Safe { tracks, trajectory, .. } = decision {
+            let follow = |it: &Verified<'_, Trajectory<'_>>| digest(it.stamp_ns, it.points);
+            let used = [
+                tracks.map(|it| (Group::Mot, it.source(), digest(it.stamp_ns, it.items))),
+                trajectory.map(|it| (Group::Plan, it.source(), follow(&it))),
+            ];
+            let remote = |(group, source, digest)| match source {
+                Source::Remote { station } => {
+                    Some(What::Used { group: word(group), station, digest })
+                }
+                Source::Local => None,
+            };
+            let used = used.into_iter().flatten().filter_map(remote).collect();
+            self.tally.used(now_ns, self.played.period_ns(), used);
+        }
+        self.answered(now_ns, before, Ok(actions), "unsafe");
+        Ok(())
+    }
+}
+
+fn grid_map<'c>(grid: &Grid<'c>) -> GridMap<'c> {
+    let Grid { stamp_ns: _, x, y, cos, sin, resolution, width, height, occupied, unknown } = *grid;
+    GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown }
+}

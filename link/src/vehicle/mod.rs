@@ -1,0 +1,304 @@
+//! The vehicle: requester and monitor on a drive that is played in real time.
+//!
+//! It has no clock and waits for nothing: [`Vehicle::step`] is told the time, takes what has arrived,
+//! and does what is due. A period has two moments. When a cycle is *sensed* the vehicle sends its state,
+//! its detections and signs of life; 30 ms later it is *decided*, with what has come until then.
+
+mod decide;
+pub mod log;
+pub mod memory;
+pub mod summary;
+mod take;
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa::monitor::{Accepted, Monitor, MonitorError, Settings, Time};
+use mufasa::offloading::requester::{Action, Actions, GroupState, RequesterError};
+use mufasa::report::InvalidInput;
+use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa_model::input::cycle::{Cycle, Route};
+use mufasa_props::bridge;
+use mufasa_records::names;
+
+use self::log::What;
+use self::memory::Lent;
+use self::summary::Tally;
+use crate::message::{self, EncodeError, Frame, Message, Payload};
+use crate::play::Played;
+use crate::transport::{Address, Transport};
+
+/// How long before its first decision a vehicle begins, ns.
+const BEFORE_THE_FIRST_NS: i64 = 100_000_000;
+
+/// When the program is so late to sense a cycle, ns, the world waits for it: what the drive holds would be
+/// older than its stamps say it was.
+const PAUSED_AFTER_NS: i64 = 20_000_000;
+
+/// A station of which nothing was heard for so long is lost, ns: its offers come twice a second.
+const LOST_AFTER_NS: i64 = 3_000_000_000;
+
+/// Messages that are taken in one step at most, so that a flood keeps no cycle from being decided.
+const AT_ONCE: usize = 64;
+
+/// Why a vehicle cannot drive.
+#[derive(Debug)]
+pub enum VehicleError {
+    /// The settings of the monitor.
+    Monitor(MonitorError),
+    /// The route of a cycle.
+    Route(InvalidInput),
+    /// The drive is too far from the origin of its frame.
+    Frame(EncodeError),
+}
+
+impl std::fmt::Display for VehicleError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Monitor(error) => error.fmt(f),
+            Self::Route(error) => error.fmt(f),
+            Self::Frame(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for VehicleError {}
+
+/// A vehicle on a drive, from its start to its end.
+#[derive(Debug)]
+pub struct Vehicle<'a, T> {
+    id: i64,
+    played: &'a Played,
+    frame: Frame,
+    transport: &'a mut T,
+    tally: &'a mut Tally,
+    monitor: Monitor<'a>,
+    /// When the first cycle is decided, on the shared clock, ns.
+    begin_ns: i64,
+    next: usize,
+    is_sensed: bool,
+    route: Option<Route>,
+    tracks: Option<Accepted<Vec<Track>>>,
+    trajectory: Option<Accepted<Vec<TrajectoryPoint>>>,
+    /// When each station that offers something was heard last, ns.
+    heard: BTreeMap<i64, i64>,
+}
+
+impl<'a, T: Transport> Vehicle<'a, T> {
+    /// A vehicle that begins now. `id`: its station id, 1 to 4294967295. Its sessions are numbered on
+    /// from the time, so that none is one of an earlier life.
+    ///
+    /// Errors: settings that no monitor can keep.
+    pub fn new(
+        id: i64,
+        now_ns: i64,
+        played: &'a Played,
+        settings: Settings,
+        lent: &'a mut Lent,
+        transport: &'a mut T,
+        tally: &'a mut Tally,
+    ) -> Result<Self, VehicleError> {
+        let settings = Settings { sessions_before: now_ns.max(0), ..settings };
+        let monitor = Monitor::new(settings, lent.memory()).map_err(VehicleError::Monitor)?;
+        let frame = played.frame().map_err(VehicleError::Frame)?;
+        tally.began(now_ns);
+        Ok(Self {
+            id,
+            played,
+            frame,
+            transport,
+            tally,
+            monitor,
+            begin_ns: whole_milliseconds(now_ns.saturating_add(BEFORE_THE_FIRST_NS)),
+            next: 0,
+            is_sensed: false,
+            route: None,
+            tracks: None,
+            trajectory: None,
+            heard: BTreeMap::new(),
+        })
+    }
+
+    /// Takes what has arrived, and does what is due. Returns when something is due next, ns; `None` at
+    /// the end of the drive, when it has left its sessions.
+    ///
+    /// Errors: a route that the monitor cannot keep.
+    pub fn step(&mut self, now_ns: i64) -> Result<Option<i64>, VehicleError> {
+        for _ in 0..AT_ONCE {
+            let Some(bytes) = self.transport.receive(now_ns) else { break };
+            self.take(now_ns, &bytes);
+        }
+        let played = self.played;
+        let Some(cycle) = played.cycle(self.next) else { return Ok(None) };
+        let mut later_ns = self.begin_ns.saturating_sub(played.begin_ns());
+        let mut sensed_ns = Played::sensed_ns(cycle).saturating_add(later_ns);
+        if !self.is_sensed && now_ns.saturating_sub(sensed_ns) > PAUSED_AFTER_NS {
+            let pause_ns = whole_milliseconds(now_ns.saturating_sub(sensed_ns));
+            self.begin_ns = self.begin_ns.saturating_add(pause_ns);
+            (later_ns, sensed_ns) =
+                (later_ns.saturating_add(pause_ns), sensed_ns.saturating_add(pause_ns));
+            self.tally.paused();
+        }
+        let decided_ns = cycle.now_ns.saturating_add(later_ns);
+        if !self.is_sensed && now_ns >= sensed_ns {
+            self.is_sensed = true;
+            self.tell(now_ns, sensed_ns, cycle, later_ns);
+        }
+        if now_ns < decided_ns {
+            return Ok(Some(if self.is_sensed { decided_ns } else { sensed_ns }));
+        }
+        self.tick(now_ns);
+        self.decide(now_ns, cycle, later_ns)?;
+        self.next += 1;
+        self.is_sensed = false;
+        if self.next < played.count() {
+            return Ok(Some(now_ns));
+        }
+        self.leave(now_ns);
+        Ok(None)
+    }
+
+    /// Leaves its sessions. To be called when it ends before the drive does.
+    pub fn leave(&mut self, now_ns: i64) {
+        let before = self.states();
+        let actions = self.monitor.area(time(now_ns), Groups::NONE);
+        self.answered(now_ns, before, Ok(actions), "end");
+        self.tally.health(self.transport.health());
+    }
+
+    /// Waits until something arrives, at most so long.
+    pub fn wait(&mut self, at_most: Duration) {
+        self.transport.wait(at_most);
+    }
+
+    /// Which groups are remote.
+    pub fn configuration(&self) -> Configuration {
+        self.monitor.configuration()
+    }
+
+    /// Sends what the vehicle knows, and a sign of life for each session.
+    fn tell(&mut self, now_ns: i64, sensed_ns: i64, cycle: &Cycle, later_ns: i64) {
+        for (group, state) in Group::ALL.into_iter().zip(self.states()) {
+            if let GroupState::Remote { station, session } = state {
+                self.send(now_ns, station, Payload::Alive { group, session });
+            }
+        }
+        let ego = Played::sensed(cycle);
+        let mut stations = self.states().map(|state| match state {
+            GroupState::Remote { station, .. } => Some(station),
+            GroupState::Local | GroupState::Requested { .. } => None,
+        });
+        if stations[0] == stations[1] {
+            stations[1] = None;
+        }
+        let owned = bridge::to_impl(cycle);
+        let detections = owned.borrow(&[]).detections;
+        for station in stations.into_iter().flatten() {
+            self.send(now_ns, station, Payload::State { stamp_ns: sensed_ns, ego });
+            if let Some(list) = detections {
+                let stamp_ns = list.stamp_ns.saturating_add(later_ns);
+                let detections = list.items.to_vec();
+                self.send(now_ns, station, Payload::Detections { stamp_ns, ego, detections });
+            }
+        }
+    }
+
+    fn send(&mut self, now_ns: i64, station: i64, payload: Payload) {
+        let message = Message { sender: self.id, receiver: station, generated_ns: now_ns, payload };
+        match message::encode(&message, &self.frame) {
+            Ok(bytes) => {
+                self.tally.sent(&message.payload);
+                self.transport.send(now_ns, Address::Station(station), bytes);
+            }
+            Err(error) => self.tally.unsent(&message.payload, &error),
+        }
+    }
+
+    /// Decides what time alone decides.
+    fn tick(&mut self, now_ns: i64) {
+        let lost: Vec<i64> = (self.heard.iter())
+            .filter(|(_, heard_ns)| now_ns.saturating_sub(**heard_ns) > LOST_AFTER_NS)
+            .map(|(station, _)| *station)
+            .collect();
+        for station in lost {
+            self.heard.remove(&station);
+            let before = self.states();
+            let answer = self.monitor.lost(time(now_ns), station);
+            self.answered(now_ns, before, answer, "lost");
+        }
+        let before = self.states();
+        let actions = self.monitor.tick(time(now_ns));
+        self.answered(now_ns, before, Ok(actions), "silent");
+    }
+
+    /// Does what the requester wants; `why` a session has ended, if one has. `before`: the states of the
+    /// groups before.
+    fn answered(
+        &mut self,
+        now_ns: i64,
+        before: [GroupState; 2],
+        answer: Result<Actions, RequesterError>,
+        why: &'static str,
+    ) {
+        let actions = match answer {
+            Ok(actions) => actions,
+            Err(RequesterError::TableFull { .. }) => {
+                return self.tally.dropped("too many stations");
+            }
+            Err(RequesterError::Station { .. } | RequesterError::NegativeParameter { .. }) => {
+                return self.tally.dropped("no station");
+            }
+        };
+        for ((group, before), after) in Group::ALL.into_iter().zip(before).zip(self.states()) {
+            if session(before).is_some() && session(before) != session(after) {
+                let is_asked = matches!(before, GroupState::Requested { .. });
+                let why = if is_asked && why == "silent" { "not confirmed" } else { why };
+                self.tally.left(why);
+                self.tally.note(now_ns, What::Left { group: word(group) });
+            }
+        }
+        for action in &actions {
+            match *action {
+                Action::Request { station, group, session } => {
+                    let what = What::Requested { group: word(group), station, session };
+                    self.tally.note(now_ns, what);
+                    self.send(now_ns, station, Payload::Request { group, session });
+                }
+                Action::Release { station, group, session } => {
+                    self.send(now_ns, station, Payload::Release { group, session });
+                }
+                // The drive holds what the local services would say, whether they compute or not.
+                Action::Activate(_) => self.tally.local_services("started"),
+                Action::Deactivate(_) => self.tally.local_services("stopped"),
+                Action::Drop(Group::Mot) => self.tally.dropped("tracks"),
+                Action::Drop(Group::Plan) => self.tally.dropped("trajectory"),
+            }
+        }
+    }
+
+    fn states(&self) -> [GroupState; 2] {
+        Group::ALL.map(|group| self.monitor.requester().state(group))
+    }
+}
+
+fn session(state: GroupState) -> Option<(i64, i64)> {
+    match state {
+        GroupState::Local => None,
+        GroupState::Requested { station, session, .. }
+        | GroupState::Remote { station, session } => Some((station, session)),
+    }
+}
+
+fn time(ns: i64) -> Time {
+    Time::from_nanoseconds(ns)
+}
+
+fn word(group: Group) -> String {
+    names::group(bridge::group_from_impl(group)).to_owned()
+}
+
+/// The next whole millisecond: times of measurement are sent in them.
+fn whole_milliseconds(ns: i64) -> i64 {
+    ns.saturating_add(999_999) / 1_000_000 * 1_000_000
+}

@@ -1,0 +1,111 @@
+//! What a vehicle does with what it receives.
+
+use mufasa::monitor::{Accepted, Arrival, Message as Received};
+use mufasa::offloading::requester::{GroupState, RequesterError};
+use mufasa::services::configuration::Group;
+
+use super::log::{What, digest};
+use super::{Vehicle, time, word};
+use crate::message::{self, Message, Payload};
+use crate::transport::Transport;
+
+impl<T: Transport> Vehicle<'_, T> {
+    /// Takes a message; whatever it is, nothing worse happens than that it is counted.
+    pub(super) fn take(&mut self, now_ns: i64, bytes: &[u8]) {
+        let message = match message::decode(bytes, &self.frame) {
+            Ok(message) => message,
+            Err(error) => return self.tally.malformed(&error),
+        };
+        let Message { sender: station, receiver, generated_ns, payload } = message;
+        if receiver != self.id && receiver != 0 {
+            return self.tally.dropped("for another");
+        }
+        self.tally.received(&payload);
+        let before = self.states();
+        let now = time(now_ns);
+        let came = |group, session| Came { group, station, session, generated_ns };
+        match payload {
+            Payload::Offer { groups } => {
+                let answer = self.monitor.offer(now, station, groups);
+                if answer.is_ok() {
+                    self.heard.insert(station, now_ns);
+                }
+                self.answered(now_ns, before, answer, "offer");
+            }
+            Payload::Withdraw => {
+                self.heard.remove(&station);
+                let answer = self.monitor.withdraw(now, station);
+                self.answered(now_ns, before, answer, "withdrawn");
+            }
+            Payload::Confirm { group, session } => {
+                self.tally.note(now_ns, What::Confirmed { group: word(group), station, session });
+                let answer = self.monitor.confirm(now, station, group, session);
+                self.answered(now_ns, before, answer, "confirmed");
+            }
+            Payload::Reject { group, session } => {
+                let answer = self.monitor.reject(now, station, group, session);
+                self.answered(now_ns, before, answer, "rejected");
+            }
+            Payload::Tracks { session, stamp_ns, tracks } => {
+                let came = came(Group::Mot, session);
+                let digest = digest(stamp_ns, &tracks);
+                let arrival = self.monitor.tracks(now, came.with(stamp_ns, tracks));
+                self.tracks =
+                    self.arrived(now_ns, before, &came, digest, arrival).or(self.tracks.take());
+            }
+            Payload::Trajectory { session, stamp_ns, points } => {
+                let came = came(Group::Plan, session);
+                let digest = digest(stamp_ns, &points);
+                let arrival = self.monitor.trajectory(now, came.with(stamp_ns, points));
+                self.trajectory =
+                    self.arrived(now_ns, before, &came, digest, arrival).or(self.trajectory.take());
+            }
+            Payload::Request { .. }
+            | Payload::Release { .. }
+            | Payload::Alive { .. }
+            | Payload::State { .. }
+            | Payload::Detections { .. } => self.tally.dropped("of a vehicle"),
+        }
+    }
+
+    /// What became of a result: it is kept to be checked, or it is gone.
+    fn arrived<L>(
+        &mut self,
+        now_ns: i64,
+        before: [GroupState; 2],
+        came: &Came,
+        digest: u64,
+        arrival: Result<Arrival<L>, RequesterError>,
+    ) -> Option<Accepted<L>> {
+        let Came { group, station, session, generated_ns } = *came;
+        let latency_ns = now_ns.saturating_sub(generated_ns);
+        let accepted = matches!(arrival, Ok(Arrival::Accepted(_)));
+        let what =
+            What::Arrived { group: word(group), station, session, latency_ns, accepted, digest };
+        self.tally.note(now_ns, what);
+        match arrival {
+            Ok(Arrival::Accepted(element)) => {
+                self.tally.accepted(group, latency_ns);
+                return Some(element);
+            }
+            Ok(Arrival::Dropped(actions)) => self.answered(now_ns, before, Ok(actions), "late"),
+            Err(error) => self.answered(now_ns, before, Err(error), "late"),
+        }
+        None
+    }
+}
+
+/// A result that came.
+struct Came {
+    group: Group,
+    station: i64,
+    session: i64,
+    generated_ns: i64,
+}
+
+impl Came {
+    fn with<T>(&self, stamp_ns: i64, items: Vec<T>) -> Received<Vec<T>> {
+        let Self { station, session, generated_ns, .. } = *self;
+        Received { station, session, generated: time(generated_ns), stamp: time(stamp_ns), items }
+    }
+}

@@ -1,0 +1,114 @@
+//! What happens to messages, stations and vehicles; each ends as the spec says, and is offloaded again.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use mufasa::services::configuration::Configuration;
+use mufasa_link::message::{Payload, decode};
+use mufasa_link::transport::{Address, Transport};
+
+use crate::world::{Seen, Somebody, World};
+
+/// What must hold whatever happens.
+fn holds(seen: &Seen) {
+    let vehicle = &seen.vehicle;
+    println!("{vehicle:#?}\n{:#?}\n{:?}", seen.station, seen.changes);
+    assert!(vehicle.uncovered.is_empty(), "{vehicle:?}");
+    assert!(vehicle.used > 0 && vehicle.malformed.is_empty(), "{vehicle:?}");
+    assert_eq!(vehicle.fallbacks, 0, "no cycle is unsafe: {vehicle:?}");
+}
+
+/// All is remote before a fault, and within a second after its end, ms.
+fn offloaded_around(seen: &Seen, [from, to]: [i64; 2]) {
+    assert_eq!(seen.at(from), Configuration::AllRemote, "{:?}", seen.changes);
+    assert_eq!(seen.at(to + 1_000), Configuration::AllRemote, "{:?}", seen.changes);
+}
+
+#[test]
+fn results_60_ms_late_end_their_sessions() {
+    let seen = World { disturbances: vec!["delay=60@4..6"], ..World::default() }.drive();
+    holds(&seen);
+    offloaded_around(&seen, [3_900, 6_100]);
+    // 60 ms are above l_max = 50 ms, and far below the time that a request has.
+    assert!(seen.vehicle.left["late"] >= 2, "{:?}", seen.vehicle.left);
+    assert!(seen.vehicle.offloaded < 175, "{}", seen.vehicle.offloaded);
+}
+
+#[test]
+fn results_45_ms_late_are_used() {
+    let seen = World { disturbances: vec!["delay=45@4..6"], ..World::default() }.drive();
+    holds(&seen);
+    // They come after the cycle they were made for, and are used in the next; l_max allows it.
+    assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
+    offloaded_around(&seen, [3_900, 6_100]);
+}
+
+#[test]
+fn repeated_results_are_dropped_and_nothing_else_happens() {
+    let seen = World { disturbances: vec!["duplicate@4..6"], ..World::default() }.drive();
+    holds(&seen);
+    assert!((19..=21).contains(&seen.vehicle.dropped["tracks"]), "{:?}", seen.vehicle.dropped);
+    assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
+    offloaded_around(&seen, [4_000, 5_000]);
+}
+
+#[test]
+fn results_out_of_order_are_not_used() {
+    let seen = World { disturbances: vec!["reorder@4..6"], ..World::default() }.drive();
+    holds(&seen);
+    offloaded_around(&seen, [3_900, 6_200]);
+}
+
+#[test]
+fn a_cut_ends_the_sessions_by_silence_and_the_station_ends_them_by_their_lease() {
+    let seen = World { disturbances: vec!["cut@4..7"], ..World::default() }.drive();
+    holds(&seen);
+    offloaded_around(&seen, [3_900, 7_000]);
+    assert_eq!(seen.at(4_300), Configuration::Local, "{:?}", seen.changes);
+    assert_eq!(seen.vehicle.left["silent"], 2, "{:?}", seen.vehicle.left);
+    assert!(seen.vehicle.left["not confirmed"] >= 2, "{:?}", seen.vehicle.left);
+}
+
+#[test]
+fn a_station_that_is_killed_is_left_and_used_again_when_it_is_back() {
+    let away = World { station: vec![(0, 4_000), (9_000, i64::MAX)], ..World::default() };
+    let seen = away.drive();
+    holds(&seen);
+    offloaded_around(&seen, [3_900, 9_000]);
+    assert_eq!(seen.at(4_300), Configuration::Local, "{:?}", seen.changes);
+    // From three seconds without an offer on nobody is asked any more.
+    assert!(seen.vehicle.left["not confirmed"] <= 12, "{:?}", seen.vehicle.left);
+}
+
+#[test]
+fn a_vehicle_that_is_killed_is_served_again_at_once_in_sessions_of_higher_numbers() {
+    let asked = Rc::new(RefCell::new((None, Vec::new())));
+    let heard = Rc::clone(&asked);
+    let also = move |_: i64, by: &mut Somebody| {
+        let (ear, sessions) = &mut *heard.borrow_mut();
+        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Station(1)));
+        while let Some(bytes) = ear.receive(0) {
+            let message = decode(&bytes, &by.frame).expect("a message of the vehicle");
+            if let Payload::Request { session, .. } = message.payload {
+                sessions.push(session);
+            }
+        }
+    };
+    // The station still has its sessions: the new ones take their place.
+    let seen = World { restarts: vec![4_050], also: Box::new(also), ..World::default() }.drive();
+    holds(&seen);
+    offloaded_around(&seen, [4_000, 4_050]);
+    assert_eq!((seen.vehicle.drives, seen.station.sessions), (2, 2));
+    let sessions = &asked.borrow().1;
+    assert_eq!(sessions.len(), 4);
+    assert!(sessions.is_sorted_by(|a, b| a < b), "{sessions:?}");
+}
+
+#[test]
+fn two_killed_again_and_again_use_nothing_that_is_not_covered() {
+    let station = (0..9).map(|i| (2_100 * i, 2_100 * i + 1_700)).collect();
+    let restarts = (1..8).map(|i| 1_930 * i).collect();
+    let seen = World { station, restarts, until: 18_000, ..World::default() }.drive();
+    holds(&seen);
+    assert_eq!(seen.vehicle.drives, 8);
+}

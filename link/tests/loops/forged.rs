@@ -1,0 +1,213 @@
+//! Somebody else talks: nobody signs anything, so what they say looks like a station's or a vehicle's.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use mufasa::input::cycle::{Ego, TrajectoryPoint};
+use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa_drives::{Options, demo};
+use mufasa_link::message::{Message, Payload, decode};
+use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
+use mufasa_model::offloading::requester::Parameters;
+
+use crate::world::{MS, Seen, Somebody, World};
+
+const VEHICLE: Address = Address::Vehicle(1);
+
+fn message(by: &Somebody, sender: i64, receiver: i64, payload: Payload) -> Message {
+    Message { sender, receiver, generated_ns: by.now_ns, payload }
+}
+
+fn while_somebody(also: impl FnMut(i64, &mut Somebody) + 'static) -> Seen {
+    let seen = World { also: Box::new(also), ..World::default() }.drive();
+    println!("{:#?}\n{:#?}\n{:?}", seen.vehicle, seen.station, seen.changes);
+    assert!(seen.vehicle.uncovered.is_empty(), "{:?}", seen.vehicle);
+    assert!(seen.vehicle.used > 0);
+    seen
+}
+
+#[test]
+fn sessions_that_nobody_asked_for_change_nothing() {
+    let seen = while_somebody(|ms, by| {
+        if ms % 50 == 0 {
+            for session in [0, 1, 1_000_000, i64::MAX] {
+                let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
+                for payload in [
+                    Payload::Confirm { group: Group::Plan, session },
+                    Payload::Reject { group: Group::Mot, session },
+                    tracks,
+                ] {
+                    let forged = message(by, 1, 1, payload);
+                    by.say(VEHICLE, &forged);
+                }
+            }
+        }
+    });
+    assert!(seen.vehicle.offloaded >= 175, "{:?}", seen.vehicle);
+    assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
+    assert!(seen.vehicle.dropped["tracks"] > 1_000, "{:?}", seen.vehicle.dropped);
+    // Each confirmation is answered with a release of the session that it names.
+    assert!(seen.vehicle.sent["release"] > 1_000, "{:?}", seen.vehicle.sent);
+}
+
+#[test]
+fn bytes_that_are_no_message_are_counted_and_change_nothing() {
+    let seen = while_somebody(|ms, by| {
+        let byte = u8::try_from(ms % 256).unwrap_or(0);
+        for address in [VEHICLE, Address::Station(1)] {
+            by.shout(address, &[byte; 40][..usize::from(byte % 40)]);
+            by.shout(address, &vec![byte; MESSAGE_MAX]);
+        }
+    });
+    assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
+    assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
+    let count = |malformed: &BTreeMap<String, u64>| malformed.values().sum::<u64>();
+    assert!(count(&seen.vehicle.malformed) > 30_000, "{:?}", seen.vehicle.malformed);
+    assert!(count(&seen.station.malformed) > 30_000, "{:?}", seen.station.malformed);
+}
+
+#[test]
+fn a_trajectory_in_the_running_session_that_leaves_the_road_is_caught_and_starts_the_hold() {
+    let heard = Rc::new(RefCell::new((None, None)));
+    let seen = while_somebody(move |ms, by| {
+        let (ear, last) = &mut *heard.borrow_mut();
+        let ear = ear.get_or_insert_with(|| by.hub.join(VEHICLE));
+        while let Some(bytes) = ear.receive(0) {
+            if let Ok(Message {
+                payload: Payload::Trajectory { session, stamp_ns, points }, ..
+            }) = decode(&bytes, &by.frame)
+            {
+                *last = Some((session, stamp_ns, points));
+            }
+        }
+        if let (4_090, Some((session, stamp_ns, points))) = (ms, last.clone()) {
+            let aside = |it: TrajectoryPoint| TrajectoryPoint { y: it.y + 5.0, ..it };
+            let points = points.into_iter().map(aside).collect();
+            let forged = message(by, 1, 1, Payload::Trajectory { session, stamp_ns, points });
+            by.say(VEHICLE, &forged);
+        }
+    });
+    // Nothing tells that the station did not send it, but the stages do.
+    assert_eq!(seen.vehicle.fallbacks, 1, "{:?}", seen.vehicle.unsafe_by_stage);
+    assert_eq!(seen.vehicle.unsafe_by_stage.get("ii"), Some(&1));
+    assert_eq!(seen.vehicle.left["unsafe"], 2);
+    let t_wait_ms = Parameters::default().t_wait_ns / MS;
+    let again = seen.offloaded_after(4_200);
+    assert!(
+        again.is_some_and(|ms| (4_000 + t_wait_ms..4_300 + t_wait_ms).contains(&ms)),
+        "{again:?}"
+    );
+}
+
+#[test]
+fn a_withdrawal_that_is_forged_lasts_until_the_next_offer() {
+    let seen = while_somebody(|ms, by| {
+        if ms == 4_000 {
+            let forged = message(by, 1, 1, Payload::Withdraw);
+            by.say(VEHICLE, &forged);
+        }
+    });
+    assert_eq!(seen.vehicle.left["withdrawn"], 2);
+    assert!(seen.offloaded_after(4_000).is_some_and(|ms| ms < 4_800), "{:?}", seen.changes);
+}
+
+#[test]
+fn stations_that_are_made_up_fill_the_table_and_the_real_one_is_still_used() {
+    let seen = while_somebody(|ms, by| {
+        if ms >= 1_000 && ms % 10 == 0 {
+            let forged = message(by, 2 + ms, 0, Payload::Offer { groups: Groups::ALL });
+            by.say(VEHICLE, &forged);
+        }
+    });
+    assert!(seen.vehicle.dropped["too many stations"] > 1_000, "{:?}", seen.vehicle.dropped);
+    assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
+}
+
+#[test]
+fn who_takes_the_id_of_the_vehicle_ends_its_sessions_and_no_more() {
+    let seen = while_somebody(|ms, by| {
+        if (4_000..6_000).contains(&ms) && ms % 100 == 0 {
+            for group in Group::ALL {
+                let session = i64::MAX - 1;
+                let forged = message(by, 1, 1, Payload::Request { group, session });
+                by.say(Address::Station(1), &forged);
+            }
+        }
+    });
+    assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
+    // The vehicle is told of each session that it did not ask for, and releases it.
+    assert!(seen.vehicle.sent["release"] >= 40, "{:?}", seen.vehicle.sent);
+    assert_eq!(seen.at(7_500), Configuration::AllRemote, "{:?}", seen.changes);
+}
+
+#[test]
+fn a_second_vehicle_is_served_beside_the_first() {
+    let seen = while_somebody(|ms, by| {
+        if ms >= 2_000 && ms % 100 == 0 {
+            for group in Group::ALL {
+                let request = message(by, 2, 1, Payload::Request { group, session: 5 });
+                by.say(Address::Station(1), &request);
+            }
+            let state = Payload::State { stamp_ns: by.now_ns, ego: at(1e4) };
+            let state = message(by, 2, 1, state);
+            by.say(Address::Station(1), &state);
+            // What is meant for it is not for the first.
+            let for_it = message(by, 1, 2, Payload::Withdraw);
+            by.say(VEHICLE, &for_it);
+        }
+    });
+    assert_eq!(seen.station.sessions, 4);
+    assert!(seen.station.dropped["off the drive"] > 100, "{:?}", seen.station.dropped);
+    assert!(seen.vehicle.dropped["for another"] > 100, "{:?}", seen.vehicle.dropped);
+    assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
+    assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
+}
+
+#[test]
+fn results_are_sent_in_running_sessions_alone() {
+    let answers = Rc::new(RefCell::new((None, BTreeMap::new())));
+    let heard = Rc::clone(&answers);
+    let place = demo(&Options::default()).unwrap().cycle(0).cycle.ego;
+    while_somebody(move |ms, by| {
+        let (ear, answers) = &mut *heard.borrow_mut();
+        let ear = ear.get_or_insert_with(|| by.hub.join(Address::Vehicle(2)));
+        while let Some(bytes) = ear.receive(0) {
+            match decode(&bytes, &by.frame).expect("a message of the station").payload {
+                Payload::Tracks { session, .. } => {
+                    *answers.entry(("tracks", session)).or_insert(0) += 1;
+                }
+                Payload::Trajectory { session, .. } => {
+                    *answers.entry(("trajectory", session)).or_insert(0) += 1;
+                }
+                _ => {}
+            }
+        }
+        if ms % 100 == 0 {
+            // MOT runs from 2 s on, PLAN never, whatever is asked in its name.
+            if ms == 2_000 {
+                let request = Payload::Request { group: Group::Mot, session: 5 };
+                let request = message(by, 2, 1, request);
+                by.say(Address::Station(1), &request);
+            }
+            let ego = Ego { x: place.x, y: place.y, cos: place.cos, sin: place.sin, ..at(0.0) };
+            for payload in [
+                Payload::Alive { group: Group::Mot, session: 5 },
+                Payload::Alive { group: Group::Plan, session: 6 },
+                Payload::State { stamp_ns: by.now_ns, ego },
+                Payload::Detections { stamp_ns: by.now_ns, ego, detections: vec![] },
+            ] {
+                let said = message(by, 2, 1, payload);
+                by.say(Address::Station(1), &said);
+            }
+        }
+    });
+    let answers = &answers.borrow().1;
+    assert_eq!(answers.keys().collect::<Vec<_>>(), [&("tracks", 5)], "{answers:?}");
+    assert!((160..=170).contains(&answers[&("tracks", 5)]), "{answers:?}");
+}
+
+/// A vehicle that stands somewhere.
+fn at(x: f64) -> Ego {
+    Ego { x, y: x, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4 }
+}

@@ -1,0 +1,6 @@
+//! Vehicle and station over channels, in a time that the test makes: the same every time.
+
+mod clean;
+mod faults;
+mod forged;
+mod world;

@@ -1,0 +1,169 @@
+//! A world whose clock stands still unless it is moved on: a vehicle on the drive of the demo, stations,
+//! and whoever else talks.
+
+use mufasa::monitor::Settings;
+use mufasa::services::configuration::Configuration;
+use mufasa_drives::{Injection, Options, inject};
+use mufasa_link::message::{Frame, Message, encode};
+use mufasa_link::play::Played;
+use mufasa_link::run::settings;
+use mufasa_link::station::{Station, StationSummary};
+use mufasa_link::transport::channels::{Channels, Hub};
+use mufasa_link::transport::disturbed::Disturbed;
+use mufasa_link::transport::{Address, Transport};
+use mufasa_link::vehicle::Vehicle;
+use mufasa_link::vehicle::memory::Lent;
+use mufasa_link::vehicle::summary::{Summary, Tally};
+use mufasa_model::input::cycle::Profile;
+use mufasa_model::offloading::requester::Parameters;
+
+/// A day of the year 2026, ns.
+pub const START_NS: i64 = 1_790_000_000_000_000_000;
+
+pub const MS: i64 = 1_000_000;
+
+/// Called each ms with the time since the start, ms, and a way to send as anybody.
+pub type Also = Box<dyn FnMut(i64, &mut Somebody)>;
+
+/// What happens in a world.
+pub struct World {
+    pub profile: Profile,
+    /// What happens to what the vehicle receives.
+    pub disturbances: Vec<&'static str>,
+    /// What the station does to the drive.
+    pub inject: Vec<&'static str>,
+    pub requester: Parameters,
+    /// Times in ms, from which to which there is a station.
+    pub station: Vec<(i64, i64)>,
+    /// Times in ms, at which the vehicle is started anew.
+    pub restarts: Vec<i64>,
+    /// Who else talks.
+    pub also: Also,
+    /// Times in ms after which all ends.
+    pub until: i64,
+}
+
+/// Somebody else who talks, with the frame of the messages.
+pub struct Somebody {
+    pub hub: Hub,
+    channels: Channels,
+    pub frame: Frame,
+    pub now_ns: i64,
+}
+
+impl Somebody {
+    pub fn say(&mut self, to: Address, message: &Message) {
+        let bytes = encode(message, &self.frame).expect("a message that can be written");
+        self.channels.send(self.now_ns, to, bytes);
+    }
+
+    pub fn shout(&mut self, to: Address, bytes: &[u8]) {
+        self.channels.send(self.now_ns, to, bytes.to_vec());
+    }
+}
+
+impl Default for World {
+    fn default() -> Self {
+        Self {
+            profile: Profile::Hardened,
+            disturbances: Vec::new(),
+            inject: Vec::new(),
+            requester: Parameters { dt_max_ns: 150 * MS, ..Parameters::default() },
+            station: vec![(0, i64::MAX)],
+            restarts: Vec::new(),
+            also: Box::new(|_, _| {}),
+            until: i64::MAX,
+        }
+    }
+}
+
+/// What was seen.
+pub struct Seen {
+    pub vehicle: Summary,
+    /// Of the last station.
+    pub station: StationSummary,
+    /// At which times, ms since the start, the groups that are remote changed, and to what.
+    pub changes: Vec<(i64, Configuration)>,
+}
+
+impl Seen {
+    /// When all was remote again after a time, ms.
+    pub fn offloaded_after(&self, ms: i64) -> Option<i64> {
+        let mut all = self.changes.iter().filter(|(_, it)| *it == Configuration::AllRemote);
+        all.find(|(at, _)| *at > ms).map(|(at, _)| *at)
+    }
+
+    /// The configuration at a time, ms.
+    pub fn at(&self, ms: i64) -> Configuration {
+        let before = self.changes.iter().rev().find(|(at, _)| *at <= ms);
+        before.map_or(Configuration::Local, |(_, it)| *it)
+    }
+}
+
+impl World {
+    /// Drives until the end.
+    pub fn drive(mut self) -> Seen {
+        let options = Options { profile: self.profile, ..Options::default() };
+        let clean = mufasa_drives::demo(&options).expect("the demo").collect();
+        let mut attacked = clean.clone();
+        for attack in &self.inject {
+            let injection: Injection = attack.parse().expect("an injection");
+            attacked = inject(&attacked, &injection).expect("it changes the drive");
+        }
+        let played = Played::new(clean).expect("a drive to be played");
+        let offered = Played::new(attacked).expect("a drive to be played");
+        let settings: Settings = settings(&played, &self.requester);
+        let hub = Hub::default();
+        let mut somebody = Somebody {
+            hub: hub.clone(),
+            channels: hub.join(Address::Vehicle(99)),
+            frame: played.frame().expect("a frame"),
+            now_ns: START_NS,
+        };
+        let disturbances = self.disturbances.iter().map(|it| it.parse().expect("one")).collect();
+        let mut of_vehicle = Disturbed::new(hub.join(Address::Vehicle(1)), disturbances);
+        let mut tally = Tally::default();
+        let mut changes = vec![];
+        let mut station_summary = StationSummary::default();
+        let mut ms = 0;
+        let mut lives = self.restarts.clone();
+        lives.push(self.until);
+        for end_ms in lives {
+            let mut lent = Lent::new(&played);
+            let now_ns = START_NS + ms * MS;
+            let vehicle =
+                Vehicle::new(1, now_ns, &played, settings, &mut lent, &mut of_vehicle, &mut tally);
+            let mut vehicle = vehicle.expect("settings that fit");
+            while ms < end_ms {
+                // A station lives for a span; a new one knows nothing of the one before.
+                let span =
+                    self.station.iter().copied().find(|(from, to)| (*from..*to).contains(&ms));
+                let until_ms = span.map_or(ms + 1, |(_, to)| to.min(end_ms));
+                let mut of_station = hub.join(Address::Station(1));
+                let mut station = Station::new(1, &offered, &mut of_station).expect("a frame");
+                let mut has_ended = false;
+                while ms < until_ms && !has_ended {
+                    let now_ns = START_NS + ms * MS;
+                    somebody.now_ns = now_ns;
+                    (self.also)(ms, &mut somebody);
+                    if span.is_some() {
+                        // What it answers has been under way for half a millisecond when it arrives.
+                        station.step(now_ns - MS / 2);
+                    }
+                    has_ended = vehicle.step(now_ns).expect("a route that fits").is_none();
+                    let configuration = vehicle.configuration();
+                    if changes.last().map_or(Configuration::Local, |(_, it)| *it) != configuration {
+                        changes.push((ms, configuration));
+                    }
+                    ms += 1;
+                }
+                station_summary = station.summary();
+                if has_ended {
+                    return Seen { vehicle: tally.summary(), station: station_summary, changes };
+                }
+            }
+            // Killed: it says nothing more, and nobody else remembers it.
+        }
+        Seen { vehicle: tally.summary(), station: station_summary, changes }
+    }
+}

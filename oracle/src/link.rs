@@ -1,0 +1,241 @@
+//! The commands `vehicle` and `station`: the two programs of the link.
+
+use std::fs::File;
+use std::io::{self, LineWriter, Write};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use comfy_table::{Table, presets};
+use mufasa_drives::{Drive, Injection, Options, demo, inject, read};
+use mufasa_link::clock::SharedClock;
+use mufasa_link::play::Played;
+use mufasa_link::run::{self, VehicleRun};
+use mufasa_link::station::StationSummary;
+use mufasa_link::transport::Address;
+use mufasa_link::transport::amqp::Amqp;
+use mufasa_link::transport::channels::Hub;
+use mufasa_link::transport::disturbed::Disturbed;
+use mufasa_link::vehicle::summary::{Counts, Spread, Summary, Tally};
+use mufasa_model::offloading::requester;
+use mufasa_records::files;
+use serde::Serialize;
+
+use crate::cli::link::{DriveArguments, StationArguments, VehicleArguments};
+use crate::parameters_file;
+
+/// What `dt_max` is above the period of the drive, unless a file of parameters says otherwise, ns.
+const JITTER_NS: i64 = 50_000_000;
+
+/// The station in the process of the vehicle.
+const STATION: i64 = 1;
+
+/// Drives, and says how it went. `Err` says in words what is wrong with the arguments.
+pub fn vehicle(
+    arguments: &VehicleArguments,
+    stop: &AtomicBool,
+    out: &mut impl Write,
+) -> Result<u8, String> {
+    let (drive, parameters) = drive(&arguments.drive, arguments.parameters.as_deref())?;
+    let offered = attacked(drive.clone(), &arguments.inject)?;
+    let [driven, offered] = [drive, offered].map(Played::new).map(words);
+    let (driven, offered) = (driven?, offered?);
+    let jitter = || requester::Parameters {
+        dt_max_ns: driven.period_ns().saturating_add(JITTER_NS),
+        ..requester::Parameters::default()
+    };
+    let settings = run::settings(&driven, &parameters.unwrap_or_else(jitter));
+    let run = VehicleRun { id: arguments.id, settings, laps: arguments.laps };
+    let mut tally = match &arguments.log {
+        Some(file) => Tally::logging_to(Box::new(LineWriter::new(
+            File::create(file).map_err(|error| cannot(file, &error))?,
+        ))),
+        None => Tally::default(),
+    };
+    let clock = words(SharedClock::new())?;
+    let me = Address::Vehicle(arguments.id);
+    let disturb = arguments.disturb.clone();
+    let station = if let Some(url) = &arguments.broker {
+        let mut broker = Disturbed::new(words(Amqp::new(url, me))?, disturb);
+        words(run.run(&driven, clock, &mut broker, &mut tally, stop))?;
+        None
+    } else {
+        let hub = Hub::default();
+        let mut of_vehicle = Disturbed::new(hub.join(me), disturb);
+        let mut of_station = hub.join(Address::Station(STATION));
+        let channels = (&mut of_vehicle, &mut of_station);
+        let plays = [&driven, &offered];
+        Some(words(run::both(&run, STATION, plays, clock, channels, &mut tally, stop))?)
+    };
+    let summary = tally.summary();
+    write_json(arguments.json.as_deref(), &summary)?;
+    let written =
+        writeln!(out, "{}", of_vehicle(&summary).trim_fmt()).and_then(|()| match &station {
+            Some(station) => writeln!(out, "{}", of_station(station).trim_fmt()),
+            None => Ok(()),
+        });
+    words(written)?;
+    Ok(code(&summary))
+}
+
+/// Serves until it is stopped, and says how it went. `Err` says in words what is wrong with the arguments.
+pub fn station(
+    arguments: &StationArguments,
+    stop: &Arc<AtomicBool>,
+    out: &mut impl Write,
+) -> Result<u8, String> {
+    let (drive, _) = drive(&arguments.drive, None)?;
+    let played = words(Played::new(attacked(drive, &arguments.inject)?))?;
+    let mut broker = words(Amqp::new(&arguments.broker, Address::Station(arguments.id)))?;
+    if let Some(seconds) = arguments.seconds {
+        let stop = Arc::clone(stop);
+        thread::spawn(move || {
+            thread::sleep(Duration::from_secs(seconds));
+            stop.store(true, Ordering::Relaxed);
+        });
+    }
+    let clock = words(SharedClock::new())?;
+    let summary = words(run::station(arguments.id, &played, clock, &mut broker, stop))?;
+    write_json(arguments.json.as_deref(), &summary)?;
+    words(writeln!(out, "{}", of_station(&summary).trim_fmt()))?;
+    Ok(0)
+}
+
+/// The one drive that is named, or that of the demo, and the parameters of the requester if a file names them.
+fn drive(
+    arguments: &DriveArguments,
+    parameters: Option<&Path>,
+) -> Result<(Drive, Option<requester::Parameters>), String> {
+    let parameters = words(parameters.map(parameters_file::read).transpose())?;
+    let stages = parameters.as_ref().map(|it| it.stages.clone()).unwrap_or_default();
+    let options = Options { profile: arguments.profile, parameters: stages, ..Options::default() };
+    let requester = parameters.map(|it| it.requester);
+    if arguments.files.is_empty() {
+        return Ok((words(demo(&options))?.collect(), requester));
+    }
+    let mut drives = read(&arguments.files, &options).into_iter();
+    match (drives.next(), drives.next()) {
+        (Some(drive), None) => Ok((words(drive)?, requester)),
+        _ => Err("the files are more than one drive, or none; give those of one".to_owned()),
+    }
+}
+
+fn attacked(drive: Drive, injections: &[Injection]) -> Result<Drive, String> {
+    injections.iter().try_fold(drive, |drive, it| words(inject(&drive, it)))
+}
+
+fn words<T>(result: Result<T, impl ToString>) -> Result<T, String> {
+    result.map_err(|error| error.to_string())
+}
+
+fn cannot(file: &Path, error: &io::Error) -> String {
+    format!("{}: cannot be written: {error}", file.display())
+}
+
+fn write_json(file: Option<&Path>, summary: &impl Serialize) -> Result<(), String> {
+    let Some(file) = file else { return Ok(()) };
+    let text = words(serde_json::to_string_pretty(summary))? + "\n";
+    files::write(file, &text).map_err(|error| cannot(file, &error))
+}
+
+fn code(summary: &Summary) -> u8 {
+    let lost = summary.left.keys().any(|why| why != "end");
+    if summary.uncovered.is_empty() {
+        u8::from(lost || !summary.unsafe_by_stage.is_empty())
+    } else {
+        3
+    }
+}
+
+fn of_vehicle(summary: &Summary) -> Table {
+    let mut table = table("vehicle");
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    row("cycles", summary.cycles.to_string());
+    row("  nothing remote, nothing checked", summary.local.to_string());
+    row("  checked and safe", summary.safe.to_string());
+    row("  unsafe, by what failed", counts(&summary.unsafe_by_stage));
+    row("  before which the drive waited for this computer", summary.paused.to_string());
+    let offloaded = format!("{}, {:.1} s", summary.offloaded, summary.offloaded_s);
+    row("cycles with a remote result used", offloaded);
+    row("remote results used", summary.used.to_string());
+    row("  of them not covered by a safe decision", counts(&summary.uncovered));
+    row("fallbacks", summary.fallbacks.to_string());
+    row("sessions ended, by the reason", counts(&summary.left));
+    row("local services", counts(&summary.local_services));
+    row("latency of tracks", spread(summary.latency_tracks));
+    row("latency of trajectories", spread(summary.latency_trajectories));
+    row("Monitor::cycle", spread(summary.monitor));
+    let Summary { sent, unsent, received, dropped, malformed, .. } = summary;
+    let (shed, connected) = (summary.shed, summary.connections);
+    let error = summary.last_error.as_deref();
+    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
+        .into_iter()
+        .for_each(|(name, value)| row(name, value));
+    table
+}
+
+fn of_station(summary: &StationSummary) -> Table {
+    let mut table = table("station");
+    let mut row = |name: &str, value: String| {
+        table.add_row([name.to_owned(), value]);
+    };
+    row("most sessions at a time", summary.sessions.to_string());
+    let StationSummary { sent, unsent, received, dropped, malformed, .. } = summary;
+    let (shed, connected) = (summary.shed, summary.connections);
+    let error = summary.last_error.as_deref();
+    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
+        .into_iter()
+        .for_each(|(name, value)| row(name, value));
+    table
+}
+
+/// What went to and fro.
+fn traffic(
+    [sent, unsent, received, dropped, malformed]: [&Counts; 5],
+    shed: u64,
+    connected: u64,
+    error: Option<&str>,
+) -> [(&'static str, String); 7] {
+    [
+        ("sent", counts(sent)),
+        ("  could not be written", counts(unsent)),
+        ("received", counts(received)),
+        ("  dropped", counts(dropped)),
+        ("  malformed", counts(malformed)),
+        ("  shed by the transport", shed.to_string()),
+        ("connections", connections(connected, error)),
+    ]
+}
+
+fn table(who: &str) -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING);
+    table.set_header([who, ""]);
+    table
+}
+
+fn counts(counts: &Counts) -> String {
+    if counts.is_empty() {
+        return "0".to_owned();
+    }
+    let each: Vec<_> = counts.iter().map(|(name, count)| format!("{name} {count}")).collect();
+    each.join(", ")
+}
+
+fn spread(Spread { count, p50_us, p99_us, max_us }: Spread) -> String {
+    if count == 0 {
+        return "-".to_owned();
+    }
+    format!("p50 {p50_us:.0} us, p99 {p99_us:.0} us, longest {max_us:.0} us, of {count}")
+}
+
+fn connections(count: u64, last_error: Option<&str>) -> String {
+    match last_error {
+        Some(error) => format!("{count}; {error}"),
+        None => count.to_string(),
+    }
+}
