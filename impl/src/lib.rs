@@ -100,7 +100,7 @@
 //!         Decision::Safe { trajectory: None, actions, .. } => {
 //!             // Nothing current was there to be checked. The local planner is followed; where it is
 //!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
-//!             // copy: for at most `dt_max` and a period, then the session ends.
+//!             // copy; where that lasts for longer than `dt_max`, call `lost`.
 //!             let _stop_local_services = actions;
 //!         }
 //!         Decision::Unsafe { report, actions } => {

@@ -9,7 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use comfy_table::{Table, presets};
-use mufasa_drives::{Drive, Injection, Options, demo, inject, read};
+use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, read};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
 use mufasa_link::run::{self, VehicleRun};
@@ -123,7 +123,9 @@ fn drive(
 }
 
 fn attacked(drive: Drive, injections: &[Injection]) -> Result<Drive, String> {
-    injections.iter().try_fold(drive, |drive, it| words(inject(&drive, it)))
+    let attacked =
+        injections.iter().try_fold(Stream::from(drive), |drive, it| words(inject(&drive, it)));
+    attacked.map(Stream::collect)
 }
 
 fn words<T>(result: Result<T, impl ToString>) -> Result<T, String> {

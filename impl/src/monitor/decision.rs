@@ -20,10 +20,11 @@ pub enum Decision<'m> {
         tracks: Option<Verified<'m, TrackList<'m>>>,
         /// The trajectory that was checked, while a group is remote and it is current: that of the
         /// station, or in MotRemote that of the CAV's own planner. `None` in Local, where nothing is
-        /// checked and the local planner is followed; and while nothing current was there to check,
-        /// for at most dt_max and a period where the group is remote. Its local planner may be stopped
-        /// then: what is followed is the last verified trajectory, on a copy, and in MotRemote no own
-        /// plan that is older than `max_age_ns`.
+        /// checked and the local planner is followed; and while nothing current was there to check:
+        /// a message is missing, or is stamped ahead of the cycle. The local planner may be stopped
+        /// then: what is followed is a copy of the last verified trajectory, and in MotRemote no own
+        /// plan that is older than `max_age_ns`. Where this lasts for longer than dt_max, call
+        /// [`super::Monitor::lost`]: a station that stamps everything ahead keeps its session.
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
         report: Report,

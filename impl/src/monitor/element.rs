@@ -64,7 +64,7 @@ pub enum Arrival<L> {
     /// It is of the running session and in time: to be checked in a cycle.
     Accepted(Accepted<L>),
     /// It is of no use, and gone: late, not newer than the last one, of no running session, or with a
-    /// stamp that is not current. A violation of quality of service ends the session: then there are releases and activations, too.
+    /// stamp too old for any cycle. A violation of quality of service ends the session: then there are releases and activations, too.
     Dropped(Actions),
 }
 

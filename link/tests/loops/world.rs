@@ -108,7 +108,8 @@ impl World {
         let mut attacked = clean.clone();
         for attack in &self.inject {
             let injection: Injection = attack.parse().expect("an injection");
-            attacked = inject(&attacked, &injection).expect("it changes the drive");
+            attacked =
+                inject(&attacked.into(), &injection).expect("it changes the drive").collect();
         }
         let played = Played::new(clean).expect("a drive to be played");
         let offered = Played::new(attacked).expect("a drive to be played");

@@ -69,7 +69,7 @@ impl<'a> Plain<'a> {
         Self { settings, requester, last: [None; 2], kept: Vec::new() }
     }
 
-    /// An element arrives; of one that is in time, but that no cycle could use now, the requester hears no
+    /// An element arrives; of one that is in time, but too old for any cycle, the requester hears no
     /// session.
     pub fn data<T>(
         &mut self,
@@ -79,7 +79,7 @@ impl<'a> Plain<'a> {
     ) -> Vec<Action> {
         let &Received { session, generated_ns, stamp_ns, .. } = received;
         let oldest_ns = i128::from(t_ns) - i128::from(self.settings.stages.max_age_ns);
-        let usable = stamp_ns <= t_ns && i128::from(stamp_ns) >= oldest_ns;
+        let usable = i128::from(stamp_ns) >= oldest_ns;
         let latency_ns = i128::from(t_ns) - i128::from(generated_ns);
         let late = latency_ns < 0 || latency_ns > i128::from(self.settings.requester.l_max_ns);
         let session = if usable || late { session } else { 0 };
