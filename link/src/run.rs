@@ -13,7 +13,7 @@ use crate::message::EncodeError;
 use crate::play::Played;
 use crate::station::{Station, StationSummary};
 use crate::transport::Transport;
-use crate::vehicle::memory::Lent;
+use crate::vehicle::memory::lent;
 use crate::vehicle::summary::Tally;
 use crate::vehicle::{Vehicle, VehicleError};
 
@@ -43,7 +43,7 @@ impl VehicleRun {
         tally: &mut Tally,
         stop: &AtomicBool,
     ) -> Result<(), VehicleError> {
-        let mut lent = Lent::new(played);
+        let mut lent = lent(played);
         for _ in 0..self.laps {
             let (id, now_ns) = (self.id, clock.now_ns());
             let mut vehicle =

@@ -4,5 +4,6 @@
 pub mod bridge;
 pub mod conformance;
 pub mod differential;
+pub mod lent;
 pub mod refine;
 pub mod strategy;

@@ -20,10 +20,10 @@ use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_model::input::cycle::{Cycle, Route};
 use mufasa_props::bridge;
+use mufasa_props::lent::Lent;
 use mufasa_records::names;
 
 use self::log::What;
-use self::memory::Lent;
 use self::summary::Tally;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;

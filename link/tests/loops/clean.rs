@@ -7,7 +7,7 @@ use mufasa_link::run::settings;
 use mufasa_link::transport::Address;
 use mufasa_link::transport::channels::Hub;
 use mufasa_link::vehicle::Vehicle;
-use mufasa_link::vehicle::memory::Lent;
+use mufasa_link::vehicle::memory::lent;
 use mufasa_link::vehicle::summary::Tally;
 use mufasa_model::input::cycle::Profile;
 
@@ -40,7 +40,7 @@ fn a_clean_drive_is_offloaded_from_its_first_second_to_its_end() {
 fn a_drive_waits_for_a_computer_that_is_late() {
     let played = Played::new(demo(&Options::default()).unwrap().collect()).unwrap();
     let mut of_vehicle = Hub::default().join(Address::Vehicle(1));
-    let (mut lent, mut tally) = (Lent::new(&played), Tally::default());
+    let (mut lent, mut tally) = (lent(&played), Tally::default());
     let settings = settings(&played, &World::default().requester);
     let vehicle =
         Vehicle::new(1, START_NS, &played, settings, &mut lent, &mut of_vehicle, &mut tally);

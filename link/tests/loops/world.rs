@@ -12,7 +12,7 @@ use mufasa_link::transport::channels::{Channels, Hub};
 use mufasa_link::transport::disturbed::Disturbed;
 use mufasa_link::transport::{Address, Transport};
 use mufasa_link::vehicle::Vehicle;
-use mufasa_link::vehicle::memory::Lent;
+use mufasa_link::vehicle::memory::lent;
 use mufasa_link::vehicle::summary::{Summary, Tally};
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Parameters;
@@ -130,7 +130,7 @@ impl World {
         let mut lives = self.restarts.clone();
         lives.push(self.until);
         for end_ms in lives {
-            let mut lent = Lent::new(&played);
+            let mut lent = lent(&played);
             let now_ns = START_NS + ms * MS;
             let vehicle =
                 Vehicle::new(1, now_ns, &played, settings, &mut lent, &mut of_vehicle, &mut tally);
