@@ -4,4 +4,5 @@
 //! The same seed gives the same bytes on any machine: numbers go through IEEE operations and libm alone,
 //! time is simulated, and everything is kept in an order.
 
+pub mod path;
 pub mod pose;

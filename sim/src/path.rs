@@ -1,0 +1,209 @@
+//! A polyline that is travelled along: arc length, poses, projections and curvature.
+
+use crate::pose::{Point, Pose};
+
+/// Why points are no path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathError {
+    /// A path needs two points (three if it is closed); this many were given.
+    TooFew(usize),
+    /// The coordinates of the point with this index are not finite.
+    NotFinite(usize),
+    /// The point with this index lies on the one before it (the first of a closed path: on the last): drop it.
+    Repeated(usize),
+}
+
+impl core::fmt::Display for PathError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::TooFew(count) => {
+                write!(f, "a path of {count} points: give two, or three if it is closed")
+            }
+            Self::NotFinite(index) => write!(f, "point {index} is not finite"),
+            Self::Repeated(index) => write!(f, "point {index} repeats the one before it: drop it"),
+        }
+    }
+}
+
+impl std::error::Error for PathError {}
+
+/// A polyline with its arc length from the first point, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    points: Vec<Point>,
+    /// Arc length of every point, and of the end of the last piece.
+    lengths: Vec<f64>,
+    /// Direction of every piece (cosine, sine).
+    pieces: Vec<(f64, f64)>,
+    /// Direction at every point, the middle of those of its two pieces.
+    headings: Vec<(f64, f64)>,
+    closed: bool,
+}
+
+/// Where a place lies beside a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection {
+    /// Arc length of the nearest point of the path, m.
+    pub s: f64,
+    /// Signed distance of the place, left positive, m; before and behind the ends of an open path, that to
+    /// the end's tangent.
+    pub left: f64,
+}
+
+impl Path {
+    /// An open path through these points, m.
+    ///
+    /// # Errors
+    /// Fewer than two points, one that is not finite, or one that repeats the point before it.
+    pub fn new(points: Vec<Point>) -> Result<Self, PathError> {
+        Self::build(points, false)
+    }
+
+    /// A path that returns from its last point to its first, m.
+    ///
+    /// # Errors
+    /// Fewer than three points, one that is not finite, or one that repeats the point before it.
+    pub fn closed(points: Vec<Point>) -> Result<Self, PathError> {
+        Self::build(points, true)
+    }
+
+    /// Arc length of the whole path, m.
+    pub fn length(&self) -> f64 {
+        self.lengths[self.lengths.len() - 1]
+    }
+
+    /// Whether the path returns to its first point.
+    pub const fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The points in order, m.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Arc lengths of the points in order, m; a closed path has one more, its whole length.
+    pub fn arc_lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// The arc length that `s` stands for, m: taken round on a closed path, held at the ends of an open one.
+    pub fn wrap(&self, s: f64) -> f64 {
+        let length = self.length();
+        if self.closed { s - (s / length).floor() * length } else { s.clamp(0.0, length) }
+    }
+
+    /// The piece on which an arc length lies, and the share of the piece before it, in [0, 1].
+    pub fn locate(&self, s: f64) -> (usize, f64) {
+        let s = self.wrap(s);
+        let after = self.lengths.partition_point(|&at| at <= s);
+        let piece = after.saturating_sub(1).min(self.pieces.len() - 1);
+        let (from, to) = (self.lengths[piece], self.lengths[piece + 1]);
+        (piece, ((s - from) / (to - from)).clamp(0.0, 1.0))
+    }
+
+    /// Place and direction at an arc length, m; the direction turns evenly between the points.
+    pub fn pose_at(&self, s: f64) -> Pose {
+        let (piece, share) = self.locate(s);
+        let (from, to) = (self.points[piece], self.points[self.next(piece)]);
+        let (a, b) = (self.headings[piece], self.headings[self.next(piece)]);
+        let (cos, sin) = unit(a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share)
+            .unwrap_or(self.pieces[piece]);
+        Pose {
+            at: Point::new(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share),
+            cos,
+            sin,
+        }
+    }
+
+    /// The nearest point of the whole path.
+    pub fn project(&self, place: Point) -> Projection {
+        self.nearest(place, 0, self.pieces.len())
+    }
+
+    /// The nearest point of the pieces that reach into [from, to], m: for a path that crosses or covers
+    /// itself, and for speed. A closed path takes a window over its seam.
+    pub fn project_within(&self, place: Point, from: f64, to: f64) -> Projection {
+        if self.closed && to - from >= self.length() {
+            return self.project(place);
+        }
+        let (first, last) = (self.locate(from).0, self.locate(to).0);
+        let count = if last < first { last + self.pieces.len() - first } else { last - first } + 1;
+        self.nearest(place, first, count)
+    }
+
+    /// Curvature at an arc length, left positive, 1/m: the turn of the direction over the piece, by its length.
+    pub fn curvature_at(&self, s: f64) -> f64 {
+        let (piece, _) = self.locate(s);
+        let (a, b) = (self.headings[piece], self.headings[self.next(piece)]);
+        let turn = libm::atan2(a.0 * b.1 - a.1 * b.0, a.0 * b.0 + a.1 * b.1);
+        turn / (self.lengths[piece + 1] - self.lengths[piece])
+    }
+
+    fn build(points: Vec<Point>, closed: bool) -> Result<Self, PathError> {
+        let count = points.len();
+        if count < if closed { 3 } else { 2 } {
+            return Err(PathError::TooFew(count));
+        }
+        if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+            return Err(PathError::NotFinite(index));
+        }
+        let mut lengths = vec![0.0];
+        let mut pieces = Vec::new();
+        for index in 0..if closed { count } else { count - 1 } {
+            let (from, to) = (points[index], points[(index + 1) % count]);
+            let direction = unit(to.x - from.x, to.y - from.y)
+                .ok_or(PathError::Repeated((index + 1) % count))?;
+            pieces.push(direction);
+            lengths.push(lengths[index] + from.distance(to));
+        }
+        let headings = (0..count).map(|index| heading(&pieces, index, closed)).collect();
+        Ok(Self { points, lengths, pieces, headings, closed })
+    }
+
+    /// The point behind a piece.
+    const fn next(&self, piece: usize) -> usize {
+        if piece + 1 == self.points.len() { 0 } else { piece + 1 }
+    }
+
+    fn nearest(&self, place: Point, first: usize, count: usize) -> Projection {
+        let mut best = (f64::INFINITY, Projection { s: 0.0, left: 0.0 });
+        for offset in 0..count {
+            let piece = (first + offset) % self.pieces.len();
+            let (from, (cos, sin)) = (self.points[piece], self.pieces[piece]);
+            let length = self.lengths[piece + 1] - self.lengths[piece];
+            let (x, y) = (place.x - from.x, place.y - from.y);
+            let ahead = (x * cos + y * sin).clamp(0.0, length);
+            let (dx, dy) = (x - ahead * cos, y - ahead * sin);
+            let square = dx * dx + dy * dy;
+            if square < best.0 {
+                let left = y * cos - x * sin;
+                let is_end = !self.closed
+                    && (piece == 0 && ahead <= 0.0
+                        || piece + 1 == self.pieces.len() && ahead >= length);
+                // Outside of a bend the nearest point is a corner, and the distance to it is more than `left`.
+                let left = if is_end { left } else { square.sqrt().copysign(left) };
+                best = (square, Projection { s: self.lengths[piece] + ahead, left });
+            }
+        }
+        best.1
+    }
+}
+
+/// The direction at a point: the middle of those of the pieces before and behind it.
+fn heading(pieces: &[(f64, f64)], index: usize, closed: bool) -> (f64, f64) {
+    let last = pieces.len() - 1;
+    let behind = if index > last { pieces[last] } else { pieces[index] };
+    let before = match index {
+        0 if closed => pieces[last],
+        0 => pieces[0],
+        _ => pieces[index - 1],
+    };
+    unit(before.0 + behind.0, before.1 + behind.1).unwrap_or(behind)
+}
+
+/// The vector at length one; none of one that has no direction.
+fn unit(x: f64, y: f64) -> Option<(f64, f64)> {
+    let length = (x * x + y * y).sqrt();
+    (length > 1e-9).then(|| (x / length, y / length))
+}
