@@ -6,3 +6,4 @@
 
 pub mod path;
 pub mod pose;
+pub mod services;

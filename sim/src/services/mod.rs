@@ -1,0 +1,6 @@
+//! The services of a vehicle and of a station. Each is used twice: on the vehicle, and on the station that
+//! it is offloaded to.
+
+pub mod detectors;
+pub mod mot;
+pub mod way;
