@@ -15,6 +15,7 @@ use mufasa::input::cycle::{Detection, Track};
 use crate::pose::Point;
 use crate::services::mot::assignment::assigned;
 use crate::services::mot::kalman::Filter;
+use crate::services::way::seconds;
 
 /// What the tracker assumes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -243,9 +244,4 @@ impl Object {
             width: self.size[1],
         })
     }
-}
-
-#[allow(clippy::cast_precision_loss)] // times between cycles
-fn seconds(ns: i64) -> f64 {
-    ns as f64 / 1e9
 }
