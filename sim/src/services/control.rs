@@ -135,7 +135,8 @@ impl Controller {
         let (from, to) = (points.get(after - 1)?, points.get(after)?);
         let speed = |index: usize| -> Option<f64> {
             let (from, to) = (points.get(index.checked_sub(1)?)?, points.get(index)?);
-            Some(place(from).distance(place(to)) / seconds(to.t_ns - from.t_ns))
+            let dt = seconds(to.t_ns.checked_sub(from.t_ns)?);
+            (dt > 0.0).then(|| place(from).distance(place(to)) / dt)
         };
         let dt = seconds(to.t_ns - from.t_ns);
         let share = (seconds(t_ns - from.t_ns) / dt).clamp(0.0, 1.0);
