@@ -4,6 +4,13 @@
 //! The same seed gives the same bytes on any machine: numbers go through IEEE operations and libm alone,
 //! time is simulated, and everything is kept in an order.
 
+pub mod collision;
+pub mod map;
 pub mod path;
 pub mod pose;
+pub mod scenario;
 pub mod services;
+pub mod snapshot;
+pub mod traffic;
+pub mod vehicle;
+pub mod world;

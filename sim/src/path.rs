@@ -67,6 +67,19 @@ impl Path {
         Self::build(points, true)
     }
 
+    /// The same line with points evenly at about `spacing`, m.
+    ///
+    /// # Errors
+    /// As `new`, for a spacing that is not above zero.
+    pub fn resampled(&self, spacing: f64) -> Result<Self, PathError> {
+        let length = self.length();
+        let pieces = (length / spacing).round().clamp(3.0, 1e6);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a million")]
+        let count = pieces as u32 + u32::from(!self.closed);
+        let points = (0..count).map(|i| self.pose_at(length * f64::from(i) / pieces).at).collect();
+        Self::build(points, self.closed)
+    }
+
     /// Arc length of the whole path, m.
     pub fn length(&self) -> f64 {
         self.lengths[self.lengths.len() - 1]

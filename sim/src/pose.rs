@@ -45,6 +45,13 @@ impl Pose {
         libm::atan2(self.sin, self.cos)
     }
 
+    /// The same place, turned left by an angle with this cosine and sine; its direction keeps length one.
+    pub fn turned(self, cos: f64, sin: f64) -> Self {
+        let (x, y) = (self.cos * cos - self.sin * sin, self.sin * cos + self.cos * sin);
+        let length = (x * x + y * y).sqrt();
+        Self { at: self.at, cos: x / length, sin: y / length }
+    }
+
     /// A place given ahead and to the left of this one, m.
     pub fn ahead(self, ahead: f64, left: f64) -> Point {
         Point::new(

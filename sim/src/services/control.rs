@@ -9,18 +9,11 @@ use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use crate::pose::{Point, Pose};
 use crate::services::way::seconds;
+use crate::vehicle::{Body, Command};
 
-/// What the vehicle can do, and how hard control acts.
+/// How far ahead control steers for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// From the rear axle to the front axle, m.
-    pub wheelbase: f64,
-    /// Greatest steering angle to either side, rad.
-    pub steering: f64,
-    /// Greatest acceleration, m/s^2.
-    pub acceleration: f64,
-    /// Greatest deceleration, m/s^2.
-    pub a_b: f64,
     /// Distance of the pursued place: at least this, m, ...
     pub pursuit: f64,
     /// ... and this time at the present speed, s.
@@ -29,29 +22,14 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            wheelbase: 2.8,
-            steering: 0.6,
-            acceleration: 3.0,
-            a_b: 8.0,
-            pursuit: 2.5,
-            pursuit_time: 0.4,
-        }
+        Self { pursuit: 2.5, pursuit_time: 0.4 }
     }
-}
-
-/// What the vehicle is to do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Command {
-    /// m/s^2; negative brakes, down to standstill.
-    pub acceleration: f64,
-    /// Angle of the front wheels, left positive, rad.
-    pub steering: f64,
 }
 
 /// Control of one vehicle.
 #[derive(Clone, Debug)]
 pub struct Controller {
+    body: Body,
     settings: Settings,
     /// The last trajectory that was followed.
     last: Vec<TrajectoryPoint>,
@@ -59,8 +37,8 @@ pub struct Controller {
 
 impl Controller {
     /// Control that has followed nothing yet.
-    pub const fn new(settings: Settings) -> Self {
-        Self { settings, last: Vec::new() }
+    pub const fn new(body: Body, settings: Settings) -> Self {
+        Self { body, settings, last: Vec::new() }
     }
 
     /// The command for a time, ns. Without points, or with points that end before it, it brakes as hard as
@@ -74,7 +52,8 @@ impl Controller {
             self.last = last;
         }
         let steering = self.steering(ego);
-        let acceleration = if usable { self.acceleration(ego, t_ns) } else { -self.settings.a_b };
+        let acceleration =
+            if usable { self.acceleration(ego, t_ns) } else { self.body.acceleration_min };
         Command { acceleration, steering }
     }
 
@@ -82,16 +61,17 @@ impl Controller {
     /// trajectory goes on straight on behind its end.
     fn steering(&self, ego: &Ego) -> f64 {
         let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
-        let Settings { wheelbase, steering, pursuit, pursuit_time, .. } = self.settings;
+        let Settings { pursuit, pursuit_time } = self.settings;
+        let Body { wheelbase, steering_max, .. } = self.body;
         let distance = pursuit.max(pursuit_time * ego.speed);
         let Some(place) = self.place_at_distance(pose, distance) else { return 0.0 };
         let (ahead, left) = pose.local(place);
         let square = ahead * ahead + left * left;
         // Nothing behind can be pursued.
         if ahead <= 0.0 {
-            return steering.copysign(left);
+            return steering_max.copysign(left);
         }
-        libm::atan(wheelbase * 2.0 * left / square).clamp(-steering, steering)
+        libm::atan(wheelbase * 2.0 * left / square).clamp(-steering_max, steering_max)
     }
 
     fn place_at_distance(&self, pose: Pose, distance: f64) -> Option<Point> {
@@ -117,14 +97,14 @@ impl Controller {
     }
 
     fn acceleration(&self, ego: &Ego, t_ns: i64) -> f64 {
-        let Settings { acceleration, a_b, .. } = self.settings;
-        let Some((wanted, at, slope)) = self.wanted(t_ns) else { return -a_b };
+        let Body { acceleration_min, acceleration_max, .. } = self.body;
+        let Some((wanted, at, slope)) = self.wanted(t_ns) else { return acceleration_min };
         let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
         let (ahead, _) = pose.local(at);
         let feedback = slope + 2.0 * (wanted - ego.speed) + ahead;
         // Where the trajectory stands, the vehicle does not creep to make up for the last centimetres.
         let feedback = if wanted <= 0.05 { feedback.min(-1.0) } else { feedback };
-        feedback.clamp(-a_b, acceleration)
+        feedback.clamp(acceleration_min, acceleration_max)
     }
 
     /// Speed, place and acceleration of the trajectory at a time.

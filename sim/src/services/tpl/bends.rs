@@ -15,13 +15,22 @@ const STEP_M: f64 = 2.0;
 impl Bends {
     /// Speeds from an arc length on, as far as the CAV gets at `speed`, m/s, and has to brake for.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few hundred metres
-    pub(super) fn new(path: &Path, s: f64, speed: f64, settings: &Settings) -> Self {
+    pub(super) fn new(
+        path: &Path,
+        s: f64,
+        speed: f64,
+        limit: &impl Fn(f64) -> f64,
+        settings: &Settings,
+    ) -> Self {
         let fastest = speed.max(settings.speed);
         let reach = 5.0 * fastest + fastest * fastest / (2.0 * settings.braking);
         let count = (reach / STEP_M) as u32 + 2;
         let poses: Vec<Pose> =
             (0..=count).map(|step| path.pose_at(s + STEP_M * (f64::from(step) - 0.5))).collect();
-        let mut speeds: Vec<f64> = poses.windows(2).map(|pair| of_bend(pair, settings)).collect();
+        let of_place = |(step, pair): (u32, &[Pose])| {
+            of_bend(pair, settings).min(limit(path.wrap(s + STEP_M * f64::from(step))))
+        };
+        let mut speeds: Vec<f64> = (0..).zip(poses.windows(2)).map(of_place).collect();
         for index in (0..speeds.len() - 1).rev() {
             let next = speeds[index + 1];
             let braking = 0.8 * settings.braking;

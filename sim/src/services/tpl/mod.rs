@@ -19,15 +19,17 @@ use crate::services::tpl::settings::Settings;
 /// Time between two points, ns.
 pub const STEP_NS: i64 = 100_000_000;
 
-/// A trajectory of 5 s from the CAV's pose now: places of its reference point.
+/// A trajectory of 5 s from the CAV's pose now: places of its reference point. `limit`: the speed limit at
+/// an arc length of the path, m/s.
 pub fn trajectory(
     now_ns: i64,
     ego: &Ego,
     path: &Path,
     environment: &Environment,
+    limit: &impl Fn(f64) -> f64,
     settings: &Settings,
 ) -> Vec<TrajectoryPoint> {
-    let ways = speed_profile(ego, path, environment, settings);
+    let ways = speed_profile(ego, path, environment, limit, settings);
     let back = Return::new(environment, ego.speed);
     let point = |(index, way): (i64, f64)| {
         let t_ns = now_ns + index * STEP_NS;

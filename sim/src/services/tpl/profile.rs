@@ -15,11 +15,12 @@ pub(super) fn speed_profile(
     ego: &Ego,
     path: &Path,
     environment: &Environment,
+    limit: &impl Fn(f64) -> f64,
     settings: &Settings,
 ) -> Vec<f64> {
     let front = ego.center_offset + ego.length / 2.0;
     let rear = ego.length / 2.0 - ego.center_offset;
-    let bends = Bends::new(path, environment.s, ego.speed, settings);
+    let bends = Bends::new(path, environment.s, ego.speed, limit, settings);
     let mut laws = Laws {
         settings,
         bends: &bends,
