@@ -22,7 +22,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { pursuit: 2.5, pursuit_time: 0.4 }
+        Self { pursuit: 3.5, pursuit_time: 0.6 }
     }
 }
 
@@ -103,7 +103,7 @@ impl Controller {
         let (ahead, _) = pose.local(at);
         let feedback = slope + 2.0 * (wanted - ego.speed) + ahead;
         // Where the trajectory stands, the vehicle does not creep to make up for the last centimetres.
-        let feedback = if wanted <= 0.05 { feedback.min(-1.0) } else { feedback };
+        let feedback = if wanted <= 0.05 && slope <= 0.0 { feedback.min(-1.0) } else { feedback };
         feedback.clamp(acceleration_min, acceleration_max)
     }
 
@@ -118,15 +118,18 @@ impl Controller {
             let dt = seconds(to.t_ns.checked_sub(from.t_ns)?);
             (dt > 0.0).then(|| place(from).distance(place(to)) / dt)
         };
-        let dt = seconds(to.t_ns - from.t_ns);
-        let share = (seconds(t_ns - from.t_ns) / dt).clamp(0.0, 1.0);
+        let dt = seconds(to.t_ns.checked_sub(from.t_ns)?);
+        let share = (seconds(t_ns.saturating_sub(from.t_ns)) / dt).clamp(0.0, 1.0);
         let (start, end) = (place(from), place(to));
         let at =
             Point::new(start.x + share * (end.x - start.x), start.y + share * (end.y - start.y));
-        // Speeds of steps are those of their middles.
+        // Speeds of steps are those of their middles; before the first middle the change goes on as behind it.
         let own = speed(after)?;
-        let (before, behind) = (speed(after - 1).unwrap_or(own), speed(after + 1).unwrap_or(own));
-        let slope = if share < 0.5 { own - before } else { behind - own };
+        let (before, behind) = (speed(after - 1), speed(after + 1));
+        let (from_before, to_behind) =
+            (before.map(|before| own - before), behind.map(|behind| behind - own));
+        let slope = if share < 0.5 { from_before.or(to_behind) } else { to_behind.or(from_before) };
+        let slope = slope.unwrap_or(0.0);
         Some(((own + slope * (share - 0.5)).max(0.0), at, slope / dt))
     }
 }
