@@ -31,7 +31,7 @@ fn the_junction_has_its_ways_and_their_conflicts() {
     assert_eq!(town.routes.len(), 6);
     for route in &town.routes {
         assert!(
-            (250.0..450.0).contains(&route.path.length()),
+            (250.0..480.0).contains(&route.path.length()),
             "{} {}",
             route.name,
             route.path.length()
@@ -79,11 +79,11 @@ fn nobody_collides_at_lehr() {
     let Some(folder) = folder() else { return };
     let town = lehr(&folder).unwrap().town;
     let mut arrived = 0;
-    for seed in 0..60 {
+    for seed in 0..40 {
         let scenario = Scenario::draw(&town, usize::from(seed % 2 == 1), 20, seed);
         let mut world = World::new(&town, &scenario, seed);
         let mut there = false;
-        for step in 0..6000 {
+        for step in 0..12000 {
             let command = common::drive(&world);
             world.step(command);
             there |= world.has_arrived();
@@ -97,6 +97,5 @@ fn nobody_collides_at_lehr() {
         assert_eq!(world.forced(), 0, "seed {seed}");
         arrived += i32::from(there);
     }
-    eprintln!("{arrived} of 60 arrived");
-    assert!(arrived > 30);
+    assert!(arrived >= 36, "{arrived} of 40 egos arrived");
 }
