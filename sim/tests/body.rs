@@ -99,8 +99,9 @@ fn digest(seed: u64) -> u64 {
         world.step(command);
         for agent in world.agents() {
             let pose = agent.rectangle.pose;
-            [pose.at.x, pose.at.y, pose.cos, agent.speed, agent.s]
-                .map(|value| take(value.to_bits()));
+            for value in [pose.at.x, pose.at.y, pose.cos, agent.speed, agent.s] {
+                take(value.to_bits());
+            }
             take(u64::from(agent.id));
         }
     }

@@ -56,6 +56,66 @@ fn the_junction_has_its_ways_and_their_conflicts() {
     assert!(between(3, 5).is_none());
 }
 
+/// A folder with one map file for all ways, made by `change` from a good table of 800 rows.
+fn copy(name: &str, change: impl Fn(&mut String, &mut Vec<f64>)) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("mufasa-ulm-{}-{name}", std::process::id()));
+    let set = folder.join("maps/ulm");
+    std::fs::create_dir_all(set.join("extern")).unwrap();
+    let ways = [
+        "west_to_east",
+        "west_to_north",
+        "east_to_west",
+        "east_to_north",
+        "north_to_east",
+        "north_to_west",
+    ];
+    let maps: Vec<String> =
+        ways.map(|way| format!("\"{way}\": {{\"name\": \"lehr_crossing_{way}\"}}")).to_vec();
+    std::fs::write(set.join("state.json"), format!("{{{}}}", maps.join(", "))).unwrap();
+    let row = |i: i32| [571_450.0 + 0.5 * f64::from(i), 5_364_810.0, 2.0, 2.5, 10.0, 500.0];
+    let mut cells: Vec<f64> = (0..800).flat_map(row).collect();
+    let mut header = String::from("{'descr': '<f8', 'fortran_order': False, 'shape': (800, 6), }");
+    change(&mut header, &mut cells);
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend(u16::try_from(header.len()).unwrap().to_le_bytes());
+    bytes.extend(header.bytes());
+    bytes.extend(cells.iter().flat_map(|cell| cell.to_le_bytes()));
+    for way in ways {
+        std::fs::write(set.join(format!("extern/{way}.control_points.npy")), &bytes).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn a_map_is_read_or_its_broken_field_is_named() {
+    let good = copy("good", |_, _| {});
+    let town = lehr(&good).unwrap().town;
+    let route = &town.routes[0];
+    assert!((route.path.length() - 389.5).abs() < 1.0, "{}", route.path.length());
+    assert_eq!(route.half_widths_at(100.0), (2.0, 2.5));
+    assert!(
+        (route.path.pose_at(0.0).at.x + 195.0).abs() < 1.0
+            && route.limits[9].to_bits() == 10.0_f64.to_bits()
+    );
+    let field = |name: &str, change: &dyn Fn(&mut String, &mut Vec<f64>)| {
+        let folder = copy(name, change);
+        let error = lehr(&folder).unwrap_err();
+        std::fs::remove_dir_all(&folder).unwrap();
+        error.field
+    };
+    assert_eq!(field("a", &|h, _| *h = h.replace("<f8", "<f4")), "descr");
+    assert_eq!(field("b", &|h, _| *h = h.replace("False", "True")), "fortran_order");
+    assert_eq!(field("c", &|h, _| *h = h.replace("800", "801")), "shape");
+    assert_eq!(field("d", &|h, _| *h = h.replace(", 6", ", 5")), "shape");
+    assert_eq!(field("e", &|_, c| c[6 * 7 + 4] = f64::NAN), "speed_limit[7]");
+    assert_eq!(field("f", &|_, c| c.iter_mut().step_by(6).for_each(|x| *x = 0.0)), "x");
+    std::fs::remove_file(good.join("maps/ulm/extern/north_to_west.control_points.npy")).unwrap();
+    assert!(lehr(&good).unwrap_err().file.ends_with("north_to_west.control_points.npy"));
+    std::fs::write(good.join("maps/ulm/state.json"), "{}").unwrap();
+    assert_eq!(lehr(&good).unwrap_err().field, "name");
+    std::fs::remove_dir_all(&good).unwrap();
+}
+
 #[test]
 fn the_scenario_of_the_institute_runs() {
     let Some(folder) = folder() else { return };
