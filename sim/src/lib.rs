@@ -4,13 +4,19 @@
 //! The same seed gives the same bytes on any machine: numbers go through IEEE operations and libm alone,
 //! time is simulated, and everything is kept in an order.
 
+pub mod attack;
+pub mod cav;
 pub mod collision;
 pub mod map;
 pub mod path;
+pub mod pictures;
 pub mod pose;
+pub mod radio;
+pub mod run;
 pub mod scenario;
 pub mod services;
 pub mod snapshot;
+pub mod station;
 pub mod traffic;
 pub mod vehicle;
 pub mod world;

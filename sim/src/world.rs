@@ -7,7 +7,7 @@ use crate::collision;
 use crate::map::conflicts::light;
 use crate::map::route::Route;
 use crate::map::{Light, Town};
-use crate::pose::{Point, Pose};
+use crate::pose::{Point, Pose, Rectangle};
 use crate::scenario::{self, Scenario};
 use crate::snapshot::{EgoState, Object, Reason, Snapshot, StopLine};
 use crate::traffic::{Agent, Kind, ahead, give_way};
@@ -131,7 +131,12 @@ impl<'a> World<'a> {
             s: ego.s,
             left: self.left,
         };
-        let object = |a: &Agent| Object { id: a.id, kind: a.kind, rectangle: a.rectangle, velocity: a.velocity() };
+        let object = |a: &Agent| Object {
+            id: a.id,
+            kind: a.kind,
+            rectangle: a.rectangle,
+            velocity: a.velocity(),
+        };
         Snapshot {
             time_ns: self.time_ns(),
             ego: state,
@@ -144,7 +149,10 @@ impl<'a> World<'a> {
     /// The number of somebody whom the ego touches.
     pub fn collision(&self) -> Option<u32> {
         let (ego, others) = self.agents.split_first()?;
-        others.iter().find(|other| collision::overlap(&ego.rectangle, &other.rectangle)).map(|other| other.id)
+        others
+            .iter()
+            .find(|other| collision::overlap(&ego.rectangle, &other.rectangle))
+            .map(|other| other.id)
     }
 
     /// Distance of the ego's rectangle to the nearest other, m, with its number; none in an empty town.
@@ -152,7 +160,7 @@ impl<'a> World<'a> {
         let (ego, others) = self.agents.split_first()?;
         let mut best: Option<(f64, u32)> = None;
         for other in others {
-            let half = |r: &crate::pose::Rectangle| (r.length + r.width) / 2.0;
+            let half = |r: &Rectangle| f64::midpoint(r.length, r.width);
             let far = ego.rectangle.pose.at.distance(other.rectangle.pose.at);
             let least = far - half(&ego.rectangle) - half(&other.rectangle);
             if best.is_some_and(|(distance, _)| least >= distance) {
@@ -223,7 +231,10 @@ impl<'a> World<'a> {
         closed
             .map(|passage| {
                 let is_green = light(self.town, passage, self.lights_at()) == Light::Green;
-                StopLine { s: passage.from, reason: if is_green { Reason::GiveWay } else { Reason::Signal } }
+                StopLine {
+                    s: passage.from,
+                    reason: if is_green { Reason::GiveWay } else { Reason::Signal },
+                }
             })
             .collect()
     }
@@ -264,8 +275,11 @@ impl<'a> World<'a> {
     /// Takes out who is at the end of a route.
     fn leave(&mut self) {
         let town = self.town;
-        let is_done = |a: &Agent| a.kind != Kind::Ego && a.s >= town.routes[a.route].path.length() - 0.5;
-        let vehicles = |agents: &[Agent]| agents.iter().filter(|a| matches!(a.kind, Kind::Car | Kind::Truck)).count();
+        let is_done =
+            |a: &Agent| a.kind != Kind::Ego && a.s >= town.routes[a.route].path.length() - 0.5;
+        let vehicles = |agents: &[Agent]| {
+            agents.iter().filter(|a| matches!(a.kind, Kind::Car | Kind::Truck)).count()
+        };
         let before = vehicles(&self.agents);
         self.agents.retain(|agent| !is_done(agent));
         if self.scenario.refill {
@@ -294,7 +308,9 @@ impl<'a> World<'a> {
         let mut start = scenario::start(&mut self.random, route, size.0 / 2.0, size);
         start.speed = start.speed.min(6.0);
         let pose: Pose = self.town.routes[route].path.pose_at(start.s);
-        if self.is_free(pose.at, FREE.0) && self.agents[0].rectangle.pose.at.distance(pose.at) > FREE.1 {
+        if self.is_free(pose.at, FREE.0)
+            && self.agents[0].rectangle.pose.at.distance(pose.at) > FREE.1
+        {
             self.agents.push(Agent::vehicle(self.next_id, self.town, &start));
             self.next_id += 1;
             self.missing -= 1;

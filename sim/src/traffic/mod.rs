@@ -93,9 +93,17 @@ impl Agent {
     }
 
     /// Somebody at rest on a route, with a length and a width, m.
-    pub fn new(id: u32, kind: Kind, town: &Town, route: usize, s: f64, (length, width): (f64, f64)) -> Self {
+    pub fn new(
+        id: u32,
+        kind: Kind,
+        town: &Town,
+        route: usize,
+        s: f64,
+        (length, width): (f64, f64),
+    ) -> Self {
         let pose = town.routes[route].path.pose_at(s);
-        let cleared = town.routes[route].passages.iter().filter(|p| p.to < s - length / 2.0).count();
+        let cleared =
+            town.routes[route].passages.iter().filter(|p| p.to < s - length / 2.0).count();
         Self {
             id,
             kind,

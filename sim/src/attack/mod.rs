@@ -1,0 +1,297 @@
+//! Somebody at the station, or on the link, who wants the CAV to crash or to stand still.
+//!
+//! The attacker knows everything: the truth, the rules, the sessions. An attack is an item with a start, an
+//! end and a seed; several go on at the same time.
+
+mod tracks;
+mod trajectory;
+
+use std::collections::VecDeque;
+
+use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
+use mufasa_link::message::{self, Frame, Message, Payload};
+use serde::{Deserialize, Serialize};
+
+use crate::cav;
+use crate::map::route::Route;
+use crate::radio::{Radio, To};
+use crate::snapshot::Snapshot;
+use crate::station;
+
+/// What an attack does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// The planner of the station drives on another route (paper).
+    MapReplaced,
+    /// Empty track lists at 100 Hz, to the CAV and to the station's planner (paper).
+    TracksEmpty,
+    /// Objects that are not there, ahead of the CAV (paper).
+    Ghosts,
+    /// The object that is in the CAV's way first is left out.
+    OneRemoved,
+    /// Who crosses is said to stand (F-30, F-31).
+    CrossingStands,
+    /// A ghost that the mean over many tracks hides (F-01).
+    GhostInMean,
+    /// Velocities turned around.
+    FalseVelocities,
+    /// Two objects exchange their pasts: each moves as the other (F-32, F-38).
+    ExchangedPasts,
+    /// Results of 3 s ago, with new stamps.
+    Replay,
+    /// All tracks drift aside slowly, by 0.1 m/s.
+    Drift,
+    /// The trajectory begins 1 s from now.
+    StartsLate,
+    /// The trajectory runs backwards.
+    Backwards,
+    /// The trajectory goes on at the present speed, whatever is ahead.
+    IntoLead,
+    /// A standing object 15 m ahead in every list.
+    MadeUpLead,
+    /// Everything later by 30 ms, which is below `l_max`.
+    Delay,
+    /// Numbers that are no numbers.
+    NotFinite,
+    /// A thousand messages each second that cannot be read, or are of no session.
+    Flood,
+    /// Lists as long as the formats allow.
+    Slow,
+}
+
+impl Kind {
+    /// All.
+    pub const ALL: [Self; 18] = [
+        Self::MapReplaced,
+        Self::TracksEmpty,
+        Self::Ghosts,
+        Self::OneRemoved,
+        Self::CrossingStands,
+        Self::GhostInMean,
+        Self::FalseVelocities,
+        Self::ExchangedPasts,
+        Self::Replay,
+        Self::Drift,
+        Self::StartsLate,
+        Self::Backwards,
+        Self::IntoLead,
+        Self::MadeUpLead,
+        Self::Delay,
+        Self::NotFinite,
+        Self::Flood,
+        Self::Slow,
+    ];
+
+    /// Those of the paper.
+    pub const PAPER: [Self; 3] = [Self::MapReplaced, Self::TracksEmpty, Self::Ghosts];
+
+    /// Its name in tables and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MapReplaced => "map-replaced",
+            Self::TracksEmpty => "tracks-empty",
+            Self::Ghosts => "ghosts",
+            Self::OneRemoved => "one-removed",
+            Self::CrossingStands => "crossing-stands",
+            Self::GhostInMean => "ghost-in-mean",
+            Self::FalseVelocities => "false-velocities",
+            Self::ExchangedPasts => "exchanged-pasts",
+            Self::Replay => "replay",
+            Self::Drift => "drift",
+            Self::StartsLate => "starts-late",
+            Self::Backwards => "backwards",
+            Self::IntoLead => "into-lead",
+            Self::MadeUpLead => "made-up-lead",
+            Self::Delay => "delay",
+            Self::NotFinite => "not-finite",
+            Self::Flood => "flood",
+            Self::Slow => "slow",
+        }
+    }
+}
+
+/// An attack.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attack {
+    /// What it does.
+    pub kind: Kind,
+    /// From when on, s.
+    pub from: f64,
+    /// Until when, s.
+    pub until: f64,
+    /// For what it draws.
+    pub seed: u64,
+}
+
+impl Attack {
+    /// Whether it goes on.
+    pub fn is_on(&self, t_ns: i64) -> bool {
+        let t = crate::services::way::seconds(t_ns);
+        self.from <= t && t < self.until
+    }
+}
+
+/// What a station is about to send.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// What they are of, ns.
+    pub stamp_ns: i64,
+    /// The result of MOT.
+    pub tracks: Vec<Track>,
+    /// The result of PLAN.
+    pub points: Vec<TrajectoryPoint>,
+}
+
+/// How long ago replayed results are, in results.
+const REPLAYED: usize = 30;
+/// What `Delay` adds, ns.
+const DELAY_NS: i64 = 30_000_000;
+/// Messages of a flood in each step of 10 ms.
+const FLOOD: u8 = 10;
+
+/// Who makes the attacks of a run.
+#[derive(Debug)]
+pub struct Attacker<'a> {
+    attacks: Vec<Attack>,
+    /// Another route than the CAV's, for the planner.
+    elsewhere: Option<&'a Route>,
+    truth: Option<Snapshot>,
+    sessions: [Option<i64>; 2],
+    earlier: VecDeque<Results>,
+    now_ns: i64,
+}
+
+impl<'a> Attacker<'a> {
+    /// Who makes these attacks.
+    pub const fn new(attacks: Vec<Attack>, elsewhere: Option<&'a Route>) -> Self {
+        Self {
+            attacks,
+            elsewhere,
+            truth: None,
+            sessions: [None; 2],
+            earlier: VecDeque::new(),
+            now_ns: 0,
+        }
+    }
+
+    /// Sees everything, once in a period.
+    pub fn look(&mut self, now_ns: i64, truth: &Snapshot) {
+        self.now_ns = now_ns;
+        self.truth = Some(truth.clone());
+    }
+
+    /// Whether some attack goes on.
+    pub fn is_on(&self, t_ns: i64) -> bool {
+        self.attacks.iter().any(|attack| attack.is_on(t_ns))
+    }
+
+    fn does(&self, kind: Kind) -> bool {
+        self.attacks.iter().any(|attack| attack.kind == kind && attack.is_on(self.now_ns))
+    }
+
+    /// The tracks that the planner of the station believes in.
+    pub fn believed(&self, stamp_ns: i64, ego: &Ego, tracks: &[Track]) -> Vec<Track> {
+        let mut tracks = tracks.to_vec();
+        if self.does(Kind::TracksEmpty) {
+            tracks.clear();
+        }
+        self.lie(stamp_ns, ego, &mut tracks);
+        tracks
+    }
+
+    /// The route on which it plans, if it is another.
+    pub fn route(&self, _stamp_ns: i64) -> Option<&'a Route> {
+        self.elsewhere.filter(|_| self.does(Kind::MapReplaced))
+    }
+
+    /// What is made of the results before they are sent.
+    pub fn results(&mut self, ego: &Ego, results: &mut Results) {
+        self.earlier.push_back(results.clone());
+        if self.earlier.len() > REPLAYED {
+            self.earlier.pop_front();
+        }
+        let Results { stamp_ns, tracks, points } = results;
+        self.lie(*stamp_ns, ego, tracks);
+        if self.does(Kind::Replay)
+            && let Some(old) = self.earlier.front()
+        {
+            let later_ns = *stamp_ns - old.stamp_ns;
+            tracks.clone_from(&old.tracks);
+            *points = old.points.iter().map(|it| later(it, later_ns)).collect();
+        }
+        for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
+            trajectory::spoil(attack.kind, ego, points);
+        }
+    }
+
+    fn lie(&self, stamp_ns: i64, ego: &Ego, list: &mut Vec<Track>) {
+        let Some(truth) = &self.truth else { return };
+        for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
+            tracks::spoil(attack, truth, stamp_ns, ego, list);
+        }
+    }
+
+    /// How much later everything is sent, ns.
+    pub fn delay_ns(&self, _stamp_ns: i64) -> i64 {
+        if self.does(Kind::Delay) { DELAY_NS } else { 0 }
+    }
+
+    /// The sessions of the CAV, which the attacker reads from the link.
+    pub const fn saw(&mut self, sessions: [Option<i64>; 2]) {
+        self.sessions = sessions;
+    }
+
+    /// What is sent in the name of the station, in each step.
+    pub fn forge(&self, now_ns: i64, frame: &Frame, radio: &mut Radio) {
+        let message = |payload| Message {
+            sender: station::ID,
+            receiver: cav::ID,
+            generated_ns: now_ns,
+            payload,
+        };
+        let mut send = |message: &Message| {
+            if let Ok(bytes) = message::encode(message, frame) {
+                radio.send(now_ns, To::Vehicle, bytes);
+            }
+        };
+        if self.does(Kind::TracksEmpty)
+            && let Some(session) = self.sessions[0]
+        {
+            send(&message(Payload::Tracks { session, stamp_ns: now_ns, tracks: Vec::new() }));
+        }
+        if self.does(Kind::Flood) {
+            for _ in 0..FLOOD / 2 {
+                send(&message(Payload::Tracks { session: 1 << 40, stamp_ns: now_ns, tracks: Vec::new() }));
+            }
+            for byte in 0..FLOOD / 2 {
+                radio.send(now_ns, To::Vehicle, vec![byte; 40]);
+            }
+        }
+    }
+
+    /// What becomes of a message behind the CAV's decoder, which this attacker owns: numbers that the
+    /// formats cannot hold come in here.
+    pub fn decoded(&self, message: &mut Message) {
+        if !self.does(Kind::NotFinite) {
+            return;
+        }
+        match &mut message.payload {
+            Payload::Tracks { tracks, .. } => {
+                for (index, track) in tracks.iter_mut().enumerate() {
+                    track.vx = if index % 2 == 0 { f64::NAN } else { f64::INFINITY };
+                }
+            }
+            Payload::Trajectory { points, .. } => {
+                if let Some(point) = points.get_mut(3) {
+                    point.x = f64::NAN;
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn later(point: &TrajectoryPoint, by_ns: i64) -> TrajectoryPoint {
+    TrajectoryPoint { t_ns: point.t_ns + by_ns, ..*point }
+}

@@ -1,0 +1,135 @@
+//! What is done to a list of tracks.
+
+use mufasa::input::cycle::{Ego, Track};
+
+use super::{Attack, Kind};
+use crate::pose::{Point, Pose};
+use crate::services::detectors::random::Draws;
+use crate::services::way::seconds;
+use crate::snapshot::{Object, Snapshot};
+
+/// Most tracks of a message.
+const MOST_TRACKS: usize = 128;
+/// Who is slower than this stands, m/s.
+const STANDING: f64 = 0.5;
+/// How fast a drift goes, m/s.
+const DRIFT: f64 = 0.1;
+/// How far a ghost is ahead, m: at least, and at most.
+const GHOST_AHEAD: (f64, f64) = (8.0, 25.0);
+/// A made-up leading vehicle, m ahead.
+const LEAD_AHEAD: f64 = 15.0;
+/// From where on ids are those of ghosts.
+const GHOST_ID: i64 = 240;
+
+/// Spoils the list, if this kind of attack does that.
+pub(super) fn spoil(attack: &Attack, truth: &Snapshot, stamp_ns: i64, ego: &Ego, list: &mut Vec<Track>) {
+    let mut draws = Draws::new([attack.seed, 7, 0, 0]);
+    match attack.kind {
+        Kind::Ghosts => {
+            for index in 0..3 {
+                let ahead = draws.between(GHOST_AHEAD.0, GHOST_AHEAD.1) + 8.0 * f64::from(index);
+                let left = draws.between(-1.0, 1.0);
+                list.push(ghost(ego, ahead, left, GHOST_ID + i64::from(index)));
+            }
+        }
+        Kind::GhostInMean => {
+            if list.len() >= 4 {
+                // Beside a true track, so near that the mean over the others hides it.
+                let ahead = list.iter().map(|it| way_ahead(ego, it)).filter(|it| *it > 5.0);
+                let ahead = ahead.fold(30.0, f64::min);
+                list.push(ghost(ego, ahead, 0.0, GHOST_ID));
+            }
+        }
+        Kind::MadeUpLead => list.push(ghost(ego, LEAD_AHEAD, 0.0, GHOST_ID)),
+        Kind::OneRemoved => {
+            if let Some(object) = first_in_the_way(truth) {
+                list.retain(|it| !is_of(it, object));
+            }
+        }
+        Kind::CrossingStands => {
+            for track in list.iter_mut().filter(|it| crosses(ego, it)) {
+                (track.vx, track.vy) = (0.0, 0.0);
+            }
+        }
+        Kind::FalseVelocities => {
+            for track in list.iter_mut() {
+                (track.vx, track.vy) = (-track.vx, -track.vy);
+            }
+        }
+        Kind::ExchangedPasts => exchange(list),
+        Kind::Drift => {
+            let by = DRIFT * (seconds(stamp_ns) - attack.from);
+            for track in list.iter_mut() {
+                track.x -= by * ego.sin;
+                track.y += by * ego.cos;
+            }
+        }
+        Kind::Slow => {
+            for index in 0..MOST_TRACKS.saturating_sub(list.len()) {
+                #[expect(clippy::cast_precision_loss, reason = "at most 128")]
+                let across = 5.0 + 0.1 * index as f64;
+                let id = (0..256).rev().find(|id| list.iter().all(|it| it.id != *id));
+                list.extend(id.map(|id| ghost(ego, 10.0, across, id)));
+            }
+        }
+        Kind::MapReplaced
+        | Kind::TracksEmpty
+        | Kind::Replay
+        | Kind::StartsLate
+        | Kind::Backwards
+        | Kind::IntoLead
+        | Kind::Delay
+        | Kind::NotFinite
+        | Kind::Flood => {}
+    }
+    list.truncate(MOST_TRACKS);
+}
+
+/// A standing car ahead of the CAV.
+fn ghost(ego: &Ego, ahead: f64, left: f64, id: i64) -> Track {
+    let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
+    let Point { x, y } = pose.ahead(ego.center_offset + ego.length / 2.0 + ahead, left);
+    Track { id, x, y, cos: ego.cos, sin: ego.sin, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
+}
+
+fn way_ahead(ego: &Ego, track: &Track) -> f64 {
+    let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
+    let (ahead, left) = pose.local(Point::new(track.x, track.y));
+    if left.abs() < 3.0 { ahead } else { f64::INFINITY }
+}
+
+/// Who will be in the way first if all go on as now: the nearest ahead within 3 m aside in the next 5 s.
+fn first_in_the_way(truth: &Snapshot) -> Option<&Object> {
+    let ego = truth.ego.rectangle.pose;
+    let meets = |object: &&Object| {
+        (0..=50).map(|tenths| 0.1 * f64::from(tenths)).find(|&dt| {
+            let way = truth.ego.speed * dt;
+            let at = object.rectangle.pose.at;
+            let then = Point::new(at.x + object.velocity.x * dt, at.y + object.velocity.y * dt);
+            let (ahead, left) = ego.local(then);
+            left.abs() < 3.0 && (ahead - way).abs() < 6.0
+        })
+    };
+    let meeting = truth.objects.iter().filter_map(|object| Some((meets(&object)?, object)));
+    meeting.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, object)| object)
+}
+
+fn is_of(track: &Track, object: &Object) -> bool {
+    object.rectangle.pose.at.distance(Point::new(track.x, track.y)) < 1.5
+}
+
+fn crosses(ego: &Ego, track: &Track) -> bool {
+    let across = track.vy * ego.cos - track.vx * ego.sin;
+    let along = track.vx * ego.cos + track.vy * ego.sin;
+    across.abs() > STANDING && across.abs() > along.abs()
+}
+
+/// The two fastest of unlike velocity exchange their velocities.
+fn exchange(list: &mut [Track]) {
+    let speed = |it: &Track| (it.vx * it.vx + it.vy * it.vy).sqrt();
+    list.sort_by(|a, b| speed(b).total_cmp(&speed(a)).then(a.id.cmp(&b.id)));
+    let [first, others @ ..] = list else { return };
+    if let Some(last) = others.last_mut() {
+        (first.vx, first.vy, last.vx, last.vy) = (last.vx, last.vy, first.vx, first.vy);
+    }
+}

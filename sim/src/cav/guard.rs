@@ -1,0 +1,349 @@
+//! What stands between the link and control: SOFOF's quality of service alone, or the monitor.
+
+use core::time::Duration;
+
+use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
+use mufasa::input::profile::Profile;
+use mufasa::monitor::{
+    Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings, Time,
+};
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
+    StationRecord,
+};
+use mufasa::report::{FailedStage, InvalidInput, Report};
+use mufasa::services::configuration::{Configuration, Group};
+use serde::{Deserialize, Serialize};
+
+use super::sensing::Sensed;
+
+/// What is checked of remote data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Variant {
+    /// Quality of service alone: latency and inter-arrival time.
+    Sofof,
+    /// And the five stages, as the paper has them.
+    Paper,
+    /// And the five stages with the hardened rules.
+    Hardened,
+}
+
+impl Variant {
+    /// All, in the order of what they check.
+    pub const ALL: [Self; 3] = [Self::Sofof, Self::Paper, Self::Hardened];
+
+    /// Its name in tables and files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sofof => "sofof",
+            Self::Paper => "paper",
+            Self::Hardened => "hardened",
+        }
+    }
+}
+
+/// The results of a remote group that the CAV has, of the newest message that was used.
+#[derive(Debug)]
+struct Plain<T> {
+    session: i64,
+    stamp_ns: i64,
+    items: Vec<T>,
+}
+
+/// One of the variants.
+#[derive(Debug)]
+pub struct Guard<'a> {
+    kind: Kind<'a>,
+}
+
+#[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one in a run")]
+enum Kind<'a> {
+    Plain {
+        requester: Requester<'a>,
+        max_age_ns: i64,
+        tracks: Option<Plain<Track>>,
+        points: Option<Plain<TrajectoryPoint>>,
+    },
+    Checked {
+        monitor: Monitor<'a>,
+        tracks: Option<Accepted<Vec<Track>>>,
+        points: Option<Accepted<Vec<TrajectoryPoint>>>,
+    },
+}
+
+/// What a cycle lets control have.
+#[derive(Debug)]
+pub struct Decided {
+    /// Whether data may be used; always, where nothing is checked.
+    pub is_safe: bool,
+    /// The report of the stages, or what was wrong with the input; none where nothing is checked.
+    pub report: Option<Result<Report, InvalidInput>>,
+    /// The trajectory that control may follow. None in `Local` where something is checked: there the
+    /// CAV's own is not.
+    pub trajectory: Option<Vec<TrajectoryPoint>>,
+    /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
+    pub tracks: Option<(i64, Vec<Track>)>,
+    /// What is to be done.
+    pub actions: Vec<Action>,
+}
+
+impl Decided {
+    /// Where a safety issue was found.
+    pub fn failed_stage(&self) -> Option<FailedStage> {
+        match self.report {
+            Some(Ok(report)) => report.failed_stage,
+            Some(Err(_)) => Some(FailedStage::Input),
+            None => None,
+        }
+    }
+}
+
+/// Local results of a cycle, if their services run.
+#[derive(Clone, Copy, Debug)]
+pub struct Local<'c> {
+    /// Tracks, with the time that they are of, ns.
+    pub tracks: Option<(i64, &'c [Track])>,
+    /// A trajectory, with the time when it was planned, ns.
+    pub points: Option<(i64, &'c [TrajectoryPoint])>,
+}
+
+impl<'a> Guard<'a> {
+    /// Nothing offered, everything local.
+    ///
+    /// Errors: settings that no monitor can keep.
+    pub fn new(
+        variant: Variant,
+        stages: mufasa::input::parameters::Parameters,
+        requester: Parameters,
+        period_ns: u64,
+        table: &'a mut [StationRecord],
+        memory: mufasa::monitor::Memory<'a>,
+    ) -> Result<Self, MonitorError> {
+        let profile = match variant {
+            Variant::Sofof => {
+                let requester = Requester::new(Profile::Paper, requester, table)
+                    .map_err(MonitorError::Requester)?;
+                let max_age_ns = stages.max_age_ns;
+                let kind = Kind::Plain { requester, max_age_ns, tracks: None, points: None };
+                return Ok(Self { kind });
+            }
+            Variant::Paper => Profile::Paper,
+            Variant::Hardened => Profile::Hardened,
+        };
+        let period = Duration::from_nanos(period_ns);
+        let settings = Settings { profile, stages, requester, ..Settings::new(period) };
+        let monitor = Monitor::new(settings, memory)?;
+        Ok(Self { kind: Kind::Checked { monitor, tracks: None, points: None } })
+    }
+
+    /// The stretch of the route that is followed from now on.
+    ///
+    /// Errors: a route that the monitor cannot keep.
+    pub fn set_route(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
+        match &mut self.kind {
+            Kind::Plain { .. } => Ok(()),
+            Kind::Checked { monitor, .. } => monitor.set_route(route),
+        }
+    }
+
+    /// The configuration now.
+    pub fn configuration(&self) -> Configuration {
+        self.requester().configuration()
+    }
+
+    /// The state of a group.
+    pub fn state(&self, group: Group) -> GroupState {
+        self.requester().state(group)
+    }
+
+    /// The requester, to look at.
+    pub fn requester(&self) -> &Requester<'a> {
+        match &self.kind {
+            Kind::Plain { requester, .. } => requester,
+            Kind::Checked { monitor, .. } => monitor.requester(),
+        }
+    }
+
+    /// Something happened that is no data.
+    ///
+    /// Errors: a station below 1, or no place for another one.
+    pub fn happens(&mut self, t_ns: i64, kind: EventKind) -> Result<Vec<Action>, RequesterError> {
+        let now = time(t_ns);
+        let actions = match &mut self.kind {
+            Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
+            Kind::Checked { monitor, .. } => match kind {
+                EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
+                EventKind::Withdraw { station } => monitor.withdraw(now, station),
+                EventKind::Lost { station } => monitor.lost(now, station),
+                EventKind::Confirm { station, group, session } => {
+                    monitor.confirm(now, station, group, session)
+                }
+                EventKind::Reject { station, group, session } => {
+                    monitor.reject(now, station, group, session)
+                }
+                EventKind::Area { groups } => Ok(monitor.area(now, groups)),
+                EventKind::Tick | EventKind::Data { .. } | EventKind::Verdict { .. } => {
+                    Ok(monitor.tick(now))
+                }
+            },
+        };
+        actions.map(|actions| actions.to_vec())
+    }
+
+    /// Tracks arrive.
+    ///
+    /// Errors: a station below 1.
+    pub fn tracks(&mut self, t_ns: i64, message: Message<Vec<Track>>) -> Result<Vec<Action>, RequesterError> {
+        match &mut self.kind {
+            Kind::Plain { requester, tracks, .. } => {
+                keep(requester, t_ns, Group::Mot, message, tracks)
+            }
+            Kind::Checked { monitor, tracks, .. } => {
+                accept(monitor.tracks(time(t_ns), message)?, tracks)
+            }
+        }
+    }
+
+    /// A trajectory arrives.
+    ///
+    /// Errors: a station below 1.
+    pub fn trajectory(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<TrajectoryPoint>>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        match &mut self.kind {
+            Kind::Plain { requester, points, .. } => {
+                keep(requester, t_ns, Group::Plan, message, points)
+            }
+            Kind::Checked { monitor, points, .. } => {
+                accept(monitor.trajectory(time(t_ns), message)?, points)
+            }
+        }
+    }
+
+    /// Decides a cycle.
+    pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Local<'_>) -> Decided {
+        match &mut self.kind {
+            Kind::Plain { requester, max_age_ns, tracks, points } => {
+                unchecked(requester, t_ns, *max_age_ns, tracks.as_ref(), points.as_ref(), local)
+            }
+            Kind::Checked { monitor, tracks, points } => {
+                let inputs = inputs(t_ns, ego, sensed, local);
+                let inputs = tracks.iter().fold(inputs, |inputs, it| inputs.remote_tracks(it));
+                let inputs = points.iter().fold(inputs, |inputs, it| inputs.remote_trajectory(it));
+                match monitor.cycle(&inputs) {
+                    Decision::Safe { tracks, trajectory, report, actions } => Decided {
+                        is_safe: true,
+                        report: Some(Ok(report)),
+                        trajectory: trajectory.map(|it| it.points.to_vec()),
+                        tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
+                        actions: actions.to_vec(),
+                    },
+                    Decision::Unsafe { report, actions } => Decided {
+                        is_safe: false,
+                        report: Some(report),
+                        trajectory: None,
+                        tracks: None,
+                        actions: actions.to_vec(),
+                    },
+                }
+            }
+        }
+    }
+}
+
+/// SOFOF: what came in time is used.
+fn unchecked(
+    requester: &mut Requester<'_>,
+    t_ns: i64,
+    max_age_ns: i64,
+    tracks: Option<&Plain<Track>>,
+    points: Option<&Plain<TrajectoryPoint>>,
+    local: Local<'_>,
+) -> Decided {
+    let session = |group| requester.session_of(group).map(|it| it.session);
+    let [mot, plan] = Group::ALL.map(session);
+    let is_current = |stamp_ns: i64| (0..=max_age_ns).contains(&t_ns.saturating_sub(stamp_ns));
+    let used = |of: Option<i64>, by: Option<i64>, stamp_ns: Option<i64>| {
+        of.filter(|_| of == by && stamp_ns.is_some_and(is_current))
+    };
+    let sessions = Sessions {
+        mot: used(mot, tracks.map(|it| it.session), tracks.map(|it| it.stamp_ns)),
+        plan: used(plan, points.map(|it| it.session), points.map(|it| it.stamp_ns)),
+    };
+    let trajectory = match (plan, sessions.plan) {
+        (Some(_), Some(_)) => points.map(|it| it.items.clone()),
+        (Some(_), None) => None,
+        (None, _) => local.points.map(|(_, points)| points.to_vec()),
+    };
+    let kind = EventKind::Verdict { safe: true, sessions };
+    let tracks = tracks.filter(|_| sessions.mot.is_some());
+    let tracks = tracks.map(|it| (it.stamp_ns, it.items.clone()));
+    let actions = requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
+    Decided { is_safe: true, report: None, trajectory, tracks, actions }
+}
+
+fn keep<T>(
+    requester: &mut Requester<'_>,
+    t_ns: i64,
+    group: Group,
+    message: Message<Vec<T>>,
+    kept: &mut Option<Plain<T>>,
+) -> Result<Vec<Action>, RequesterError> {
+    let Message { station, session, generated, stamp, items } = message;
+    let generated_ns = generated.as_nanoseconds();
+    let kind = EventKind::Data { station, group, session, generated_ns };
+    let actions = requester.step(&Event { t_ns, kind })?.to_vec();
+    if !actions.contains(&Action::Drop(group)) {
+        *kept = Some(Plain { session, stamp_ns: stamp.as_nanoseconds(), items });
+    }
+    Ok(actions)
+}
+
+fn accept<T>(
+    arrival: Arrival<Vec<T>>,
+    kept: &mut Option<Accepted<Vec<T>>>,
+) -> Result<Vec<Action>, RequesterError> {
+    match arrival {
+        Arrival::Accepted(element) => {
+            *kept = Some(element);
+            Ok(Vec::new())
+        }
+        Arrival::Dropped(actions) => Ok(actions.to_vec()),
+    }
+}
+
+fn inputs<'c>(t_ns: i64, ego: Ego, sensed: &'c Sensed, local: Local<'c>) -> Inputs<'c> {
+    let stamp = time(sensed.stamp_ns);
+    let grid = sensed.grid.borrow(true);
+    let map = GridMap {
+        x: grid.x,
+        y: grid.y,
+        cos: grid.cos,
+        sin: grid.sin,
+        resolution: grid.resolution,
+        width: grid.width,
+        height: grid.height,
+        occupied: grid.occupied,
+        unknown: grid.unknown,
+    };
+    let mut inputs =
+        Inputs::new(time(t_ns), ego).detections(stamp, &sensed.detections).grid(stamp, map);
+    if let Some(lead) = sensed.lead {
+        inputs = inputs.lead(stamp, Gap::between_bumpers(lead.gap), lead.speed);
+    }
+    if let Some((stamp_ns, tracks)) = local.tracks {
+        inputs = inputs.local_tracks(time(stamp_ns), tracks);
+    }
+    if let Some((stamp_ns, points)) = local.points {
+        inputs = inputs.local_trajectory(time(stamp_ns), points);
+    }
+    inputs
+}
+
+fn time(ns: i64) -> Time {
+    Time::from_nanoseconds(ns)
+}

@@ -1,0 +1,258 @@
+//! The CAV: sensors, its own services, what guards the link, and control.
+
+pub mod guard;
+pub mod local;
+pub mod sensing;
+
+use mufasa::input::cycle::{TrackList, TrajectoryPoint};
+use mufasa::monitor::{Message as Received, Time};
+use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterError};
+use mufasa::services::configuration::{Group, Groups};
+use mufasa_link::message::{self, Frame, Message, Payload};
+
+use self::guard::{Decided, Guard, Local};
+use self::local::Services;
+use self::sensing::{Sensed, Sensors, ego};
+use crate::map::route::Route;
+use crate::radio::{Radio, To};
+use crate::services::control::{self, Controller};
+use crate::services::detectors::Errors;
+use crate::snapshot::Snapshot;
+use crate::station;
+use crate::vehicle::{Body, Command};
+
+/// The CAV's id in messages.
+pub const ID: i64 = 1;
+
+/// Where each group may be offloaded along the route (CODM), m: from, to.
+pub type Areas = [(f64, f64); 2];
+
+/// What the CAV counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Messages of the link that could not be read.
+    pub malformed: u64,
+    /// Messages that were not used.
+    pub dropped: u64,
+    /// Sessions that ended for another reason than a verdict.
+    pub ended: u64,
+}
+
+/// The CAV on its route.
+#[derive(Debug)]
+pub struct Cav<'a> {
+    route: &'a Route,
+    body: Body,
+    frame: Frame,
+    areas: Areas,
+    sensors: Sensors,
+    services: Services,
+    guard: Guard<'a>,
+    controller: Controller,
+    sensed: Option<Sensed>,
+    /// Remote tracks that the last safe cycle let the CAV's own planner have.
+    tracks: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
+    /// What control follows.
+    points: Vec<TrajectoryPoint>,
+    /// What the CAV counts.
+    pub counts: Counts,
+}
+
+impl<'a> Cav<'a> {
+    /// At the start of its route, with everything local.
+    pub fn new(
+        route: &'a Route,
+        body: Body,
+        frame: Frame,
+        (seed, errors): (u64, Errors),
+        areas: Areas,
+        guard: Guard<'a>,
+    ) -> Self {
+        Self {
+            route,
+            body,
+            frame,
+            areas,
+            sensors: Sensors::new(seed, &body, errors),
+            services: Services::default(),
+            guard,
+            controller: Controller::new(body, control::Settings::default()),
+            sensed: None,
+            tracks: None,
+            points: Vec::new(),
+            counts: Counts::default(),
+        }
+    }
+
+    /// What guards the link.
+    pub fn guard(&self) -> &Guard<'a> {
+        &self.guard
+    }
+
+    /// Its own services.
+    pub fn services(&self) -> &Services {
+        &self.services
+    }
+
+    /// What control follows.
+    pub fn points(&self) -> &[TrajectoryPoint] {
+        &self.points
+    }
+
+    /// What it measured last.
+    pub fn sensed(&self) -> Option<&Sensed> {
+        self.sensed.as_ref()
+    }
+
+    /// Measures, and tells the stations that compute for it.
+    pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
+        let sensed = self.sensors.sense(truth, self.route, &self.body, now_ns);
+        for group in Group::ALL {
+            if let GroupState::Remote { station, session } = self.guard.state(group) {
+                self.send(now_ns, station, Payload::Alive { group, session }, radio);
+            }
+        }
+        if Group::ALL.into_iter().any(|it| matches!(self.guard.state(it), GroupState::Remote { .. })) {
+            let ego = sensed.ego;
+            self.send(now_ns, station::ID, Payload::State { stamp_ns: now_ns, ego }, radio);
+            let detections = sensed.detections.clone();
+            let payload = Payload::Detections { stamp_ns: now_ns, ego, detections };
+            self.send(now_ns, station::ID, payload, radio);
+        }
+        self.sensed = Some(sensed);
+        let is_in = |(from, to): (f64, f64)| (from..=to).contains(&truth.ego.s);
+        let groups = Group::ALL.into_iter().zip(self.areas).filter(|(_, area)| is_in(*area));
+        let groups: Vec<Group> = groups.map(|(group, _)| group).collect();
+        self.happens(now_ns, EventKind::Area { groups: Groups::of(&groups) }, radio);
+    }
+
+    /// Takes a message of the link. `after`: what became of what it says on the way from the decoder.
+    pub fn take(&mut self, now_ns: i64, bytes: &[u8], radio: &mut Radio) {
+        let Ok(message) = message::decode(bytes, &self.frame) else {
+            self.counts.malformed += 1;
+            return;
+        };
+        self.took(now_ns, message, radio);
+    }
+
+    /// Takes a message that was decoded.
+    pub fn took(&mut self, now_ns: i64, message: Message, radio: &mut Radio) {
+        let Message { sender: station, receiver, generated_ns, payload } = message;
+        if receiver != ID && receiver != 0 {
+            self.counts.dropped += 1;
+            return;
+        }
+        let time = Time::from_nanoseconds;
+        let generated = time(generated_ns);
+        let answer = match payload {
+            Payload::Offer { groups } => {
+                self.guard.happens(now_ns, EventKind::Offer { station, groups })
+            }
+            Payload::Withdraw => self.guard.happens(now_ns, EventKind::Withdraw { station }),
+            Payload::Confirm { group, session } => {
+                self.guard.happens(now_ns, EventKind::Confirm { station, group, session })
+            }
+            Payload::Reject { group, session } => {
+                self.guard.happens(now_ns, EventKind::Reject { station, group, session })
+            }
+            Payload::Tracks { session, stamp_ns, tracks: items } => {
+                let stamp = time(stamp_ns);
+                self.guard.tracks(now_ns, Received { station, session, generated, stamp, items })
+            }
+            Payload::Trajectory { session, stamp_ns, points: items } => {
+                let stamp = time(stamp_ns);
+                self.guard.trajectory(now_ns, Received { station, session, generated, stamp, items })
+            }
+            Payload::Request { .. }
+            | Payload::Release { .. }
+            | Payload::Alive { .. }
+            | Payload::State { .. }
+            | Payload::Detections { .. } => {
+                self.counts.dropped += 1;
+                return;
+            }
+        };
+        self.answered(now_ns, answer, radio);
+    }
+
+    /// Decides a cycle; none before anything was measured.
+    pub fn decide(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) -> Option<Decided> {
+        self.happens(now_ns, EventKind::Tick, radio);
+        let sensed = self.sensed.take()?;
+        let ego = ego(truth, &self.body);
+        let own = self.services.track(sensed.stamp_ns, &sensed.detections);
+        let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
+        let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
+        let (stamp_ns, items) = remote.or(own).unwrap_or((now_ns, &[]));
+        let stops: Vec<f64> = truth.stops.iter().map(|stop| stop.s).collect();
+        let list = TrackList { stamp_ns, items };
+        let points = self.services.plan(now_ns, &ego, truth.ego.s, self.route, &stops, &list);
+        let local = Local {
+            tracks: own,
+            points: points.as_deref().map(|points| (now_ns, points)),
+        };
+        let mut decided = self.guard.decide(now_ns, ego, &sensed, local);
+        self.tracks = decided.tracks.take();
+        self.act(now_ns, &decided.actions, radio);
+        self.sensed = Some(sensed);
+        // In `Local` nothing is checked, and after an unsafe cycle everything is local.
+        let is_own = decided.report.is_some() && decided.trajectory.is_none() && self.is_own();
+        if let Some(points) = if is_own { points } else { decided.trajectory.take() } {
+            self.points = points;
+        }
+        Some(decided)
+    }
+
+    /// What control wants now.
+    pub fn command(&mut self, now_ns: i64, truth: &Snapshot) -> Command {
+        let ego = ego(truth, &self.body);
+        self.controller.command(&ego, &self.points, now_ns)
+    }
+
+    /// Whether the CAV's own planner is the source of its trajectories.
+    fn is_own(&self) -> bool {
+        !matches!(self.guard.state(Group::Plan), GroupState::Remote { .. })
+    }
+
+    fn happens(&mut self, now_ns: i64, kind: EventKind, radio: &mut Radio) {
+        let answer = self.guard.happens(now_ns, kind);
+        self.answered(now_ns, answer, radio);
+    }
+
+    fn answered(
+        &mut self,
+        now_ns: i64,
+        answer: Result<Vec<Action>, RequesterError>,
+        radio: &mut Radio,
+    ) {
+        match answer {
+            Ok(actions) => self.act(now_ns, &actions, radio),
+            Err(_) => self.counts.dropped += 1,
+        }
+    }
+
+    fn act(&mut self, now_ns: i64, actions: &[Action], radio: &mut Radio) {
+        for action in actions {
+            match *action {
+                Action::Request { station, group, session } => {
+                    self.send(now_ns, station, Payload::Request { group, session }, radio);
+                }
+                Action::Release { station, group, session } => {
+                    self.counts.ended += 1;
+                    self.send(now_ns, station, Payload::Release { group, session }, radio);
+                }
+                Action::Activate(group) => self.services.start(group),
+                Action::Deactivate(group) => self.services.stop(group),
+                Action::Drop(_) => self.counts.dropped += 1,
+            }
+        }
+    }
+
+    fn send(&mut self, now_ns: i64, station: i64, payload: Payload, radio: &mut Radio) {
+        let message = Message { sender: ID, receiver: station, generated_ns: now_ns, payload };
+        match message::encode(&message, &self.frame) {
+            Ok(bytes) => radio.send(now_ns, To::Station, bytes),
+            Err(_) => self.counts.malformed += 1,
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! The station (MEC server): the provider, sensors beside the road, and the services.
+
+use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
+use mufasa::services::configuration::{Group, Groups};
+use mufasa_link::message::{self, Frame, Message, Payload};
+use mufasa_model::offloading::provider::{
+    DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind, Reply,
+};
+use mufasa_props::bridge;
+
+use crate::attack::{Attacker, Results};
+use crate::cav::local::plan;
+use crate::cav::sensing::objects;
+use crate::map::route::Route;
+use crate::pose::{Point, Pose};
+use crate::radio::{Radio, To};
+use crate::services::detectors::scan::Sweep;
+use crate::services::detectors::scene::Scene;
+use crate::services::detectors::{Detector, Errors, Mount, Observer};
+use crate::services::mot::{Settings, Tracker};
+use crate::snapshot::Snapshot;
+
+/// The station's id in messages.
+pub const ID: i64 = 10;
+
+/// How long its services compute, ns.
+const COMPUTES_NS: i64 = 4_000_000;
+/// How often it says what it offers, ns.
+const OFFERS_NS: i64 = 500_000_000;
+/// Distance between the sensors along the route, m, and how far each looks.
+const SENSORS_M: (f64, f64) = (60.0, 70.0);
+/// Detections of the CAV and of a sensor nearer than this are of one object, m.
+const MERGE_M: f64 = 1.5;
+
+/// The station.
+#[derive(Debug)]
+pub struct Station<'a> {
+    route: &'a Route,
+    frame: Frame,
+    offers: Groups,
+    provider: Provider,
+    observer: Observer,
+    tracker: Tracker,
+    /// What its own sensors saw in this period, with its time, ns.
+    seen: Option<(i64, Vec<Detection>)>,
+    stops: Vec<f64>,
+    near_s: Option<f64>,
+    offered_ns: Option<i64>,
+    /// How often MOT, and ENV with TPL, ran.
+    pub executions: [u64; 2],
+}
+
+impl<'a> Station<'a> {
+    /// A station that offers these groups along a route.
+    pub fn new(route: &'a Route, frame: Frame, offers: Groups, (seed, errors): (u64, Errors)) -> Self {
+        Self {
+            route,
+            frame,
+            offers,
+            provider: Provider::new(4, DEFAULT_LEASE_NS),
+            observer: Observer { seed: [seed, 3], detectors: sensors(route, errors), merge_radius: MERGE_M },
+            tracker: Tracker::new(Settings::default()),
+            seen: None,
+            stops: Vec::new(),
+            near_s: None,
+            offered_ns: None,
+            executions: [0; 2],
+        }
+    }
+
+    /// Its sensors look, and it says what it offers when that is due.
+    pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
+        let objects = objects(truth);
+        let scene = Scene { objects: &objects, walls: &[] };
+        let cycle = truth.time_ns.unsigned_abs();
+        let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
+        self.seen = Some((now_ns, observation.detections));
+        self.stops = truth.stops.iter().map(|stop| stop.s).collect();
+        self.near_s = Some(truth.ego.s);
+        self.happens(now_ns, ProviderEventKind::Tick, radio);
+        if self.offered_ns.is_none_or(|last_ns| now_ns - last_ns >= OFFERS_NS) {
+            self.offered_ns = Some(now_ns);
+            self.send(now_ns, 0, Payload::Offer { groups: self.offers }, radio);
+        }
+    }
+
+    /// Takes a message.
+    pub fn take(&mut self, now_ns: i64, bytes: &[u8], attacker: &mut Attacker, radio: &mut Radio) {
+        let Ok(message) = message::decode(bytes, &self.frame) else { return };
+        let Message { sender: requester, receiver, payload, .. } = message;
+        if receiver != ID {
+            return;
+        }
+        match payload {
+            Payload::Request { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Request { requester, group, session }, radio);
+            }
+            Payload::Release { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Release { requester, group, session }, radio);
+            }
+            Payload::Alive { group, session } => {
+                let group = bridge::group_from_impl(group);
+                self.happens(now_ns, ProviderEventKind::Heard { requester, group, session }, radio);
+            }
+            Payload::Detections { stamp_ns, ego, detections } => {
+                self.compute(now_ns, requester, stamp_ns, &ego, detections, attacker, radio);
+            }
+            Payload::State { .. }
+            | Payload::Offer { .. }
+            | Payload::Withdraw
+            | Payload::Confirm { .. }
+            | Payload::Reject { .. }
+            | Payload::Tracks { .. }
+            | Payload::Trajectory { .. } => {}
+        }
+    }
+
+    /// Computes for the CAV, as far as it has sessions, and what the attacker makes of it is sent.
+    #[expect(clippy::too_many_arguments, reason = "a message and what it is answered with")]
+    fn compute(
+        &mut self,
+        now_ns: i64,
+        requester: i64,
+        stamp_ns: i64,
+        ego: &Ego,
+        detections: Vec<Detection>,
+        attacker: &mut Attacker,
+        radio: &mut Radio,
+    ) {
+        let session = |group| self.provider.session(requester, bridge::group_from_impl(group));
+        let sessions = Group::ALL.map(session);
+        if sessions == [None, None] {
+            return;
+        }
+        let tracks = self.track(stamp_ns, detections);
+        let plans = sessions[1].is_some();
+        let believed = attacker.believed(stamp_ns, ego, &tracks);
+        let route = attacker.route(stamp_ns).unwrap_or(self.route);
+        let points = plans.then(|| self.plan(stamp_ns, ego, route, &believed));
+        let mut results = Results { stamp_ns, tracks, points: points.unwrap_or_default() };
+        attacker.results(ego, &mut results);
+        let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns(stamp_ns);
+        let Results { stamp_ns, tracks, points } = results;
+        attacker.saw(sessions);
+        if let Some(session) = sessions[0] {
+            self.send(done_ns, requester, Payload::Tracks { session, stamp_ns, tracks }, radio);
+        }
+        if let Some(session) = sessions[1] {
+            self.send(done_ns, requester, Payload::Trajectory { session, stamp_ns, points }, radio);
+        }
+    }
+
+    /// MOT, on the detections of the CAV and on those of the station's own sensors of the same time.
+    fn track(&mut self, stamp_ns: i64, mut detections: Vec<Detection>) -> Vec<Track> {
+        self.executions[0] += 1;
+        if let Some((_, seen)) = self.seen.as_ref().filter(|(seen_ns, _)| *seen_ns == stamp_ns) {
+            let at = |it: &Detection| Point::new(it.x, it.y);
+            for own in seen {
+                if detections.iter().all(|it| at(it).distance(at(own)) > MERGE_M) {
+                    detections.push(*own);
+                }
+            }
+        }
+        self.tracker.update(stamp_ns, &detections);
+        self.tracker.tracks(stamp_ns)
+    }
+
+    /// ENV and TPL.
+    fn plan(&mut self, stamp_ns: i64, ego: &Ego, route: &Route, tracks: &[Track]) -> Vec<TrajectoryPoint> {
+        self.executions[1] += 1;
+        let list = TrackList { stamp_ns, items: tracks };
+        let own = core::ptr::eq(route, self.route);
+        let (near_s, stops) = if own { (self.near_s, &*self.stops) } else { (None, &[][..]) };
+        plan(stamp_ns, ego, near_s, route, stops, &list)
+    }
+
+    fn happens(&mut self, t_ns: i64, kind: ProviderEventKind, radio: &mut Radio) {
+        let payload = match self.provider.step(&ProviderEvent { t_ns, kind }) {
+            Some(Reply::Confirm { requester, group, session }) => {
+                (requester, Payload::Confirm { group: bridge::group_to_impl(group), session })
+            }
+            Some(Reply::Reject { requester, group, session }) => {
+                (requester, Payload::Reject { group: bridge::group_to_impl(group), session })
+            }
+            None => return,
+        };
+        self.send(t_ns, payload.0, payload.1, radio);
+    }
+
+    fn send(&self, now_ns: i64, vehicle: i64, payload: Payload, radio: &mut Radio) {
+        let message = Message { sender: ID, receiver: vehicle, generated_ns: now_ns, payload };
+        // What the formats cannot hold is not sent: the link is silent then.
+        if let Ok(bytes) = message::encode(&message, &self.frame) {
+            radio.send(now_ns, To::Vehicle, bytes);
+        }
+    }
+}
+
+/// Sensors beside the route, one each few metres, that look all around.
+fn sensors(route: &Route, errors: Errors) -> Vec<Detector> {
+    let (spacing, range) = SENSORS_M;
+    let mut sensors = Vec::new();
+    let mut s = spacing / 2.0;
+    while s < route.path.length() {
+        let along = route.path.pose_at(s);
+        let pose = Pose { at: along.ahead(0.0, -8.0), ..along };
+        let sweep = Sweep::new(range, 2.0 * core::f64::consts::PI, 240);
+        sensors.push(Detector { mount: Mount::Fixed(pose), sweep, errors });
+        s += spacing;
+    }
+    sensors
+}
