@@ -1,5 +1,7 @@
 //! The station (MEC server): the provider, sensors beside the road, and the services.
 
+use std::collections::BTreeMap;
+
 use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
 use mufasa::services::configuration::{Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
@@ -31,6 +33,8 @@ const OFFERS_NS: i64 = 500_000_000;
 const SENSORS_M: (f64, f64) = (60.0, 70.0);
 /// Detections of the CAV and of a sensor nearer than this are of one object, m.
 const MERGE_M: f64 = 1.5;
+/// A track that the CAV detected within this time is one that it sees, ns: one miss is no absence.
+const SEEN_NS: i64 = 100_000_000;
 
 /// The station.
 #[derive(Debug)]
@@ -41,8 +45,12 @@ pub struct Station<'a> {
     provider: Provider,
     observer: Observer,
     tracker: Tracker,
+    /// When the CAV saw each track last, by id, ns.
+    seen_by_cav: BTreeMap<i64, i64>,
     /// What its own sensors saw in this period, with its time, ns.
     seen: Option<(i64, Vec<Detection>)>,
+    /// Distance of the farthest detection of the CAV, m.
+    reach: f64,
     stops: Vec<f64>,
     near_s: Option<f64>,
     offered_ns: Option<i64>,
@@ -60,7 +68,9 @@ impl<'a> Station<'a> {
             provider: Provider::new(4, DEFAULT_LEASE_NS),
             observer: Observer { seed: [seed, 3], detectors: sensors(route, errors), merge_radius: MERGE_M },
             tracker: Tracker::new(Settings::default()),
+            seen_by_cav: BTreeMap::new(),
             seen: None,
+            reach: 0.0,
             stops: Vec::new(),
             near_s: None,
             offered_ns: None,
@@ -134,11 +144,14 @@ impl<'a> Station<'a> {
         if sessions == [None, None] {
             return;
         }
-        let tracks = self.track(stamp_ns, detections);
+        self.reach = reach(ego, &detections);
+        let tracks = self.track(stamp_ns, detections.clone());
+        self.note(stamp_ns, &detections, &tracks);
         let plans = sessions[1].is_some();
         let believed = attacker.believed(stamp_ns, ego, &tracks);
         let route = attacker.route(stamp_ns).unwrap_or(self.route);
         let points = plans.then(|| self.plan(stamp_ns, ego, route, &believed));
+        let tracks = tracks.into_iter().filter(|it| self.can_be_checked(stamp_ns, ego, it)).collect();
         let mut results = Results { stamp_ns, tracks, points: points.unwrap_or_default() };
         attacker.results(ego, &mut results);
         let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns(stamp_ns);
@@ -165,6 +178,25 @@ impl<'a> Station<'a> {
         }
         self.tracker.update(stamp_ns, &detections);
         self.tracker.tracks(stamp_ns)
+    }
+
+    /// Takes down which tracks the CAV sees now.
+    fn note(&mut self, stamp_ns: i64, detections: &[Detection], tracks: &[Track]) {
+        for track in tracks {
+            let at = Point::new(track.x, track.y);
+            if detections.iter().any(|it| at.distance(Point::new(it.x, it.y)) < MERGE_M) {
+                self.seen_by_cav.insert(track.id, stamp_ns);
+            }
+        }
+        self.seen_by_cav.retain(|id, _| tracks.iter().any(|it| it.id == *id));
+    }
+
+    /// Whether the CAV saw the track just now, or it is beyond what it sees: stage i fails for an object
+    /// that is hidden from the CAV, so that such a one is for the station's planner alone.
+    fn can_be_checked(&self, stamp_ns: i64, ego: &Ego, track: &Track) -> bool {
+        let seen_ns = self.seen_by_cav.get(&track.id);
+        let is_seen = seen_ns.is_some_and(|seen_ns| stamp_ns - seen_ns <= SEEN_NS);
+        is_seen || distance(ego, track.x, track.y) > self.reach + MERGE_M
     }
 
     /// ENV and TPL.
@@ -196,6 +228,15 @@ impl<'a> Station<'a> {
             radio.send(now_ns, To::Vehicle, bytes);
         }
     }
+}
+
+fn distance(ego: &Ego, x: f64, y: f64) -> f64 {
+    Point::new(ego.x, ego.y).distance(Point::new(x, y))
+}
+
+/// Distance of the farthest detection, m.
+fn reach(ego: &Ego, detections: &[Detection]) -> f64 {
+    detections.iter().map(|it| distance(ego, it.x, it.y)).fold(0.0, f64::max)
 }
 
 /// Sensors beside the route, one each few metres, that look all around.
