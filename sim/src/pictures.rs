@@ -7,7 +7,7 @@ use crate::map::{Light, Town};
 use crate::path::Path;
 use crate::pose::{Point, Rectangle};
 use crate::snapshot::Snapshot;
-use crate::traffic::Kind;
+use crate::traffic::agent::Kind;
 
 /// Resolution of a frame, pixels for each metre.
 const SCALE: f64 = 4.0;

@@ -10,7 +10,8 @@ use crate::map::{Light, Town};
 use crate::pose::{Point, Pose, Rectangle};
 use crate::scenario::{self, Scenario};
 use crate::snapshot::{EgoState, Object, Reason, Snapshot, StopLine};
-use crate::traffic::{Agent, Kind, ahead, give_way};
+use crate::traffic::agent::{Agent, Kind};
+use crate::traffic::{ahead, give_way};
 use crate::vehicle::{Body, Command, Motion};
 
 /// One step, ns and s.
@@ -259,7 +260,7 @@ impl<'a> World<'a> {
             let mut reach = 15.0 + 5.0 * agent.speed;
             // Before it asks for a passage it looks whether there is room behind it.
             if let Some(next) = route.passages.get(agent.granted)
-                && next.from - agent.front() < give_way::request_distance(agent)
+                && next.from - agent.front() < agent.request_distance()
             {
                 reach = reach.max(next.to - agent.front() + agent.rectangle.length + 4.0);
             }

@@ -147,6 +147,34 @@ fn the_ego_is_told_of_a_red_signal_until_it_turns_green() {
 }
 
 #[test]
+fn rank_comes_before_turns_and_turns_before_the_right() {
+    let town = streets::town();
+    let named = |name: &str| town.routes.iter().position(|route| route.name == name).unwrap();
+    // (who, whom it meets, whether it gives way).
+    let cases = [
+        // Left turn at 22 against those straight ahead and those who turn right.
+        ("02-12-22-23-24", "42-32-22-12-02", true),
+        ("02-12-22-23-24", "42-32-22-23-24", true),
+        // Side street onto the main street.
+        ("03-13-23-33-43", "20-21-22-23-24", true),
+        // Of two side streets the one from the right: at 11 from the west and from the south.
+        ("01-11-21-31-41", "10-11-12-13-14", true),
+        ("01-11-21-31-41", "14-13-12-11-10", false),
+    ];
+    for (who, whom, gives_way) in cases {
+        let (a, b) = (named(who), named(whom));
+        let met = town.routes[a].conflicts.iter().find(|c| c.with == b).unwrap();
+        assert_eq!(met.gives_way, gives_way, "{who} {whom}");
+    }
+    for crossing in &town.crossings {
+        assert!(
+            town.routes[crossing.route].conflicts.iter().all(|c| !c.gives_way),
+            "people go first"
+        );
+    }
+}
+
+#[test]
 fn leaving_the_road_and_coming_near_is_seen() {
     let town = streets::town();
     let mut world = World::new(&town, &Scenario::draw(&town, 0, 30, 2), 2);

@@ -1,21 +1,10 @@
 //! Who is ahead in an agent's corridor: any rectangle, on whatever route.
 
 use crate::map::route::Route;
-use crate::traffic::Agent;
+use crate::traffic::agent::{Agent, Ahead};
 
 /// Beside the own width this much of the corridor is kept free, either side, m.
 const BESIDE: f64 = 0.3;
-
-/// The nearest agent ahead.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ahead {
-    /// Its place among the agents.
-    pub index: usize,
-    /// From the own front to its nearest part, along the path, m; below zero beside it.
-    pub gap: f64,
-    /// Its speed along the path, m/s; not below zero.
-    pub speed: f64,
-}
 
 /// The nearest agent in the corridor ahead, within a way, m.
 pub fn nearest(agents: &[Agent], own: usize, route: &Route, reach: f64) -> Option<Ahead> {

@@ -7,7 +7,7 @@
 use crate::map::conflicts::light;
 use crate::map::route::{Conflict, Passage};
 use crate::map::{Light, Town};
-use crate::traffic::{Agent, Kind};
+use crate::traffic::agent::{Agent, Kind};
 
 /// Who comes later than this after the passage is clear need not be waited for, s.
 const AFTER: f64 = 1.0;
@@ -19,11 +19,6 @@ const PATIENCE_MAX: f64 = 25.0;
 const A_SIGNAL: f64 = 3.0;
 /// Above this deceleration an agent cannot be asked to wait, m/s^2.
 const A_FORCED: f64 = 4.0;
-
-/// From here on an agent asks for the passage ahead, and brakes for it: comfortably, m.
-pub fn request_distance(agent: &Agent) -> f64 {
-    agent.speed + agent.speed * agent.speed / 3.0 + 6.0
-}
 
 /// Grants what can be granted at a time, s (`lights`: on the signals' clock), and returns how many took what was not.
 pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
@@ -50,7 +45,7 @@ pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
 fn asks(agent: &Agent, town: &Town) -> bool {
     let next = town.routes[agent.route].passages.get(agent.granted);
     agent.on_route
-        && next.is_some_and(|passage| passage.from - agent.front() < request_distance(agent))
+        && next.is_some_and(|passage| passage.from - agent.front() < agent.request_distance())
 }
 
 /// Takes a grant back while the signal is not green and there is room; gives one that was taken.
