@@ -22,11 +22,11 @@ use mufasa_sim::services::detectors::{Errors, Observer};
 use mufasa_sim::services::grid::{OccupancyMap, OwnedGrid, Settings as GridSettings};
 use mufasa_sim::services::mot::{Settings, Tracker};
 
-use crate::drive::{Drive, PLAN_NS};
+use crate::drive::Drive;
 use crate::scene::{bend, car, vehicle};
 
 /// Drives, and cycles that are checked of each.
-const DRIVES: u64 = 60;
+const DRIVES: u32 = 60;
 const CYCLES: u32 = 240;
 /// Cycles before the first check: tracks begin, and the history fills.
 const BEFORE: u32 = 22;
@@ -71,12 +71,18 @@ fn others(draws: &mut Draws, start: f64) -> Vec<Other> {
         let from = if draws.share() < 0.5 { draws.between(0.0, 8.0) } else { f64::INFINITY };
         all.push(Other { s, left: 0.0, speed, brakes: (draws.between(0.5, 2.5), from) });
     }
-    for _ in 0..draws.count(4.0) {
-        all.push(standing(start + draws.between(-20.0, 150.0), draws.between(-4.0, -3.2)));
+    // Parked, 7 m apart at least.
+    for place in 0..24_u32 {
+        if draws.share() < 0.17 {
+            all.push(standing(start - 20.0 + 7.0 * f64::from(place), draws.between(-4.0, -3.2)));
+        }
     }
-    for place in 0..draws.count(2.0) {
-        let s = start + draws.between(20.0, 40.0) + 60.0 * place as f64;
-        all.push(Other { speed: -draws.between(3.0, 9.0), ..standing(s, 3.7) });
+    let speed = draws.between(3.0, 9.0);
+    for place in 0..4_u32 {
+        if draws.share() < 0.5 {
+            let s = start + 30.0 + 40.0 * f64::from(place);
+            all.push(Other { speed: -speed, ..standing(s, 3.7) });
+        }
     }
     all
 }
@@ -113,6 +119,8 @@ struct Run<'a> {
     map: OccupancyMap,
     lists: Vec<(i64, Vec<Detection>)>,
     cross_sections: Vec<CrossSection>,
+    /// Cycles with a track of what is hidden are not checked.
+    but_hidden: bool,
 }
 
 impl Run<'_> {
@@ -150,7 +158,7 @@ impl Run<'_> {
     ) {
         let now_ns = self.drive.t_ns;
         let (_, detections) = self.lists.last().expect("of this cycle");
-        if tracks.items.iter().any(|track| is_unseen(track, detections)) {
+        if self.but_hidden && tracks.items.iter().any(|track| is_unseen(track, detections)) {
             return tally.add("unseen".to_owned());
         }
         let list = |back: usize| {
@@ -209,7 +217,7 @@ fn failed(outcome: &Outcome) -> bool {
 fn drives(oncoming: bool, errors: Errors) -> Tally {
     let mut tally = Tally::default();
     for seed in 0..DRIVES {
-        let mut draws = Draws::new([seed, 11, 12, 13]);
+        let mut draws = Draws::new([seed.into(), 11, 12, 13]);
         let path = bend(draws.between(12.0, 80.0), draws.between(0.2, FRAC_PI_2));
         let start = draws.between(5.0, 75.0);
         let mut others = others(&mut draws, start);
@@ -221,18 +229,19 @@ fn drives(oncoming: bool, errors: Errors) -> Tally {
         );
         let mut run = Run {
             drive: Drive::new(&path, rear, draws.between(0.0, 8.0)),
-            observer: vehicle(seed, errors),
+            observer: vehicle(seed.into(), errors),
             tracker: Tracker::new(Settings::default()),
             map: OccupancyMap::new(GridSettings::default()),
             lists: Vec::new(),
             cross_sections: route(&path),
+            but_hidden: !oncoming,
         };
         for cycle in 0..CYCLES {
             let seen: Vec<_> =
                 (1..).zip(&others).map(|(id, other)| other.seen(id, &path)).collect();
             run.step(&seen, cycle, &mut tally);
             let t = 0.05 * f64::from(cycle);
-            others.iter_mut().for_each(|other| other.step(t, PLAN_NS as f64 / 1e9));
+            others.iter_mut().for_each(|other| other.step(t, 0.05));
             others.retain(|other| other.s > 1.0 && other.s < path.length() - 1.0);
         }
     }
@@ -240,20 +249,19 @@ fn drives(oncoming: bool, errors: Errors) -> Tally {
 }
 
 /// Checks of each profile and configuration.
-const CHECKS: u32 = DRIVES as u32 * (CYCLES / EVERY - BEFORE.div_ceil(EVERY));
+const CHECKS: u32 = DRIVES * (CYCLES / EVERY - BEFORE.div_ceil(EVERY));
 
 /// 60 drives of 12 s, 2160 cycles, each checked in two profiles and three configurations: with a lead that
-/// drives, brakes and stands, parked cars beside the lane, and nobody missed; 2100 cycles
-/// and more of them, see below.
+/// drives, brakes and stands, parked cars beside the lane, and nobody missed. Of them those
+/// are checked in which every track has a detection, more than 95 of 100.
 #[test]
 fn clean_drives_pass_all_stages() {
-    // With the default of 0.05 m a list of one track exceeds theta_tr once in some thousand cycles.
-    let tally = drives(false, Errors { missed: 0.0, position: 0.04, ..Errors::default() });
+    let tally = drives(false, Errors { missed: 0.0, ..Errors::default() });
     let failed: Vec<_> = tally.0.iter().filter(|(what, _)| what.contains("failed")).collect();
     assert!(failed.is_empty(), "{failed:?}");
     // Not checked: cycles with a track of what has just been hidden.
     let checked = CHECKS - tally.0.get("unseen").unwrap_or(&0);
-    assert!(100 * checked > 97 * CHECKS, "{checked} of {CHECKS}");
+    assert!(100 * checked > 95 * CHECKS, "{checked} of {CHECKS}");
     for (profile, configuration, stages) in [
         ("Paper", "MotRemote", &["I", "Ii", "Iv", "V"][..]),
         ("Paper", "AllRemote", &["I", "Ii", "Iii"]),
@@ -269,8 +277,8 @@ fn clean_drives_pass_all_stages() {
     }
 }
 
-/// What the method rejects although nobody lies: a vehicle that
-/// comes towards us through a bend is predicted on our lane by stage iii and H-13.
+/// What the method rejects although nobody lies: a track of what is hidden or missed fails stage i (F-20), and
+/// a vehicle that comes towards us through a bend is predicted on our lane by stage iii and H-13.
 #[test]
 fn drives_with_misses_and_oncoming_vehicles_pass_but_for_a_few_cycles() {
     let tally = drives(true, Errors::default());
