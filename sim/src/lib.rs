@@ -7,6 +7,7 @@
 pub mod collision;
 pub mod map;
 pub mod path;
+pub mod pictures;
 pub mod pose;
 pub mod scenario;
 pub mod services;

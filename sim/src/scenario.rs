@@ -68,15 +68,16 @@ pub struct Walk {
 }
 
 /// Length, width, and how many of twenty vehicles are of this size.
-const SIZES: [(f64, f64, u32); 5] = [(4.1, 1.75, 6), (4.6, 1.82, 7), (5.0, 1.9, 4), (6.2, 2.1, 2), (12.0, 2.5, 1)];
+const SIZES: [(f64, f64, u32); 5] =
+    [(4.1, 1.75, 6), (4.6, 1.82, 7), (5.0, 1.9, 4), (6.2, 2.1, 2), (12.0, 2.5, 1)];
 /// Longer vehicles take no bends that are sharper than this, 1/m.
 const LONG: (f64, f64) = (7.0, 1.0 / 30.0);
 /// Free road between two vehicles at the start, m.
 const FREE: f64 = 6.0;
 
 impl Scenario {
-    /// A random start: `vehicles` (fewer when no free place was found) on all roads, in about three of four
-    /// draws one of them ahead of the ego on its lane, which in every second of these stops for a while;
+    /// A random start: `vehicles` (fewer when no free place was found) on all roads, in about four of five
+    /// draws one of them ahead of the ego on its lane, which at times stops for a while;
     /// people at the crossings; signals at a random time of their cycle. The same for the same seed.
     pub fn draw(town: &Town, ego_route: usize, vehicles: usize, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -85,18 +86,8 @@ impl Scenario {
         let mut placed = Placed { places: Vec::new() };
         placed.add(route, ego_s, 5.1, 1.89);
         let mut actors = Vec::new();
-        if random.random_bool(0.75) && vehicles > 0 {
-            let s = ego_s + random.random_range(18.0..50.0);
-            let (length, width) = size(&mut random, route);
-            if placed.is_free(route, s, length, width) {
-                placed.add(route, s, length, width);
-                let mut lead = start(&mut random, ego_route, s, (length, width));
-                if random.random_bool(0.5) {
-                    let s = s + random.random_range(40.0..160.0);
-                    lead.halts.push(Halt { s, seconds: random.random_range(5.0..12.0) });
-                }
-                actors.push(lead);
-            }
+        if vehicles > 0 && random.random_bool(0.8) {
+            actors.extend(lead(&mut random, town, ego_route, &mut placed));
         }
         let roads: Vec<usize> = town.roads().collect();
         // A town can be full: each vehicle has twenty tries on the average.
@@ -130,22 +121,30 @@ impl Scenario {
 
     /// Starts nobody faster than they can stop behind who is ahead, or before the next passage, at 2 m/s^2.
     fn slow_down(&mut self, town: &Town) {
-        let all: Vec<Rectangle> = self.actors.iter().map(|a| rectangle(&town.routes[a.route], a)).collect();
-        let ego = Rectangle { pose: town.routes[self.ego_route].path.pose_at(self.ego_s), length: 5.1, width: 1.89 };
-        let limit = |route: &Route, s: f64, length: f64, others: &mut dyn Iterator<Item = &Rectangle>| {
-            let line = route.passages.iter().map(|p| p.from - s - length / 2.0).find(|gap| *gap > 0.0);
-            let mut free = line.unwrap_or(60.0);
-            for other in others {
-                let seen = route.path.project_within(other.pose.at, s, s + 60.0);
-                if seen.left.abs() < 2.5 && seen.s > s {
-                    free = free.min(seen.s - s - f64::midpoint(length, other.length));
-                }
-            }
-            (4.0 * (free - 4.0).max(0.0)).sqrt().min(0.9 * route.pace_at(s))
+        let all: Vec<Rectangle> =
+            self.actors.iter().map(|a| rectangle(&town.routes[a.route], a)).collect();
+        let ego = Rectangle {
+            pose: town.routes[self.ego_route].path.pose_at(self.ego_s),
+            length: 5.1,
+            width: 1.89,
         };
+        let limit =
+            |route: &Route, s: f64, length: f64, others: &mut dyn Iterator<Item = &Rectangle>| {
+                let line =
+                    route.passages.iter().map(|p| p.from - s - length / 2.0).find(|gap| *gap > 0.0);
+                let mut free = line.unwrap_or(60.0);
+                for other in others {
+                    let seen = route.path.project_within(other.pose.at, s, s + 60.0);
+                    if seen.left.abs() < 2.5 && seen.s > s {
+                        free = free.min(seen.s - s - f64::midpoint(length, other.length));
+                    }
+                }
+                (4.0 * (free - 4.0).max(0.0)).sqrt().min(0.9 * route.pace_at(s))
+            };
         for index in 0..self.actors.len() {
             let actor = &self.actors[index];
-            let mut others = all.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, r)| r).chain([&ego]);
+            let mut others =
+                all.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, r)| r).chain([&ego]);
             let most = limit(&town.routes[actor.route], actor.s, actor.length, &mut others);
             self.actors[index].speed = actor.speed.min(most);
         }
@@ -157,6 +156,29 @@ impl Scenario {
 /// The rectangle of a vehicle at its start.
 pub fn rectangle(route: &Route, start: &Start) -> Rectangle {
     Rectangle { pose: route.path.pose_at(start.s), length: start.length, width: start.width }
+}
+
+/// Somebody ahead of the ego on its lane; every second of them stops for a while. None when twenty places
+/// were taken or inside of a passage.
+fn lead(random: &mut ChaCha8Rng, town: &Town, index: usize, placed: &mut Placed) -> Option<Start> {
+    let route = &town.routes[index];
+    let ego_s = route.task.map_or(0.0, |task| task.start);
+    for _ in 0..20 {
+        let s = ego_s + random.random_range(16.0..60.0);
+        let (length, width) = size(random, route);
+        if !waits_before(route, s, length) || !placed.is_free(route, s, length, width) {
+            continue;
+        }
+        placed.add(route, s, length, width);
+        let mut lead = start(random, index, s, (length, width));
+        let halt = s + random.random_range(30.0..200.0);
+        // Nobody halts within a passage, or so that its rear is still in one.
+        if random.random_bool(0.5) && waits_before(route, halt - length / 2.0, length + 6.0) {
+            lead.halts.push(Halt { s: halt, seconds: random.random_range(5.0..12.0) });
+        }
+        return Some(lead);
+    }
+    None
 }
 
 /// A vehicle of this size with a driver of its own.
@@ -179,7 +201,8 @@ pub fn size(random: &mut ChaCha8Rng, route: &Route) -> (f64, f64) {
         is_it
     });
     let &(length, width, _) = found.unwrap_or(&SIZES[0]);
-    let is_straight = route.path.arc_lengths().iter().all(|&s| route.path.curvature_at(s).abs() < LONG.1);
+    let is_straight =
+        route.path.arc_lengths().iter().all(|&s| route.path.curvature_at(s).abs() < LONG.1);
     if length > LONG.0 && !is_straight { (SIZES[1].0, SIZES[1].1) } else { (length, width) }
 }
 
@@ -216,7 +239,9 @@ impl Placed {
     fn circles(route: &Route, s: f64, length: f64, width: f64) -> Vec<(Point, f64)> {
         let radius = width / 2.0 + 0.2;
         let half = length / 2.0;
-        [-half, -half / 2.0, 0.0, half / 2.0, half].map(|at| (route.path.pose_at(s + at).at, radius)).to_vec()
+        [-half, -half / 2.0, 0.0, half / 2.0, half]
+            .map(|at| (route.path.pose_at(s + at).at, radius))
+            .to_vec()
     }
 
     fn is_free(&self, route: &Route, s: f64, length: f64, width: f64) -> bool {

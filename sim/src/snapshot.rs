@@ -2,7 +2,7 @@
 
 use crate::map::Light;
 use crate::pose::{Point, Pose, Rectangle};
-use crate::traffic::Kind;
+use crate::traffic::agent::Kind;
 
 /// Everything that moves, at one moment.
 #[derive(Clone, Debug, PartialEq)]

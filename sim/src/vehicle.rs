@@ -88,7 +88,11 @@ impl Body {
     /// The motion after `time`, s. A command is held to the limits; of one that is not a number, the
     /// acceleration is full braking and the steering stays as it is.
     pub fn step(&self, motion: &Motion, command: Command, time: f64) -> Motion {
-        let wanted = if command.acceleration.is_nan() { self.acceleration_min } else { command.acceleration };
+        let wanted = if command.acceleration.is_nan() {
+            self.acceleration_min
+        } else {
+            command.acceleration
+        };
         let wanted = wanted.clamp(self.acceleration_min, self.acceleration_max);
         let acceleration = lagged(motion.acceleration, wanted, self.acceleration_lag, time);
         let wanted = if command.steering.is_nan() { motion.steering } else { command.steering };
@@ -105,13 +109,19 @@ impl Body {
         };
         let turn = way * libm::tan(steering) / self.wheelbase;
         // An arc: its chord lies at half the turn.
-        let chord = if turn.abs() < 1e-9 { way } else { way * libm::sin(turn / 2.0) / (turn / 2.0) };
+        let chord =
+            if turn.abs() < 1e-9 { way } else { way * libm::sin(turn / 2.0) / (turn / 2.0) };
         let (half_sin, half_cos) = libm::sincos(turn / 2.0);
         let rear = motion.rear;
         let across = rear.turned(half_cos, half_sin);
         let ahead = Pose { at: rear.at, ..across }.ahead(chord, 0.0);
         let (sin, cos) = libm::sincos(turn);
-        Motion { rear: Pose { at: ahead, ..rear.turned(cos, sin) }, speed: speed.max(0.0), acceleration, steering }
+        Motion {
+            rear: Pose { at: ahead, ..rear.turned(cos, sin) },
+            speed: speed.max(0.0),
+            acceleration,
+            steering,
+        }
     }
 }
 

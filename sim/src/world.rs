@@ -7,10 +7,11 @@ use crate::collision;
 use crate::map::conflicts::light;
 use crate::map::route::Route;
 use crate::map::{Light, Town};
-use crate::pose::{Point, Pose};
+use crate::pose::{Point, Pose, Rectangle};
 use crate::scenario::{self, Scenario};
 use crate::snapshot::{EgoState, Object, Reason, Snapshot, StopLine};
-use crate::traffic::{Agent, Kind, ahead, give_way};
+use crate::traffic::agent::{Agent, Kind};
+use crate::traffic::{ahead, give_way};
 use crate::vehicle::{Body, Command, Motion};
 
 /// One step, ns and s.
@@ -131,7 +132,12 @@ impl<'a> World<'a> {
             s: ego.s,
             left: self.left,
         };
-        let object = |a: &Agent| Object { id: a.id, kind: a.kind, rectangle: a.rectangle, velocity: a.velocity() };
+        let object = |a: &Agent| Object {
+            id: a.id,
+            kind: a.kind,
+            rectangle: a.rectangle,
+            velocity: a.velocity(),
+        };
         Snapshot {
             time_ns: self.time_ns(),
             ego: state,
@@ -144,7 +150,10 @@ impl<'a> World<'a> {
     /// The number of somebody whom the ego touches.
     pub fn collision(&self) -> Option<u32> {
         let (ego, others) = self.agents.split_first()?;
-        others.iter().find(|other| collision::overlap(&ego.rectangle, &other.rectangle)).map(|other| other.id)
+        others
+            .iter()
+            .find(|other| collision::overlap(&ego.rectangle, &other.rectangle))
+            .map(|other| other.id)
     }
 
     /// Distance of the ego's rectangle to the nearest other, m, with its number; none in an empty town.
@@ -152,7 +161,7 @@ impl<'a> World<'a> {
         let (ego, others) = self.agents.split_first()?;
         let mut best: Option<(f64, u32)> = None;
         for other in others {
-            let half = |r: &crate::pose::Rectangle| (r.length + r.width) / 2.0;
+            let half = |r: &Rectangle| f64::midpoint(r.length, r.width);
             let far = ego.rectangle.pose.at.distance(other.rectangle.pose.at);
             let least = far - half(&ego.rectangle) - half(&other.rectangle);
             if best.is_some_and(|(distance, _)| least >= distance) {
@@ -223,7 +232,10 @@ impl<'a> World<'a> {
         closed
             .map(|passage| {
                 let is_green = light(self.town, passage, self.lights_at()) == Light::Green;
-                StopLine { s: passage.from, reason: if is_green { Reason::GiveWay } else { Reason::Signal } }
+                StopLine {
+                    s: passage.from,
+                    reason: if is_green { Reason::GiveWay } else { Reason::Signal },
+                }
             })
             .collect()
     }
@@ -248,7 +260,7 @@ impl<'a> World<'a> {
             let mut reach = 15.0 + 5.0 * agent.speed;
             // Before it asks for a passage it looks whether there is room behind it.
             if let Some(next) = route.passages.get(agent.granted)
-                && next.from - agent.front() < give_way::request_distance(agent)
+                && next.from - agent.front() < agent.request_distance()
             {
                 reach = reach.max(next.to - agent.front() + agent.rectangle.length + 4.0);
             }
@@ -264,8 +276,11 @@ impl<'a> World<'a> {
     /// Takes out who is at the end of a route.
     fn leave(&mut self) {
         let town = self.town;
-        let is_done = |a: &Agent| a.kind != Kind::Ego && a.s >= town.routes[a.route].path.length() - 0.5;
-        let vehicles = |agents: &[Agent]| agents.iter().filter(|a| matches!(a.kind, Kind::Car | Kind::Truck)).count();
+        let is_done =
+            |a: &Agent| a.kind != Kind::Ego && a.s >= town.routes[a.route].path.length() - 0.5;
+        let vehicles = |agents: &[Agent]| {
+            agents.iter().filter(|a| matches!(a.kind, Kind::Car | Kind::Truck)).count()
+        };
         let before = vehicles(&self.agents);
         self.agents.retain(|agent| !is_done(agent));
         if self.scenario.refill {
@@ -294,7 +309,9 @@ impl<'a> World<'a> {
         let mut start = scenario::start(&mut self.random, route, size.0 / 2.0, size);
         start.speed = start.speed.min(6.0);
         let pose: Pose = self.town.routes[route].path.pose_at(start.s);
-        if self.is_free(pose.at, FREE.0) && self.agents[0].rectangle.pose.at.distance(pose.at) > FREE.1 {
+        if self.is_free(pose.at, FREE.0)
+            && self.agents[0].rectangle.pose.at.distance(pose.at) > FREE.1
+        {
             self.agents.push(Agent::vehicle(self.next_id, self.town, &start));
             self.next_id += 1;
             self.missing -= 1;

@@ -77,3 +77,52 @@ fn points_that_are_no_path_are_named() {
     assert_eq!(Path::new(vec![Point::default(), point, point]), Err(PathError::Repeated(2)));
     assert_eq!(Path::new(vec![point, Point::new(f64::NAN, 0.0)]), Err(PathError::NotFinite(1)));
 }
+
+#[test]
+fn a_place_outside_of_a_corner_is_as_far_as_the_corner() {
+    let path =
+        Path::new(vec![Point::default(), Point::new(10.0, 0.0), Point::new(10.0, 10.0)]).unwrap();
+    let seen = path.project(Point::new(13.0, -4.0));
+    assert_eq!((seen.s, seen.left), (10.0, -5.0));
+}
+
+/// The nearest of all pieces, each looked at: slow and plain.
+fn nearest(path: &Path, place: Point) -> f64 {
+    let points = path.points();
+    let next = |i: usize| points.get(i + 1).copied().or(path.is_closed().then_some(points[0]));
+    let distance = |from: Point, to: Point| {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let share = ((place.x - from.x) * dx + (place.y - from.y) * dy) / (dx * dx + dy * dy);
+        let share = share.clamp(0.0, 1.0);
+        place.distance(Point::new(from.x + share * dx, from.y + share * dy))
+    };
+    (0..points.len())
+        .filter_map(|i| Some(distance(points[i], next(i)?)))
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn what_is_skipped_was_not_the_nearest() {
+    // A rose: it winds, and crosses itself.
+    let rose: Vec<Point> = (0..700)
+        .map(|i| {
+            let angle = f64::from(i) * 0.009 + 1e-4;
+            let reach = 40.0 * libm::cos(3.0 * angle) + 3.0 * libm::sin(17.0 * angle);
+            Point::new(reach * libm::cos(angle), reach * libm::sin(angle))
+        })
+        .collect();
+    for path in [Path::new(rose.clone()).unwrap(), Path::closed(rose).unwrap()] {
+        for step in 0..2000 {
+            let place = Point::new(
+                f64::from(step * 37 % 1001) * 0.1 - 50.0,
+                f64::from(step * 91 % 997) * 0.1 - 50.0,
+            );
+            let least = nearest(&path, place);
+            let seen = path.project(place);
+            let found = path.pose_at(seen.s).at.distance(place);
+            assert!((found - least).abs() < 1e-6, "{place:?} {found} {least}");
+            let near = path.project_near(place, 0.0, path.length(), 5.0);
+            assert_eq!(near, (least < 5.0).then_some(seen), "{place:?} {least}");
+        }
+    }
+}

@@ -47,13 +47,19 @@ pub fn compute(town: &mut Town) {
     let mut conflicts: Vec<(usize, Conflict)> = Vec::new();
     for overlap in &overlaps {
         let (a, b) = overlap.routes;
-        let of = |route: usize, s: f64| town.routes[route].passages.iter().position(|p| p.from <= s && s <= p.to);
-        let (Some(passage), Some(their_passage)) = (of(a, overlap.here.0), of(b, overlap.there.0)) else {
+        let of = |route: usize, s: f64| {
+            town.routes[route].passages.iter().position(|p| p.from <= s && s <= p.to)
+        };
+        let (Some(passage), Some(their_passage)) = (of(a, overlap.here.0), of(b, overlap.there.0))
+        else {
             unreachable!("passages are made of all overlaps");
         };
         let first = goes_first(&town.routes, overlap, (passage, their_passage));
         let (here, there) = (overlap.here, overlap.there);
-        conflicts.push((a, Conflict { passage, here, with: b, there, their_passage, gives_way: !first }));
+        conflicts.push((
+            a,
+            Conflict { passage, here, with: b, there, their_passage, gives_way: !first },
+        ));
         conflicts.push((
             b,
             Conflict {
@@ -121,30 +127,24 @@ fn relations(first: &Route, second: &Route, reach: f64) -> Vec<(Relation, f64, f
     let points = first.path.points();
     let length = second.path.length();
     let mut result = Vec::with_capacity(points.len());
-    // How far the other path is at least: no projection is needed until that is used up.
-    let mut free = 0.0;
     for (index, &point) in points.iter().enumerate() {
         let s = first.path.arc_lengths()[index];
-        if index > 0 {
-            free -= points[index - 1].distance(point);
-        }
-        if free > reach {
+        let Some(seen) = second.path.project_near(point, 0.0, length, reach) else {
             result.push((Relation::Apart, s, 0.0));
             continue;
-        }
-        let seen = second.path.project(point);
+        };
         let near = second.path.pose_at(seen.s);
         let distance = near.at.distance(point);
-        free = distance;
         let pose = first.path.pose_at(s);
         let along = pose.cos * near.cos + pose.sin * near.sin;
-        let relation = if distance >= reach || !(second.path.is_closed() || seen.s > 0.0 && seen.s < length) {
-            Relation::Apart
-        } else if distance < TOGETHER.0 && along > TOGETHER.1 {
-            Relation::Together
-        } else {
-            Relation::Across
-        };
+        let relation =
+            if distance >= reach || !(second.path.is_closed() || seen.s > 0.0 && seen.s < length) {
+                Relation::Apart
+            } else if distance < TOGETHER.0 && along > TOGETHER.1 {
+                Relation::Together
+            } else {
+                Relation::Across
+            };
         result.push((relation, s, seen.s));
     }
     result

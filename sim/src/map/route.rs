@@ -141,7 +141,12 @@ impl Route {
         let pose = self.path.pose_at(s);
         let (left, right) = self.half_widths_at(s);
         let (left, right) = (pose.ahead(0.0, left), pose.ahead(0.0, -right));
-        CrossSection { x: pose.at.x, y: pose.at.y, left: [left.x, left.y], right: [right.x, right.y] }
+        CrossSection {
+            x: pose.at.x,
+            y: pose.at.y,
+            left: [left.x, left.y],
+            right: [right.x, right.y],
+        }
     }
 
     /// Cross sections of the corridor from one arc length to another, m, in driving order and evenly at
@@ -156,9 +161,15 @@ impl Route {
             (from.clamp(0.0, length), to.clamp(0.0, length))
         };
         let pieces = ((to - from) / 2.0).round().max(1.0);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of some hundreds")]
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a count of some hundreds"
+        )]
         let count = pieces as u32;
-        (0..=count).map(|i| self.cross_section(from + (to - from) * f64::from(i) / pieces)).collect()
+        (0..=count)
+            .map(|i| self.cross_section(from + (to - from) * f64::from(i) / pieces))
+            .collect()
     }
 
     /// Whether a whole rectangle lies inside the corridor; its place on the route is looked for around `s`.
@@ -206,6 +217,7 @@ impl Route {
 /// The corners of a rectangle: front left, rear left, rear right, front right.
 pub fn corners(rectangle: &Rectangle) -> [Point; 4] {
     let Rectangle { pose, length, width } = rectangle;
-    let at = |pose: &Pose, ahead: f64, left: f64| pose.ahead(ahead * length / 2.0, left * width / 2.0);
+    let at =
+        |pose: &Pose, ahead: f64, left: f64| pose.ahead(ahead * length / 2.0, left * width / 2.0);
     [at(pose, 1.0, 1.0), at(pose, -1.0, 1.0), at(pose, -1.0, -1.0), at(pose, 1.0, -1.0)]
 }

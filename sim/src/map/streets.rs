@@ -62,7 +62,8 @@ type Node = (usize, usize);
 /// The town. Routes are the ways of the ego, those of others, the straight ways, and those across the
 /// crossings, either direction.
 pub fn town() -> Town {
-    let mut ways: Vec<Vec<Node>> = WAYS.iter().map(|way| way.split(' ').map(node).collect()).collect();
+    let mut ways: Vec<Vec<Node>> =
+        WAYS.iter().map(|way| way.split(' ').map(node).collect()).collect();
     for line in 1..=3 {
         let row: Vec<Node> = (0..5).map(|column| (column, line)).collect();
         let column: Vec<Node> = (0..5).map(|row| (line, row)).collect();
@@ -75,14 +76,16 @@ pub fn town() -> Town {
     for (route, (start, target)) in routes.iter_mut().zip(TASKS) {
         route.set_task(start, target);
     }
-    let crossings = CROSSINGS.iter().flat_map(|&(a, b, bicycles)| across(node(a), node(b), bicycles));
+    let crossings =
+        CROSSINGS.iter().flat_map(|&(a, b, bicycles)| across(node(a), node(b), bicycles));
     let mut places = Vec::new();
     for (route, width) in crossings {
         places.push(Crossing { route: routes.len(), width });
         routes.push(route);
     }
     let phase = |green_from| Program { green_from, green: 14.0, yellow: 3.0, cycle: 40.0 };
-    let mut town = Town { lanes: lanes(), crossings: places, routes, signals: vec![phase(0.0), phase(20.0)] };
+    let mut town =
+        Town { lanes: lanes(), crossings: places, routes, signals: vec![phase(0.0), phase(20.0)] };
     conflicts::compute(&mut town);
     town
 }
@@ -125,7 +128,11 @@ fn leg(from: Node, to: Node) -> Vec<Point> {
     });
     let turn = core::f64::consts::TAU / (end - start);
     let pieces = (end - start).round();
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a leg is some 100 m long")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a leg is some 100 m long"
+    )]
     let count = pieces as u32;
     (0..=count)
         .map(|index| {
@@ -151,7 +158,9 @@ fn turn(from: Pose, to: Pose) -> Vec<Point> {
             let v = 1.0 - u;
             let weights = [v * v * v, 3.0 * v * v * u, 3.0 * v * u * u, u * u * u];
             let points = [from.at, b, c, to.at];
-            let sum = |part: fn(&Point) -> f64| weights.iter().zip(&points).map(|(w, p)| w * part(p)).sum();
+            let sum = |part: fn(&Point) -> f64| {
+                weights.iter().zip(&points).map(|(w, p)| w * part(p)).sum()
+            };
             Point::new(sum(|p| p.x), sum(|p| p.y))
         })
         .collect()
@@ -212,7 +221,8 @@ fn across(from: Node, to: Node, bicycles: bool) -> Vec<(Route, f64)> {
     let whole = a.distance(b);
     let middle = Point::new(f64::midpoint(a.x, b.x), f64::midpoint(a.y, b.y));
     let pose = Pose { at: middle, cos: (b.x - a.x) / whole, sin: (b.y - a.y) / whole };
-    let (kind, speed, width) = if bicycles { (RouteKind::Cycle, 4.0, 3.0) } else { (RouteKind::Foot, 1.4, 4.0) };
+    let (kind, speed, width) =
+        if bicycles { (RouteKind::Cycle, 4.0, 3.0) } else { (RouteKind::Foot, 1.4, 4.0) };
     let name = format!("across {}{}-{}{}", from.0, from.1, to.0, to.1);
     [1.0, -1.0]
         .into_iter()
@@ -230,7 +240,8 @@ fn lanes() -> Vec<Lane> {
     let mut lanes = Vec::new();
     for line_of in 1..=3 {
         for step in 0..4 {
-            let pairs = [((step, line_of), (step + 1, line_of)), ((line_of, step), (line_of, step + 1))];
+            let pairs =
+                [((step, line_of), (step + 1, line_of)), ((line_of, step), (line_of, step + 1))];
             for (from, to) in pairs {
                 lanes.push(Lane { path: line(leg(from, to)), width: LANE });
                 lanes.push(Lane { path: line(leg(to, from)), width: LANE });

@@ -7,7 +7,7 @@
 use crate::map::conflicts::light;
 use crate::map::route::{Conflict, Passage};
 use crate::map::{Light, Town};
-use crate::traffic::{Agent, Kind};
+use crate::traffic::agent::{Agent, Kind};
 
 /// Who comes later than this after the passage is clear need not be waited for, s.
 const AFTER: f64 = 1.0;
@@ -20,12 +20,7 @@ const A_SIGNAL: f64 = 3.0;
 /// Above this deceleration an agent cannot be asked to wait, m/s^2.
 const A_FORCED: f64 = 4.0;
 
-/// From here on an agent asks for the passage ahead, and brakes for it: comfortably, m.
-pub fn request_distance(agent: &Agent) -> f64 {
-    agent.speed + agent.speed * agent.speed / 3.0 + 6.0
-}
-
-/// Grants what can be granted at a time, s, and returns how many took what was not.
+/// Grants what can be granted at a time, s (`lights`: on the signals' clock), and returns how many took what was not.
 pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
     let mut forced = 0;
     for agent in agents.iter_mut() {
@@ -49,11 +44,12 @@ pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
 /// Whether an agent is near enough to a passage that it was not granted.
 fn asks(agent: &Agent, town: &Town) -> bool {
     let next = town.routes[agent.route].passages.get(agent.granted);
-    agent.on_route && next.is_some_and(|passage| passage.from - agent.front() < request_distance(agent))
+    agent.on_route
+        && next.is_some_and(|passage| passage.from - agent.front() < agent.request_distance())
 }
 
 /// Takes a grant back while the signal is not green and there is room; gives one that was taken.
-fn revoke_or_force(agent: &mut Agent, town: &Town, time: f64) -> bool {
+fn revoke_or_force(agent: &mut Agent, town: &Town, lights: f64) -> bool {
     let passages = &town.routes[agent.route].passages;
     let square = agent.speed * agent.speed / 2.0;
     if !agent.on_route {
@@ -63,7 +59,7 @@ fn revoke_or_force(agent: &mut Agent, town: &Town, time: f64) -> bool {
     if agent.granted > agent.cleared {
         let last = &passages[agent.granted - 1];
         let room = last.from - agent.front();
-        if room > square / A_SIGNAL + 1.0 && light(town, last, time) != Light::Green {
+        if room > square / A_SIGNAL + 1.0 && light(town, last, lights) != Light::Green {
             agent.granted -= 1;
         }
     }
@@ -81,7 +77,10 @@ fn may_enter(agents: &[Agent], index: usize, town: &Town, time: f64, lights: f64
     let me = &agents[index];
     let route = &town.routes[me.route];
     let passage = &route.passages[me.granted];
-    if light(town, passage, lights) != Light::Green || !is_next(agents, me, town, passage) || is_full(me, passage) {
+    if light(town, passage, lights) != Light::Green
+        || !is_next(agents, me, town, passage)
+        || is_full(me, passage)
+    {
         return false;
     }
     let clear = time_to(me, passage.to + me.rectangle.length - me.s);
@@ -93,7 +92,7 @@ fn may_enter(agents: &[Agent], index: usize, town: &Town, time: f64, lights: f64
                 return false;
             }
             !conflict.gives_way
-                || !comes_first(agents, other, town, conflict, (time, clear), lights)
+                || !comes_first(agents, other, town, conflict, clear, lights)
                 || is_patient(me, other, time)
         })
     })
@@ -112,7 +111,7 @@ fn comes_first(
     other: &Agent,
     town: &Town,
     conflict: &Conflict,
-    (_, clear): (f64, f64),
+    clear: f64,
     lights: f64,
 ) -> bool {
     if other.granted != conflict.their_passage {
@@ -120,7 +119,10 @@ fn comes_first(
     }
     let passage = &town.routes[other.route].passages[other.granted];
     let room = passage.from - other.front();
-    if light(town, passage, lights) == Light::Red || is_full(other, passage) || !is_next(agents, other, town, passage) {
+    if light(town, passage, lights) == Light::Red
+        || is_full(other, passage)
+        || !is_next(agents, other, town, passage)
+    {
         return false;
     }
     if room < 4.0 && other.speed < 1.0 {
@@ -139,7 +141,9 @@ fn is_patient(me: &Agent, other: &Agent, time: f64) -> bool {
 
 /// Whether nobody waits between an agent and a passage.
 fn is_next(agents: &[Agent], me: &Agent, town: &Town, passage: &Passage) -> bool {
-    let Some(ahead) = me.ahead.filter(|ahead| ahead.gap < passage.from - me.front()) else { return true };
+    let Some(ahead) = me.ahead.filter(|ahead| ahead.gap < passage.from - me.front()) else {
+        return true;
+    };
     let other = &agents[ahead.index];
     let next = &town.routes[other.route].passages;
     let entered = next.iter().filter(|p| p.from < other.front()).count();
@@ -149,7 +153,9 @@ fn is_next(agents: &[Agent], me: &Agent, town: &Town, passage: &Passage) -> bool
 /// Whether there would be no room behind a passage: who is ahead stands in it or just behind.
 fn is_full(me: &Agent, passage: &Passage) -> bool {
     let needed = passage.to - me.front() + me.rectangle.length + 2.0;
-    me.ahead.is_some_and(|ahead| ahead.gap < needed && ahead.speed < 2.0 && ahead.gap > passage.from - me.front())
+    me.ahead.is_some_and(|ahead| {
+        ahead.gap < needed && ahead.speed < 2.0 && ahead.gap > passage.from - me.front()
+    })
 }
 
 /// Time for a way from now on, accelerating at the driver's ordinary rate, s.

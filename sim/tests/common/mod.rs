@@ -1,14 +1,13 @@
 //! A stand-in for the ego's services: it sees everything, follows its route and keeps its distance.
 #![allow(dead_code, reason = "each test uses a part")]
 
-use mufasa_sim::map::Town;
 use mufasa_sim::traffic::ahead;
 use mufasa_sim::traffic::idm::Idm;
 use mufasa_sim::vehicle::Command;
 use mufasa_sim::world::World;
 
 /// Steering that leads the rear axle to a point of the route ahead, and the driver model.
-pub fn drive(town: &Town, world: &World) -> Command {
+pub fn drive(world: &World) -> Command {
     let snapshot = world.snapshot();
     let route = world.route();
     let ego = snapshot.ego;
@@ -18,8 +17,6 @@ pub fn drive(town: &Town, world: &World) -> Command {
     let steering = libm::atan(world.body().wheelbase * 2.0 * y / (x * x + y * y));
     let driver = Idm { v0: route.pace_at(ego.s), ..Idm::default() };
     let mut acceleration = driver.free(ego.speed);
-    let index = town.routes.iter().position(|r| core::ptr::eq(r, route)).unwrap();
-    assert!(town.routes[index].task.is_some());
     if let Some(ahead) = ahead::nearest(world.agents(), 0, route, 80.0) {
         acceleration = acceleration.min(driver.behind(ego.speed, ahead.gap, ahead.speed));
     }
