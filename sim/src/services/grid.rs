@@ -174,16 +174,28 @@ impl OccupancyMap {
         };
         let (step_x, mut next_x, between_x) = axis(from.x, ray.cos, at[0]);
         let (step_y, mut next_y, between_y) = axis(from.y, ray.sin, at[1]);
+        // By index: this is most of the work of a map.
+        let (cells, Some(mut cell)) = (index(self.settings.cells), self.at(at)) else { return };
+        let row_of = if step_y > 0 {
+            self.settings.cells.cast_signed()
+        } else {
+            -self.settings.cells.cast_signed()
+        };
+        (at[0], at[1]) = (at[0] - self.first[0], at[1] - self.first[1]);
         loop {
-            let Some(cell) = self.at(at) else { return };
             self.observed[cell] = Observed::Free;
             if next_x.min(next_y) >= ray.distance {
                 return;
             }
             if next_x < next_y {
                 (at[0], next_x) = (at[0] + step_x, next_x + between_x);
+                cell = cell.wrapping_add_signed(if step_x > 0 { 1 } else { -1 });
             } else {
                 (at[1], next_y) = (at[1] + step_y, next_y + between_y);
+                cell = cell.wrapping_add_signed(row_of);
+            }
+            if !(0..cells).contains(&at[0]) || !(0..cells).contains(&at[1]) {
+                return;
             }
         }
     }
@@ -192,7 +204,7 @@ impl OccupancyMap {
     fn learn(&mut self) {
         let Settings { hit, free, most, .. } = self.settings;
         for (log_odds, observed) in self.log_odds.iter_mut().zip(&self.observed) {
-            let faded = *log_odds - *log_odds / 16;
+            let faded = *log_odds - (*log_odds >> 4);
             let learnt = match observed {
                 Observed::Nothing => faded,
                 Observed::Free => faded - free,
@@ -222,21 +234,23 @@ impl OccupancyMap {
 
     fn bitmaps(&self, stamp_ns: i64) -> OwnedGrid {
         let Settings { resolution, cells, occupied, unknown, .. } = self.settings;
-        let packed = |is: &dyn Fn(i16) -> bool| {
-            let byte = |cells: &[i16]| {
-                (0..).zip(cells).fold(0, |byte, (bit, &cell)| byte | u8::from(is(cell)) << bit)
-            };
-            self.log_odds.chunks(8).map(byte).collect()
-        };
         let [column, row] = self.first;
         OwnedGrid {
             stamp_ns,
             corner: Point::new(real(column) * resolution, real(row) * resolution),
             resolution,
             cells: index(cells),
-            occupied: packed(&|cell| cell > occupied),
-            unknown: packed(&|cell| cell.abs() <= unknown),
+            occupied: self.packed(|cell| cell > occupied),
+            unknown: self.packed(|cell| cell.abs() <= unknown),
         }
+    }
+
+    /// One bit for each cell.
+    fn packed(&self, is: impl Fn(i16) -> bool) -> Vec<u8> {
+        let byte = |cells: &[i16]| {
+            (0..).zip(cells).fold(0, |byte, (bit, &cell)| byte | u8::from(is(cell)) << bit)
+        };
+        self.log_odds.chunks(8).map(byte).collect()
     }
 
     /// Column of an x coordinate, or row of a y coordinate.

@@ -192,3 +192,15 @@ fn the_lead_is_the_nearest_vehicle_in_the_lane_bumper_to_bumper() {
     assert_eq!(lead(&[beside]), None);
     assert_eq!(lead(&[car(5, at(5.0, 0.0), 0.0)]).map(|lead| lead.gap), Some(0.0));
 }
+
+#[test]
+fn what_lies_across_the_seam_of_the_angles_is_met_from_both_ends() {
+    let met = |x: f64| {
+        let objects = [car(1, at(x, 0.0), 0.0)];
+        let scene = Scene { objects: &objects, walls: &[] };
+        let scan = Sweep::new(60.0, TAU, 720).scan(&scene, ORIGIN, None);
+        scan.rays.iter().filter(|ray| ray.met != Met::Nothing).count()
+    };
+    assert!(met(20.0) > 8);
+    assert_eq!(met(20.0), met(-20.0));
+}

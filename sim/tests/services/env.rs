@@ -72,16 +72,15 @@ fn who_crosses_does_so_when_and_where_it_goes_straight_on() {
 }
 
 #[test]
-fn who_cuts_in_leads_and_who_comes_towards_us_beside_a_bend_is_nobody_for_longer_than_two_seconds()
-{
+fn who_cuts_in_leads_and_who_comes_towards_us_counts_as_far_as_stage_iii_looks() {
     let path = straight();
     let cutting = track(1, 30.0, -3.5, 0.2, 8.0);
     let model = drive(&path).environment(&[cutting]);
     assert!(model.lead.is_some() && model.crossings.is_empty());
-    // Towards us, into our lane in 1.5 s, and in 3 s.
-    let towards = |seconds: f64| track(1, 60.0, 2.6 + 2.0 * seconds, PI + 0.2, 10.0);
-    assert_eq!(drive(&path).environment(&[towards(1.0)]).crossings.len(), 1);
-    assert_eq!(drive(&path).environment(&[towards(3.0)]).crossings.len(), 0);
+    // Towards us and into our lane, 10 m ahead and 60 m ahead of the front: s_CAV is 18 m.
+    let towards = |ahead: f64| track(1, 13.8 + ahead + 14.0, 4.5, PI + 0.2, 10.0);
+    assert_eq!(drive(&path).environment(&[towards(10.0)]).crossings.len(), 1);
+    assert_eq!(drive(&path).environment(&[towards(60.0)]).crossings.len(), 0);
 }
 
 #[test]

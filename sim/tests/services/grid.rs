@@ -121,3 +121,25 @@ fn what_moves_away_is_free_two_scans_later_and_places_stay_when_the_map_moves() 
         assert_eq!(cell(&grid, 12.0, 7.15), OCCUPIED, "{cycle}");
     }
 }
+
+#[test]
+fn what_is_known_stays_in_its_place_when_the_map_moves_any_way() {
+    for (x, y) in [(3.0, 0.0), (-3.0, 0.0), (0.0, 4.0), (0.0, -4.0), (2.6, -7.3)] {
+        let mut map = OccupancyMap::new(Settings::default());
+        let object = car(1, Pose::new(Point::new(12.0, 8.0), 0.0), 0.0);
+        for _ in 0..3 {
+            update(&mut map, Pose::new(Point::default(), 0.0), &[object]);
+        }
+        // A scan that sees hardly anything: one ray.
+        let pose = Pose::new(Point::new(x, y), 0.0);
+        let scan = Sweep::new(5.0, 0.1, 1).scan(&Scene { objects: &[], walls: &[] }, pose, None);
+        let grid = map.update(8, &ego_at(pose, 0.0), &scan);
+        let grid = grid.borrow(true);
+        assert_eq!(cell(&grid, 12.0, 7.15), OCCUPIED, "{x} {y}");
+        assert_eq!(cell(&grid, 12.0, 5.5), FREE, "{x} {y}");
+        // Far from the vehicle, then beyond the map.
+        let beyond = [28.6 * x.signum(), 28.6 * y.signum()];
+        let new = Point::new(pose.at.x + beyond[0], pose.at.y + beyond[1]);
+        assert_eq!(cell(&grid, new.x, new.y), UNKNOWN, "{x} {y}");
+    }
+}

@@ -1,9 +1,13 @@
 //! Tracks: how near they come to the truth, and when they begin and end.
 
 use core::f64::consts::PI;
+use std::collections::BTreeSet;
 
 use mufasa::input::cycle::{Detection, Track};
+use mufasa_sim::pose::Point;
 use mufasa_sim::services::detectors::random::Draws;
+use mufasa_sim::services::mot::assignment::assigned;
+use mufasa_sim::services::mot::kalman::Filter;
 use mufasa_sim::services::mot::{Settings, Tracker};
 
 const STEP_NS: i64 = 50_000_000;
@@ -123,7 +127,7 @@ fn clutter_rarely_begins_a_track() {
 fn ids_are_bytes_and_no_two_tracks_share_one() {
     let mut tracker = Tracker::new(Settings::default());
     let mut draws = Draws::new([6; 4]);
-    let mut all = std::collections::BTreeSet::new();
+    let mut all = BTreeSet::new();
     for cycle in 0..400 {
         // 150 objects, each for a while: more than there are tracks, and in the end more than ids.
         let first = cycle / 20 * 10;
@@ -134,7 +138,7 @@ fn ids_are_bytes_and_no_two_tracks_share_one() {
             .collect();
         let tracks = run(&mut tracker, cycle, &detections);
         assert!(tracks.len() <= 128 && (cycle < 3 || tracks.len() > 100), "{}", tracks.len());
-        let ids: std::collections::BTreeSet<_> = tracks.iter().map(|track| track.id).collect();
+        let ids: BTreeSet<_> = tracks.iter().map(|track| track.id).collect();
         assert_eq!(ids.len(), tracks.len());
         assert!(ids.iter().all(|id| (0..256).contains(id)));
         all.extend(ids);
@@ -156,4 +160,20 @@ fn old_detections_are_not_used_and_a_reset_forgets() {
     assert_eq!(before.len(), 1);
     tracker.reset();
     assert_eq!(tracker.tracks(0), []);
+}
+
+#[test]
+fn of_two_that_want_the_same_detections_each_gets_what_is_best_for_both() {
+    let expected = |x| Filter::new(Point::new(x, 0.0), 0.5, 1.0).expected(0.05);
+    let tracks = [expected(0.0), expected(1.0)];
+    let mut free: BTreeSet<usize> = [0, 1].into();
+    // The nearest of the second track is that of the first, too; crosswise would be worse.
+    let detections = [Point::new(1.4, 0.0), Point::new(0.6, 0.0)];
+    assert_eq!(assigned(&tracks, &detections, &mut free, 13.8), [Some(1), Some(0)]);
+    assert!(free.is_empty());
+    // One detection for two: one of them stays without, and a second one out of reach is left.
+    let mut free: BTreeSet<usize> = [0, 1].into();
+    let detections = [Point::new(0.9, 0.0), Point::new(9.0, 0.0)];
+    assert_eq!(assigned(&tracks, &detections, &mut free, 13.8), [None, Some(0)]);
+    assert_eq!(free, [1].into());
 }

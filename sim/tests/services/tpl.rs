@@ -197,3 +197,13 @@ fn a_plan_begins_at_the_ego_and_at_standstill_stays_there() {
     let points = drive.plan(&[]);
     assert!(points.iter().all(|point| (point.x, point.y) == (50.0, 0.2)));
 }
+
+#[test]
+fn past_a_line_that_it_cannot_stop_at_it_brakes_as_hard_as_it_can() {
+    let path = straight();
+    let mut drive = Drive::new(&path, at(50.0, 0.0), 10.0);
+    drive.stops = vec![50.0 + 3.8 + 0.5];
+    let points = drive.plan(&[]);
+    // 10 m/s with 8 m/s2: 6.25 m.
+    assert!((points[50].x - 56.25).abs() < 0.3, "{}", points[50].x);
+}

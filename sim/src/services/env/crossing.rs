@@ -10,30 +10,29 @@ use crate::services::way::ahead_of;
 /// Looked ahead so far, s, in steps of ...
 const HORIZON_S: f64 = 5.0;
 const STEP_S: f64 = 0.25;
-/// For one that comes towards us beside our lane, s: longer, any bend would bring it onto ours.
-const ONCOMING_S: f64 = 2.0;
 
-/// When and where a moving track is within `half_width`, m, of the path.
+/// When and where a moving track is within `half_width`, m, of the path. One that comes towards us counts
+/// only on the next `oncoming`, m, of it: farther on, any bend would bring it onto our lane.
 pub(super) fn will_cross(
     path: &Path,
     track: &Track,
     placed: &Placed,
     s: f64,
     half_width: f64,
+    oncoming: f64,
 ) -> Option<Crossing> {
-    let oncoming = placed.along < -placed.across.abs();
-    let horizon = if oncoming { ONCOMING_S } else { HORIZON_S };
+    let farthest = if placed.along < -placed.across.abs() { oncoming } else { f64::INFINITY };
     let speed = Point::default().distance(Point::new(track.vx, track.vy));
     let reach = speed * STEP_S + 3.0;
     let mut found: Option<Crossing> = None;
     let (mut at_s, mut t) = (s, 0.0);
-    while t <= horizon {
+    while t <= HORIZON_S {
         let at = Point::new(track.x + track.vx * t, track.y + track.vy * t);
         let middle = path.project_within(at, at_s - reach, at_s + reach);
         let moved = ahead_of(path, s, middle.s);
         let [half_length, half_across] = half_sizes(path, track, middle.s);
-        if middle.left.abs() <= half_across + half_width {
-            let ahead = placed.ahead + moved;
+        let ahead = placed.ahead + moved;
+        if middle.left.abs() <= half_across + half_width && ahead - half_length <= farthest {
             let [near, far] = [ahead - half_length, ahead + half_length];
             let before =
                 found.unwrap_or(Crossing { id: track.id, time: [t, t], ways: [near, far] });

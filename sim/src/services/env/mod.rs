@@ -2,8 +2,8 @@
 //!
 //! A stand-in for the paper's environment model: tracks in coordinates of the path, the leading vehicle,
 //! and those who will cross. It cannot show intentions: everybody goes on straight on, so that an oncoming
-//! vehicle in a bend would be expected on our lane (it is looked at for 2 s only), and one that is about to
-//! turn is not seen to.
+//! vehicle in a bend is expected on our lane (it is looked for on the next metres only, as far as stage iii
+//! looks), and one that is about to turn is not seen to.
 
 mod crossing;
 pub mod model;
@@ -41,6 +41,10 @@ const CROSSING_MARGIN_M: f64 = 0.5;
 const NEAR_M: f64 = 6.0;
 /// Slower than this, m/s, an object stands.
 const STANDING_MPS: f64 = 0.5;
+/// Who comes towards us is looked for as far as `s_CAV` (`spec/3-stages.md#distances`), s at the present
+/// speed, and this way, m: stage iii would find it there.
+const SAFETY_TIME_S: f64 = 1.8;
+const ONCOMING_M: f64 = 4.0;
 /// Who will be in front of us within this time, s, leads already.
 const CUT_IN_S: f64 = 2.0;
 
@@ -97,7 +101,9 @@ impl Environment {
             return;
         }
         let half_width = ego.width / 2.0 + CROSSING_MARGIN_M;
-        let Some(crossing) = will_cross(path, track, &placed, middle.s, half_width) else {
+        let oncoming = front + SAFETY_TIME_S * ego.speed + ONCOMING_M;
+        let Some(crossing) = will_cross(path, track, &placed, middle.s, half_width, oncoming)
+        else {
             return;
         };
         let cuts_in = !goes_across && placed.along > 0.0;
