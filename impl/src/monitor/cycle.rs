@@ -8,7 +8,7 @@ use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
-use crate::offloading::requester::{Actions, Event, EventKind, Running, Sessions, Source};
+use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
 use crate::report::{InvalidInput, Problem, Report};
 use crate::services::configuration::{Configuration, Group};
 use crate::stages::check_with;
@@ -121,6 +121,14 @@ impl Monitor<'_> {
 
         let max_age_ns = self.settings.stages.max_age_ns;
         let current = |stamp_ns| is_current(stamp_ns, now_ns, max_age_ns);
+        let has_current = |group| match group {
+            Group::Mot => tracks.is_some_and(|list| current(list.stamp_ns)),
+            Group::Plan => trajectory.is_some_and(|it| current(it.stamp_ns)),
+        };
+        for group in Group::ALL {
+            let dt_max_ns = self.settings.requester.dt_max_ns;
+            self.served.get_mut(group).cycle(now_ns, has_current(group), dt_max_ns);
+        }
         let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
         let trajectory = trajectory.filter(|it| is_checked && current(it.stamp_ns));
@@ -130,7 +138,7 @@ impl Monitor<'_> {
             plan: named(trajectory.is_some(), plan).map(|running| running.session),
         };
         let kind = EventKind::Verdict { safe: is_safe, sessions };
-        let actions = self.requester.step(&Event { t_ns: now_ns, kind }).unwrap_or(Actions::NONE);
+        let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
         match report {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);

@@ -78,7 +78,7 @@ impl Monitor<'_> {
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
-    /// with a stamp at most `max_age_ns` old.
+    /// with a stamp at most `max_age_ns` old, while cycles find what is current.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn tracks<L: AsRef<[Track]>>(
@@ -90,7 +90,7 @@ impl Monitor<'_> {
     }
 
     /// A trajectory arrives. Used is what is of the running session of PLAN, in time, newer than
-    /// the last, and with a stamp at most `max_age_ns` old.
+    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn trajectory<L: AsRef<[TrajectoryPoint]>>(
@@ -111,11 +111,12 @@ impl Monitor<'_> {
         let generated_ns = generated.as_nanoseconds();
         let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
         // What is in time, but so old that no cycle can use it any more, is of no session, so that it is
-        // no arrival. What is stamped ahead may be for the next cycle.
+        // no arrival. What is stamped ahead may be for the next cycle, as long as cycles use any.
         let is_in_time = is_current(generated_ns, now_ns, self.settings.requester.l_max_ns);
         let max_age_ns = self.settings.stages.max_age_ns;
         let is_too_old = stamp_ns < now_ns && !is_current(stamp_ns, now_ns, max_age_ns);
-        let named = if is_in_time && is_too_old { NO_SESSION } else { session };
+        let is_useless = is_too_old || self.served.get(group).is_starved();
+        let named = if is_in_time && is_useless { NO_SESSION } else { session };
         let data = EventKind::Data { station, group, session: named, generated_ns };
         let actions = self.step(now, data)?;
         Ok(if actions.contains(&Action::Drop(group)) {
@@ -125,7 +126,12 @@ impl Monitor<'_> {
         })
     }
 
-    fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
-        self.requester.step(&Event { t_ns: now.as_nanoseconds(), kind })
+    pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
+        let t_ns = now.as_nanoseconds();
+        let actions = self.requester.step(&Event { t_ns, kind })?;
+        for group in Group::ALL {
+            self.served.get_mut(group).runs(t_ns, self.requester.session_of(group));
+        }
+        Ok(actions)
     }
 }

@@ -14,6 +14,7 @@ mod history;
 mod inputs;
 mod memory;
 mod route;
+mod served;
 mod settings;
 mod time;
 
@@ -27,9 +28,11 @@ pub use self::time::{Time, TimeError};
 use self::history::History;
 use self::memory::PLACES;
 use self::route::KeptRoute;
+use self::served::Served;
 use crate::input::cycle::Route;
 use crate::input::profile::Profile;
 use crate::input::scratch::{Column, Row};
+use crate::offloading::requester::per_group::PerGroup;
 use crate::offloading::requester::{Requester, Source, StationRecord, Suspended};
 use crate::report::InvalidInput;
 use crate::services::configuration::{Configuration, Group};
@@ -40,6 +43,7 @@ use crate::services::configuration::{Configuration, Group};
 pub struct Monitor<'a> {
     settings: Settings,
     requester: Requester<'a>,
+    served: PerGroup<Served>,
     history: History<'a>,
     route: KeptRoute<'a>,
     rows: &'a mut [Row],
@@ -74,6 +78,7 @@ impl<'a> Monitor<'a> {
         Ok(Self {
             settings,
             requester: requester(&settings, stations)?,
+            served: PerGroup::default(),
             history: History::new(detections, slots, capacity).ok_or(too_few)?,
             route: KeptRoute::new(cross_sections, blocks),
             rows,

@@ -12,7 +12,7 @@
 mod event;
 mod inspect;
 pub(crate) mod parameters;
-mod per_group;
+pub(crate) mod per_group;
 mod restore;
 mod slot;
 mod stations;

@@ -1,5 +1,7 @@
 //! Proves a claim on every path of its execution.
 
+mod side_by_side;
+
 use std::io;
 use std::time::{Duration, Instant};
 
@@ -59,7 +61,7 @@ impl Judgement {
 /// Proves a theorem and refutes its wrong variant. Errors are those of talking to the solver.
 pub fn judge(theorem: &Theorem) -> io::Result<Judgement> {
     let start = Instant::now();
-    let Proof { decision: claim, paths } = prove_claim(&theorem.claim)?;
+    let Proof { decision: claim, paths } = side_by_side::prove(theorem.claim)?;
     let control = prove_claim(&theorem.wrong.claim)?.decision;
     Ok(Judgement { claim, control, paths, time: start.elapsed() })
 }

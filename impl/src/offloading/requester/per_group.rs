@@ -4,24 +4,24 @@ use crate::services::configuration::Group;
 
 /// One value for each group.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(super) struct PerGroup<T> {
+pub(crate) struct PerGroup<T> {
     mot: T,
     plan: T,
 }
 
 impl<T> PerGroup<T> {
-    pub(super) const fn new(mot: T, plan: T) -> Self {
+    pub(crate) const fn new(mot: T, plan: T) -> Self {
         Self { mot, plan }
     }
 
-    pub(super) const fn get(&self, group: Group) -> &T {
+    pub(crate) const fn get(&self, group: Group) -> &T {
         match group {
             Group::Mot => &self.mot,
             Group::Plan => &self.plan,
         }
     }
 
-    pub(super) const fn get_mut(&mut self, group: Group) -> &mut T {
+    pub(crate) const fn get_mut(&mut self, group: Group) -> &mut T {
         match group {
             Group::Mot => &mut self.mot,
             Group::Plan => &mut self.plan,

@@ -6,7 +6,6 @@ use indicatif::ProgressBar;
 use mufasa_theorems::prove::{self as solve, Decision as Found, Judgement};
 use mufasa_theorems::theorem::{self, Theorem};
 
-use super::side_by_side;
 use crate::prove::claim::{Claim, EngineAnswer, Status};
 
 const ENGINE: &str = "z3";
@@ -26,17 +25,15 @@ pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> io::Result<Vec<Cla
     if !mufasa_z3::is_new_enough() {
         return Ok(claims);
     }
-    let answers = side_by_side(&claims, |line| {
-        let theorem = theorem::all().find(|theorem| theorem.id == line.id);
-        let answer = theorem.map(|theorem| solve::judge(theorem).map(|found| answer(&found)));
-        bar.inc(1);
+    // One after the other: the paths of each are on all cores.
+    let judged = |line: Claim| {
         bar.set_message(line.id.clone());
-        answer
-    });
-    let lines = claims.into_iter().zip(answers);
-    lines
-        .map(|(line, answer)| Ok(line.answered(answer.transpose()?.into_iter().collect())))
-        .collect()
+        let theorem = theorem::all().find(|theorem| theorem.id == line.id);
+        let found = theorem.map(solve::judge).transpose()?;
+        bar.inc(1);
+        Ok(line.answered(found.iter().map(answer).collect()))
+    };
+    claims.into_iter().map(judged).collect()
 }
 
 fn answer(judgement: &Judgement) -> EngineAnswer {
