@@ -14,7 +14,9 @@ fn main() {
     let town = town();
     let mut kinds: Vec<Option<Kind>> = vec![None];
     for name in arguments.iter().skip(2) {
-        kinds.extend(Kind::ALL.into_iter().filter(|it| it.name() == name || name == "all").map(Some));
+        kinds.extend(
+            Kind::ALL.into_iter().filter(|it| it.name() == name || name == "all").map(Some),
+        );
     }
     for kind in kinds {
         for variant in Variant::ALL {
@@ -23,16 +25,26 @@ fn main() {
                     let scenario = Scenario::draw(&town, route, vehicles, seed as u64);
                     let mut settings = Settings::new(variant, Groups::ALL, seed as u64);
                     if let Some(kind) = kind {
-                        settings.attacks = vec![Attack { kind, from: 5.0, until: 1e9, seed: seed as u64 }];
+                        settings.attacks =
+                            vec![Attack { kind, from: 5.0, until: 1e9, seed: seed as u64 }];
                     }
-                    let begun = std::time::Instant::now();
                     let it = run(&town, &scenario, &settings, &mut ()).expect("settings");
                     println!(
                         "{:16} {:9} route {route} seed {seed}: {:?} at {:.1} s with {:?}, least {:.2} m, \
-                         remote {:?} of {}, stages {:?} other {} false {} off {} in {:?}",
-                        kind.map_or("-", Kind::name), variant.name(), it.end, it.t, it.with,
-                        it.least_distance, it.offloaded, it.cycles, it.stages, it.other_failures,
-                        it.false_alarms, it.off_road, begun.elapsed()
+                         remote {:?} of {}, stages {:?} other {} false {} off {}",
+                        kind.map_or("-", Kind::name),
+                        variant.name(),
+                        it.end,
+                        it.t,
+                        it.with,
+                        it.least_distance,
+                        it.offloaded,
+                        it.cycles,
+                        it.stages,
+                        it.other_failures,
+                        it.false_alarms,
+                        it.off_road,
+                        begun.elapsed()
                     );
                 }
             }

@@ -54,7 +54,11 @@ impl Radio {
         if draws.share() < self.settings.loss {
             return;
         }
-        #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "milliseconds")]
+        #[expect(
+            clippy::cast_precision_loss,
+            clippy::cast_possible_truncation,
+            reason = "milliseconds"
+        )]
         let jitter_ns = (-libm::log(1.0 - draws.share()) * self.settings.jitter_ns as f64) as i64;
         let arrival_ns = now_ns + self.settings.least_ns + jitter_ns;
         self.on_the_way.insert((arrival_ns, self.sent), (to, bytes));

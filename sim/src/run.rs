@@ -26,8 +26,6 @@ pub const PERIOD_NS: i64 = 100_000_000;
 const DECIDES_NS: i64 = 40_000_000;
 /// Most detections of a list, and cross sections of a route.
 const MOST: (usize, usize) = (128, 2048);
-/// Standing for so long within the time limit is no failure of its own.
-const NEVER: f64 = f64::INFINITY;
 
 /// What a run is made of, beside town and scenario.
 #[derive(Clone, Debug)]
@@ -56,7 +54,8 @@ impl Settings {
     /// Without attacks: the paper's parameters, but `dt_max` of 150 ms, because at 10 Hz its 100 ms end
     /// every session at the first jitter.
     pub fn new(variant: Variant, offers: Groups, seed: u64) -> Self {
-        let requester = RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
+        let requester =
+            RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
         Self {
             variant,
             offers,
@@ -194,9 +193,11 @@ pub fn run(
         lent.memory(),
     )
     .map_err(RunError::Monitor)?;
-    let cross_sections = route.cross_sections(0.0, NEVER);
-    let corridor =
-        mufasa::input::cycle::Route { closed: route.path.is_closed(), cross_sections: &cross_sections };
+    let cross_sections = route.cross_sections(0.0, f64::INFINITY);
+    let corridor = mufasa::input::cycle::Route {
+        closed: route.path.is_closed(),
+        cross_sections: &cross_sections,
+    };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
     let mut cav = Cav::new(route, *world.body(), frame, noise, settings.areas, guard);

@@ -60,13 +60,22 @@ pub struct Station<'a> {
 
 impl<'a> Station<'a> {
     /// A station that offers these groups along a route.
-    pub fn new(route: &'a Route, frame: Frame, offers: Groups, (seed, errors): (u64, Errors)) -> Self {
+    pub fn new(
+        route: &'a Route,
+        frame: Frame,
+        offers: Groups,
+        (seed, errors): (u64, Errors),
+    ) -> Self {
         Self {
             route,
             frame,
             offers,
             provider: Provider::new(4, DEFAULT_LEASE_NS),
-            observer: Observer { seed: [seed, 3], detectors: sensors(route, errors), merge_radius: MERGE_M },
+            observer: Observer {
+                seed: [seed, 3],
+                detectors: sensors(route, errors),
+                merge_radius: MERGE_M,
+            },
             tracker: Tracker::new(Settings::default()),
             seen_by_cav: BTreeMap::new(),
             seen: None,
@@ -104,18 +113,26 @@ impl<'a> Station<'a> {
         match payload {
             Payload::Request { group, session } => {
                 let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Request { requester, group, session }, radio);
+                self.happens(
+                    now_ns,
+                    ProviderEventKind::Request { requester, group, session },
+                    radio,
+                );
             }
             Payload::Release { group, session } => {
                 let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Release { requester, group, session }, radio);
+                self.happens(
+                    now_ns,
+                    ProviderEventKind::Release { requester, group, session },
+                    radio,
+                );
             }
             Payload::Alive { group, session } => {
                 let group = bridge::group_from_impl(group);
                 self.happens(now_ns, ProviderEventKind::Heard { requester, group, session }, radio);
             }
             Payload::Detections { stamp_ns, ego, detections } => {
-                self.compute(now_ns, requester, stamp_ns, &ego, detections, attacker, radio);
+                self.compute(now_ns, requester, stamp_ns, &ego, &detections, attacker, radio);
             }
             Payload::State { .. }
             | Payload::Offer { .. }
@@ -135,7 +152,7 @@ impl<'a> Station<'a> {
         requester: i64,
         stamp_ns: i64,
         ego: &Ego,
-        detections: Vec<Detection>,
+        detections: &[Detection],
         attacker: &mut Attacker,
         radio: &mut Radio,
     ) {
@@ -144,17 +161,18 @@ impl<'a> Station<'a> {
         if sessions == [None, None] {
             return;
         }
-        self.reach = reach(ego, &detections);
-        let tracks = self.track(stamp_ns, detections.clone());
-        self.note(stamp_ns, &detections, &tracks);
+        self.reach = reach(ego, detections);
+        let tracks = self.track(stamp_ns, detections.to_vec());
+        self.note(stamp_ns, detections, &tracks);
         let plans = sessions[1].is_some();
         let believed = attacker.believed(stamp_ns, ego, &tracks);
-        let route = attacker.route(stamp_ns).unwrap_or(self.route);
+        let route = attacker.route().unwrap_or(self.route);
         let points = plans.then(|| self.plan(stamp_ns, ego, route, &believed));
-        let tracks = tracks.into_iter().filter(|it| self.can_be_checked(stamp_ns, ego, it)).collect();
+        let tracks =
+            tracks.into_iter().filter(|it| self.can_be_checked(stamp_ns, ego, it)).collect();
         let mut results = Results { stamp_ns, tracks, points: points.unwrap_or_default() };
         attacker.results(ego, &mut results);
-        let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns(stamp_ns);
+        let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns();
         let Results { stamp_ns, tracks, points } = results;
         attacker.saw(sessions);
         if let Some(session) = sessions[0] {
@@ -200,7 +218,13 @@ impl<'a> Station<'a> {
     }
 
     /// ENV and TPL.
-    fn plan(&mut self, stamp_ns: i64, ego: &Ego, route: &Route, tracks: &[Track]) -> Vec<TrajectoryPoint> {
+    fn plan(
+        &mut self,
+        stamp_ns: i64,
+        ego: &Ego,
+        route: &Route,
+        tracks: &[Track],
+    ) -> Vec<TrajectoryPoint> {
         self.executions[1] += 1;
         let list = TrackList { stamp_ns, items: tracks };
         let own = core::ptr::eq(route, self.route);

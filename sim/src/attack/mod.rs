@@ -201,7 +201,7 @@ impl<'a> Attacker<'a> {
     }
 
     /// The route on which it plans, if it is another.
-    pub fn route(&self, _stamp_ns: i64) -> Option<&'a Route> {
+    pub fn route(&self) -> Option<&'a Route> {
         self.elsewhere.filter(|_| self.does(Kind::MapReplaced))
     }
 
@@ -233,7 +233,7 @@ impl<'a> Attacker<'a> {
     }
 
     /// How much later everything is sent, ns.
-    pub fn delay_ns(&self, _stamp_ns: i64) -> i64 {
+    pub fn delay_ns(&self) -> i64 {
         if self.does(Kind::Delay) { DELAY_NS } else { 0 }
     }
 
@@ -262,7 +262,11 @@ impl<'a> Attacker<'a> {
         }
         if self.does(Kind::Flood) {
             for _ in 0..FLOOD / 2 {
-                send(&message(Payload::Tracks { session: 1 << 40, stamp_ns: now_ns, tracks: Vec::new() }));
+                send(&message(Payload::Tracks {
+                    session: 1 << 40,
+                    stamp_ns: now_ns,
+                    tracks: Vec::new(),
+                }));
             }
             for byte in 0..FLOOD / 2 {
                 radio.send(now_ns, To::Vehicle, vec![byte; 40]);

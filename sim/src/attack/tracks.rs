@@ -22,7 +22,13 @@ const LEAD_AHEAD: f64 = 15.0;
 const GHOST_ID: i64 = 240;
 
 /// Spoils the list, if this kind of attack does that.
-pub(super) fn spoil(attack: &Attack, truth: &Snapshot, stamp_ns: i64, ego: &Ego, list: &mut Vec<Track>) {
+pub(super) fn spoil(
+    attack: &Attack,
+    truth: &Snapshot,
+    stamp_ns: i64,
+    ego: &Ego,
+    list: &mut Vec<Track>,
+) {
     let mut draws = Draws::new([attack.seed, 7, 0, 0]);
     match attack.kind {
         Kind::Ghosts => {

@@ -56,7 +56,11 @@ fn go_on(ego: &Ego, points: &mut [TrajectoryPoint]) {
             at = pair[1];
             if rest <= length && length > 0.0 {
                 let share = rest / length;
-                at = TrajectoryPoint { x: pair[0].x + share * x, y: pair[0].y + share * y, ..pair[1] };
+                at = TrajectoryPoint {
+                    x: pair[0].x + share * x,
+                    y: pair[0].y + share * y,
+                    ..pair[1]
+                };
                 rest = 0.0;
                 break;
             }

@@ -5,7 +5,8 @@ use core::time::Duration;
 use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{
-    Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings, Time,
+    Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings,
+    Time,
 };
 use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
@@ -62,7 +63,6 @@ pub struct Guard<'a> {
 enum Kind<'a> {
     Plain {
         requester: Requester<'a>,
-        max_age_ns: i64,
         tracks: Option<Plain<Track>>,
         points: Option<Plain<TrajectoryPoint>>,
     },
@@ -125,8 +125,7 @@ impl<'a> Guard<'a> {
             Variant::Sofof => {
                 let requester = Requester::new(Profile::Paper, requester, table)
                     .map_err(MonitorError::Requester)?;
-                let max_age_ns = stages.max_age_ns;
-                let kind = Kind::Plain { requester, max_age_ns, tracks: None, points: None };
+                let kind = Kind::Plain { requester, tracks: None, points: None };
                 return Ok(Self { kind });
             }
             Variant::Paper => Profile::Paper,
@@ -195,13 +194,17 @@ impl<'a> Guard<'a> {
     /// Tracks arrive.
     ///
     /// Errors: a station below 1.
-    pub fn tracks(&mut self, t_ns: i64, message: Message<Vec<Track>>) -> Result<Vec<Action>, RequesterError> {
+    pub fn tracks(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<Track>>,
+    ) -> Result<Vec<Action>, RequesterError> {
         match &mut self.kind {
             Kind::Plain { requester, tracks, .. } => {
                 keep(requester, t_ns, Group::Mot, message, tracks)
             }
             Kind::Checked { monitor, tracks, .. } => {
-                accept(monitor.tracks(time(t_ns), message)?, tracks)
+                Ok(accept(monitor.tracks(time(t_ns), message)?, tracks))
             }
         }
     }
@@ -219,7 +222,7 @@ impl<'a> Guard<'a> {
                 keep(requester, t_ns, Group::Plan, message, points)
             }
             Kind::Checked { monitor, points, .. } => {
-                accept(monitor.trajectory(time(t_ns), message)?, points)
+                Ok(accept(monitor.trajectory(time(t_ns), message)?, points))
             }
         }
     }
@@ -227,13 +230,13 @@ impl<'a> Guard<'a> {
     /// Decides a cycle.
     pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Local<'_>) -> Decided {
         match &mut self.kind {
-            Kind::Plain { requester, max_age_ns, tracks, points } => {
-                unchecked(requester, t_ns, *max_age_ns, tracks.as_ref(), points.as_ref(), local)
+            Kind::Plain { requester, tracks, points } => {
+                unchecked(requester, t_ns, tracks.as_ref(), points.as_ref(), local)
             }
             Kind::Checked { monitor, tracks, points } => {
                 let inputs = inputs(t_ns, ego, sensed, local);
-                let inputs = tracks.iter().fold(inputs, |inputs, it| inputs.remote_tracks(it));
-                let inputs = points.iter().fold(inputs, |inputs, it| inputs.remote_trajectory(it));
+                let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);
+                let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
                 match monitor.cycle(&inputs) {
                     Decision::Safe { tracks, trajectory, report, actions } => Decided {
                         is_safe: true,
@@ -255,24 +258,20 @@ impl<'a> Guard<'a> {
     }
 }
 
-/// SOFOF: what came in time is used.
+/// SOFOF: what came last in time is used, however old it is by now.
 fn unchecked(
     requester: &mut Requester<'_>,
     t_ns: i64,
-    max_age_ns: i64,
     tracks: Option<&Plain<Track>>,
     points: Option<&Plain<TrajectoryPoint>>,
     local: Local<'_>,
 ) -> Decided {
     let session = |group| requester.session_of(group).map(|it| it.session);
     let [mot, plan] = Group::ALL.map(session);
-    let is_current = |stamp_ns: i64| (0..=max_age_ns).contains(&t_ns.saturating_sub(stamp_ns));
-    let used = |of: Option<i64>, by: Option<i64>, stamp_ns: Option<i64>| {
-        of.filter(|_| of == by && stamp_ns.is_some_and(is_current))
-    };
+    let used = |of: Option<i64>, by: Option<i64>| of.filter(|_| of == by);
     let sessions = Sessions {
-        mot: used(mot, tracks.map(|it| it.session), tracks.map(|it| it.stamp_ns)),
-        plan: used(plan, points.map(|it| it.session), points.map(|it| it.stamp_ns)),
+        mot: used(mot, tracks.map(|it| it.session)),
+        plan: used(plan, points.map(|it| it.session)),
     };
     let trajectory = match (plan, sessions.plan) {
         (Some(_), Some(_)) => points.map(|it| it.items.clone()),
@@ -282,7 +281,8 @@ fn unchecked(
     let kind = EventKind::Verdict { safe: true, sessions };
     let tracks = tracks.filter(|_| sessions.mot.is_some());
     let tracks = tracks.map(|it| (it.stamp_ns, it.items.clone()));
-    let actions = requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
+    let actions =
+        requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
     Decided { is_safe: true, report: None, trajectory, tracks, actions }
 }
 
@@ -303,16 +303,13 @@ fn keep<T>(
     Ok(actions)
 }
 
-fn accept<T>(
-    arrival: Arrival<Vec<T>>,
-    kept: &mut Option<Accepted<Vec<T>>>,
-) -> Result<Vec<Action>, RequesterError> {
+fn accept<T>(arrival: Arrival<Vec<T>>, kept: &mut Option<Accepted<Vec<T>>>) -> Vec<Action> {
     match arrival {
         Arrival::Accepted(element) => {
             *kept = Some(element);
-            Ok(Vec::new())
+            Vec::new()
         }
-        Arrival::Dropped(actions) => Ok(actions.to_vec()),
+        Arrival::Dropped(actions) => actions.to_vec(),
     }
 }
 

@@ -112,7 +112,10 @@ impl<'a> Cav<'a> {
                 self.send(now_ns, station, Payload::Alive { group, session }, radio);
             }
         }
-        if Group::ALL.into_iter().any(|it| matches!(self.guard.state(it), GroupState::Remote { .. })) {
+        if Group::ALL
+            .into_iter()
+            .any(|it| matches!(self.guard.state(it), GroupState::Remote { .. }))
+        {
             let ego = sensed.ego;
             self.send(now_ns, station::ID, Payload::State { stamp_ns: now_ns, ego }, radio);
             let detections = sensed.detections.clone();
@@ -161,7 +164,8 @@ impl<'a> Cav<'a> {
             }
             Payload::Trajectory { session, stamp_ns, points: items } => {
                 let stamp = time(stamp_ns);
-                self.guard.trajectory(now_ns, Received { station, session, generated, stamp, items })
+                self.guard
+                    .trajectory(now_ns, Received { station, session, generated, stamp, items })
             }
             Payload::Request { .. }
             | Payload::Release { .. }
@@ -187,10 +191,7 @@ impl<'a> Cav<'a> {
         let stops: Vec<f64> = truth.stops.iter().map(|stop| stop.s).collect();
         let list = TrackList { stamp_ns, items };
         let points = self.services.plan(now_ns, &ego, truth.ego.s, self.route, &stops, &list);
-        let local = Local {
-            tracks: own,
-            points: points.as_deref().map(|points| (now_ns, points)),
-        };
+        let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
         let mut decided = self.guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
         self.act(now_ns, &decided.actions, radio);

@@ -2,6 +2,7 @@
 
 use mufasa::input::cycle::{Detection, Ego};
 
+use crate::map::route::Route;
 use crate::pose::Pose;
 use crate::services::detectors::lead::{Front, MeasuredLead, measured_lead};
 use crate::services::detectors::random::Draws;
@@ -9,7 +10,6 @@ use crate::services::detectors::scan::Sweep;
 use crate::services::detectors::scene::{Scene, Seen};
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
 use crate::services::grid::{OccupancyMap, OwnedGrid, Settings};
-use crate::map::route::Route;
 use crate::snapshot::Snapshot;
 use crate::vehicle::Body;
 
@@ -54,7 +54,8 @@ impl Sensors {
         };
         let lidar = detector(body.middle, 60.0, full, 360);
         let radar = detector(body.middle + body.length / 2.0, 100.0, full / 6.0, 90);
-        let observer = Observer { seed: [seed, 1], detectors: vec![lidar, radar], merge_radius: 1.5 };
+        let observer =
+            Observer { seed: [seed, 1], detectors: vec![lidar, radar], merge_radius: 1.5 };
         Self { observer, map: OccupancyMap::new(Settings::default()), seed }
     }
 
