@@ -43,8 +43,7 @@ fn main() {
                         it.stages,
                         it.other_failures,
                         it.false_alarms,
-                        it.off_road,
-                        begun.elapsed()
+                        it.off_road
                     );
                 }
             }
