@@ -52,7 +52,8 @@ impl Bug {
 /// many random cases do; `None` for a run that is not clean, of drives, or with a tolerance.
 pub fn words(summary: &Summary) -> Option<String> {
     let campaign = &summary.campaign;
-    let is_clean = summary.classes.is_empty() && summary.is_complete() && summary.skipped == 0;
+    let is_whole = summary.is_complete() && summary.skipped + summary.vectors_skipped == 0;
+    let is_clean = summary.classes.is_empty() && is_whole;
     let is_plain = campaign.drives.is_empty() && campaign.tolerance.is_none();
     // It is a file of this package; a test reads it.
     let record = serde_json::from_str(RECORD).ok()?;
@@ -115,6 +116,8 @@ mod tests {
             asked: campaign.cases,
             campaign,
             shards: vec![0],
+            vectors_skipped: 0,
+            vectors_tolerated: 0,
             skipped: 0,
             tolerated: 0,
             late: 0,
@@ -240,6 +243,7 @@ mod tests {
         assert_eq!(words(&Summary { campaign: tolerant, ..clean() }), None);
         assert_eq!(words(&Summary { interrupted: true, ..clean() }), None);
         assert_eq!(words(&Summary { skipped: 1, ..clean() }), None);
+        assert_eq!(words(&Summary { vectors_skipped: 1, ..clean() }), None);
         assert_eq!(words(&Summary { shards: Vec::new(), ..clean() }), None);
     }
 }
