@@ -40,7 +40,7 @@ const PARAMETERS: [&str; 2] =
     [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
 
 /// Those with what C sees, in the order of the header.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "status",
     "version",
     "cycle",
@@ -54,6 +54,7 @@ const SOURCES: [&str; 13] = [
     "monitor/decision",
     "monitor/place",
     "monitor/calls",
+    "monitor/problem",
 ];
 
 #[test]

@@ -245,3 +245,53 @@ impl Files {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::value::RawValue;
+
+    use super::*;
+    use crate::judge::class::{Breach, Class, Scale};
+    use crate::judge::explain::Told;
+
+    fn printed(record: &str) -> String {
+        let class = Class {
+            kind: Kind::Cycle,
+            breach: Breach::Completeness,
+            place: String::from("i"),
+            profile: String::new(),
+            configuration: String::new(),
+            scale: Scale::Clear,
+        };
+        let told = Told { answered: String::new(), expected: String::new(), numbers: None };
+        let found = Found {
+            id: class.slug(),
+            class,
+            count: 1,
+            vectors: Vec::new(),
+            first: Some(0),
+            name: String::from("c-0"),
+            about: String::new(),
+            told,
+            shrunk: true,
+            before: Vec::new(),
+            size: 1,
+            unit: String::from("object"),
+            record: RawValue::from_string(record.to_owned()).expect("JSON"),
+        };
+        let mut out = Vec::new();
+        super::found(&found, &mut out).expect("written");
+        String::from_utf8(out).expect("text")
+    }
+
+    #[test]
+    fn a_margin_of_the_record_itself_is_said_and_no_other() {
+        let own = printed(r#"{"parameters": {"delta": 1e-8}}"#);
+        assert!(
+            own.contains("\n  delta    1e-8 m, the record's own margin (parameters.delta)\n"),
+            "{own}"
+        );
+        assert!(!printed(r#"{"parameters": {"theta_tr": 0.1}}"#).contains("delta"));
+        assert!(!printed(r#""no record""#).contains("delta"));
+    }
+}

@@ -2,7 +2,7 @@
 //! are in the field of view (stage i), and on which side of an edge of the corridor a point lies
 //! (stage ii). In doubles: this is a hint for a reader, and decides nothing.
 
-use mufasa_model::input::cycle::{CrossSection, Cycle};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
 use mufasa_model::report::{FailedStage, Reading, Stage};
 use mufasa_model::stages::check;
 
@@ -60,12 +60,10 @@ fn field_of_view(cycle: &Cycle) -> Vec<Candidate> {
     let r = detections.items.iter().map(|it| from_p(it.x, it.y)).fold(0.0, f64::max);
     // H-01 takes the place of a track where it has come to since its stamp.
     let dt_s = match cycle.profile {
-        mufasa_model::input::cycle::Profile::Paper => 0.0,
-        mufasa_model::input::cycle::Profile::Hardened => {
-            seconds(detections.stamp_ns) - seconds(tracks.stamp_ns)
-        }
+        Profile::Paper => 0.0,
+        Profile::Hardened => seconds(detections.stamp_ns) - seconds(tracks.stamp_ns),
     };
-    let candidate = |(at, track): (usize, &mufasa_model::input::cycle::Track)| {
+    let candidate = |(at, track): (usize, &Track)| {
         let (x, y) = (track.x + track.vx * dt_s, track.y + track.vy * dt_s);
         let distance = from_p(x, y);
         let what =
@@ -90,16 +88,29 @@ fn corridor(cycle: &Cycle) -> Vec<Candidate> {
     let mut candidates = Vec::new();
     for (side, name) in [(Side::Left, "left"), (Side::Right, "right")] {
         for (at, point) in points.iter().enumerate() {
-            let distance = distance(cycle, side, [point.x, point.y]);
+            let (distance, normal) = nearest_edge(cycle, side, [point.x, point.y]);
             let what = format!(
                 "whether point {at} is inside the {name} edge of the corridor, by its distance to it"
             );
-            let moved = across(distance).map(|by| {
+            // The edge where it can be moved as a whole, else the point.
+            let edge = |by| {
                 let mut cycle = cycle.clone();
                 cycle.route.cross_sections.iter_mut().for_each(|it| side.widen(it, by));
                 cycle
-            });
-            candidates.push((Edge { what, compared: [distance, 0.0] }, moved.to_vec()));
+            };
+            let point = |by: f64| {
+                let mut cycle = cycle.clone();
+                let points = cycle.trajectory.as_mut().map(|it| &mut it.points);
+                if let Some(point) = points.and_then(|it| it.get_mut(at)) {
+                    (point.x, point.y) = (point.x + by * normal[0], point.y + by * normal[1]);
+                }
+                cycle
+            };
+            let [out, back] = across(distance);
+            // A corridor without a width is met only exactly.
+            let ways = [out, back, distance, -distance].map(point);
+            let moved = [edge(out), edge(back)].into_iter().chain(ways).collect();
+            candidates.push((Edge { what, compared: [distance, 0.0] }, moved));
         }
     }
     candidates
@@ -138,19 +149,23 @@ impl Side {
     }
 }
 
-/// From a point to an edge of the corridor, m; infinite when there is none.
-fn distance(cycle: &Cycle, side: Side, [x, y]: [f64; 2]) -> f64 {
+/// From a point to an edge of the corridor, m, and the direction across the edge there; infinite when
+/// there is none.
+fn nearest_edge(cycle: &Cycle, side: Side, [x, y]: [f64; 2]) -> (f64, [f64; 2]) {
     let corners: Vec<[f64; 2]> = cycle.route.cross_sections.iter().map(|it| side.of(it)).collect();
     let closing = corners.last().zip(corners.first()).filter(|_| cycle.route.closed);
     let pairs = corners.windows(2).map(|pair| (pair[0], pair[1]));
     let to = |([ax, ay], [bx, by]): ([f64; 2], [f64; 2])| {
         let (dx, dy) = (bx - ax, by - ay);
-        let along = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy);
+        let square = dx * dx + dy * dy;
+        let along = ((x - ax) * dx + (y - ay) * dy) / square;
         // Of an edge without a length the corner.
         let along = if along > 0.0 { along.min(1.0) } else { 0.0 };
-        (x - ax - along * dx).hypot(y - ay - along * dy)
+        let distance = (x - ax - along * dx).hypot(y - ay - along * dy);
+        (distance, [-dy / square.sqrt(), dx / square.sqrt()])
     };
-    pairs.chain(closing.map(|(a, b)| (*a, *b))).map(to).fold(f64::INFINITY, f64::min)
+    let all = pairs.chain(closing.map(|(a, b)| (*a, *b))).map(to);
+    all.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, [0.0; 2]))
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a hint: some nanoseconds do not matter")]
@@ -224,5 +239,12 @@ mod tests {
         assert_eq!(named(2.0, II), Some(true));
         assert_eq!(named(2.1, None), None, "too far from it");
         assert_eq!(named(2.0, I), None, "it would not make stage i fail");
+        // An edge that cannot be widened: on both of its cross sections left is right.
+        let mut flat = with(1e-10);
+        flat.route
+            .cross_sections
+            .iter_mut()
+            .for_each(|it| (it.y, it.left[1], it.right[1]) = (9.0, 0.0, 0.0));
+        assert!(nearest(&flat, None).is_some_and(|it| it.what.contains("point 0")));
     }
 }
