@@ -1,4 +1,4 @@
-//! Why a message is of no use (`spec/5-interfaces.md#monitor.2`, `.8`).
+//! Why a message is of no use (`spec/5-interfaces.md#monitor.2`, `.5`, `.8`).
 
 use mufasa::input::cycle::Track;
 use mufasa::monitor::{Arrival, DropReason, Inputs, Message, Monitor, Time};

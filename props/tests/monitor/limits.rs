@@ -51,7 +51,7 @@ fn parameters_outside_of_their_domain_are_refused() {
     assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
 }
 
-/// `spec/5-interfaces.md#monitor.7`: milliseconds given for nanoseconds; 0 is no slip.
+/// `spec/5-interfaces.md#monitor.6`: milliseconds given for nanoseconds; 0 is no slip.
 #[test]
 fn times_below_a_millisecond_are_refused_and_zero_is_not() {
     let changes: [(&str, fn(&mut Settings, i64)); 6] = [

@@ -10,3 +10,4 @@ mod misuse;
 mod plain;
 mod restart;
 mod scene;
+mod stack;
