@@ -47,7 +47,7 @@ const CLOSED_PIPE: u8 = 141;
 ///
 /// Without a command: the demo.
 #[derive(Parser)]
-#[command(name = "mufasa", version, max_term_width = 100)]
+#[command(name = "mufasa", version = env!("MUFASA_VERSION"), max_term_width = 100)]
 struct Cli {
     /// Show no progress.
     #[arg(short, long, global = true, conflicts_with = "verbose")]

@@ -72,6 +72,24 @@ fn conform_says_what_a_program_reads_and_answers_and_where_it_stands() {
     }
 }
 
+/// In a checkout with git the commit, elsewhere the version alone.
+#[test]
+fn the_version_says_the_commit_of_a_checkout() {
+    let said = text(&output(&["--version"]).stdout);
+    let version = concat!("mufasa ", env!("CARGO_PKG_VERSION"));
+    let project = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let git = |arguments: &[&str]| {
+        let done = Command::new("git").args(["-C", project]).args(arguments).output().ok()?;
+        done.status.success().then(|| text(&done.stdout).trim().to_owned())
+    };
+    match git(&["rev-parse", "--short=10", "HEAD"]) {
+        Some(commit) if Path::new(project).join(".git").exists() => {
+            assert_eq!(said, format!("{version} (commit {commit})\n"));
+        }
+        _ => assert_eq!(said, format!("{version}\n")),
+    }
+}
+
 #[test]
 fn a_misspelled_parameter_gets_the_near_one() {
     let file = folder("parameters").join("p.toml");

@@ -18,6 +18,10 @@ struct Record {
     /// A number of what the generators gave when it was measured.
     #[cfg_attr(not(test), expect(dead_code, reason = "a test compares it"))]
     generators: String,
+    /// What it was measured with: commit, versions, day; of older records unknown.
+    #[serde(default)]
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the documents"))]
+    measured: Option<String>,
     /// Seeds tried with each bug.
     seeds: u64,
     /// Cases of each seed.
@@ -252,7 +256,7 @@ mod tests {
             bug("drawn", 0, &[Some(1), Some(100)]),
         ];
         let generators = String::new();
-        let record = Record { generators, seeds: 2, most: 1000, bugs };
+        let record = Record { generators, measured: None, seeds: 2, most: 1000, bugs };
         let say = |vectors, cases| {
             of_record(&record, &campaign("paper", &[Kind::Cycle], vectors, cases)).expect("words")
         };
