@@ -156,7 +156,7 @@ fn message<L>(session: i64, now: Time, stamp_ns: i64, items: L) -> Message<L> {
 fn accepted<'a, L: 'a>(arrival: Arrival<L>) -> &'a Accepted<L> {
     match arrival {
         Arrival::Accepted(element) => Box::leak(Box::new(element)),
-        Arrival::Dropped(actions) => panic!("{actions:?}"),
+        Arrival::Dropped { why, actions } => panic!("{why}: {actions:?}"),
     }
 }
 

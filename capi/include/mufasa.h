@@ -46,8 +46,8 @@
 #define MUFASA_MONITOR_ALIGN 8
 
 // What a function says about the call itself, not about the data of a cycle. Most are faults of the
-// calling program. A station can cause `MemoryTooSmall` (a list longer than the settings say), `TableFull`
-// and `InvalidStation`: then its message was ignored, and nothing else has changed.
+// calling program. A station can cause `TableFull` and `InvalidStation`: then its message was ignored, and
+// nothing else has changed.
 enum MufasaStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -61,7 +61,8 @@ enum MufasaStatus
   MUFASA_STATUS_MISALIGNED = 2,
   // A profile, configuration, group, set of groups or type of an event that does not exist.
   MUFASA_STATUS_UNKNOWN_VALUE = 3,
-  // The memory is smaller than the function that tells its size says.
+  // The memory is smaller than the function that tells its size says, a number of things that it is
+  // to hold is 0, or what was given is longer than that.
   MUFASA_STATUS_MEMORY_TOO_SMALL = 4,
   // The array for actions has fewer than MUFASA_MAX_ACTIONS places.
   MUFASA_STATUS_TOO_FEW_ACTIONS = 5,
@@ -81,6 +82,8 @@ enum MufasaStatus
   MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD = 12,
   // A value of the route is outside its domain.
   MUFASA_STATUS_INVALID_ROUTE = 13,
+  // A time above 0 and below 1 ms: it is taken for one in another unit than nanoseconds.
+  MUFASA_STATUS_TIME_TOO_SHORT = 14,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -347,6 +350,38 @@ typedef uint32_t MufasaConfiguration;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// Why a message of a station was dropped; of several reasons the first in this order.
+enum MufasaDropReason
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It was not dropped, or the call was about no message.
+  MUFASA_DROP_REASON_NONE = 0,
+  // It has more tracks or points than the settings say. It is no arrival: a station that goes on so is
+  // silent, and its session ends after dt_max.
+  MUFASA_DROP_REASON_TOO_LONG = 1,
+  // It is not of the running session of its group, or there is none.
+  MUFASA_DROP_REASON_OTHER_SESSION = 2,
+  // It was generated after it arrived: the clocks cannot be trusted. The session has ended.
+  MUFASA_DROP_REASON_FROM_THE_FUTURE = 3,
+  // Its latency is above l_max. The session has ended.
+  MUFASA_DROP_REASON_LATE = 4,
+  // Its stamp is more than max_age ago, so that no cycle can use it. It is no arrival.
+  MUFASA_DROP_REASON_TOO_OLD = 5,
+  // The time since the last arrival is above dt_max. The session has ended.
+  MUFASA_DROP_REASON_AFTER_SILENCE = 6,
+  // It is not generated later than the last one that was used: repeated, or overtaken.
+  MUFASA_DROP_REASON_NOT_NEWER = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum MufasaDropReason MufasaDropReason;
+#else
+typedef uint32_t MufasaDropReason;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
 enum MufasaProfile
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -432,46 +467,67 @@ typedef struct MufasaDetectionList {
 // Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaParameters {
   // Stage i: the mean distance of the assigned pairs has to be below this, m.
+  // Default: 0.2
   double theta_tr;
   // Stage ii: farthest a point outside the corridor may be from the reference path, m.
+  // Default: 0.3
   double theta_map;
   // Stages iii and iv: objects nearer than this are examined, m.
+  // Default: 5.0
   double theta_obj;
   // Braking deceleration, m/s^2.
+  // Default: 8.0
   double a_b;
   // Time of the safety distance required by law, s.
+  // Default: 1.8
   double safety_time;
   // Oldest age at which data count as current, ns; what is later than now is not current either.
+  // Default: 100_000_000
   int64_t max_age_ns;
   // Stage v: disks that cover the footprint.
+  // Default: 4
   int64_t n;
   // H-01: every assigned pair has to be closer than this, m.
+  // Default: 1.0
   double theta_track_max;
   // H-01: gated tracks that may stay without a detection.
+  // Default: 4
   int64_t miss_budget;
   // H-04: time before the CAV brakes, s.
+  // Default: 0.1
   double tau;
   // H-04, H-12: greatest acceleration of the CAV, m/s^2.
+  // Default: 3.0
   double a_max;
   // H-07, H-12: how far off the CAV a trajectory may start, m.
+  // Default: 2.0
   double start_tolerance;
   // H-12: how far a trajectory may lag behind a CAV that brakes at a_b, m.
+  // Default: 0.5
   double lag_tolerance;
   // H-11: greatest speed of a trajectory, m/s.
+  // Default: 150.0
   double v_max;
   // H-11: longest time between two trajectory points, ns.
+  // Default: 200_000_000
   int64_t step_max_ns;
   // Greatest error of the velocity of a track, m/s.
+  // Default: 2.0
   double theta_velocity;
   // H-07: how far aside of its first heading a trajectory may start, m.
+  // Default: 0.5
   double lateral_tolerance;
   // H-13: the greatest speed of an object that is looked for, m/s.
+  // Default: 70.0
   double v_object;
   // H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
+  // Default: 0.3
   double tau_motion;
   // Stage i fails rather than begin an assignment of more work than this.
+  // Default: 10_000_000_000
   int64_t work_limit;
   // Margin of the strict and the lax model, m; no verdict of this crate depends on it.
+  // Default: 1e-6
   double delta;
 } MufasaParameters;
 
@@ -515,7 +571,16 @@ typedef struct MufasaTrajectoryPoint {
   double sin;
 } MufasaTrajectoryPoint;
 
-// The planned trajectory.
+// The planned trajectory. Points are places of the reference point that MufasaEgo names.
+//
+// In the hardened profile stage ii asks of the points, over their whole length:
+// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
+//   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
+// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
+//   turn as a vehicle can (H-11);
+// * corridor: every point inside, none heading against the route (H-07);
+// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
+//   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
 typedef struct MufasaTrajectory {
   // Time of generation.
   int64_t stamp_ns;
@@ -686,14 +751,19 @@ typedef struct MufasaReport {
 // Parameters; names, defaults and domains as in spec/.
 typedef struct MufasaRequesterParameters {
   // How long offloading is barred after a safety issue, ns.
+  // Default: 10_000_000_000
   int64_t t_wait_ns;
   // How long a request waits for its confirmation, ns.
+  // Default: 500_000_000
   int64_t request_timeout_ns;
   // Largest latency that is no violation, ns.
+  // Default: 50_000_000
   int64_t l_max_ns;
   // Largest inter-arrival time that is no violation, ns.
+  // Default: 100_000_000
   int64_t dt_max_ns;
   // Whether a violation of quality of service starts a hold, too (I-09).
+  // Default: false
   uint32_t qos_hold;
 } MufasaRequesterParameters;
 
@@ -769,7 +839,7 @@ typedef struct MufasaMonitorSettings {
   struct MufasaParameters stages;
   // Times of the requester.
   struct MufasaRequesterParameters requester;
-  // The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+  // The nominal period of the remote's results in nanoseconds, at least 1,000,000 (1 ms). `requester.dt_max_ns` has to be above it:
   // at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
   // the paper's; at 10 Hz choose a larger one.)
   int64_t period_ns;
@@ -778,7 +848,7 @@ typedef struct MufasaMonitorSettings {
   int64_t sessions_before;
   // Stations that ever offer something, at least 1.
   size_t most_stations;
-  // Tracks of a list.
+  // Tracks of a list, at least 1.
   size_t most_tracks;
   // Points of a trajectory.
   size_t most_points;
@@ -790,6 +860,8 @@ typedef struct MufasaMonitorSettings {
 
 // What has to be done about an event, in this order.
 typedef struct MufasaActions {
+  // Why the message of this call is of no use, where it is; then a DROP is among the actions.
+  MufasaDropReason dropped;
   // How many; of the array the rest means nothing.
   size_t len;
   // The actions.
@@ -982,7 +1054,8 @@ size_t mufasa_monitor_bytes(const struct MufasaMonitorSettings *settings);
 
 // Makes a monitor in `memory`, whose content means nothing before: everything local, no offers, no
 // route, nothing seen yet. `*monitor` is where it is; it needs no end, and may not be moved. When the
-// status is not OK there is none, and `*monitor`, if it can be written to, is null.
+// status is not OK there is none, and `*monitor`, if it can be written to, is null;
+// `mufasa_monitor_settings_problem` says the field that is wrong.
 //
 // # Safety
 // `settings` is null or points to settings; `memory` points to `bytes` bytes that nobody else uses as
@@ -994,7 +1067,8 @@ MufasaStatus mufasa_monitor_init(const struct MufasaMonitorSettings *settings,
                                  struct MufasaMonitor **monitor);
 
 // From now on the CAV follows this route, of which a copy and an index are kept. When the status is
-// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain.
+// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain, of which
+// `mufasa_monitor_route_problem` says the field.
 //
 // # Safety
 // `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other
@@ -1019,8 +1093,8 @@ MufasaStatus mufasa_monitor_step(struct MufasaMonitor *monitor,
 
 // Tracks of a station arrive: used are those of the running session of MOT, in time, and newer than the
 // last. They are copied, and come out of the next cycle if it is safe. When one of `actions` is DROP they
-// are of no use; a violation of quality of service ends the session, too. MEMORY_TOO_SMALL: there are
-// more than the settings say; nothing has changed, as for every status but OK.
+// are of no use, and `actions->dropped` says why, more tracks than the settings say among it; a violation
+// of quality of service ends the session, too. For every status but OK nothing has changed.
 //
 // # Safety
 // `monitor` as for `mufasa_monitor_set_route`; `message` is null or points to a message with as many
@@ -1031,7 +1105,8 @@ MufasaStatus mufasa_monitor_tracks(struct MufasaMonitor *monitor,
                                    const struct MufasaTrackMessage *message,
                                    struct MufasaActions *actions);
 
-// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN.
+// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN. What its points have to be like
+// stands at MufasaTrajectory.
 //
 // # Safety
 // As for `mufasa_monitor_tracks`.
@@ -1064,6 +1139,24 @@ MufasaStatus mufasa_monitor_cycle(struct MufasaMonitor *monitor,
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_state(const struct MufasaMonitor *monitor,
                                   struct MufasaRequesterState *state);
+
+// What `mufasa_monitor_init` says of these settings, whatever the memory, and writes which field is wrong
+// and what would be right; empty texts when none is.
+//
+// # Safety
+// `settings` is null or points to settings; `problem` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_settings_problem(const struct MufasaMonitorSettings *settings,
+                                             struct MufasaInvalidInput *problem);
+
+// Writes which field of the route made the last call of `mufasa_monitor_set_route` fail; empty texts when
+// it did not, or when a pointer or a length was wrong.
+//
+// # Safety
+// `monitor` as for `mufasa_monitor_set_route`; `problem` is null or can be written to.
+MUFASA_MUST_USE
+MufasaStatus mufasa_monitor_route_problem(const struct MufasaMonitor *monitor,
+                                          struct MufasaInvalidInput *problem);
 
 #ifdef __cplusplus
 }  // extern "C"

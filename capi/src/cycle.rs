@@ -55,7 +55,16 @@ pub struct MufasaTrajectoryPoint {
     pub sin: f64,
 }
 
-/// The planned trajectory.
+/// The planned trajectory. Points are places of the reference point that MufasaEgo names.
+///
+/// In the hardened profile stage ii asks of the points, over their whole length:
+/// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
+///   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
+/// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
+///   turn as a vehicle can (H-11);
+/// * corridor: every point inside, none heading against the route (H-07);
+/// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
+///   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaTrajectory {

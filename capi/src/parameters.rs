@@ -26,23 +26,27 @@ macro_rules! from_c {
 
 macro_rules! c_parameters {
     ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal in $domain:expr;)*) => {
-        same_names!(MufasaParameters, mufasa::input::parameters::Parameters, $($(#[$doc])* $name: $kind;)*);
+        same_names!(MufasaParameters, mufasa::input::parameters::Parameters, $($(#[$doc])* $name: $kind = $default;)*);
     };
 }
 
 macro_rules! c_requester_parameters {
     ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
-        same_names!(MufasaRequesterParameters, mufasa::offloading::requester::Parameters, $($(#[$doc])* $name: $kind;)*);
+        same_names!(MufasaRequesterParameters, mufasa::offloading::requester::Parameters, $($(#[$doc])* $name: $kind = $default;)*);
     };
 }
 
 macro_rules! same_names {
-    ($c:ident, $rust:path, $($(#[$doc:meta])* $name:ident: $kind:ident;)*) => {
+    ($c:ident, $rust:path, $($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
         /// Parameters; names, defaults and domains as in spec/.
         #[repr(C)]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $c {
-            $($(#[$doc])* pub $name: c_type!($kind),)*
+            $(
+                $(#[$doc])*
+                #[doc = concat!("Default: ", stringify!($default))]
+                pub $name: c_type!($kind),
+            )*
         }
 
         impl From<$rust> for $c {

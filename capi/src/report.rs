@@ -350,13 +350,15 @@ fn index(index: Option<usize>) -> i64 {
     index.and_then(|index| i64::try_from(index).ok()).unwrap_or(-1)
 }
 
-fn input(problem: Option<InvalidInput>) -> MufasaInvalidInput {
+/// A problem of the input for C; empty texts for none.
+pub(crate) fn input(problem: Option<InvalidInput>) -> MufasaInvalidInput {
     let (field, message) = problem.map_or(("", ""), |it| (it.field, Problem::message(it.problem)));
-    MufasaInvalidInput {
-        field: text(field),
-        message: text(message),
-        index: index(problem.and_then(|it| it.index)),
-    }
+    MufasaInvalidInput { index: index(problem.and_then(|it| it.index)), ..wrong(field, message) }
+}
+
+/// A problem with a field that is in no list.
+pub(crate) fn wrong(field: &str, message: &str) -> MufasaInvalidInput {
+    MufasaInvalidInput { field: text(field), message: text(message), index: -1 }
 }
 
 /// A text with a closing 0; one that is too long is cut off.

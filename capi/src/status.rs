@@ -1,8 +1,8 @@
 //! Whether a call could be carried out at all.
 
 /// What a function says about the call itself, not about the data of a cycle. Most are faults of the
-/// calling program. A station can cause `MemoryTooSmall` (a list longer than the settings say), `TableFull`
-/// and `InvalidStation`: then its message was ignored, and nothing else has changed.
+/// calling program. A station can cause `TableFull` and `InvalidStation`: then its message was ignored, and
+/// nothing else has changed.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MufasaStatus {
@@ -14,7 +14,8 @@ pub enum MufasaStatus {
     Misaligned = 2,
     /// A profile, configuration, group, set of groups or type of an event that does not exist.
     UnknownValue = 3,
-    /// The memory is smaller than the function that tells its size says.
+    /// The memory is smaller than the function that tells its size says, a number of things that it is
+    /// to hold is 0, or what was given is longer than that.
     MemoryTooSmall = 4,
     /// The array for actions has fewer than MUFASA_MAX_ACTIONS places.
     TooFewActions = 5,
@@ -34,4 +35,6 @@ pub enum MufasaStatus {
     DtMaxNotAbovePeriod = 12,
     /// A value of the route is outside its domain.
     InvalidRoute = 13,
+    /// A time above 0 and below 1 ms: it is taken for one in another unit than nanoseconds.
+    TimeTooShort = 14,
 }

@@ -5,11 +5,11 @@ use std::path::Path;
 
 /// The source of the structs of `src/parameters.rs`: cbindgen expands no macro.
 macro_rules! source {
-    ($struct:literal, $($(#[$doc:meta])* $name:ident: $kind:ident;)*) => {
+    ($struct:literal, $($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
         concat!(
             "/// Parameters; names, defaults and domains as in spec/.\n",
             "#[repr(C)]\npub struct ", $struct, " {\n",
-            $($("#[", stringify!($doc), "]\n",)* "pub ", stringify!($name), ": ", c_type!($kind), ",\n",)*
+            $($("#[", stringify!($doc), "]\n",)* "/// Default: ", stringify!($default), "\n", "pub ", stringify!($name), ": ", c_type!($kind), ",\n",)*
             "}\n"
         )
     };
@@ -26,13 +26,13 @@ macro_rules! c_type {
 
 macro_rules! parameters {
     ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal in $domain:expr;)*) => {
-        source!("MufasaParameters", $($(#[$doc])* $name: $kind;)*)
+        source!("MufasaParameters", $($(#[$doc])* $name: $kind = $default;)*)
     };
 }
 
 macro_rules! requester_parameters {
     ($($(#[$doc:meta])* $name:ident: $kind:ident = $default:literal;)*) => {
-        source!("MufasaRequesterParameters", $($(#[$doc])* $name: $kind;)*)
+        source!("MufasaRequesterParameters", $($(#[$doc])* $name: $kind = $default;)*)
     };
 }
 
@@ -40,7 +40,7 @@ const PARAMETERS: [&str; 2] =
     [mufasa::parameters!(parameters), mufasa::requester_parameters!(requester_parameters)];
 
 /// Those with what C sees, in the order of the header.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "status",
     "version",
     "cycle",
@@ -54,6 +54,7 @@ const SOURCES: [&str; 13] = [
     "monitor/decision",
     "monitor/place",
     "monitor/calls",
+    "monitor/problem",
 ];
 
 #[test]

@@ -152,18 +152,66 @@ static void events_that_are_not_for_the_caller(void) {
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_DATA, 5 * MS, MUFASA_GROUP_MOT, 1) == MUFASA_STATUS_UNKNOWN_VALUE);
   EXPECT(step(monitor, MUFASA_EVENT_TYPE_VERDICT, 5 * MS, 0, 0) == MUFASA_STATUS_UNKNOWN_VALUE);
   EXPECT(actions.len == 0 && !is_local(monitor));
-  EXPECT(receive(monitor, 6 * MS, 1, 3) == MUFASA_STATUS_MEMORY_TOO_SMALL && actions.len == 0);
+  /* A list longer than the settings say is dropped, and no arrival: the session goes on. */
+  EXPECT(receive(monitor, 6 * MS, 1, 3) == MUFASA_STATUS_OK && !is_local(monitor));
+  EXPECT(actions.len == 1 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
+  EXPECT(actions.dropped == MUFASA_DROP_REASON_TOO_LONG);
+  EXPECT(receive(monitor, 6 * MS, 9, 1) == MUFASA_STATUS_OK);
+  EXPECT(actions.dropped == MUFASA_DROP_REASON_OTHER_SESSION);
   EXPECT(mufasa_monitor_tracks(monitor, 6 * MS, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_step(monitor, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_step(monitor, NULL, NULL) == MUFASA_STATUS_NULL_POINTER);
   struct MufasaRoute other = route;
   other.cross_sections_len = 1;
   EXPECT(mufasa_monitor_set_route(monitor, &other) == MUFASA_STATUS_INVALID_ROUTE);
+  struct MufasaInvalidInput problem;
+  EXPECT(mufasa_monitor_route_problem(monitor, &problem) == MUFASA_STATUS_OK);
+  EXPECT(strcmp(problem.field, "route.stations") == 0 && strstr(problem.message, "too few") != NULL);
+  EXPECT(mufasa_monitor_set_route(monitor, &route) == MUFASA_STATUS_OK);
+  EXPECT(mufasa_monitor_route_problem(monitor, &problem) == MUFASA_STATUS_OK && problem.field[0] == 0);
   EXPECT(mufasa_monitor_set_route(monitor, NULL) == MUFASA_STATUS_NULL_POINTER);
   /* Late by 1 ns: the session ends. */
   const struct MufasaTrackMessage late = {1, 1, 0, {60 * MS, tracks, 1}};
   EXPECT(mufasa_monitor_tracks(monitor, 50 * MS + 1, &late, &actions) == MUFASA_STATUS_OK);
   EXPECT(actions.len == 3 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
+  EXPECT(actions.dropped == MUFASA_DROP_REASON_LATE);
+}
+
+static void is_about(const struct MufasaMonitorSettings *it, MufasaStatus status, const char *field) {
+  struct MufasaInvalidInput problem;
+  EXPECT(mufasa_monitor_settings_problem(it, &problem) == status);
+  EXPECT(strcmp(problem.field, field) == 0);
+  EXPECT((strlen(problem.message) > 0) == (status != MUFASA_STATUS_OK));
+}
+
+/* The field that is wrong, and the status of init. */
+static void a_status_of_the_settings_has_a_field(void) {
+  struct MufasaMonitorSettings it = settings();
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it.stages.a_b = 0;
+  is_about(&it, MUFASA_STATUS_INVALID_PARAMETER, "parameters.a_b");
+  it = settings();
+  it.period_ns = -1;
+  is_about(&it, MUFASA_STATUS_INVALID_PERIOD, "period_ns");
+  it.period_ns = 0;
+  is_about(&it, MUFASA_STATUS_INVALID_PERIOD, "period_ns");
+  it.period_ns = 100;
+  is_about(&it, MUFASA_STATUS_TIME_TOO_SHORT, "period_ns");
+  it = settings();
+  it.requester.t_wait_ns = 10000;
+  is_about(&it, MUFASA_STATUS_TIME_TOO_SHORT, "requester.t_wait_ns");
+  struct MufasaMonitor *monitor = NULL;
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_TIME_TOO_SHORT && monitor == NULL);
+  it.requester.t_wait_ns = -1;
+  is_about(&it, MUFASA_STATUS_NEGATIVE_PARAMETER, "t_wait_ns");
+  it = settings();
+  it.most_tracks = 0;
+  is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
+  EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
+  struct MufasaInvalidInput problem;
+  EXPECT(mufasa_monitor_settings_problem(NULL, &problem) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_settings_problem(&it, NULL) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_route_problem(NULL, &problem) == MUFASA_STATUS_NULL_POINTER);
 }
 
 static void settings_that_no_monitor_can_keep(void) {
@@ -202,6 +250,7 @@ int main(void) {
   faults_fall_back();
   events_that_are_not_for_the_caller();
   settings_that_no_monitor_can_keep();
+  a_status_of_the_settings_has_a_field();
   EXPECT(mufasa_version() ==
          MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH);
   return report_failures();

@@ -49,6 +49,14 @@ const FORGIVEN: u64 = 20;
 /// Place of what the program did after its answer.
 const AFTERWARDS: &str = "after its answer";
 
+/// Of the vectors, or of the cases: how many were asked, given up, and let pass.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    asked: u64,
+    skipped: u64,
+    tolerated: u64,
+}
+
 /// A campaign on its way.
 #[derive(Debug)]
 pub struct Runner<'a> {
@@ -57,10 +65,8 @@ pub struct Runner<'a> {
     vectors: &'a [Given],
     subject: Subject,
     bar: ProgressBar,
-    vectors_asked: u64,
-    asked: u64,
-    skipped: u64,
-    tolerated: u64,
+    of_vectors: Counts,
+    of_cases: Counts,
     late: u64,
     interrupted: bool,
     given_up: Vec<Kind>,
@@ -82,12 +88,10 @@ impl<'a> Runner<'a> {
             settings,
             source,
             vectors,
-            vectors_asked: 0,
             subject,
             bar: ProgressBar::hidden(),
-            asked: 0,
-            skipped: 0,
-            tolerated: 0,
+            of_vectors: Counts::default(),
+            of_cases: Counts::default(),
             late: 0,
             interrupted: false,
             given_up: Vec::new(),
@@ -117,7 +121,7 @@ impl<'a> Runner<'a> {
             let given = usize::try_from(vector).ok().and_then(|at| self.vectors.get(at));
             let kind = given.map_or_else(|| self.source.kind(number), |it| it.question.kind());
             if self.given_up.contains(&kind) {
-                self.skipped += 1;
+                self.counts(given.is_none()).skipped += 1;
             } else {
                 let case =
                     given.map_or_else(|| Case::of_source(self.source, number), Case::of_vector);
@@ -177,10 +181,12 @@ impl<'a> Runner<'a> {
         Summary {
             campaign,
             shards: vec![self.settings.shard.map_or(0, |(at, _)| at)],
-            vectors: self.vectors_asked,
-            asked: self.asked,
-            skipped: self.skipped,
-            tolerated: self.tolerated,
+            vectors: self.of_vectors.asked,
+            asked: self.of_cases.asked,
+            vectors_skipped: self.of_vectors.skipped,
+            vectors_tolerated: self.of_vectors.tolerated,
+            skipped: self.of_cases.skipped,
+            tolerated: self.of_cases.tolerated,
             late: self.late,
             starts: self.subject.starts(),
             interrupted: self.interrupted,
@@ -236,17 +242,20 @@ impl<'a> Runner<'a> {
             Some(class) if class.breach.is_broken() => self.broke(class.kind, class.breach),
             _ => self.broken.entry(question.kind()).or_default()[0] = 0,
         }
-        self.tolerated += u64::from(examined.tolerated);
+        let counts = self.counts(case.number.is_some());
+        counts.tolerated += u64::from(examined.tolerated);
+        counts.asked += 1;
         if case.number.is_some() {
-            self.asked += 1;
             self.count(question, &examined);
-        } else {
-            self.vectors_asked += 1;
         }
         match examined.class.clone() {
             None => Ok(()),
             Some(class) => self.settle(&class, case, &examined, out),
         }
+    }
+
+    fn counts(&mut self, of_cases: bool) -> &mut Counts {
+        if of_cases { &mut self.of_cases } else { &mut self.of_vectors }
     }
 
     fn count(&mut self, question: &Question, examined: &Examined) {

@@ -8,7 +8,7 @@ use proptest::strategy::ValueTree;
 use crate::cases::question::Question;
 use crate::error::ConformError;
 use crate::judge::class::{Breach, Class};
-use crate::judge::examine::ask_and_compare;
+use crate::judge::examine::{Expected, ask_and_compare, expect};
 use crate::minimise;
 use crate::subject::Subject;
 
@@ -20,6 +20,31 @@ const TRIES_OF_RECORDS: usize = 4000;
 
 /// How choices become a record.
 pub type Read<'a> = dyn Fn(&[u32]) -> Question + 'a;
+
+/// How much of a record is valid, the more the greater.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Validity {
+    /// It is answered by an error.
+    Refused,
+    /// What the remote sent is invalid.
+    RemoteInvalid,
+    /// All of it is valid.
+    Valid,
+}
+
+impl Validity {
+    fn of(question: &Question) -> Self {
+        match expect("", question) {
+            Expected::Cycle(answer) => match answer.as_ref() {
+                Ok(report) if report.input.is_none() => Self::Valid,
+                Ok(_) => Self::RemoteInvalid,
+                Err(_) => Self::Refused,
+            },
+            Expected::Offloading(_) | Expected::Composition(Ok(_)) => Self::Valid,
+            Expected::Composition(Err(_)) | Expected::Line(_) => Self::Refused,
+        }
+    }
+}
 
 /// A case that shows a class, and the program that is asked whether a smaller one does.
 #[derive(Debug)]
@@ -34,6 +59,8 @@ pub struct Hunt<'a> {
     pub tolerance: Option<f64>,
     /// Whether each record is asked in a process of its own.
     each_fresh: bool,
+    /// The validity that smaller records must not lose.
+    validity: Validity,
     tries: usize,
     tries_left: usize,
     restarts_left: usize,
@@ -67,6 +94,7 @@ impl<'a> Hunt<'a> {
             name,
             tolerance,
             each_fresh,
+            validity: Validity::Refused,
             tries: 0,
             tries_left: 1,
             restarts_left,
@@ -83,6 +111,9 @@ impl<'a> Hunt<'a> {
         tape: Option<(Vec<u32>, &Read<'_>)>,
     ) -> Result<Option<Question>, ConformError> {
         let mut smallest = None;
+        if self.class.breach.is_broken() {
+            self.validity = Validity::of(question);
+        }
         if self.shows(question) {
             let mut found = question.clone();
             if let Some((tape, read)) = tape {
@@ -105,6 +136,10 @@ impl<'a> Hunt<'a> {
             return false;
         }
         self.tries_left -= 1;
+        // Who dies at a valid record has that to mend; at an invalid one it may die of something else.
+        if self.validity > Validity::Refused && Validity::of(question) < self.validity {
+            return false;
+        }
         self.tries += 1;
         let id = format!("{}.{}", self.name, self.tries);
         if self.each_fresh {

@@ -39,6 +39,12 @@ def mufasa():
     return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "mufasa")
 
 
+def measured():
+    """What a table is measured with: commit, versions, day."""
+    programs = ["python3", "c++", "node"]
+    return subprocess.check_output([ROOT / "scripts" / "measured", *programs], text=True).strip()
+
+
 def runs(language):
     """What runs or builds programs in a language; None when it is not here."""
     names = {"Python": ("python3",), "C++": ("c++", "g++", "clang++"), "JavaScript": ("node",)}

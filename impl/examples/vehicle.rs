@@ -120,7 +120,8 @@ fn first(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
 fn accepted<L>(arrival: Arrival<L>, station: &mut Station) -> Option<Accepted<L>> {
     match arrival {
         Arrival::Accepted(element) => Some(element),
-        Arrival::Dropped(actions) => {
+        Arrival::Dropped { why, actions } => {
+            println!("dropped: {why}");
             station.take(&actions);
             None
         }

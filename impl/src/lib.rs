@@ -68,7 +68,7 @@
 //!         let message = Message { station: 1, session, generated: now, stamp: now, items };
 //!         match monitor.tracks(now, message)? {
 //!             Arrival::Accepted(element) => tracks = Some(element),
-//!             Arrival::Dropped(actions) => panic!("late? {actions:?}"),
+//!             Arrival::Dropped { why, .. } => panic!("{why}"),
 //!         }
 //!     }
 //!     if let Some(session) = plan.map(|running| running.session) {
@@ -77,7 +77,7 @@
 //!         let message = Message { station: 1, session, generated: now, stamp: now, items };
 //!         match monitor.trajectory(now, message)? {
 //!             Arrival::Accepted(element) => trajectory = Some(element),
-//!             Arrival::Dropped(actions) => panic!("late? {actions:?}"),
+//!             Arrival::Dropped { why, .. } => panic!("{why}"),
 //!         }
 //!     }
 //!

@@ -216,8 +216,11 @@ pub enum Problem {
     TooMany,
     /// A bitmap with another number of bytes than its grid needs.
     BitmapLength,
-    /// Scratch memory smaller than `scratch::Sizes` asks for.
+    /// Scratch memory smaller than `scratch::Sizes` asks for, or less memory lent to a monitor than what
+    /// came needs.
     ScratchTooSmall,
+    /// The monitor was never given a route.
+    NoRoute,
 }
 
 impl Problem {
@@ -237,7 +240,10 @@ impl Problem {
             Self::TooFew => "too few items; see spec/3-stages.md#invalid-input",
             Self::TooMany => "too many items; see spec/4-arithmetic.md#domain",
             Self::BitmapLength => "wrong length; give ceil(width * height / 8) bytes",
-            Self::ScratchTooSmall => "too small; lend what scratch::Sizes::for_cycle says",
+            Self::ScratchTooSmall => {
+                "more than the lent memory holds; see scratch::Sizes::for_cycle, monitor::Memory"
+            }
+            Self::NoRoute => "no route was set; give the monitor one before its first cycle",
         }
     }
 }

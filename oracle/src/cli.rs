@@ -3,14 +3,17 @@
 mod arguments;
 pub(crate) mod link;
 
+use std::env;
+use std::ffi::OsString;
 use std::fs;
-use std::io::{self, BufWriter, ErrorKind, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::process::{self, ExitCode};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use clap::error::ErrorKind;
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use mufasa_model::input::cycle::Profile;
 
@@ -44,7 +47,7 @@ const CLOSED_PIPE: u8 = 141;
 ///
 /// Without a command: the demo.
 #[derive(Parser)]
-#[command(name = "mufasa", version, max_term_width = 100)]
+#[command(name = "mufasa", version = env!("MUFASA_VERSION"), max_term_width = 100)]
 struct Cli {
     /// Show no progress.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
@@ -94,6 +97,9 @@ pub fn main() -> ExitCode {
         Err(error) => {
             // Help asked for is no error; whether anybody reads it is not our business.
             let _ = error.print();
+            if let Some(tip) = tip(&error, env::args_os().skip(1)) {
+                complain(&mut io::stderr(), tip);
+            }
             return ExitCode::from(if error.use_stderr() { BAD_INPUT } else { 0 });
         }
     };
@@ -135,12 +141,26 @@ pub fn main() -> ExitCode {
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => CLOSED_PIPE,
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => CLOSED_PIPE,
         Err(error) => refused(&format!("standard input or output: {error}")),
     };
     // What could not be written is not tried again when the buffer is dropped.
     let _ = out.into_parts();
     ExitCode::from(code)
+}
+
+/// What is said behind an error of `conform` whose program stands without `--` before it.
+fn tip(error: &clap::Error, mut given: impl Iterator<Item = OsString>) -> Option<&'static str> {
+    let is_about = matches!(
+        error.kind(),
+        ErrorKind::UnknownArgument
+            | ErrorKind::InvalidSubcommand
+            | ErrorKind::MissingRequiredArgument
+    );
+    let of_conform = given.by_ref().any(|it| it == "conform") && given.all(|it| it != "--");
+    (is_about && of_conform).then_some(
+        "the program under test stands behind `--`: mufasa conform [OPTIONS] -- COMMAND...",
+    )
 }
 
 fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {

@@ -51,6 +51,48 @@ fn numbers_that_are_refused_say_their_limits() {
 }
 
 #[test]
+fn conform_says_what_a_program_reads_and_answers_and_where_it_stands() {
+    let help = text(&output(&["conform", "--help"]).stdout);
+    for part in
+        ["one JSON record per line", "one answer", "spec/5-interfaces.md", "-- node program.mjs"]
+    {
+        assert!(help.contains(part), "{part}: {help}");
+    }
+    let tip = "the program under test stands behind `--`: mufasa conform [OPTIONS] -- COMMAND...";
+    for arguments in
+        [&["conform", "python3", "x.py"][..], &["conform", "--cases", "20", "./x"], &["conform"]]
+    {
+        let output = output(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(tip), "{arguments:?}: {}", text(&output.stderr));
+    }
+    for arguments in [&["conform", "--cases", "x", "--", "y"][..], &["check", "--wrong"]] {
+        let message = text(&output(arguments).stderr);
+        assert!(!message.contains(tip), "{arguments:?}: {message}");
+    }
+}
+
+/// In a checkout with git the commit, elsewhere the version alone.
+#[test]
+fn the_version_says_the_commit_of_a_checkout() {
+    let said = text(&output(&["--version"]).stdout);
+    let version = concat!("mufasa ", env!("CARGO_PKG_VERSION"));
+    let project = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let is_here = |commit: &str| {
+        let object = format!("{commit}^{{commit}}");
+        let done = Command::new("git").args(["-C", project, "cat-file", "-e", &object]).status();
+        done.is_ok_and(|status| status.success())
+    };
+    if Path::new(project).join(".git").exists() && is_here("HEAD") {
+        let commit = said.strip_prefix(&format!("{version} (commit ")).expect("a commit");
+        let commit = commit.strip_suffix(")\n").expect("nothing else");
+        assert!(commit.len() >= 10 && is_here(commit), "{said}");
+    } else {
+        assert_eq!(said, format!("{version}\n"));
+    }
+}
+
+#[test]
 fn a_misspelled_parameter_gets_the_near_one() {
     let file = folder("parameters").join("p.toml");
     fs::write(&file, "theta_tr = 0.2\ntheta_tracks_max = 2.0\n").expect("it can be written");

@@ -57,6 +57,26 @@ fn every_finding_has_a_file_with_its_claim() {
     assert_eq!(files, claims.len() + 1, "a README and a file for each finding, nothing else");
 }
 
+/// Each row says what an attacker gets out of it.
+#[test]
+fn the_table_has_a_consequence_for_every_finding() {
+    let table = read(String::from("findings/README.md"));
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .filter(|line| line.starts_with("| [F-"))
+        .map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect())
+        .collect();
+    let named = rows.iter().map(|row| row[0].split(['[', ']']).nth(1).unwrap_or_default());
+    assert_eq!(
+        named.collect::<Vec<_>>(),
+        claims().iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>()
+    );
+    for row in rows {
+        assert_eq!(row.len(), 6, "{row:?}");
+        assert!(row.iter().all(|cell| cell.len() > 2), "{row:?}");
+    }
+}
+
 #[test]
 fn every_file_names_what_exists() {
     let vectors: BTreeSet<String> = mufasa_conform::vectors::all()

@@ -54,3 +54,17 @@ fn every_entry_says_which_engines_take_it() {
         assert!(!is_compiled_only || one.shard.is_none(), "{}: nothing is known of Kani", one.id);
     }
 }
+
+/// The rows of the document are about the harnesses of the file, each once an engine of compiled code,
+/// exhaustion or sampling.
+#[test]
+fn the_document_names_the_harnesses_of_the_file() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/proofs.md");
+    let page = std::fs::read_to_string(path).expect("docs/proofs.md");
+    let names = page.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
+    let named: BTreeSet<&str> = names.filter(|name| name.contains("::verify_")).collect();
+    let expected = expected::expected();
+    let listed: BTreeSet<&str> = expected.iter().map(|one| one.id.as_str()).collect();
+    assert!(listed.len() > 20);
+    assert_eq!(named, listed, "the table is old: cargo run -- prove --into docs/proofs.md");
+}

@@ -311,7 +311,7 @@ fn take<L>(arrival: Arrival<L>, last: &mut Option<Accepted<L>>) -> Vec<Action> {
             *last = Some(element);
             Vec::new()
         }
-        Arrival::Dropped(actions) => actions.to_vec(),
+        Arrival::Dropped { actions, .. } => actions.to_vec(),
     }
 }
 
@@ -332,6 +332,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
     let field = match error {
         MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
         MonitorError::NoPeriod => "period",
+        MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",

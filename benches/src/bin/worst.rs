@@ -19,6 +19,9 @@ const NOW_NS: i64 = 1_000_000_000;
 const CELLS: i64 = 4096;
 
 fn main() {
+    if std::env::args().nth(1).as_deref() == Some("--vehicle") {
+        return vehicle();
+    }
     println!("| stage | input | paper, ms | hardened, ms |\n|---|---|---|---|");
     let cross_sections = road(8192);
     let grid = vec![0; 4096 * 4096 / 8];
@@ -79,6 +82,66 @@ fn main() {
 
     assignments(&base, &crowd, &line);
     moving(&still);
+}
+
+/// The same kinds of input in the sizes of docs/configuration.md, which are those of
+/// `mufasa_monitor_settings_default`, hardened: no station can send more.
+fn vehicle() {
+    const TRACKS: u32 = 128;
+    const POINTS: usize = 128;
+    const DETECTIONS: u32 = 256;
+    println!("| stage | input | hardened, ms |\n|---|---|---|");
+    let cross_sections = road(1024);
+    let grid = vec![0; 4096 * 4096 / 8];
+    let whole = base(&cross_sections, &grid);
+    let work_limit = i64::from(TRACKS) * i64::from(TRACKS) * i64::from(DETECTIONS);
+    let parameters = Parameters { work_limit, ..whole.parameters };
+    let base = Cycle { profile: Profile::Hardened, parameters, ..whole };
+    let row = |input: &str, cycle: &Cycle<'_>, of: Stage, name: &str| {
+        let (ms, passed) = mean(&mut Contestant::new(cycle), of);
+        println!("| {name} | {input} | {ms:.3}, {} |", if passed { "passes" } else { "fails" });
+    };
+
+    let places = |count: u32, step: f64| (0..count).map(move |i| f64::from(i) * step);
+    let line: Vec<_> = places(DETECTIONS, 1.0).map(|x| detection(x, 0.0)).collect();
+    let crowd: Vec<_> = places(TRACKS, 0.001).zip(0..).map(|(y, id)| track(id, -1.0, y)).collect();
+    // With the threshold of assignments() nothing is settled early.
+    let parameters = Parameters { theta_tr: 0.2, ..parameters };
+    let lists = Cycle { tracks: Some(tracks(&crowd)), detections: Some(list(&line)), ..base };
+    let cycle = Cycle { parameters, ..lists };
+    row("128 tracks a millimetre apart, 256 detections in a row across", &cycle, Stage::I, "i");
+    let upon = timed(places(128, 0.1).map(|x| point(x, 0.0)).collect());
+    let cycle = Cycle { trajectory: Some(trajectory(&upon)), ..base };
+    row("128 points on 1024 cross sections of a road without width", &cycle, Stage::Ii, "ii");
+    let standing = timed(vec![point(0.0, 0.0); POINTS]);
+    let still = Cycle { trajectory: Some(trajectory(&standing)), ..base };
+    let touching = 0.5 * (base.ego.width + 1.8) + 1e-9;
+    let near: Vec<_> = (0..i64::from(TRACKS)).map(|id| track(id, 0.0, touching)).collect();
+    let cycle = Cycle { tracks: Some(tracks(&near)), ..still };
+    row("128 tracks 1 nm beside the CAV at 128 points", &cycle, Stage::Iii, "iii");
+    let (_, beside) = neighbours(&still, DETECTIONS);
+    let cycle = Cycle { detections: Some(list(&beside)), ..still };
+    row("256 detections 1 nm beside the CAV at 128 points", &cycle, Stage::Iv, "iv");
+    // H-13 compares each with each at each point; beyond work_limit it fails at once.
+    let before = earlier(&beside, 500);
+    let with = |count: usize| {
+        (list(&beside[..count]), [DetectionList { items: &beside[..count], ..before }])
+    };
+    let passes = |count: &usize| {
+        let (detections, history) = with(*count);
+        let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
+        Contestant::new(&cycle).stage(Stage::Iv)
+    };
+    let most = (1..=beside.len()).rev().find(passes).unwrap_or(1);
+    let (detections, history) = with(most);
+    let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
+    let name = format!(
+        "{most} of them, as many as work_limit allows, with an earlier list like that (H-13)"
+    );
+    row(&name, &cycle, Stage::Iv, "iv");
+    let creeping = timed(places(128, 0.008).map(|x| point(x, 0.0)).collect());
+    let cycle = Cycle { trajectory: Some(trajectory(&creeping)), ..base };
+    row("128 points on an empty grid of 4096 x 4096 cells of 1 cm", &cycle, Stage::V, "v");
 }
 
 /// Tracks and detections in a row of 0.2 m that look like one place to every index, as there is

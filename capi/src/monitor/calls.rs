@@ -22,7 +22,8 @@ use crate::status::MufasaStatus;
 
 /// Makes a monitor in `memory`, whose content means nothing before: everything local, no offers, no
 /// route, nothing seen yet. `*monitor` is where it is; it needs no end, and may not be moved. When the
-/// status is not OK there is none, and `*monitor`, if it can be written to, is null.
+/// status is not OK there is none, and `*monitor`, if it can be written to, is null;
+/// `mufasa_monitor_settings_problem` says the field that is wrong.
 ///
 /// # Safety
 /// `settings` is null or points to settings; `memory` points to `bytes` bytes that nobody else uses as
@@ -45,7 +46,8 @@ pub unsafe extern "C" fn mufasa_monitor_init(
 }
 
 /// From now on the CAV follows this route, of which a copy and an index are kept. When the status is
-/// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain.
+/// not OK it follows the route before; INVALID_ROUTE: a value is outside its domain, of which
+/// `mufasa_monitor_route_problem` says the field.
 ///
 /// # Safety
 /// `monitor` is null or comes from `mufasa_monitor_init`, in memory that nobody else wrote to, and no other
@@ -84,8 +86,8 @@ pub unsafe extern "C" fn mufasa_monitor_step(
 
 /// Tracks of a station arrive: used are those of the running session of MOT, in time, and newer than the
 /// last. They are copied, and come out of the next cycle if it is safe. When one of `actions` is DROP they
-/// are of no use; a violation of quality of service ends the session, too. MEMORY_TOO_SMALL: there are
-/// more than the settings say; nothing has changed, as for every status but OK.
+/// are of no use, and `actions->dropped` says why, more tracks than the settings say among it; a violation
+/// of quality of service ends the session, too. For every status but OK nothing has changed.
 ///
 /// # Safety
 /// `monitor` as for `mufasa_monitor_set_route`; `message` is null or points to a message with as many
@@ -104,7 +106,8 @@ pub unsafe extern "C" fn mufasa_monitor_tracks(
     unsafe { tell(actions, call) }
 }
 
-/// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN.
+/// As `mufasa_monitor_tracks`, for a trajectory of a station and PLAN. What its points have to be like
+/// stands at MufasaTrajectory.
 ///
 /// # Safety
 /// As for `mufasa_monitor_tracks`.
@@ -206,8 +209,10 @@ unsafe fn set_route(
     route: *const MufasaRoute,
 ) -> Result<(), MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
-    let MufasaMonitor { monitor, most_cross_sections, scratch, scratch_bytes, .. } =
-        unsafe { required_mut(monitor) }?;
+    let MufasaMonitor {
+        monitor, most_cross_sections, scratch, scratch_bytes, route_problem, ..
+    } = unsafe { required_mut(monitor) }?;
+    *route_problem = None;
     // SAFETY: as above.
     let raw = unsafe { required(route) }?;
     fits(raw.cross_sections_len, *most_cross_sections)?;
@@ -219,9 +224,12 @@ unsafe fn set_route(
     let cross_sections: &[CrossSection] =
         arena.keep(cross_sections.iter().map(convert::cross_section))?;
     let taken = monitor.set_route(&Route { closed: raw.closed != 0, cross_sections });
-    taken.map_err(|invalid| match invalid.problem {
-        Problem::ScratchTooSmall => MufasaStatus::MemoryTooSmall,
-        _ => MufasaStatus::InvalidRoute,
+    taken.map_err(|invalid| {
+        *route_problem = Some(invalid);
+        match invalid.problem {
+            Problem::ScratchTooSmall => MufasaStatus::MemoryTooSmall,
+            _ => MufasaStatus::InvalidRoute,
+        }
     })
 }
 
@@ -268,11 +276,11 @@ unsafe fn tracks(
     let MufasaTrackMessage { station, session, generated_ns, tracks } = unsafe { required(raw) }?;
     // SAFETY: as above.
     let items = unsafe { list(tracks.items, tracks.items_len, convert::TRACKS) }?;
-    let items = received.store(items.iter().map(convert::track));
-    let items = items.ok_or(MufasaStatus::MemoryTooSmall)?;
-    let message = message((*station, *session, *generated_ns), tracks.stamp_ns, items);
-    let arrival = monitor.tracks(now, message).map_err(requester::refused)?;
-    Ok(received.take(arrival))
+    let items = items.iter().map(convert::track);
+    received.arrive(items, *session, |session, items| {
+        let message = message((*station, session, *generated_ns), tracks.stamp_ns, items);
+        monitor.tracks(now, message).map_err(requester::refused)
+    })
 }
 
 /// # Safety
@@ -289,11 +297,11 @@ unsafe fn trajectory(
     let MufasaTrajectoryMessage { station, session, generated_ns, trajectory } = raw;
     // SAFETY: as above.
     let points = unsafe { list(trajectory.points, trajectory.points_len, convert::POINTS) }?;
-    let items = received.store(points.iter().map(convert::trajectory_point));
-    let items = items.ok_or(MufasaStatus::MemoryTooSmall)?;
-    let message = message((*station, *session, *generated_ns), trajectory.stamp_ns, items);
-    let arrival = monitor.trajectory(now, message).map_err(requester::refused)?;
-    Ok(received.take(arrival))
+    let points = points.iter().map(convert::trajectory_point);
+    received.arrive(points, *session, |session, items| {
+        let message = message((*station, session, *generated_ns), trajectory.stamp_ns, items);
+        monitor.trajectory(now, message).map_err(requester::refused)
+    })
 }
 
 /// # Safety

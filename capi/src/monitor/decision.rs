@@ -3,17 +3,60 @@
 use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{Decision, Verified};
+use mufasa::monitor::{Decision, DropReason, Verified};
 use mufasa::offloading::requester::Action;
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
 use crate::report::{self, MufasaReport};
 
+/// Why a message of a station was dropped; of several reasons the first in this order.
+#[repr(u32)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MufasaDropReason {
+    /// It was not dropped, or the call was about no message.
+    None = 0,
+    /// It has more tracks or points than the settings say. It is no arrival: a station that goes on so is
+    /// silent, and its session ends after dt_max.
+    TooLong = 1,
+    /// It is not of the running session of its group, or there is none.
+    OtherSession = 2,
+    /// It was generated after it arrived: the clocks cannot be trusted. The session has ended.
+    FromTheFuture = 3,
+    /// Its latency is above l_max. The session has ended.
+    Late = 4,
+    /// Its stamp is more than max_age ago, so that no cycle can use it. It is no arrival.
+    TooOld = 5,
+    /// For more than dt_max no cycle has had an element of the session that was current. It is no arrival:
+    /// the session ends after dt_max.
+    Starved = 6,
+    /// The time since the last arrival is above dt_max. The session has ended.
+    AfterSilence = 7,
+    /// It is not generated later than the last one that was used: repeated, or overtaken.
+    NotNewer = 8,
+}
+
+impl From<DropReason> for MufasaDropReason {
+    fn from(why: DropReason) -> Self {
+        match why {
+            DropReason::TooLong => Self::TooLong,
+            DropReason::OtherSession => Self::OtherSession,
+            DropReason::FromTheFuture => Self::FromTheFuture,
+            DropReason::Late => Self::Late,
+            DropReason::TooOld => Self::TooOld,
+            DropReason::Starved => Self::Starved,
+            DropReason::AfterSilence => Self::AfterSilence,
+            DropReason::NotNewer => Self::NotNewer,
+        }
+    }
+}
+
 /// What has to be done about an event, in this order.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaActions {
+    /// Why the message of this call is of no use, where it is; then a DROP is among the actions.
+    pub dropped: MufasaDropReason,
     /// How many; of the array the rest means nothing.
     pub len: usize,
     /// The actions.
@@ -106,7 +149,8 @@ pub(super) fn actions_of(actions: &[Action]) -> MufasaActions {
         station: 0,
         session: 0,
     };
-    let mut told = MufasaActions { len: 0, items: [nothing; MUFASA_MAX_ACTIONS] };
+    let dropped = MufasaDropReason::None;
+    let mut told = MufasaActions { dropped, len: 0, items: [nothing; MUFASA_MAX_ACTIONS] };
     for (place, action) in told.items.iter_mut().zip(actions) {
         *place = event::action(*action);
         told.len = told.len.saturating_add(1);

@@ -6,8 +6,12 @@ use core::slice;
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::monitor::{Accepted, Arrival, Message, Time};
 
-use super::decision::{MufasaActions, actions_of};
+use super::decision::{MufasaActions, MufasaDropReason, actions_of};
 use crate::cycle::{MufasaTrackList, MufasaTrajectory};
+use crate::status::MufasaStatus;
+
+/// Sessions are numbered from 1.
+const NO_SESSION: i64 = 0;
 
 /// A message of a station with tracks.
 #[repr(C)]
@@ -69,7 +73,7 @@ impl<T> Received<T> {
     }
 
     /// Writes elements to the spare place; `None`: they do not fit.
-    pub(super) fn store(&mut self, items: impl ExactSizeIterator<Item = T>) -> Option<Stored<T>> {
+    fn store(&mut self, items: impl ExactSizeIterator<Item = T>) -> Option<Stored<T>> {
         let len = items.len();
         if len > self.capacity {
             return None;
@@ -85,16 +89,35 @@ impl<T> Received<T> {
         Some(Stored { items: self.spare, len: written })
     }
 
+    /// Elements arrive, in the session that they name: stored and given to the monitor. A list too long
+    /// for its place is told to the monitor as an empty one of no session: that is no arrival, as the
+    /// monitor itself treats tracks that are too many.
+    pub(super) fn arrive(
+        &mut self,
+        items: impl ExactSizeIterator<Item = T>,
+        session: i64,
+        tell: impl FnOnce(i64, Stored<T>) -> Result<Arrival<Stored<T>>, MufasaStatus>,
+    ) -> Result<MufasaActions, MufasaStatus> {
+        if let Some(stored) = self.store(items) {
+            return Ok(self.take(tell(session, stored)?));
+        }
+        let nothing = Stored { items: self.spare.cast_const(), len: 0 };
+        let actions = self.take(tell(NO_SESSION, nothing)?);
+        Ok(MufasaActions { dropped: MufasaDropReason::TooLong, ..actions })
+    }
+
     /// What has to be done about it. An element that was accepted is the last one from now on; the place of
     /// the one before is spare.
-    pub(super) fn take(&mut self, arrival: Arrival<Stored<T>>) -> MufasaActions {
+    fn take(&mut self, arrival: Arrival<Stored<T>>) -> MufasaActions {
         match arrival {
             Arrival::Accepted(element) => {
                 self.accepted = Some(element);
                 swap(&mut self.spare, &mut self.other);
                 actions_of(&[])
             }
-            Arrival::Dropped(actions) => actions_of(&actions),
+            Arrival::Dropped { why, actions } => {
+                MufasaActions { dropped: why.into(), ..actions_of(&actions) }
+            }
         }
     }
 

@@ -10,6 +10,7 @@ use mufasa::input::route_index::Block;
 use mufasa::input::scratch::{Column, Row};
 use mufasa::monitor::{Memory, Monitor};
 use mufasa::offloading::requester::StationRecord;
+use mufasa::report::InvalidInput;
 
 use super::decision::Verdicts;
 use super::element::{NO_POINT, NO_TRACK, Received};
@@ -50,6 +51,8 @@ pub struct MufasaMonitor {
     /// Of detections and cross sections; for tracks and points see `Received`.
     pub(super) most_detections: usize,
     pub(super) most_cross_sections: usize,
+    /// What was wrong with the last route.
+    pub(super) route_problem: Option<InvalidInput>,
     /// For lists of the call that goes on.
     pub(super) scratch: *mut c_void,
     pub(super) scratch_bytes: usize,
@@ -185,6 +188,7 @@ pub(super) unsafe fn init(
         verdicts,
         most_detections: sizes.detections,
         most_cross_sections: sizes.cross_sections,
+        route_problem: None,
         scratch,
         scratch_bytes,
     };

@@ -20,7 +20,7 @@ pub struct MufasaMonitorSettings {
     pub stages: MufasaParameters,
     /// Times of the requester.
     pub requester: MufasaRequesterParameters,
-    /// The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+    /// The nominal period of the remote's results in nanoseconds, at least 1,000,000 (1 ms). `requester.dt_max_ns` has to be above it:
     /// at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
     /// the paper's; at 10 Hz choose a larger one.)
     pub period_ns: i64,
@@ -29,7 +29,7 @@ pub struct MufasaMonitorSettings {
     pub sessions_before: i64,
     /// Stations that ever offer something, at least 1.
     pub most_stations: usize,
-    /// Tracks of a list.
+    /// Tracks of a list, at least 1.
     pub most_tracks: usize,
     /// Points of a trajectory.
     pub most_points: usize,
@@ -79,6 +79,7 @@ pub(super) fn refused(error: MonitorError) -> MufasaStatus {
             MufasaStatus::NegativeParameter
         }
         MonitorError::NoPeriod => MufasaStatus::InvalidPeriod,
+        MonitorError::TimeTooShort { .. } => MufasaStatus::TimeTooShort,
         MonitorError::DtMaxNotAbovePeriod { .. } => MufasaStatus::DtMaxNotAbovePeriod,
         MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
     }

@@ -6,7 +6,7 @@ use mufasa::report::{InvalidInput, Problem};
 
 use super::{MUFASA_TEXT_BYTES, input};
 
-const PROBLEMS: [Problem; 12] = [
+const PROBLEMS: [Problem; 13] = [
     Problem::NotFinite,
     Problem::OutOfDomain,
     Problem::NotADirection,
@@ -19,6 +19,7 @@ const PROBLEMS: [Problem; 12] = [
     Problem::TooMany,
     Problem::BitmapLength,
     Problem::ScratchTooSmall,
+    Problem::NoRoute,
 ];
 
 #[test]

@@ -1,8 +1,10 @@
 //! A disagreement in words: what the program answered, what is right, and the two numbers that
 //! decide.
 
+mod edges;
+
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::report::{FailedStage, Outcome, Reading, Report};
+use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Witness};
 use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, name};
 use schemars::JsonSchema;
@@ -22,6 +24,10 @@ use mufasa_records::{Trace, names};
 
 /// Margins that are tried, m: those of the domain of `delta`.
 const MARGINS_M: [f64; 7] = [1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+/// Numbers that are farther apart than so many times the margin that changes the verdict do not decide
+/// it: of all that is compared with a bound, each moves by the margin, twice at most.
+const FAR: f64 = 8.0;
 
 /// Most characters of an expected answer that are shown.
 const MOST: usize = 600;
@@ -132,37 +138,55 @@ fn verdict(exact: &Answer, answered: &Answered) -> String {
     }
 }
 
-/// The numbers of the exact model's witness; where it passes, those of the comparison that a
-/// growing margin first makes fail.
+/// The comparison that decides: that of the exact model's witness, or where it passes the one that a
+/// growing margin first makes fail; but one at the edge of the field of view or of the corridor when
+/// it is nearer to its threshold.
 fn decide(cycle: &Cycle, exact: &Answer, answered: &Answered) -> Option<Numbers> {
     let report = exact.as_ref().ok()?;
-    if let Some(witness) = words::failed_witness(report) {
-        let [left, right] = witness.compared;
-        // A witness compares two numbers of several: the centres, not the sides, of rectangles.
-        let near = answer_of(answered)
-            .and_then(|said| MARGINS_M.into_iter().find(|it| is_within(cycle, said, *it)));
-        let margin = match near {
-            Some(near) => format!("at most {near}: with it the model could answer the same"),
-            None => decimal((left - right).abs()),
-        };
-        return Some(Numbers {
-            what: words::witness(witness),
-            left: decimal(left),
-            right: decimal(right),
-            margin,
-        });
-    }
-    let stage = said(answered)?;
-    for margin in MARGINS_M {
-        if let Some(numbers) = strictly(cycle, margin, stage) {
-            return Some(numbers);
+    let answer = answer_of(answered)?;
+    let Said::Verdict(said) = answer else { return None };
+    let told = match words::failed_witness(report) {
+        Some(witness) => {
+            // A witness compares two numbers of several: the centres, not the sides, of rectangles.
+            let near = MARGINS_M.into_iter().find(|it| is_within(cycle, answer, *it));
+            Some((witness.clone(), near, words::witness(witness)))
         }
+        None => MARGINS_M.into_iter().find_map(|margin| strictly(cycle, margin, said?)),
+    };
+    let apart = told.as_ref().map(|(it, ..)| (it.compared[0] - it.compared[1]).abs());
+    let edge = edges::nearest(cycle, said);
+    if let Some(edge) = edge.filter(|edge| apart.is_none_or(|apart| edge.margin_m() < apart)) {
+        let [left, right] = edge.compared.map(decimal);
+        let margin = format!("{} m", decimal(edge.margin_m()));
+        return Some(Numbers { what: edge.what, left, right, margin });
     }
-    None
+    let (witness, near, what) = told?;
+    let hides = near.is_some_and(|near| apart.is_some_and(|apart| apart > FAR * near));
+    if hides && is_behind_an_edge(witness.rule) {
+        return None;
+    }
+    let [left, right] = witness.compared.map(decimal);
+    let margin = match (near, report.failed_stage) {
+        (Some(near), None) => format!("at most {near}"),
+        (Some(near), Some(_)) => format!("at most {near}: with it the model could answer the same"),
+        (None, _) => decimal(apart?),
+    };
+    Some(Numbers { what, left, right, margin })
 }
 
-/// The comparison that fails at a stage with this margin.
-fn strictly(cycle: &Cycle, margin_m: f64, stage: FailedStage) -> Option<Numbers> {
+/// Whether an edge of the field of view or of the corridor may decide in place of the numbers of a
+/// witness of this rule.
+fn is_behind_an_edge(rule: Rule) -> bool {
+    matches!(rule, Rule::MeanCost | Rule::NoAssignment | Rule::ThetaMap | Rule::Corridor)
+}
+
+/// The witness of the stage at which the cycle fails with this margin, if it is this stage; the
+/// margin, and the witness in words.
+fn strictly(
+    cycle: &Cycle,
+    margin_m: f64,
+    stage: FailedStage,
+) -> Option<(Witness, Option<f64>, String)> {
     let mut cycle = cycle.clone();
     cycle.parameters.delta = margin_m;
     let report: Report = check(&cycle, Reading::Strict).ok()?;
@@ -170,17 +194,12 @@ fn strictly(cycle: &Cycle, margin_m: f64, stage: FailedStage) -> Option<Numbers>
         return None;
     }
     let witness = words::failed_witness(&report)?;
-    let [left, right] = witness.compared;
-    Some(Numbers {
-        what: format!(
-            "passes; with a margin of {margin_m} m it would fail at {}: {}",
-            name(Some(stage)),
-            words::witness(witness)
-        ),
-        left: decimal(left),
-        right: decimal(right),
-        margin: format!("at most {margin_m}"),
-    })
+    let what = format!(
+        "passes; with a margin of {margin_m} m it would fail at {}: {}",
+        name(Some(stage)),
+        words::witness(witness)
+    );
+    Some((witness.clone(), Some(margin_m), what))
 }
 
 /// The first state that differs: what it must be, and both values.

@@ -30,7 +30,8 @@ pub fn xml(summary: &Summary) -> String {
         let name = escaped(&format!("{} ({cases} cases)", words.join(" ")));
         let _ = writeln!(text, "<testcase classname=\"mufasa.{}\" name=\"{name}\"/>", kind.name());
     }
-    for Found { class, id, count, told, record, before, .. } in &summary.classes {
+    for found in &summary.classes {
+        let Found { class, id, count, told, record, before, .. } = found;
         let (kind, name) = (class.kind.name(), escaped(&class.to_string()));
         let message = escaped(&format!("{count} cases; exact: {}", told.expected));
         let mut body = format!("program: {}\nexact: {}\n", told.answered, told.expected);
@@ -40,6 +41,9 @@ pub fn xml(summary: &Summary) -> String {
                 "decides: {}\n{} against {}, margin {}",
                 numbers.what, numbers.left, numbers.right, numbers.margin
             );
+        }
+        if let Some(delta) = found.delta() {
+            let _ = writeln!(body, "delta: {delta} m, the record's own margin");
         }
         if !before.is_empty() {
             let _ = writeln!(body, "does not occur alone: sequence.{id}.jsonl");

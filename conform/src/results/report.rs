@@ -14,6 +14,9 @@ use mufasa_records::files;
 /// So many vectors that disagree are named; the summary has all.
 const NAMED: usize = 5;
 
+/// What is said where only the tolerance makes answers agree.
+const TOLERATED: &str = "no disagreement beyond the tolerance (this is not conformance)";
+
 /// Longest record that is printed; the file has all.
 const MOST: usize = 4000;
 
@@ -37,6 +40,9 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
             write!(out, ", margin {}", numbers.margin)?;
         }
         writeln!(out)?;
+    }
+    if let Some(delta) = found.delta() {
+        writeln!(out, "  delta    {delta} m, the record's own margin (parameters.delta)")?;
     }
     let how = match (shrunk, before.len()) {
         (true, _) => "shrunk from",
@@ -75,41 +81,50 @@ fn counts(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
         let name = kind.name();
         writeln!(out, "given up: {name} records, after too many restarts of the program")?;
     }
-    let Campaign { vectors, cases, of, .. } = &summary.campaign;
-    let wrong = summary.wrong_vectors();
-    if *vectors > 0 {
-        write!(out, "{} of {vectors} vectors asked", summary.vectors)?;
-        match wrong.split_at_checked(NAMED) {
-            _ if wrong.is_empty() => writeln!(out, ": no disagreement")?,
-            Some((named, more)) if !more.is_empty() => {
-                let named = named.join(", ");
-                writeln!(out, ": {} DISAGREE: {named}, {} more", wrong.len(), more.len())?;
-            }
-            _ => writeln!(out, ": {} DISAGREE: {}", wrong.len(), wrong.join(", "))?,
-        }
+    if summary.late > 0 {
+        let limit = summary.campaign.time_limit_ms;
+        writeln!(out, "{} answered only when asked again, not within {limit} ms", summary.late)?;
     }
+    if summary.campaign.vectors > 0 {
+        vectors(summary, out)?;
+    }
+    cases(summary, out)
+}
+
+/// The line of the vectors.
+fn vectors(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    let wrong = summary.wrong_vectors();
+    write!(out, "{} of {} vectors asked", summary.vectors, summary.campaign.vectors)?;
+    left_out(summary.vectors_skipped, summary.vectors_tolerated, out)?;
+    match wrong.split_at_checked(NAMED) {
+        _ if summary.vectors == 0 => writeln!(out),
+        _ if wrong.is_empty() && summary.vectors_tolerated > 0 => writeln!(out, ": {TOLERATED}"),
+        _ if wrong.is_empty() => writeln!(out, ": no disagreement"),
+        Some((named, more)) if !more.is_empty() => {
+            let named = named.join(", ");
+            writeln!(out, ": {} DISAGREE: {named}, {} more", wrong.len(), more.len())
+        }
+        _ => writeln!(out, ": {} DISAGREE: {}", wrong.len(), wrong.join(", ")),
+    }
+}
+
+/// The line of the cases.
+fn cases(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    let Campaign { cases, of, .. } = &summary.campaign;
     write!(out, "{} of {cases} cases asked", summary.asked)?;
     if *of > 1 {
         write!(out, " ({} of {of} shards)", summary.shards.len())?;
     }
-    if summary.skipped > 0 {
-        write!(out, ", {} left out", summary.skipped)?;
-    }
-    if summary.late > 0 {
-        let limit = summary.campaign.time_limit_ms;
-        write!(out, ", {} answered only when asked again, not within {limit} ms", summary.late)?;
-    }
-    if summary.tolerated > 0 {
-        write!(out, ", {} agree within the tolerance only", summary.tolerated)?;
-    }
+    left_out(summary.skipped, summary.tolerated, out)?;
     if summary.interrupted {
         write!(out, ", INTERRUPTED")?;
     }
-    let of_cases = summary.disagreements() - wrong.len() as u64;
+    let of_cases = summary.disagreements() - summary.wrong_vectors().len() as u64;
     match (of_cases, summary.asked) {
         (_, 0) if !summary.is_empty() => writeln!(out),
         (_, 0) => writeln!(out, ": nothing was compared"),
         (0, _) if summary.interrupted => writeln!(out, ": no disagreement so far"),
+        (0, _) if summary.tolerated > 0 => writeln!(out, ": {TOLERATED}"),
         (0, _) => writeln!(out, ": the program conforms in all of them"),
         (count, _) => {
             let classes = summary.classes.iter().filter(|found| found.first.is_some()).count();
@@ -117,6 +132,17 @@ fn counts(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
             writeln!(out, ": {count} DISAGREE, in {classes} class{plural}")
         }
     }
+}
+
+/// How many of those on this line were not asked, and how many were asked in vain.
+fn left_out(skipped: u64, tolerated: u64, out: &mut impl Write) -> io::Result<()> {
+    if skipped > 0 {
+        write!(out, ", {skipped} left out")?;
+    }
+    if tolerated > 0 {
+        write!(out, ", {tolerated} agree within the tolerance only")?;
+    }
+    Ok(())
 }
 
 /// Cases by kind, profile and expected verdict, on one line each.
@@ -217,5 +243,55 @@ impl Files {
             })?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::value::RawValue;
+
+    use super::*;
+    use crate::judge::class::{Breach, Class, Scale};
+    use crate::judge::explain::Told;
+
+    fn printed(record: &str) -> String {
+        let class = Class {
+            kind: Kind::Cycle,
+            breach: Breach::Completeness,
+            place: String::from("i"),
+            profile: String::new(),
+            configuration: String::new(),
+            scale: Scale::Clear,
+        };
+        let told = Told { answered: String::new(), expected: String::new(), numbers: None };
+        let found = Found {
+            id: class.slug(),
+            class,
+            count: 1,
+            vectors: Vec::new(),
+            first: Some(0),
+            name: String::from("c-0"),
+            about: String::new(),
+            told,
+            shrunk: true,
+            before: Vec::new(),
+            size: 1,
+            unit: String::from("object"),
+            record: RawValue::from_string(record.to_owned()).expect("JSON"),
+        };
+        let mut out = Vec::new();
+        super::found(&found, &mut out).expect("written");
+        String::from_utf8(out).expect("text")
+    }
+
+    #[test]
+    fn a_margin_of_the_record_itself_is_said_and_no_other() {
+        let own = printed(r#"{"parameters": {"delta": 1e-8}}"#);
+        assert!(
+            own.contains("\n  delta    1e-8 m, the record's own margin (parameters.delta)\n"),
+            "{own}"
+        );
+        assert!(!printed(r#"{"parameters": {"theta_tr": 0.1}}"#).contains("delta"));
+        assert!(!printed(r#""no record""#).contains("delta"));
     }
 }

@@ -24,7 +24,11 @@ pub struct Summary {
     pub vectors: u64,
     /// Cases asked.
     pub asked: u64,
-    /// Vectors and cases not asked because their kind was given up.
+    /// Vectors not asked because their kind was given up.
+    pub vectors_skipped: u64,
+    /// Vectors that only the tolerance makes agree.
+    pub vectors_tolerated: u64,
+    /// Cases not asked because their kind was given up.
     pub skipped: u64,
     /// Cases that only the tolerance makes agree.
     pub tolerated: u64,
@@ -128,6 +132,12 @@ impl Found {
         serde_json::from_str(text).unwrap_or_else(|_| text.to_owned())
     }
 
+    /// The margin that the record sets itself, m, as it is written there (`parameters.delta`).
+    pub fn delta(&self) -> Option<String> {
+        let record: serde_json::Value = serde_json::from_str(self.record.get()).ok()?;
+        record.pointer("/parameters/delta").map(ToString::to_string)
+    }
+
     /// Which of two cases of a class says more: the lower.
     pub fn rank(&self) -> (bool, bool, usize) {
         (!self.shrunk, self.before.is_empty(), self.size)
@@ -201,6 +211,8 @@ impl Summary {
         self.shards.sort_unstable();
         self.vectors += other.vectors;
         self.asked += other.asked;
+        self.vectors_skipped += other.vectors_skipped;
+        self.vectors_tolerated += other.vectors_tolerated;
         self.skipped += other.skipped;
         self.tolerated += other.tolerated;
         self.late += other.late;

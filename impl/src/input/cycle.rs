@@ -145,6 +145,11 @@ pub struct Detection {
     pub width: f64,
 }
 
+impl Detection {
+    /// All zero: a place to be lent, and no valid detection. Source: `spec/5-interfaces.md#monitor`.
+    pub const EMPTY: Self = Self { x: 0.0, y: 0.0, cos: 0.0, sin: 0.0, length: 0.0, width: 0.0 };
+}
+
 /// The leading vehicle. Source: `spec/5-interfaces.md#cycle`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lead {
@@ -177,6 +182,11 @@ pub struct CrossSection {
     pub left: [f64; 2],
     /// Right boundary point, m.
     pub right: [f64; 2],
+}
+
+impl CrossSection {
+    /// All zero: a place to be lent. Source: `spec/5-interfaces.md#monitor`.
+    pub const EMPTY: Self = Self { x: 0.0, y: 0.0, left: [0.0; 2], right: [0.0; 2] };
 }
 
 /// An occupancy grid map; the cell (column i, row k) is the square from (i, k) to (i+1, k+1)

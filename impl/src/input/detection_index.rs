@@ -27,6 +27,12 @@ pub struct Slot {
     end: u16,
 }
 
+impl Slot {
+    /// A place to be lent; a constant, so that it needs no heap. Source:
+    /// `spec/3-stages.md#what-the-cav-saw-itself`.
+    pub const EMPTY: Self = Self { place: [0.0; 2], clear: 0.0, item: 0, start: 0, end: 0 };
+}
+
 /// Valid detections with their index: a grid over all of them with about as many cells, and the
 /// items cell by cell. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
 #[derive(Clone, Copy, Debug)]

@@ -61,7 +61,12 @@ macro_rules! fields {
         /// double nearest to the decimal of `spec/3-stages.md` (I-12).
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Parameters {
-            $($(#[$doc])* pub $name: $number,)*
+            $(
+                $(#[$doc])*
+                ///
+                #[doc = concat!("Default ", stringify!($default), ", from ", stringify!($domain), ".")]
+                pub $name: $number,
+            )*
         }
 
         impl Default for Parameters {

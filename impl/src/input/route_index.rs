@@ -18,11 +18,15 @@ pub struct Block {
 
 impl Default for Block {
     fn default() -> Self {
-        Self { least: [f64::MAX; 2], most: [f64::MIN; 2] }
+        Self::EMPTY
     }
 }
 
 impl Block {
+    /// A place to be lent; a constant, so that it needs no heap. Source:
+    /// `spec/3-stages.md#stage-ii-trajectory-to-map`.
+    pub const EMPTY: Self = Self { least: [f64::MAX; 2], most: [f64::MIN; 2] };
+
     /// How many blocks the index of a route needs. Source:
     /// `spec/3-stages.md#stage-ii-trajectory-to-map`.
     pub const fn needed(cross_sections: usize) -> usize {

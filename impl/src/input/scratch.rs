@@ -21,6 +21,12 @@ pub struct Row {
     pub(crate) seen: u16,
 }
 
+impl Row {
+    /// A place to be lent; a constant, so that it needs no heap. Source:
+    /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
+    pub const EMPTY: Self = Self { potential: 0, track: 0, column: 0, item: 0, seen: 0 };
+}
+
 /// Working memory for one column of the assignment; its content between cycles means nothing.
 /// Source: `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,6 +47,21 @@ pub struct Column {
     pub(crate) reached: u16,
     /// For more lists of items than one, see `detection_history::squares`.
     pub(crate) links: [u16; 3],
+}
+
+impl Column {
+    /// A place to be lent; a constant, so that it needs no heap. Source:
+    /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
+    pub const EMPTY: Self = Self {
+        potential: 0,
+        distance: 0,
+        row: 0,
+        before: 0,
+        head: 0,
+        next: 0,
+        reached: 0,
+        links: [0; 3],
+    };
 }
 
 /// No row, column or detection: there are at most 2112.

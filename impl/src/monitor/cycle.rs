@@ -116,7 +116,8 @@ impl Monitor<'_> {
             Some(running) => last_used(running, inputs.remote_trajectory).map(trajectory_of),
             None => inputs.local_trajectory,
         };
-        let report = self.check(inputs, tracks, trajectory);
+        let has_route = self.route.is_set();
+        let report = self.check(inputs, tracks, trajectory).map_err(|it| named(it, has_route));
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
 
         let max_age_ns = self.settings.stages.max_age_ns;
@@ -132,10 +133,10 @@ impl Monitor<'_> {
         let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
         let trajectory = trajectory.filter(|it| is_checked && current(it.stamp_ns));
-        let named = |used: bool, running: Option<Running>| running.filter(|_| used);
+        let used = |used: bool, running: Option<Running>| running.filter(|_| used);
         let sessions = Sessions {
-            mot: named(tracks.is_some(), mot).map(|running| running.session),
-            plan: named(trajectory.is_some(), plan).map(|running| running.session),
+            mot: used(tracks.is_some(), mot).map(|running| running.session),
+            plan: used(trajectory.is_some(), plan).map(|running| running.session),
         };
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
@@ -195,6 +196,14 @@ impl Monitor<'_> {
         }
         Ok(report)
     }
+}
+
+/// The problem; of a route that was never set that, and not that it has too few cross sections.
+fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
+    if !has_route && (problem.field, problem.problem) == ("route.stations", Problem::TooFew) {
+        return InvalidInput { field: "route", index: None, problem: Problem::NoRoute };
+    }
+    problem
 }
 
 /// The element, if it is the last one that the requester used in this session: of a session each that

@@ -63,9 +63,60 @@ impl<L> fmt::Debug for Accepted<L> {
 pub enum Arrival<L> {
     /// It is of the running session and in time: to be checked in a cycle.
     Accepted(Accepted<L>),
-    /// It is of no use, and gone: late, not newer than the last one, of no running session, or with a
-    /// stamp too old for any cycle. A violation of quality of service ends the session: then there are releases and activations, too.
-    Dropped(Actions),
+    /// It is of no use, and gone.
+    Dropped {
+        /// Why.
+        why: DropReason,
+        /// What has to be done about it: a violation of quality of service ends the session, with
+        /// releases and activations.
+        actions: Actions,
+    },
+}
+
+/// Why a message is of no use; of several reasons the first in this order. Source:
+/// `spec/5-interfaces.md#monitor`, `spec/2-offloading.md#quality-of-service`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DropReason {
+    /// It has more tracks than the memory that was lent (`rows`) is for. It is no arrival: a station
+    /// that goes on so is silent, and its session ends after `dt_max`.
+    TooLong,
+    /// It is not of the running session of its group, or there is none.
+    OtherSession,
+    /// It was generated after it arrived: the clocks cannot be trusted. The session has ended.
+    FromTheFuture,
+    /// Its latency is above `l_max`. The session has ended.
+    Late,
+    /// Its stamp is more than `max_age` ago, so that no cycle can use it. It is no arrival.
+    TooOld,
+    /// For more than `dt_max` no cycle has had an element of the session that was current (F-43). It is no
+    /// arrival: the session ends after `dt_max`.
+    Starved,
+    /// The time since the last arrival is above `dt_max`. The session has ended.
+    AfterSilence,
+    /// It is not generated later than the last one that was used: repeated, or overtaken.
+    NotNewer,
+}
+
+impl DropReason {
+    /// In words. Source: `spec/5-interfaces.md#monitor`.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::TooLong => "more tracks than the lent memory is for",
+            Self::OtherSession => "not of the running session",
+            Self::FromTheFuture => "generated after it arrived",
+            Self::Late => "latency above l_max",
+            Self::TooOld => "stamp more than max_age ago",
+            Self::Starved => "no cycle could use those before it",
+            Self::AfterSilence => "more than dt_max after the last arrival",
+            Self::NotNewer => "not newer than the last one used",
+        }
+    }
+}
+
+impl fmt::Display for DropReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
 }
 
 /// An accepted element as a cycle sees it.

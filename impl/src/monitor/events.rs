@@ -2,7 +2,7 @@
 //! their order.
 
 use super::Monitor;
-use super::element::{Accepted, Arrival, Message};
+use super::element::{Accepted, Arrival, DropReason, Message};
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
 use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
@@ -78,7 +78,8 @@ impl Monitor<'_> {
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
-    /// with a stamp at most `max_age_ns` old, while cycles find what is current.
+    /// with a stamp at most `max_age_ns` old, while cycles find what is current; more tracks than `rows`
+    /// were lent are dropped.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn tracks<L: AsRef<[Track]>>(
@@ -86,11 +87,13 @@ impl Monitor<'_> {
         now: Time,
         message: Message<L>,
     ) -> Result<Arrival<L>, RequesterError> {
-        self.arrival(now, Group::Mot, message)
+        let is_too_long = message.items.as_ref().len() > self.rows.len();
+        self.arrival(now, Group::Mot, message, is_too_long)
     }
 
     /// A trajectory arrives. Used is what is of the running session of PLAN, in time, newer than
-    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current.
+    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current. What its
+    /// points have to be like to be safe: [`Inputs::remote_trajectory`](super::Inputs::remote_trajectory).
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn trajectory<L: AsRef<[TrajectoryPoint]>>(
@@ -98,7 +101,7 @@ impl Monitor<'_> {
         now: Time,
         message: Message<L>,
     ) -> Result<Arrival<L>, RequesterError> {
-        self.arrival(now, Group::Plan, message)
+        self.arrival(now, Group::Plan, message, false)
     }
 
     fn arrival<L>(
@@ -106,24 +109,45 @@ impl Monitor<'_> {
         now: Time,
         group: Group,
         message: Message<L>,
+        is_too_long: bool,
     ) -> Result<Arrival<L>, RequesterError> {
         let Message { station, session, generated, stamp, items } = message;
         let generated_ns = generated.as_nanoseconds();
         let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
         // What is in time, but so old that no cycle can use it any more, is of no session, so that it is
-        // no arrival. What is stamped ahead may be for the next cycle, as long as cycles use any.
+        // no arrival; nor is what no cycle could hold. What is stamped ahead may be for the next cycle, as
+        // long as cycles use any.
         let is_in_time = is_current(generated_ns, now_ns, self.settings.requester.l_max_ns);
         let max_age_ns = self.settings.stages.max_age_ns;
         let is_too_old = stamp_ns < now_ns && !is_current(stamp_ns, now_ns, max_age_ns);
-        let is_useless = is_too_old || self.served.get(group).is_starved();
-        let named = if is_in_time && is_useless { NO_SESSION } else { session };
+        let is_starved = self.served.get(group).is_starved();
+        let is_no_arrival = is_too_long || (is_in_time && (is_too_old || is_starved));
+        let named = if is_no_arrival { NO_SESSION } else { session };
+        let running = self.requester.session_of(group);
+        let is_running = running.is_some_and(|it| (it.station, it.session) == (station, session));
         let data = EventKind::Data { station, group, session: named, generated_ns };
         let actions = self.step(now, data)?;
-        Ok(if actions.contains(&Action::Drop(group)) {
-            Arrival::Dropped(actions)
+        if !actions.contains(&Action::Drop(group)) {
+            return Ok(Arrival::Accepted(Accepted { session, generated, stamp, items }));
+        }
+        let why = if is_too_long {
+            DropReason::TooLong
+        } else if !is_running {
+            DropReason::OtherSession
+        } else if generated_ns > now_ns {
+            DropReason::FromTheFuture
+        } else if !is_in_time {
+            DropReason::Late
+        } else if is_too_old {
+            DropReason::TooOld
+        } else if is_starved {
+            DropReason::Starved
+        } else if self.requester.session_of(group).is_none() {
+            DropReason::AfterSilence
         } else {
-            Arrival::Accepted(Accepted { session, generated, stamp, items })
-        })
+            DropReason::NotNewer
+        };
+        Ok(Arrival::Dropped { why, actions })
     }
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {

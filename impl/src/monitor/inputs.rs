@@ -75,7 +75,8 @@ impl<'c> Inputs<'c> {
     }
 
     /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote. In
-    /// MotRemote one that is not current is not checked, and does not come out: do not drive it.
+    /// MotRemote one that is not current is not checked, and does not come out: do not drive it. What
+    /// its points have to be like: as of [`Self::remote_trajectory`].
     /// Source: `spec/5-interfaces.md#monitor`.
     pub const fn local_trajectory(mut self, stamp: Time, points: &'c [TrajectoryPoint]) -> Self {
         self.local_trajectory = Some(Trajectory { stamp_ns: stamp.as_nanoseconds(), points });
@@ -100,8 +101,19 @@ impl<'c> Inputs<'c> {
     }
 
     /// With the trajectory of a station: used while PLAN is remote, if it is the last one that the
-    /// monitor accepted in the running session; another counts as missing. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// monitor accepted in the running session; another counts as missing.
+    ///
+    /// Points are places of the reference point that `ego` names, in order of time, at most 1024.
+    /// In the hardened profile stage ii asks of the points, over their whole length:
+    /// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
+    ///   drives since), at most `lateral_tolerance` aside, heading as the CAV to about 10 degrees (H-07);
+    /// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
+    ///   turn as a vehicle can (H-11);
+    /// * corridor: every point inside, none heading against the route (H-07);
+    /// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
+    ///   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
+    ///
+    /// Source: `spec/5-interfaces.md#monitor`, `spec/3-stages.md#hardened-profile`.
     pub fn remote_trajectory<L: AsRef<[TrajectoryPoint]>>(
         mut self,
         trajectory: &'c Accepted<L>,

@@ -10,8 +10,73 @@ use crate::offloading::requester::StationRecord;
 pub(super) const PLACES: usize = 12;
 
 /// Slices that the monitor has for itself as long as it lives; what they hold before means nothing.
-/// What does not fit into them is refused when it comes, and never cut off. Source:
-/// `spec/5-interfaces.md#monitor`.
+/// What does not fit into them is refused when it comes, and never cut off.
+///
+/// No heap is needed: of each element there is a constant, so that the memory may stand in a static or on the
+/// stack. Its size is what is written down (here 80 kB: 64 tracks, 64 detections, 256 cross sections), and
+/// the monitor is small beside it. A call of the monitor itself fits into a stack of 32 KiB (tested by
+/// `props/tests/monitor/stack.rs`).
+///
+/// ```
+/// use std::sync::Mutex;
+///
+/// use mufasa::input::cycle::{CrossSection, Detection};
+/// use mufasa::input::detection_index::Slot;
+/// use mufasa::input::route_index::Block;
+/// use mufasa::input::scratch::{Column, Row};
+/// use mufasa::monitor::{Memory, Monitor, Settings};
+/// use mufasa::offloading::requester::StationRecord;
+///
+/// const TRACKS: usize = 64;
+/// const DETECTIONS: usize = 64;
+/// const CROSS_SECTIONS: usize = 256;
+/// // The default of `miss_budget` is 4.
+/// const COLUMNS: usize = DETECTIONS + 4;
+///
+/// struct Lent {
+///     stations: [StationRecord; 8],
+///     rows: [Row; TRACKS],
+///     columns: [Column; COLUMNS],
+///     detections: [Detection; Memory::detections_for(DETECTIONS)],
+///     slots: [Slot; Memory::slots_for(DETECTIONS)],
+///     cross_sections: [CrossSection; CROSS_SECTIONS],
+///     blocks: [Block; Block::needed(CROSS_SECTIONS)],
+/// }
+///
+/// impl Lent {
+///     const EMPTY: Self = Self {
+///         stations: [StationRecord::FREE; 8],
+///         rows: [Row::EMPTY; TRACKS],
+///         columns: [Column::EMPTY; COLUMNS],
+///         detections: [Detection::EMPTY; Memory::detections_for(DETECTIONS)],
+///         slots: [Slot::EMPTY; Memory::slots_for(DETECTIONS)],
+///         cross_sections: [CrossSection::EMPTY; CROSS_SECTIONS],
+///         blocks: [Block::EMPTY; Block::needed(CROSS_SECTIONS)],
+///     };
+///
+///     fn memory(&mut self) -> Memory<'_> {
+///         let Self { stations, rows, columns, detections, slots, cross_sections, blocks } = self;
+///         Memory { stations, rows, columns, detections, slots, cross_sections, blocks }
+///     }
+/// }
+///
+/// // In a static; without `std` any lock whose constructor is `const` will do.
+/// static LENT: Mutex<Lent> = Mutex::new(Lent::EMPTY);
+///
+/// let settings = Settings::new(std::time::Duration::from_millis(50));
+/// let mut lent = LENT.lock()?;
+/// let monitor = Monitor::new(settings, lent.memory())?;
+///
+/// // On the stack.
+/// let mut lent = Lent::EMPTY;
+/// let other = Monitor::new(settings, lent.memory())?;
+///
+/// assert_eq!(size_of::<Lent>(), 79_776);
+/// assert!(size_of_val(&monitor) < 2048 && size_of_val(&other) < 2048);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Source: `spec/5-interfaces.md#monitor`.
 #[derive(Debug)]
 pub struct Memory<'a> {
     /// A place for each station that ever offers something; at least one.

@@ -19,7 +19,7 @@ mod settings;
 mod time;
 
 pub use self::decision::{Decision, Verified};
-pub use self::element::{Accepted, Arrival, Message};
+pub use self::element::{Accepted, Arrival, DropReason, Message};
 pub use self::inputs::{Gap, GridMap, Inputs};
 pub use self::memory::Memory;
 pub use self::settings::{MonitorError, Settings};
@@ -69,6 +69,13 @@ impl<'a> Monitor<'a> {
                 let given = detections.len();
                 return Err(MonitorError::Memory { field: "detections", needed: PLACES, given });
             }
+        }
+        if rows.is_empty() {
+            return Err(MonitorError::Memory { field: "rows", needed: 1, given: 0 });
+        }
+        if columns.len() < rows.len() {
+            let (needed, given) = (rows.len(), columns.len());
+            return Err(MonitorError::Memory { field: "columns", needed, given });
         }
         let (needed, given) = (Memory::slots_for(capacity), slots.len());
         let too_few = MonitorError::Memory { field: "slots", needed, given };

@@ -41,6 +41,11 @@ impl<'a> KeptRoute<'a> {
         Route { closed: self.closed, cross_sections }
     }
 
+    /// Whether one was set.
+    pub(super) const fn is_set(&self) -> bool {
+        self.count > 0
+    }
+
     /// The index of that very route.
     pub(super) fn index(&self) -> Option<RouteIndex<'_>> {
         if self.count == 0 { None } else { RouteIndex::of_kept(self.route(), self.blocks) }

@@ -9,6 +9,10 @@ use crate::input::profile::Profile;
 use crate::offloading::requester::{self, RequesterError};
 use crate::report::InvalidInput;
 
+/// The shortest time above 0 that is taken for one in nanoseconds: no period, latency or age of a vehicle
+/// is shorter, and each of these in milliseconds or microseconds is, up to 1000 s and 1 s.
+const LEAST_NS: i64 = 1_000_000;
+
 /// What a monitor is made with. Source: `spec/5-interfaces.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -41,12 +45,18 @@ impl Settings {
         }
     }
 
-    /// Whether a monitor may be made with it.
-    pub(super) fn check(&self) -> Result<(), MonitorError> {
+    /// Whether a monitor may be made with it, apart from its memory.
+    ///
+    /// Errors: the first of these settings that no monitor keeps. Source:
+    /// `spec/5-interfaces.md#monitor`.
+    pub fn check(&self) -> Result<(), MonitorError> {
         check_parameters(&self.stages).map_err(MonitorError::Stages)?;
         let dt_max_ns = self.requester.dt_max_ns;
         if self.period.is_zero() {
             return Err(MonitorError::NoPeriod);
+        }
+        if let Some((field, ns)) = self.too_short() {
+            return Err(MonitorError::TimeTooShort { field, ns });
         }
         // A negative dt_max is refused by the requester.
         if u128::try_from(dt_max_ns).is_ok_and(|dt_max_ns| dt_max_ns <= self.period.as_nanos()) {
@@ -59,6 +69,25 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// The first time above 0 and below `LEAST_NS`, ns. Exactly 0 is no slip of a unit.
+    fn too_short(&self) -> Option<(&'static str, i64)> {
+        let period_ns = i64::try_from(self.period.as_nanos()).unwrap_or(i64::MAX);
+        let requester::Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, .. } =
+            self.requester;
+        let times = [
+            ("period", period_ns),
+            ("stages.max_age_ns", self.stages.max_age_ns),
+            ("stages.step_max_ns", self.stages.step_max_ns),
+            ("requester.t_wait_ns", t_wait_ns),
+            ("requester.request_timeout_ns", request_timeout_ns),
+            ("requester.l_max_ns", l_max_ns),
+            ("requester.dt_max_ns", dt_max_ns),
+        ];
+        times.into_iter().find(|(_, ns)| 0 < *ns && *ns < LEAST_NS)
+    }
+}
+
 /// Why a monitor could not be made. Source: `spec/5-interfaces.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MonitorError {
@@ -68,6 +97,13 @@ pub enum MonitorError {
     Requester(RequesterError),
     /// The nominal period is 0.
     NoPeriod,
+    /// A time above 0 and below 1 ms: it is taken for one in another unit.
+    TimeTooShort {
+        /// The setting.
+        field: &'static str,
+        /// What was given, ns.
+        ns: i64,
+    },
     /// `requester.dt_max_ns` is not above the nominal period.
     DtMaxNotAbovePeriod {
         /// Largest inter-arrival time that is no violation, ns.
@@ -99,6 +135,10 @@ impl fmt::Display for MonitorError {
             Self::NoPeriod => {
                 f.write_str("settings.period is 0; give the nominal period of the remote's results")
             }
+            Self::TimeTooShort { field, ns } => write!(
+                f,
+                "settings.{field} = {ns} ns is below 1 ms; is it in another unit? Give nanoseconds"
+            ),
             Self::DtMaxNotAbovePeriod { dt_max_ns, period } => write!(
                 f,
                 "settings.requester.dt_max_ns = {dt_max_ns} is not above settings.period = {} ns, \
@@ -111,7 +151,13 @@ impl fmt::Display for MonitorError {
                  earlier lives, or 0"
             ),
             Self::Memory { field, needed, given } => {
-                write!(f, "memory.{field} has {given} elements; lend at least {needed}")
+                write!(f, "memory.{field} has {given} elements; lend at least {needed}")?;
+                match field {
+                    "rows" | "columns" => f.write_str(": scratch::Sizes::for_cycle says how many"),
+                    "detections" => f.write_str(": Memory::detections_for says how many"),
+                    "slots" => f.write_str(": Memory::slots_for says how many"),
+                    _ => Ok(()),
+                }
             }
         }
     }

@@ -88,7 +88,9 @@ impl<T: Transport> Vehicle<'_, T> {
                 self.tally.accepted(group, latency_ns);
                 return Some(element);
             }
-            Ok(Arrival::Dropped(actions)) => self.answered(now_ns, before, Ok(actions), "late"),
+            Ok(Arrival::Dropped { actions, .. }) => {
+                self.answered(now_ns, before, Ok(actions), "late");
+            }
             Err(error) => self.answered(now_ns, before, Err(error), "late"),
         }
         None

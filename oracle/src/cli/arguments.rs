@@ -117,14 +117,27 @@ pub(super) struct OracleArguments {
     pub(super) implementation: bool,
 }
 
+/// What a program under test has to do, and what the exit codes say.
+const CONFORM_HELP: &str = "\
+The program reads one JSON record per line on standard input, until its end, and writes one answer
+per line on standard output, in the same order, each at once (flushed):
+
+    in   {\"kind\": \"cycle\", \"id\": \"c-17\", \"profile\": \"paper\", ...}
+    out  {\"id\": \"c-17\", \"verdict\": \"unsafe\", \"failed_stage\": \"iii\"}
+
+spec/5-interfaces.md has the fields of records and answers, docs/conformance.md an introduction.
+
+    mufasa conform --profile paper --kinds cycle -- node program.mjs
+
+Exit codes: 0 no disagreement (none beyond --tolerance, which is no conformance), 1 some, 2 bad
+input, nothing was compared, or (merge) a shard is missing or was interrupted, 130 interrupted: the
+files hold what was known.";
+
 #[derive(Args)]
 #[command(
     args_conflicts_with_subcommands = true,
     subcommand_negates_reqs = true,
-    after_help = "\
-Exit codes: 0 the program conforms in every case, 1 it disagrees in some, 2 bad input, nothing was
-compared, or (merge) a shard is missing or was interrupted, 130 interrupted: the files hold what was
-known."
+    after_help = CONFORM_HELP
 )]
 pub(super) struct ConformArguments {
     #[command(subcommand)]

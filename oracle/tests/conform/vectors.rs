@@ -98,3 +98,27 @@ fn shards_divide_the_vectors() {
     once.dedup();
     assert_eq!(once.len(), merged.wrong_vectors().len());
 }
+
+/// Vectors and cases that are not asked are counted apart.
+#[test]
+fn what_is_left_out_is_counted_on_the_line_of_its_own() {
+    let folder = folder("vectors-left-out");
+    let options = ["--kinds", "cycle", "--cases", "20", "--profile", "paper"];
+    let output = with_vectors(&folder, &options, &["sh", "-c", "exit 7"]);
+    let told = text(&output);
+    if output.status.code() == Some(2) {
+        eprintln!("NOT RUN: left out: there is no `sh` here");
+        return;
+    }
+    let summary = summary(&folder);
+    assert_eq!(summary.vectors + summary.vectors_skipped, summary.campaign.vectors, "{told}");
+    assert_eq!((summary.asked, summary.skipped), (0, 20), "{told}");
+    let said = format!(
+        "of {} vectors asked, {} left out: ",
+        summary.campaign.vectors, summary.vectors_skipped
+    );
+    assert!(
+        told.contains(&said) && told.contains("\n0 of 20 cases asked, 20 left out\n"),
+        "{told}"
+    );
+}

@@ -110,6 +110,34 @@ fn a_tolerance_lets_only_what_it_explains_pass() {
     assert_eq!(clear.classes.len(), of(Scale::Clear).count(), "{told}");
 }
 
+/// What only the tolerance lets pass is no conformance, of vectors and of cases.
+#[test]
+fn what_only_a_tolerance_lets_pass_is_said_not_to_conform() {
+    // It accepts what the lax model accepts: with margins of at most 1e-2 m.
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do printf '%s\n' "$line" |
+        sed '/"lax":"safe"/s/"verdict":"unsafe","failed_stage":"[a-z_]*"/"verdict":"safe","failed_stage":null/'; done"#
+    );
+    let folder = crate::folder("tolerated");
+    let options =
+        ["--kinds", "cycle", "--cases", "150", "--profile", "paper", "--tolerance", "1e-2"];
+    let output = crate::with_vectors(&folder, &options, &["sh", "-c", &program]);
+    let told = crate::text(&output);
+    if output.status.code() == Some(2) {
+        eprintln!("NOT RUN: tolerated: there is no `sh` here");
+        return;
+    }
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    let summary = crate::summary(&folder);
+    let (vectors, cases) = (summary.vectors_tolerated, summary.tolerated);
+    assert!(vectors > 0 && cases > 0, "{told}");
+    let says = "agree within the tolerance only: no disagreement beyond the tolerance (this is not conformance)";
+    for (what, count) in [("vectors", vectors), ("cases", cases)] {
+        assert!(told.contains(&format!("{what} asked, {count} {says}")), "{told}");
+    }
+    assert!(!told.contains("conforms"), "{told}");
+}
+
 /// `spec/3-stages.md#invalid-input.1`, `spec/5-interfaces.md#cycle.2`
 #[test]
 fn who_takes_a_line_that_is_no_record_for_one_is_found() {

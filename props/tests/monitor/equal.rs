@@ -140,7 +140,7 @@ impl Pair<'_, '_, '_> {
                 let fallbacks = self.fallbacks;
                 self.keep(Held { token, copy, fallbacks });
             }
-            Arrival::Dropped(dropped) => {
+            Arrival::Dropped { actions: dropped, .. } => {
                 assert_eq!(dropped.to_vec(), actions);
                 assert!(!actions.is_empty());
                 seen.dropped += 1;

@@ -169,7 +169,7 @@ impl Station {
     pub fn accepted<L>(&mut self, arrival: Arrival<L>) -> Option<Accepted<L>> {
         match arrival {
             Arrival::Accepted(element) => Some(element),
-            Arrival::Dropped(actions) => {
+            Arrival::Dropped { actions, .. } => {
                 self.take(&actions);
                 None
             }

@@ -51,6 +51,40 @@ fn parameters_outside_of_their_domain_are_refused() {
     assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
 }
 
+/// `spec/5-interfaces.md#monitor.6`: milliseconds given for nanoseconds; 0 is no slip.
+#[test]
+fn times_below_a_millisecond_are_refused_and_zero_is_not() {
+    let changes: [(&str, fn(&mut Settings, i64)); 6] = [
+        ("stages.max_age_ns", |it, ns| it.stages.max_age_ns = ns),
+        ("stages.step_max_ns", |it, ns| it.stages.step_max_ns = ns),
+        ("requester.t_wait_ns", |it, ns| it.requester.t_wait_ns = ns),
+        ("requester.request_timeout_ns", |it, ns| it.requester.request_timeout_ns = ns),
+        ("requester.l_max_ns", |it, ns| it.requester.l_max_ns = ns),
+        ("requester.dt_max_ns", |it, ns| it.requester.dt_max_ns = ns),
+    ];
+    for (field, change) in changes {
+        let with = |ns| {
+            let mut wrong = settings();
+            change(&mut wrong, ns);
+            wrong
+        };
+        for ns in [1, 100, 10_000, MS - 1] {
+            let (error, words) = refused(with(ns));
+            assert_eq!(error, MonitorError::TimeTooShort { field, ns });
+            assert!(words.contains(field) && words.contains("unit"), "{words}");
+        }
+        // dt_max has to be above the period anyway.
+        if field != "requester.dt_max_ns" {
+            for ns in [0, MS] {
+                assert!(Buffers::new(16, 40).monitor(with(ns)).is_ok(), "{field} {ns}");
+            }
+        }
+    }
+    let period = Duration::from_nanos(100);
+    let short = MonitorError::TimeTooShort { field: "period", ns: 100 };
+    assert_eq!(refused(Settings { period, ..settings() }).0, short);
+}
+
 /// `spec/5-interfaces.md#monitor.5`: memory that can never be enough is refused at once.
 #[test]
 fn too_little_memory_is_refused_by_name() {
@@ -69,6 +103,14 @@ fn too_little_memory_is_refused_by_name() {
     assert_eq!(few, Some(("detections", 12, 11)));
     let slots = without(|it| it.slots.truncate(207), Profile::Hardened);
     assert_eq!(slots, Some(("slots", 208, 207)));
+    let rows = without(|it| it.rows.clear(), Profile::Paper);
+    assert_eq!(rows, Some(("rows", 1, 0)));
+    let columns = without(|it| it.columns.truncate(9), Profile::Paper);
+    assert!(matches!(columns, Some(("columns", needed, 9)) if needed > 9), "{columns:?}");
+    let mut few = Buffers::new(16, 40);
+    few.columns.truncate(9);
+    let words = few.monitor(settings()).expect_err("too few").to_string();
+    assert!(words.contains("scratch::Sizes::for_cycle"), "{words}");
     let nothing = |it: &mut Buffers| (it.detections.clear(), it.slots.clear()).1;
     assert_eq!(without(nothing, Profile::Paper), None, "nothing is kept in this profile");
 }
@@ -107,7 +149,8 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     match monitor.cycle(&inputs) {
         Decision::Unsafe { report, .. } => {
             let error = report.expect_err("no route");
-            assert_eq!((error.field, error.problem), ("route.stations", Problem::TooFew));
+            assert_eq!((error.field, error.problem), ("route", Problem::NoRoute));
+            assert!(error.to_string().contains("no route was set"), "{error}");
         }
         decision @ Decision::Safe { .. } => panic!("{decision:?}"),
     }

@@ -2,7 +2,7 @@
 
 use mufasa::input::cycle::{Cycle, DetectionList, Lead, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Arrival, Decision, Gap, Inputs, Message, Monitor, Time};
+use mufasa::monitor::{Arrival, Decision, DropReason, Gap, Inputs, Message, Monitor, Time};
 use mufasa::offloading::requester::{
     Event, EventKind, Group, Groups, Requester, Source, StationRecord,
 };
@@ -36,7 +36,7 @@ fn record<'w>(
 }
 
 /// A station after so many safe periods.
-fn driven(monitor: &mut Monitor<'_>, periods: i64) -> Station {
+pub fn driven(monitor: &mut Monitor<'_>, periods: i64) -> Station {
     let mut station = Station::default();
     for i in 0..periods {
         assert_eq!(period(monitor, &mut station, &World::at(100 * i * MS)), None);
@@ -224,7 +224,7 @@ fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     let _none = monitor.confirm(now, 1, Group::Mot, 1).expect("a station");
     let old = Message { generated, ..message(1, now, Vec::new()) };
     match monitor.tracks(now, old).expect("a station") {
-        Arrival::Dropped(actions) => assert_eq!(actions.len(), 2, "dropped and released"),
+        Arrival::Dropped { actions, .. } => assert_eq!(actions.len(), 2, "dropped and released"),
         Arrival::Accepted(element) => panic!("{element:?}"),
     }
 }
@@ -262,10 +262,13 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let first = first.expect("accepted");
     let repeated = message(session, now, world.points.clone());
     let repeated = monitor.trajectory(now, repeated).expect("a station");
-    assert!(matches!(repeated, Arrival::Dropped(_)), "twice");
+    assert!(matches!(repeated, Arrival::Dropped { why: DropReason::NotNewer, .. }), "twice");
     let other = message(session + 7, now, world.points.clone());
     let other = monitor.trajectory(now, other).expect("a station");
-    assert!(matches!(other, Arrival::Dropped(_)), "of another session");
+    assert!(
+        matches!(other, Arrival::Dropped { why: DropReason::OtherSession, .. }),
+        "of another session"
+    );
     let world = World::at(320 * MS);
     let now = at(world.now_ns);
     let newer = monitor.trajectory(now, message(session, now, world.points.clone()));

@@ -29,7 +29,12 @@ macro_rules! fields {
         /// The times of a requester, each from 0 to 2^63 - 1 ns. Source: `spec/2-offloading.md`.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub struct Parameters {
-            $($(#[$doc])* pub $name: $kind,)*
+            $(
+                $(#[$doc])*
+                ///
+                #[doc = concat!("Default ", stringify!($default), ".")]
+                pub $name: $kind,
+            )*
         }
 
         impl Default for Parameters {
