@@ -9,3 +9,4 @@ mod misuse;
 mod plain;
 mod restart;
 mod scene;
+mod seen;
