@@ -230,7 +230,7 @@ impl Pair<'_, '_, '_> {
                 self.fallbacks += 1;
             }
         }
-        seen.starvation(starved_before, &self.plain, self.habit);
+        seen.starvation(starved_before, &self.plain, ended.sessions, self.habit);
         seen.count(&ended, before, [tracks.is_some(), points.is_some()]);
         self.same_state();
     }

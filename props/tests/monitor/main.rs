@@ -10,3 +10,4 @@ mod plain;
 mod restart;
 mod scene;
 mod seen;
+mod starved;

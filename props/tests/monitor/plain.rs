@@ -68,6 +68,7 @@ pub struct Service {
     pub session: i64,
     /// The last cycle with a current element; before the first one the confirmation.
     since_ns: i64,
+    /// As the last cycle left it.
     pub starved: bool,
 }
 
@@ -125,7 +126,7 @@ impl<'a> Plain<'a> {
                 service.since_ns = now_ns;
             }
             let since_ns = i128::from(now_ns) - i128::from(service.since_ns);
-            service.starved = !is_current && (service.starved || since_ns > dt_max_ns);
+            service.starved = !is_current && since_ns > dt_max_ns;
         }
     }
 

@@ -1,7 +1,7 @@
 //! What the sequences of events and cycles reached, so that none of it is compared with nothing.
 
 use mufasa::input::profile::Profile;
-use mufasa::offloading::requester::Group;
+use mufasa::offloading::requester::{Group, Sessions};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::place;
@@ -29,6 +29,8 @@ pub struct Seen {
     /// Starved sessions that ended by a tick, and groups that had a current element again before.
     pub starved_and_left: u64,
     pub recovered: u64,
+    /// Starved until a clock was set back.
+    pub set_back: u64,
 }
 
 /// The sessions that are starved.
@@ -52,16 +54,18 @@ impl Seen {
         &mut self,
         before: [Option<i64>; 2],
         plain: &Plain<'_>,
+        sessions: Sessions,
         (_, ahead_ns, _): (usize, i64, i64),
     ) {
-        for (before, after) in before.into_iter().zip(plain.service) {
-            let starts = before.is_none() && after.is_some_and(|it| it.starved);
+        let used = [sessions.mot, sessions.plan];
+        for ((before, after), used) in before.into_iter().zip(plain.service).zip(used) {
+            let is_starved = after.is_some_and(|it| it.starved);
+            let starts = before.is_none() && is_starved;
             self.starved_ahead += u64::from(starts && ahead_ns > 0);
             self.starved_old += u64::from(starts && ahead_ns < 0);
-            self.recovered += u64::from(
-                before.is_some_and(|session| after.is_some_and(|it| it.session == session))
-                    && after.is_some_and(|it| !it.starved),
-            );
+            let goes_on = before.is_some() && before == after.map(|it| it.session);
+            self.recovered += u64::from(goes_on && !is_starved && used.is_some());
+            self.set_back += u64::from(goes_on && !is_starved && used.is_none());
         }
     }
 
@@ -77,10 +81,10 @@ impl Seen {
         let needs_history = profile == Profile::Hardened;
         assert!(!needs_history || 20 * self.with_history >= cycles, "{self:?}");
         let &Self { starved_ahead, starved_old, starved_and_dropped, .. } = self;
-        let &Self { starved_and_late, starved_and_left, recovered, .. } = self;
+        let &Self { starved_and_late, starved_and_left, recovered, set_back, .. } = self;
         let starved = [starved_ahead, starved_old, starved_and_dropped, starved_and_left];
-        for count in starved.into_iter().chain([starved_and_late, recovered]) {
-            assert!(5_000 * count >= cycles && count >= 5, "starved groups: {self:?}");
+        for count in starved.into_iter().chain([starved_and_late, recovered, set_back]) {
+            assert!(2_000 * count >= cycles && count >= 5, "starved groups: {self:?}");
         }
     }
 }
