@@ -295,8 +295,8 @@ def test_results_that_no_cycle_can_use_end_their_session(scene: Scene) -> None:
             left = ms
             break
         of: dict[str, Any] = {"station": 1, "generated": now, "stamp": at(ms + 5000)}
-        monitor.tracks(now, session=mot.session, items=scene.tracks, **of)
-        monitor.trajectory(now, session=plan.session, points=scene.plan(ms), **of)
+        list(monitor.tracks(now, session=mot.session, items=scene.tracks, **of))
+        list(monitor.trajectory(now, session=plan.session, points=scene.plan(ms), **of))
         decision = scene.decide(monitor, ms)
         assert decision.safe and decision.tracks is None and decision.trajectory is None
     assert left is not None and 100 + 150 < left <= 100 + 2 * 150 + 2 * 100
