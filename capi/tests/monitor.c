@@ -124,6 +124,23 @@ static void data_come_out_of_a_safe_cycle_alone(void) {
   EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
 }
 
+/* Results stamped ahead of every cycle: silence, 2 dt_max and two periods after the confirmation at the latest. */
+static void results_that_no_cycle_can_use_end_their_session(void) {
+  struct MufasaMonitor *monitor = offloading();
+  int64_t now_ns = 10 * MS;
+  for (; !is_local(monitor) && now_ns < 1000 * MS; now_ns += 20 * MS) {
+    const struct MufasaTrackMessage ahead = {1, 1, now_ns, {now_ns + 500 * MS, tracks, 1}};
+    EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, now_ns, 0, 0) == MUFASA_STATUS_OK);
+    EXPECT(mufasa_monitor_tracks(monitor, now_ns, &ahead, &actions) == MUFASA_STATUS_OK);
+    const struct MufasaTrajectoryMessage plan = {1, 2, now_ns, {now_ns + 500 * MS, points, 3}};
+    EXPECT(mufasa_monitor_trajectory(monitor, now_ns, &plan, &actions) == MUFASA_STATUS_OK);
+    cycle(monitor, now_ns);
+    EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE);
+    EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
+  }
+  EXPECT(is_local(monitor) && now_ns > 104 * MS && now_ns - 20 * MS <= (4 + 2 * 100 + 2 * 20) * MS);
+}
+
 /* A fault of the call ends offloading like any unsafe cycle. */
 static void faults_fall_back(void) {
   struct MufasaMonitor *monitor = offloading();
@@ -247,6 +264,7 @@ int main(void) {
   inputs.detections = &detections;
   inputs.lead = &lead;
   data_come_out_of_a_safe_cycle_alone();
+  results_that_no_cycle_can_use_end_their_session();
   faults_fall_back();
   events_that_are_not_for_the_caller();
   settings_that_no_monitor_can_keep();

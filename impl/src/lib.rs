@@ -100,7 +100,7 @@
 //!         Decision::Safe { trajectory: None, actions, .. } => {
 //!             // Nothing current was there to be checked. The local planner is followed; where it is
 //!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
-//!             // copy; where that lasts for longer than `dt_max`, call `lost`.
+//!             // copy. Where that lasts, the session ends as for silence.
 //!             let _stop_local_services = actions;
 //!         }
 //!         Decision::Unsafe { report, actions } => {

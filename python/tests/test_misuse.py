@@ -281,6 +281,27 @@ def test_late_foreign_and_repeated_data_are_not_used(
     assert scene.decide(monitor, 10).report is not None
 
 
+def test_results_that_no_cycle_can_use_end_their_session(scene: Scene) -> None:
+    """Stamped ahead of every cycle: left 2 dt_max and two periods after the last good one at the latest."""
+    monitor = scene.offloading()
+    scene.safe(monitor, 100)
+    left = None
+    for ms in range(200, 1000, 100):
+        now = at(ms)
+        list(monitor.tick(now))
+        [mot, plan] = monitor.session_of("mot"), monitor.session_of("plan")
+        if mot is None or plan is None:
+            assert mot is None and plan is None and monitor.configuration == "Local"
+            left = ms
+            break
+        of: dict[str, Any] = {"station": 1, "generated": now, "stamp": at(ms + 5000)}
+        list(monitor.tracks(now, session=mot.session, items=scene.tracks, **of))
+        list(monitor.trajectory(now, session=plan.session, points=scene.plan(ms), **of))
+        decision = scene.decide(monitor, ms)
+        assert decision.safe and decision.tracks is None and decision.trajectory is None
+    assert left is not None and 100 + 150 < left <= 100 + 2 * 150 + 2 * 100
+
+
 def test_a_station_below_1_is_refused_and_nothing_has_changed(scene: Scene) -> None:
     monitor = scene.offloading(most_stations=1)
     calls: list[Callable[[], object]] = [

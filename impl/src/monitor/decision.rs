@@ -23,8 +23,8 @@ pub enum Decision<'m> {
         /// checked and the local planner is followed; and while nothing current was there to check:
         /// a message is missing, or is stamped ahead of the cycle. The local planner may be stopped
         /// then: what is followed is a copy of the last verified trajectory, and in MotRemote no own
-        /// plan that is older than `max_age_ns`. Where this lasts for longer than dt_max, call
-        /// [`super::Monitor::lost`]: a station that stamps everything ahead keeps its session.
+        /// plan that is older than `max_age_ns`. Where this lasts, the session ends as for silence, at
+        /// the latest 2 dt_max and two periods after the last cycle that had something current (F-43).
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
         report: Report,

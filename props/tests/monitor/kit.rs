@@ -126,7 +126,7 @@ pub fn seconds(ns: i64) -> f64 {
 /// A station that confirms what it is asked for, and sends results until it is released.
 #[derive(Default)]
 pub struct Station {
-    asked: Vec<(Group, i64)>,
+    pub asked: Vec<(Group, i64)>,
     pub sessions: [Option<i64>; 2],
     pub released: usize,
 }

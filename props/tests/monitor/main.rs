@@ -10,4 +10,6 @@ mod misuse;
 mod plain;
 mod restart;
 mod scene;
+mod seen;
 mod stack;
+mod starved;

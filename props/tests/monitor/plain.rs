@@ -57,7 +57,19 @@ pub struct Plain<'a> {
     pub requester: Requester<'a>,
     /// Session and generation time of the last element that was used.
     last: [Option<(i64, i64)>; 2],
+    /// Of the running sessions.
+    pub service: [Option<Service>; 2],
     kept: Vec<(i64, Vec<Detection>)>,
+}
+
+/// What a session has been good for.
+#[derive(Clone, Copy)]
+pub struct Service {
+    pub session: i64,
+    /// The last cycle with a current element; before the first one the confirmation.
+    since_ns: i64,
+    /// As the last cycle left it.
+    pub starved: bool,
 }
 
 impl<'a> Plain<'a> {
@@ -66,11 +78,11 @@ impl<'a> Plain<'a> {
         let mut parts = fresh.expect("a requester").suspend().parts();
         parts.sessions = settings.sessions_before;
         let requester = Requester::resume(Suspended::from_parts(&parts), table);
-        Self { settings, requester, last: [None; 2], kept: Vec::new() }
+        Self { settings, requester, last: [None; 2], service: [None; 2], kept: Vec::new() }
     }
 
-    /// An element arrives; of one that is in time, but too old for any cycle, the requester hears no
-    /// session.
+    /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
+    /// starved, the requester hears no session.
     pub fn data<T>(
         &mut self,
         t_ns: i64,
@@ -79,7 +91,8 @@ impl<'a> Plain<'a> {
     ) -> Vec<Action> {
         let &Received { session, generated_ns, stamp_ns, .. } = received;
         let oldest_ns = i128::from(t_ns) - i128::from(self.settings.stages.max_age_ns);
-        let usable = i128::from(stamp_ns) >= oldest_ns;
+        let starved = self.service[place(group)].is_some_and(|it| it.starved);
+        let usable = i128::from(stamp_ns) >= oldest_ns && !starved;
         let latency_ns = i128::from(t_ns) - i128::from(generated_ns);
         let late = latency_ns < 0 || latency_ns > i128::from(self.settings.requester.l_max_ns);
         let session = if usable || late { session } else { 0 };
@@ -93,7 +106,28 @@ impl<'a> Plain<'a> {
         {
             self.last[place(group)] = Some((session, generated_ns));
         }
+        for group in Group::ALL {
+            let service = &mut self.service[place(group)];
+            let running = self.requester.session_of(group).map(|it| it.session);
+            if service.map(|it| it.session) != running {
+                *service =
+                    running.map(|session| Service { session, since_ns: t_ns, starved: false });
+            }
+        }
         actions
+    }
+
+    /// A cycle looked at its groups, and this is what was current of the remote ones.
+    fn serve(&mut self, now_ns: i64, is_current: [bool; 2]) {
+        let dt_max_ns = i128::from(self.settings.requester.dt_max_ns);
+        for (service, is_current) in self.service.iter_mut().zip(is_current) {
+            let Some(service) = service else { continue };
+            if is_current || now_ns < service.since_ns {
+                service.since_ns = now_ns;
+            }
+            let since_ns = i128::from(now_ns) - i128::from(service.since_ns);
+            service.starved = !is_current && since_ns > dt_max_ns;
+        }
     }
 
     /// A cycle with the lists that were received, whether the requester used them or not.
@@ -128,11 +162,14 @@ impl<'a> Plain<'a> {
         };
         let (report, lists) = (check_plainly(&cycle), history.len());
         let safe = report.is_ok_and(|report| report.failed_stage.is_none());
+        let max_age_ns = i128::from(self.settings.stages.max_age_ns);
         let current = |stamp_ns: i64| {
             let age_ns = i128::from(own.now_ns) - i128::from(stamp_ns);
-            (0..=i128::from(self.settings.stages.max_age_ns)).contains(&age_ns)
+            (0..=max_age_ns).contains(&age_ns)
         };
         let is_out = |stamp: Option<i64>| safe && stamp.is_some_and(current);
+        let arrived = [tracks.map(|it| it.stamp_ns), points.map(|it| it.stamp_ns)];
+        self.serve(own.now_ns, arrived.map(|stamp| stamp.is_some_and(current)));
         let verified = [
             mot && is_out(used_tracks.map(|it| it.0)),
             (mot || plan) && is_out(used_points.map(|it| it.0)),

@@ -1,0 +1,164 @@
+//! A station whose results come in time and are current in no cycle is left (`spec/5-interfaces.md#monitor.9`,
+//! finding F-43); one that any cycle can use is kept.
+
+use mufasa::monitor::{Decision, Inputs, Message, Monitor};
+use mufasa::services::configuration::Configuration;
+
+use super::kit::{Buffers, MS, Points, Station, Tracks, World, at, message, road, settings};
+
+const PERIOD_NS: i64 = 100 * MS;
+
+/// When results are generated, how much later they arrive and the cycle looks, and how far ahead of
+/// their arrival they are stamped, ns.
+#[derive(Clone, Copy, Debug)]
+struct Habit {
+    latency_ns: i64,
+    phase_ns: i64,
+    ahead_ns: i64,
+}
+
+const HONEST: Habit = Habit { latency_ns: 0, phase_ns: 0, ahead_ns: 0 };
+
+/// The events of one period that begins at `start_ns` and its cycle; whether remote tracks and a remote
+/// trajectory come out.
+fn period(
+    monitor: &mut Monitor<'_>,
+    station: &mut Station,
+    (start_ns, habit): (i64, Habit),
+) -> [bool; 2] {
+    let Habit { latency_ns, phase_ns, ahead_ns } = habit;
+    let arrival_ns = start_ns + latency_ns;
+    let world = World::at(arrival_ns + phase_ns);
+    station.take(&monitor.tick(at(arrival_ns)));
+    let [mot, plan] = station.sessions;
+    let generated = at(start_ns);
+    // Tracks far from their detections are a failure, so that these are where they will be.
+    let later = World::at(arrival_ns + ahead_ns.min(1_000 * MS));
+    let mut tracks: Tracks = None;
+    if let Some(session) = mot {
+        let stamp = at(later.now_ns);
+        let new = Message { stamp, ..message(session, generated, later.tracks) };
+        let arrival = monitor.tracks(at(arrival_ns), new);
+        tracks = station.accepted(arrival.expect("a station"));
+    }
+    let mut points: Points = None;
+    if let Some(session) = plan {
+        let stamp = at(arrival_ns.saturating_add(ahead_ns));
+        let new = Message { stamp, ..message(session, generated, world.points.clone()) };
+        let arrival = monitor.trajectory(at(arrival_ns), new);
+        points = station.accepted(arrival.expect("a station"));
+    }
+    let now = at(world.now_ns);
+    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+    if let Some(tracks) = &tracks {
+        inputs = inputs.remote_tracks(tracks);
+    }
+    if let Some(points) = &points {
+        inputs = inputs.remote_trajectory(points);
+    }
+    let decision = monitor.cycle(&inputs);
+    let Decision::Safe { tracks, trajectory, actions, .. } = decision else {
+        panic!("{habit:?} at {start_ns}: {decision:?}");
+    };
+    station.take(&actions);
+    [tracks.is_some(), trajectory.is_some()]
+}
+
+/// Periods of good results, then those of a habit until the session ends, for at most 40 periods: when
+/// the last cycle had a current element, when the session ended, and what came out last.
+fn drive(habit: impl Fn(i64) -> Habit) -> (i64, Option<i64>, [bool; 2]) {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = Station::default();
+    let mut last_ns = begin(&mut monitor, &mut station, 0);
+    let mut out = [false; 2];
+    for i in 5..45 {
+        let (start_ns, habit) = (i * PERIOD_NS, habit(i));
+        out = period(&mut monitor, &mut station, (start_ns, habit));
+        if out == [true; 2] {
+            last_ns = start_ns + habit.latency_ns + habit.phase_ns;
+        }
+        if monitor.configuration() == Configuration::Local {
+            assert_eq!(station.released, 2, "both groups, once");
+            // The next session is no worse for it.
+            let _last_ns = begin(&mut monitor, &mut station, (i + 1) * PERIOD_NS);
+            assert_eq!(monitor.configuration(), Configuration::AllRemote);
+            return (last_ns, Some(start_ns + habit.latency_ns), out);
+        }
+    }
+    (last_ns, None, out)
+}
+
+/// Five periods of which the last four have everything.
+fn begin(monitor: &mut Monitor<'_>, station: &mut Station, start_ns: i64) -> i64 {
+    for i in 0..5 {
+        let world = World::at(start_ns + i * PERIOD_NS);
+        if i == 0 {
+            let _lists = station.period(monitor, &world);
+        } else {
+            for (group, session) in std::mem::take(&mut station.asked) {
+                let actions = monitor.confirm(at(world.now_ns), 1, group, session);
+                station.take(&actions.expect("a station"));
+            }
+            let out = period(monitor, station, (world.now_ns, HONEST));
+            assert_eq!(out, [true; 2], "period {i}");
+        }
+    }
+    start_ns + 4 * PERIOD_NS
+}
+
+/// The bound of `spec/5-interfaces.md#monitor.9`: 2 dt_max and two periods.
+#[test]
+fn results_that_are_current_in_no_cycle_end_their_session() {
+    let dt_max_ns = settings().requester.dt_max_ns;
+    let max_age_ns = settings().stages.max_age_ns;
+    for (phase_ns, ahead_ns) in [
+        (0, 1),
+        (0, 60 * MS),
+        (0, PERIOD_NS),
+        (0, 1_000 * MS),
+        (0, 50_000 * MS),
+        (30 * MS, 30 * MS + 1),
+        // Not too old when they arrive.
+        (1, -max_age_ns),
+        (30 * MS, 29 * MS - max_age_ns),
+    ] {
+        let habit = Habit { latency_ns: 10 * MS, phase_ns, ahead_ns };
+        let (last_ns, end_ns, out) = drive(|_| habit);
+        let end_ns = end_ns.unwrap_or_else(|| panic!("{habit:?} keeps its session: {out:?}"));
+        let left_after_ns = end_ns - last_ns;
+        assert!(left_after_ns > dt_max_ns, "{habit:?}: {left_after_ns}");
+        assert!(left_after_ns <= 2 * dt_max_ns + 2 * PERIOD_NS, "{habit:?}: {left_after_ns}");
+        assert_eq!(out, [false; 2], "{habit:?}");
+    }
+}
+
+/// A stamp ahead of its arrival and not of the cycle, a bound of age that is met exactly, an honest
+/// station whose messages are now quick and now slow, and one that is useless for as long as dt_max and
+/// no longer: each keeps its session.
+#[test]
+fn results_that_cycles_can_use_keep_their_session() {
+    let l_max_ns = settings().requester.l_max_ns;
+    let max_age_ns = settings().stages.max_age_ns;
+    for (phase_ns, ahead_ns) in
+        [(30 * MS, 20 * MS), (30 * MS, 30 * MS), (30 * MS, 30 * MS - max_age_ns)]
+    {
+        let habit = Habit { latency_ns: 10 * MS, phase_ns, ahead_ns };
+        let (_, end_ns, out) = drive(|_| habit);
+        assert_eq!((end_ns, out), (None, [true; 2]), "{habit:?}");
+    }
+    let jitter = |i: i64| Habit { latency_ns: (i * 29 * MS) % (l_max_ns + 1), ..HONEST };
+    let (_, end_ns, out) = drive(jitter);
+    assert_eq!((end_ns, out), (None, [true; 2]), "jitter");
+    // From one cycle with an element to one without it dt_max passes; or a nanosecond more, and what
+    // comes then is dropped.
+    for (late_ns, is_kept) in [(50 * MS, true), (50 * MS + 1, false)] {
+        let now_and_then = |i: i64| match i % 3 {
+            1 => Habit { ahead_ns: PERIOD_NS, latency_ns: 0, phase_ns: late_ns },
+            _ => HONEST,
+        };
+        let (_, end_ns, _) = drive(now_and_then);
+        assert_eq!(end_ns.is_none(), is_kept, "{late_ns}");
+    }
+}
