@@ -309,7 +309,7 @@ fn accept<T>(arrival: Arrival<Vec<T>>, kept: &mut Option<Accepted<Vec<T>>>) -> V
             *kept = Some(element);
             Vec::new()
         }
-        Arrival::Dropped(actions) => actions.to_vec(),
+        Arrival::Dropped { actions, .. } => actions.to_vec(),
     }
 }
 
