@@ -94,11 +94,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
         "adds no verdict: its parts are the model's, each by itself",
     ),
     ("spec/5-interfaces.md#monitor", Cell::Vector, "no record drives events and cycles together"),
-    (
-        "spec/5-interfaces.md#monitor",
-        Cell::Bench,
-        "`scripts/instruction-counts` compares it with the plain calls",
-    ),
     ("spec/6-link.md", Cell::Model, "bytes, not verdicts: `link/src/message`"),
     ("spec/6-link.md", Cell::Impl, "of whoever receives messages, before the monitor"),
     ("spec/6-link.md", Cell::Proof, "tested only"),
