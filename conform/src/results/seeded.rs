@@ -20,7 +20,7 @@ struct Record {
     generators: String,
     /// What it was measured with: commit, versions, day; of older records unknown.
     #[serde(default)]
-    #[cfg_attr(not(test), expect(dead_code, reason = "for the documents"))]
+    #[expect(dead_code, reason = "for the documents")]
     measured: Option<String>,
     /// Seeds tried with each bug.
     seeds: u64,

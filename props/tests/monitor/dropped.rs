@@ -7,10 +7,13 @@ use mufasa::offloading::requester::{Group, Source};
 use crate::kit::{Buffers, MS, World, at, message, road};
 use crate::misuse::driven;
 
-fn why<L>(arrival: Arrival<L>) -> Option<DropReason> {
+/// What is wrong with a message that comes at a time.
+type Change = fn(&mut Message<Vec<Track>>, Time);
+
+fn why<L>(arrival: &Arrival<L>) -> Option<DropReason> {
     match arrival {
         Arrival::Accepted(_) => None,
-        Arrival::Dropped { why, .. } => Some(why),
+        Arrival::Dropped { why, .. } => Some(*why),
     }
 }
 
@@ -27,7 +30,7 @@ fn answer(
     let mut sent = message(session, now, World::at(now.as_nanoseconds()).tracks);
     change(&mut sent, now);
     let arrival = monitor.tracks(now, sent).expect("a station");
-    (why(arrival), monitor.source(Group::Mot) != Source::Local)
+    (why(&arrival), monitor.source(Group::Mot) != Source::Local)
 }
 
 /// Each reason, and whether MOT stays remote; the last cycle and the last message were at 200 ms.
@@ -35,12 +38,12 @@ fn answer(
 fn a_message_that_is_dropped_says_why() {
     let earlier = |now: Time, ms: i64| at(now.as_nanoseconds() - ms * MS);
     let now = at(300 * MS);
-    let cases: [(&str, fn(&mut Message<Vec<Track>>, Time)); 6] = [
+    let cases: [(&str, Change); 6] = [
         ("as it should be", |_, _| ()),
         ("of another session", |it, _| it.session += 7),
         ("of another station", |it, _| it.station += 1),
         ("from the future", |it, now| {
-            it.generated = now.checked_add(std::time::Duration::from_nanos(1)).expect("a time")
+            it.generated = now.checked_add(std::time::Duration::from_nanos(1)).expect("a time");
         }),
         ("as the last", |it, _| it.generated = at(200 * MS)),
         ("the same, in time", |it, _| it.generated = at(260 * MS)),
@@ -104,7 +107,7 @@ fn a_list_too_long_for_the_lent_memory_is_no_arrival() {
         let now = at(ms * MS);
         let track = World::at(ms * MS).tracks[0];
         let items: Vec<_> = (0..).map(|id| Track { id, ..track }).take(count).collect();
-        why(monitor.tracks(now, message(session, now, items)).expect("a station"))
+        why(&monitor.tracks(now, message(session, now, items)).expect("a station"))
     };
     assert_eq!(send(&mut monitor, 210, 4), None);
     assert_eq!(send(&mut monitor, 230, 5), Some(DropReason::TooLong));

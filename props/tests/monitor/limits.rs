@@ -51,10 +51,13 @@ fn parameters_outside_of_their_domain_are_refused() {
     assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
 }
 
+/// Sets a time, ns.
+type Change = fn(&mut Settings, i64);
+
 /// `spec/5-interfaces.md#monitor.6`: milliseconds given for nanoseconds; 0 is no slip.
 #[test]
 fn times_below_a_millisecond_are_refused_and_zero_is_not() {
-    let changes: [(&str, fn(&mut Settings, i64)); 6] = [
+    let changes: [(&str, Change); 6] = [
         ("stages.max_age_ns", |it, ns| it.stages.max_age_ns = ns),
         ("stages.step_max_ns", |it, ns| it.stages.step_max_ns = ns),
         ("requester.t_wait_ns", |it, ns| it.requester.t_wait_ns = ns),
