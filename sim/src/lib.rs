@@ -7,9 +7,11 @@
 pub mod attack;
 pub mod cav;
 pub mod collision;
+pub mod ids;
 pub mod map;
 pub mod path;
 pub mod pictures;
+pub mod planner;
 pub mod pose;
 pub mod radio;
 pub mod run;

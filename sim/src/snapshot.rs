@@ -2,6 +2,7 @@
 
 use crate::map::Light;
 use crate::pose::{Point, Pose, Rectangle};
+use crate::services::detectors::scene::Seen;
 use crate::traffic::agent::Kind;
 
 /// Everything that moves, at one moment.
@@ -17,6 +18,14 @@ pub struct Snapshot {
     pub lights: Vec<Light>,
     /// Stop lines ahead on the ego's route that it may not pass now, the nearest first.
     pub stops: Vec<StopLine>,
+}
+
+impl Snapshot {
+    /// What there is to be seen.
+    pub fn seen(&self) -> Vec<Seen> {
+        let seen = |it: &Object| Seen { id: it.id, rectangle: it.rectangle, velocity: it.velocity };
+        self.objects.iter().map(seen).collect()
+    }
 }
 
 /// The ego at one moment.

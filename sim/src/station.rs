@@ -11,9 +11,9 @@ use mufasa_model::offloading::provider::{
 use mufasa_props::bridge;
 
 use crate::attack::{Attacker, Results};
-use crate::cav::local::plan;
-use crate::cav::sensing::objects;
+use crate::ids;
 use crate::map::route::Route;
+use crate::planner::plan;
 use crate::pose::{Point, Pose};
 use crate::radio::{Radio, To};
 use crate::services::detectors::scan::Sweep;
@@ -21,9 +21,6 @@ use crate::services::detectors::scene::Scene;
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
 use crate::services::mot::{Settings, Tracker};
 use crate::snapshot::Snapshot;
-
-/// The station's id in messages.
-pub const ID: i64 = 10;
 
 /// How long its services compute, ns.
 const COMPUTES_NS: i64 = 4_000_000;
@@ -89,7 +86,7 @@ impl<'a> Station<'a> {
 
     /// Its sensors look, and it says what it offers when that is due.
     pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
-        let objects = objects(truth);
+        let objects = truth.seen();
         let scene = Scene { objects: &objects, walls: &[] };
         let cycle = truth.time_ns.unsigned_abs();
         let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
@@ -107,7 +104,7 @@ impl<'a> Station<'a> {
     pub fn take(&mut self, now_ns: i64, bytes: &[u8], attacker: &mut Attacker, radio: &mut Radio) {
         let Ok(message) = message::decode(bytes, &self.frame) else { return };
         let Message { sender: requester, receiver, payload, .. } = message;
-        if receiver != ID {
+        if receiver != ids::STATION {
             return;
         }
         match payload {
@@ -246,7 +243,8 @@ impl<'a> Station<'a> {
     }
 
     fn send(&self, now_ns: i64, vehicle: i64, payload: Payload, radio: &mut Radio) {
-        let message = Message { sender: ID, receiver: vehicle, generated_ns: now_ns, payload };
+        let message =
+            Message { sender: ids::STATION, receiver: vehicle, generated_ns: now_ns, payload };
         // What the formats cannot hold is not sent: the link is silent then.
         if let Ok(bytes) = message::encode(&message, &self.frame) {
             radio.send(now_ns, To::Vehicle, bytes);

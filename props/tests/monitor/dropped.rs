@@ -83,7 +83,7 @@ fn a_message_of_a_starved_group_says_so() {
     let mut why_at = |ms: i64| {
         let (now, stamp) = (at(ms * MS), at((ms + 1000) * MS));
         let sent = Message { stamp, ..message(session, now, World::at(ms * MS).tracks) };
-        let answer = why(monitor.tracks(now, sent).expect("a station"));
+        let answer = why(&monitor.tracks(now, sent).expect("a station"));
         let later = at((ms + 10) * MS);
         let own = Inputs::new(later, World::at((ms + 10) * MS).ego);
         let decision = monitor.cycle(&own);

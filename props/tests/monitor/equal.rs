@@ -92,7 +92,7 @@ impl Pair<'_, '_, '_> {
         } else {
             0
         };
-        let generated_ns = self.now_ns - age_ns;
+        let generated_ns = self.now_ns.saturating_sub(age_ns);
         let scene = self.base.scene(self.now_ns);
         let stale_ns = if self.draw.one_in(20) {
             self.draw.pick(&[-1, 0, 100 * MS, 100 * MS + 1, 1_000 * MS])
@@ -100,7 +100,8 @@ impl Pair<'_, '_, '_> {
             0
         };
         let ahead_ns = self.habit.1;
-        let stamp = |stamp_ns: i64| (stamp_ns - age_ns - stale_ns).saturating_add(ahead_ns);
+        let stamp =
+            |stamp_ns: i64| stamp_ns.saturating_sub(age_ns + stale_ns).saturating_add(ahead_ns);
         match group {
             Group::Mot => {
                 let (stamp_ns, mut items) = scene.tracks.unwrap_or((self.now_ns, Vec::new()));

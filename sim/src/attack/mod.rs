@@ -12,11 +12,10 @@ use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
 use mufasa_link::message::{self, Frame, Message, Payload};
 use serde::{Deserialize, Serialize};
 
-use crate::cav;
+use crate::ids;
 use crate::map::route::Route;
 use crate::radio::{Radio, To};
 use crate::snapshot::Snapshot;
-use crate::station;
 
 /// What an attack does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -245,8 +244,8 @@ impl<'a> Attacker<'a> {
     /// What is sent in the name of the station, in each step.
     pub fn forge(&self, now_ns: i64, frame: &Frame, radio: &mut Radio) {
         let message = |payload| Message {
-            sender: station::ID,
-            receiver: cav::ID,
+            sender: ids::STATION,
+            receiver: ids::CAV,
             generated_ns: now_ns,
             payload,
         };

@@ -6,9 +6,8 @@ use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
 use mufasa::services::configuration::Group;
 
 use crate::map::route::Route;
-use crate::services::env::{Situation, environment};
+use crate::planner::plan;
 use crate::services::mot::{Settings, Tracker};
-use crate::services::tpl;
 
 /// Lists of detections that a tracker that starts again goes through first.
 const REMEMBERED: usize = 6;
@@ -89,22 +88,6 @@ impl Services {
             plan(now_ns, ego, Some(near_s), route, stops, tracks)
         })
     }
-}
-
-/// ENV and TPL, wherever they run.
-pub fn plan(
-    now_ns: i64,
-    ego: &Ego,
-    near_s: Option<f64>,
-    route: &Route,
-    stops: &[f64],
-    tracks: &TrackList<'_>,
-) -> Vec<TrajectoryPoint> {
-    let path = &route.path;
-    let situation = Situation { now_ns, ego: *ego, path, near_s, stops };
-    let model = environment(&situation, tracks);
-    let settings = tpl::settings::Settings::default();
-    tpl::trajectory(now_ns, ego, path, &model, &|s| route.limit_at(s), &settings)
 }
 
 const fn place(group: Group) -> usize {

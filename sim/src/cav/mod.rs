@@ -13,16 +13,13 @@ use mufasa_link::message::{self, Frame, Message, Payload};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
 use self::sensing::{Sensed, Sensors, ego};
+use crate::ids;
 use crate::map::route::Route;
 use crate::radio::{Radio, To};
 use crate::services::control::{self, Controller};
 use crate::services::detectors::Errors;
 use crate::snapshot::Snapshot;
-use crate::station;
 use crate::vehicle::{Body, Command};
-
-/// The CAV's id in messages.
-pub const ID: i64 = 1;
 
 /// Where each group may be offloaded along the route (CODM), m: from, to.
 pub type Areas = [(f64, f64); 2];
@@ -117,10 +114,10 @@ impl<'a> Cav<'a> {
             .any(|it| matches!(self.guard.state(it), GroupState::Remote { .. }))
         {
             let ego = sensed.ego;
-            self.send(now_ns, station::ID, Payload::State { stamp_ns: now_ns, ego }, radio);
+            self.send(now_ns, ids::STATION, Payload::State { stamp_ns: now_ns, ego }, radio);
             let detections = sensed.detections.clone();
             let payload = Payload::Detections { stamp_ns: now_ns, ego, detections };
-            self.send(now_ns, station::ID, payload, radio);
+            self.send(now_ns, ids::STATION, payload, radio);
         }
         self.sensed = Some(sensed);
         let is_in = |(from, to): (f64, f64)| (from..=to).contains(&truth.ego.s);
@@ -141,7 +138,7 @@ impl<'a> Cav<'a> {
     /// Takes a message that was decoded.
     pub fn took(&mut self, now_ns: i64, message: Message, radio: &mut Radio) {
         let Message { sender: station, receiver, generated_ns, payload } = message;
-        if receiver != ID && receiver != 0 {
+        if receiver != ids::CAV && receiver != 0 {
             self.counts.dropped += 1;
             return;
         }
@@ -250,7 +247,8 @@ impl<'a> Cav<'a> {
     }
 
     fn send(&mut self, now_ns: i64, station: i64, payload: Payload, radio: &mut Radio) {
-        let message = Message { sender: ID, receiver: station, generated_ns: now_ns, payload };
+        let message =
+            Message { sender: ids::CAV, receiver: station, generated_ns: now_ns, payload };
         match message::encode(&message, &self.frame) {
             Ok(bytes) => radio.send(now_ns, To::Station, bytes),
             Err(_) => self.counts.malformed += 1,

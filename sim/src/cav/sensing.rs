@@ -7,7 +7,7 @@ use crate::pose::Pose;
 use crate::services::detectors::lead::{Front, MeasuredLead, measured_lead};
 use crate::services::detectors::random::Draws;
 use crate::services::detectors::scan::Sweep;
-use crate::services::detectors::scene::{Scene, Seen};
+use crate::services::detectors::scene::Scene;
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
 use crate::services::grid::{OccupancyMap, OwnedGrid, Settings};
 use crate::snapshot::Snapshot;
@@ -62,7 +62,7 @@ impl Sensors {
     /// What they measure now.
     pub fn sense(&mut self, truth: &Snapshot, route: &Route, body: &Body, stamp_ns: i64) -> Sensed {
         let ego = ego(truth, body);
-        let objects = objects(truth);
+        let objects = truth.seen();
         let scene = Scene { objects: &objects, walls: &[] };
         let cycle = truth.time_ns.unsigned_abs();
         let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
@@ -94,14 +94,4 @@ pub fn ego(truth: &Snapshot, body: &Body) -> Ego {
         width: body.width,
         center_offset: body.middle,
     }
-}
-
-/// What there is to be seen.
-pub fn objects(truth: &Snapshot) -> Vec<Seen> {
-    let seen = |it: &crate::snapshot::Object| Seen {
-        id: it.id,
-        rectangle: it.rectangle,
-        velocity: it.velocity,
-    };
-    truth.objects.iter().map(seen).collect()
 }
