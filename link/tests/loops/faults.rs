@@ -35,11 +35,13 @@ fn results_60_ms_late_end_their_sessions() {
 }
 
 #[test]
-fn results_45_ms_late_are_used() {
+fn results_45_ms_late_are_of_use_to_no_cycle_and_end_their_session() {
     let seen = World { disturbances: vec!["delay=45@4..6"], ..World::default() }.drive();
     holds(&seen);
-    // They come after the cycle they were made for, and are used in the next; l_max allows it.
+    // l_max allows it. But they come after the cycle that they were made for, and are 130 ms old in the
+    // next, which is more than max_age: the group is starved, and silent.
     assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
+    assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
     offloaded_around(&seen, [3_900, 6_100]);
 }
 
