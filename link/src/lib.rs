@@ -5,5 +5,6 @@ pub mod message;
 pub mod play;
 pub mod run;
 pub mod station;
+pub mod traffic;
 pub mod transport;
 pub mod vehicle;

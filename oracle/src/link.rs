@@ -14,11 +14,12 @@ use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
 use mufasa_link::run::{self, VehicleRun};
 use mufasa_link::station::StationSummary;
+use mufasa_link::traffic::{Counts, Traffic};
 use mufasa_link::transport::Address;
 use mufasa_link::transport::amqp::Amqp;
 use mufasa_link::transport::channels::Hub;
 use mufasa_link::transport::disturbed::Disturbed;
-use mufasa_link::vehicle::summary::{Counts, Spread, Summary, Tally};
+use mufasa_link::vehicle::summary::{Spread, Summary, Tally};
 use mufasa_model::offloading::requester;
 use mufasa_records::files;
 use serde::Serialize;
@@ -171,46 +172,32 @@ fn of_vehicle(summary: &Summary) -> Table {
     row("latency of tracks", spread(summary.latency_tracks));
     row("latency of trajectories", spread(summary.latency_trajectories));
     row("Monitor::cycle", spread(summary.monitor));
-    let Summary { sent, unsent, received, dropped, malformed, .. } = summary;
-    let (shed, connected) = (summary.shed, summary.connections);
-    let error = summary.last_error.as_deref();
-    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
-        .into_iter()
-        .for_each(|(name, value)| row(name, value));
+    traffic(&mut table, &summary.traffic);
     table
 }
 
 fn of_station(summary: &StationSummary) -> Table {
     let mut table = table("station");
-    let mut row = |name: &str, value: String| {
-        table.add_row([name.to_owned(), value]);
-    };
-    row("most sessions at a time", summary.sessions.to_string());
-    let StationSummary { sent, unsent, received, dropped, malformed, .. } = summary;
-    let (shed, connected) = (summary.shed, summary.connections);
-    let error = summary.last_error.as_deref();
-    traffic([sent, unsent, received, dropped, malformed], shed, connected, error)
-        .into_iter()
-        .for_each(|(name, value)| row(name, value));
+    table.add_row(["most sessions at a time", &summary.sessions.to_string()]);
+    traffic(&mut table, &summary.traffic);
     table
 }
 
 /// What went to and fro.
-fn traffic(
-    [sent, unsent, received, dropped, malformed]: [&Counts; 5],
-    shed: u64,
-    connected: u64,
-    error: Option<&str>,
-) -> [(&'static str, String); 7] {
-    [
+fn traffic(table: &mut Table, traffic: &Traffic) {
+    let Traffic { sent, unsent, received, dropped, malformed, .. } = traffic;
+    let connections = connections(traffic.connections, traffic.last_error.as_deref());
+    for (name, value) in [
         ("sent", counts(sent)),
         ("  could not be written", counts(unsent)),
         ("received", counts(received)),
         ("  dropped", counts(dropped)),
         ("  malformed", counts(malformed)),
-        ("  shed by the transport", shed.to_string()),
-        ("connections", connections(connected, error)),
-    ]
+        ("  shed by the transport", traffic.shed.to_string()),
+        ("connections", connections),
+    ] {
+        table.add_row([name, &value]);
+    }
 }
 
 fn table(who: &str) -> Table {

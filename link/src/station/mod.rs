@@ -16,8 +16,8 @@ use serde::Serialize;
 use self::replay::Replay;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
+use crate::traffic::Traffic;
 use crate::transport::{Address, Transport};
-use crate::vehicle::summary::{Counts, add, kind, malformed, unsent};
 
 /// Sessions that it runs at the same time.
 const CAPACITY: usize = 8;
@@ -48,24 +48,11 @@ pub struct Station<'a, T> {
 /// What a station did.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct StationSummary {
-    /// Messages that were sent, by kind.
-    pub sent: Counts,
-    /// Messages that could not be written, by kind and field.
-    pub unsent: Counts,
-    /// Messages that could be read, by kind.
-    pub received: Counts,
-    /// What of that was not used.
-    pub dropped: Counts,
-    /// Bytes that are no message, by what is wrong.
-    pub malformed: Counts,
     /// Most sessions at a time.
     pub sessions: usize,
-    /// Messages that the transport threw away: too many waited, or too long.
-    pub shed: u64,
-    /// Connections of the transport.
-    pub connections: u64,
-    /// Why the last connection failed or ended.
-    pub last_error: Option<String>,
+    /// What went to and fro.
+    #[serde(flatten)]
+    pub traffic: Traffic,
 }
 
 impl<'a, T: Transport> Station<'a, T> {
@@ -113,26 +100,22 @@ impl<'a, T: Transport> Station<'a, T> {
 
     /// What it did so far.
     pub fn summary(&self) -> StationSummary {
-        let health = self.transport.health();
-        StationSummary {
-            shed: health.shed,
-            connections: health.connections,
-            last_error: health.last_error,
-            ..self.summary.clone()
-        }
+        let mut summary = self.summary.clone();
+        summary.traffic.health(self.transport.health());
+        summary
     }
 
     /// Takes a message; whatever it is, nothing worse happens than that it is counted.
     fn take(&mut self, now_ns: i64, bytes: &[u8]) {
         let message = match message::decode(bytes, &self.frame) {
             Ok(message) => message,
-            Err(error) => return add(&mut self.summary.malformed, &malformed(&error)),
+            Err(error) => return self.summary.traffic.malformed(&error),
         };
         let Message { sender: requester, receiver, generated_ns: _, payload } = message;
         if receiver != self.id {
-            return add(&mut self.summary.dropped, "for another");
+            return self.summary.traffic.dropped("for another");
         }
-        add(&mut self.summary.received, kind(&payload));
+        self.summary.traffic.received(&payload);
         match payload {
             Payload::Request { group, session } => {
                 let group = bridge::group_from_impl(group);
@@ -148,11 +131,11 @@ impl<'a, T: Transport> Station<'a, T> {
             }
             Payload::State { stamp_ns, ego } => {
                 if !self.has_session(requester) {
-                    return add(&mut self.summary.dropped, "without a session");
+                    return self.summary.traffic.dropped("without a session");
                 }
                 let replay = self.replays.entry(requester).or_default();
                 if !replay.locate(self.played, stamp_ns, &ego) {
-                    return add(&mut self.summary.dropped, "off the drive");
+                    return self.summary.traffic.dropped("off the drive");
                 }
                 let trajectory = replay.trajectory(self.played, stamp_ns);
                 if let (Some(session), Some((stamp_ns, points))) =
@@ -175,7 +158,7 @@ impl<'a, T: Transport> Station<'a, T> {
             | Payload::Confirm { .. }
             | Payload::Reject { .. }
             | Payload::Tracks { .. }
-            | Payload::Trajectory { .. } => add(&mut self.summary.dropped, "of a station"),
+            | Payload::Trajectory { .. } => self.summary.traffic.dropped("of a station"),
         }
     }
 
@@ -211,10 +194,10 @@ impl<'a, T: Transport> Station<'a, T> {
         let message = Message { sender: self.id, receiver: vehicle, generated_ns: now_ns, payload };
         match message::encode(&message, &self.frame) {
             Ok(bytes) => {
-                add(&mut self.summary.sent, kind(&message.payload));
+                self.summary.traffic.sent(&message.payload);
                 self.transport.send(now_ns, Address::Vehicle(vehicle), bytes);
             }
-            Err(error) => add(&mut self.summary.unsent, &unsent(&message.payload, &error)),
+            Err(error) => self.summary.traffic.unsent(&message.payload, &error),
         }
     }
 }

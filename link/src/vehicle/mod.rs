@@ -164,7 +164,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         let before = self.states();
         let actions = self.monitor.area(time(now_ns), Groups::NONE);
         self.answered(now_ns, before, Ok(actions), "end");
-        self.tally.health(self.transport.health());
+        self.tally.traffic().health(self.transport.health());
     }
 
     /// Waits until something arrives, at most so long.
@@ -208,10 +208,10 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         let message = Message { sender: self.id, receiver: station, generated_ns: now_ns, payload };
         match message::encode(&message, &self.frame) {
             Ok(bytes) => {
-                self.tally.sent(&message.payload);
+                self.tally.traffic().sent(&message.payload);
                 self.transport.send(now_ns, Address::Station(station), bytes);
             }
-            Err(error) => self.tally.unsent(&message.payload, &error),
+            Err(error) => self.tally.traffic().unsent(&message.payload, &error),
         }
     }
 
@@ -244,10 +244,10 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         let actions = match answer {
             Ok(actions) => actions,
             Err(RequesterError::TableFull { .. }) => {
-                return self.tally.dropped("too many stations");
+                return self.tally.traffic().dropped("too many stations");
             }
             Err(RequesterError::Station { .. } | RequesterError::NegativeParameter { .. }) => {
-                return self.tally.dropped("no station");
+                return self.tally.traffic().dropped("no station");
             }
         };
         for ((group, before), after) in Group::ALL.into_iter().zip(before).zip(self.states()) {
@@ -271,8 +271,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 // The drive holds what the local services would say, whether they compute or not.
                 Action::Activate(_) => self.tally.local_services("started"),
                 Action::Deactivate(_) => self.tally.local_services("stopped"),
-                Action::Drop(Group::Mot) => self.tally.dropped("tracks"),
-                Action::Drop(Group::Plan) => self.tally.dropped("trajectory"),
+                Action::Drop(Group::Mot) => self.tally.traffic().dropped("tracks"),
+                Action::Drop(Group::Plan) => self.tally.traffic().dropped("trajectory"),
             }
         }
     }

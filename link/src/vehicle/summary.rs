@@ -1,6 +1,5 @@
 //! What a vehicle counts while it drives, and what is said of it at the end.
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Write;
 use std::time::Duration;
@@ -13,11 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::log::{Coverage, Entry, What};
-use crate::message::{DecodeError, EncodeError, Payload};
-use crate::transport::Health;
-
-/// How often each of something happened, by its name.
-pub type Counts = BTreeMap<String, u64>;
+use crate::traffic::{Counts, Traffic, add};
 
 /// What is counted; over several lives of a vehicle.
 #[derive(Default)]
@@ -70,22 +65,9 @@ pub struct Summary {
     pub latency_trajectories: Spread,
     /// What the monitor takes in a cycle.
     pub monitor: Spread,
-    /// Messages that were sent, by kind.
-    pub sent: Counts,
-    /// Messages that could not be written, by kind and field.
-    pub unsent: Counts,
-    /// Messages that could be read, by kind.
-    pub received: Counts,
-    /// What of that was not used: results of no running session, late or repeated; messages for others.
-    pub dropped: Counts,
-    /// Bytes that are no message, by what is wrong.
-    pub malformed: Counts,
-    /// Messages that the transport threw away: too many waited, or too long.
-    pub shed: u64,
-    /// Connections of the transport.
-    pub connections: u64,
-    /// Why the last connection failed or ended.
-    pub last_error: Option<String>,
+    /// What went to and fro.
+    #[serde(flatten)]
+    pub traffic: Traffic,
 }
 
 /// How a time is spread, us; 0 where nothing was measured.
@@ -214,65 +196,9 @@ impl Tally {
         add(&mut self.summary.local_services, what);
     }
 
-    pub(super) fn sent(&mut self, payload: &Payload) {
-        add(&mut self.summary.sent, kind(payload));
+    pub(super) fn traffic(&mut self) -> &mut Traffic {
+        &mut self.summary.traffic
     }
-
-    pub(super) fn unsent(&mut self, payload: &Payload, error: &EncodeError) {
-        add(&mut self.summary.unsent, &unsent(payload, error));
-    }
-
-    pub(super) fn received(&mut self, payload: &Payload) {
-        add(&mut self.summary.received, kind(payload));
-    }
-
-    pub(super) fn dropped(&mut self, what: &str) {
-        add(&mut self.summary.dropped, what);
-    }
-
-    pub(super) fn malformed(&mut self, error: &DecodeError) {
-        add(&mut self.summary.malformed, &malformed(error));
-    }
-
-    /// What the transport went through in all.
-    pub(super) fn health(&mut self, health: Health) {
-        let Health { shed, connections, last_error } = health;
-        (self.summary.shed, self.summary.connections) = (shed, connections);
-        self.summary.last_error = last_error;
-    }
-}
-
-/// The name of what a message says.
-pub(crate) fn kind(payload: &Payload) -> &'static str {
-    match payload {
-        Payload::Offer { .. } => "offer",
-        Payload::Withdraw => "withdraw",
-        Payload::Confirm { .. } => "confirm",
-        Payload::Reject { .. } => "reject",
-        Payload::Tracks { .. } => "tracks",
-        Payload::Trajectory { .. } => "trajectory",
-        Payload::Request { .. } => "request",
-        Payload::Release { .. } => "release",
-        Payload::Alive { .. } => "alive",
-        Payload::State { .. } => "state",
-        Payload::Detections { .. } => "detections",
-    }
-}
-
-/// The kind of a message, and the field for which it could not be written.
-pub(crate) fn unsent(payload: &Payload, error: &EncodeError) -> String {
-    format!("{}: {}", kind(payload), error.place.field)
-}
-
-/// The kind of an error: the name of its variant.
-pub(crate) fn malformed(error: &DecodeError) -> String {
-    let text = format!("{error:?}");
-    text.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default().to_owned()
-}
-
-/// Counts one more. What can be counted has few names, whatever is received.
-pub(crate) fn add(counts: &mut Counts, name: &str) {
-    *counts.entry(name.to_owned()).or_default() += 1;
 }
 
 #[cfg(test)]

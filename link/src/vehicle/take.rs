@@ -14,13 +14,13 @@ impl<T: Transport> Vehicle<'_, T> {
     pub(super) fn take(&mut self, now_ns: i64, bytes: &[u8]) {
         let message = match message::decode(bytes, &self.frame) {
             Ok(message) => message,
-            Err(error) => return self.tally.malformed(&error),
+            Err(error) => return self.tally.traffic().malformed(&error),
         };
         let Message { sender: station, receiver, generated_ns, payload } = message;
         if receiver != self.id && receiver != 0 {
-            return self.tally.dropped("for another");
+            return self.tally.traffic().dropped("for another");
         }
-        self.tally.received(&payload);
+        self.tally.traffic().received(&payload);
         let before = self.states();
         let now = time(now_ns);
         let came = |group, session| Came { group, station, session, generated_ns };
@@ -64,7 +64,7 @@ impl<T: Transport> Vehicle<'_, T> {
             | Payload::Release { .. }
             | Payload::Alive { .. }
             | Payload::State { .. }
-            | Payload::Detections { .. } => self.tally.dropped("of a vehicle"),
+            | Payload::Detections { .. } => self.tally.traffic().dropped("of a vehicle"),
         }
     }
 

@@ -22,8 +22,8 @@ fn a_clean_drive_is_offloaded_from_its_first_second_to_its_end() {
         assert_eq!(vehicle.cycles, 188, "every cycle of the drive");
         assert!(vehicle.offloaded >= 180, "{vehicle:?}");
         assert_eq!(vehicle.local + vehicle.safe, vehicle.cycles, "{vehicle:?}");
-        assert!(vehicle.uncovered.is_empty() && vehicle.malformed.is_empty());
-        assert!(vehicle.unsent.is_empty() && seen.station.unsent.is_empty());
+        assert!(vehicle.uncovered.is_empty() && vehicle.traffic.malformed.is_empty());
+        assert!(vehicle.traffic.unsent.is_empty() && seen.station.traffic.unsent.is_empty());
         assert_eq!(vehicle.fallbacks, 0);
         assert_eq!(
             vehicle.left.get("end"),

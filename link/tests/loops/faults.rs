@@ -14,7 +14,7 @@ fn holds(seen: &Seen) {
     let vehicle = &seen.vehicle;
     println!("{vehicle:#?}\n{:#?}\n{:?}", seen.station, seen.changes);
     assert!(vehicle.uncovered.is_empty(), "{vehicle:?}");
-    assert!(vehicle.used > 0 && vehicle.malformed.is_empty(), "{vehicle:?}");
+    assert!(vehicle.used > 0 && vehicle.traffic.malformed.is_empty(), "{vehicle:?}");
     assert_eq!(vehicle.fallbacks, 0, "no cycle is unsafe: {vehicle:?}");
 }
 
@@ -49,7 +49,11 @@ fn results_45_ms_late_are_of_use_to_no_cycle_and_end_their_session() {
 fn repeated_results_are_dropped_and_nothing_else_happens() {
     let seen = World { disturbances: vec!["duplicate@4..6"], ..World::default() }.drive();
     holds(&seen);
-    assert!((19..=21).contains(&seen.vehicle.dropped["tracks"]), "{:?}", seen.vehicle.dropped);
+    assert!(
+        (19..=21).contains(&seen.vehicle.traffic.dropped["tracks"]),
+        "{:?}",
+        seen.vehicle.traffic.dropped
+    );
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
     offloaded_around(&seen, [4_000, 5_000]);
 }

@@ -46,9 +46,9 @@ fn sessions_that_nobody_asked_for_change_nothing() {
     });
     assert!(seen.vehicle.offloaded >= 175, "{:?}", seen.vehicle);
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
-    assert!(seen.vehicle.dropped["tracks"] > 1_000, "{:?}", seen.vehicle.dropped);
+    assert!(seen.vehicle.traffic.dropped["tracks"] > 1_000, "{:?}", seen.vehicle.traffic.dropped);
     // Each confirmation is answered with a release of the session that it names.
-    assert!(seen.vehicle.sent["release"] > 1_000, "{:?}", seen.vehicle.sent);
+    assert!(seen.vehicle.traffic.sent["release"] > 1_000, "{:?}", seen.vehicle.traffic.sent);
 }
 
 #[test]
@@ -63,8 +63,16 @@ fn bytes_that_are_no_message_are_counted_and_change_nothing() {
     assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
     let count = |malformed: &BTreeMap<String, u64>| malformed.values().sum::<u64>();
-    assert!(count(&seen.vehicle.malformed) > 30_000, "{:?}", seen.vehicle.malformed);
-    assert!(count(&seen.station.malformed) > 30_000, "{:?}", seen.station.malformed);
+    assert!(
+        count(&seen.vehicle.traffic.malformed) > 30_000,
+        "{:?}",
+        seen.vehicle.traffic.malformed
+    );
+    assert!(
+        count(&seen.station.traffic.malformed) > 30_000,
+        "{:?}",
+        seen.station.traffic.malformed
+    );
 }
 
 #[test]
@@ -120,7 +128,11 @@ fn stations_that_are_made_up_fill_the_table_and_the_real_one_is_still_used() {
             by.say(VEHICLE, &forged);
         }
     });
-    assert!(seen.vehicle.dropped["too many stations"] > 1_000, "{:?}", seen.vehicle.dropped);
+    assert!(
+        seen.vehicle.traffic.dropped["too many stations"] > 1_000,
+        "{:?}",
+        seen.vehicle.traffic.dropped
+    );
     assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
 }
 
@@ -137,7 +149,7 @@ fn who_takes_the_id_of_the_vehicle_ends_its_sessions_and_no_more() {
     });
     assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
     // The vehicle is told of each session that it did not ask for, and releases it.
-    assert!(seen.vehicle.sent["release"] >= 40, "{:?}", seen.vehicle.sent);
+    assert!(seen.vehicle.traffic.sent["release"] >= 40, "{:?}", seen.vehicle.traffic.sent);
     assert_eq!(seen.at(7_500), Configuration::AllRemote, "{:?}", seen.changes);
 }
 
@@ -158,8 +170,16 @@ fn a_second_vehicle_is_served_beside_the_first() {
         }
     });
     assert_eq!(seen.station.sessions, 4);
-    assert!(seen.station.dropped["off the drive"] > 100, "{:?}", seen.station.dropped);
-    assert!(seen.vehicle.dropped["for another"] > 100, "{:?}", seen.vehicle.dropped);
+    assert!(
+        seen.station.traffic.dropped["off the drive"] > 100,
+        "{:?}",
+        seen.station.traffic.dropped
+    );
+    assert!(
+        seen.vehicle.traffic.dropped["for another"] > 100,
+        "{:?}",
+        seen.vehicle.traffic.dropped
+    );
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
     assert!(seen.vehicle.offloaded >= 180, "{:?}", seen.vehicle);
 }
