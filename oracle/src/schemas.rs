@@ -8,6 +8,7 @@ use mufasa_drives::check;
 use mufasa_link::station::StationSummary;
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
+use mufasa_sim::experiment::{attacks, availability, failures, stages};
 use serde_json::Value;
 
 use crate::explore::report::ExplorationReport;
@@ -15,7 +16,7 @@ use crate::prove::claim::Claim;
 
 /// The schemas by the stem of their file's name: those of records and answers, of a line of `check
 /// --json`, of the summary of `conform`, of a line of `prove`, of what `vehicle` and `station` write at their end and of what
-/// `explore` writes.
+/// `explore` and `evaluate` write.
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
     schemas.extend(check::records::schemas());
@@ -24,6 +25,10 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("vehicle-summary", schema::written::<vehicle::summary::Summary>()));
     schemas.push(("station-summary", schema::written::<StationSummary>()));
     schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
+    schemas.push(("evaluation-failures", schema::written::<failures::Failures>()));
+    schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
+    schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
+    schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
     schemas
 }
 

@@ -133,6 +133,32 @@ fn the_summary_of_a_vehicle_is_what_its_schema_says() {
 }
 
 #[test]
+fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
+    let (validators, folder) = (validators(), folder("evaluate"));
+    for (name, only) in [
+        ("failures", "failures/hardened/map-replaced/0"),
+        ("stages", "stages/paper/random/1"),
+        ("attacks", "attacks/hardened/made-up-lead/mot/0"),
+        ("availability", "availability/paper/t-wait-s=60/0"),
+    ] {
+        let size = ["--only", only, "--scenarios", "2", "--vehicles", "3", "--out", "files"];
+        run(&folder, &[&["evaluate", name], &size[..]].concat());
+        let text = |kind: &str| fs::read_to_string(folder.join(format!("files/{name}{kind}")));
+        let value = parsed(&text(".json").expect("it was written"));
+        assert_valid(&validators[format!("evaluation-{name}").as_str()], &value);
+        let runs = value["runs"].as_array().expect("runs").len();
+        assert!(runs > 0, "{name}");
+        let lines = |kind| {
+            let text = text(kind).expect("it was written");
+            let mut reader = csv::Reader::from_reader(text.as_bytes());
+            reader.records().map(|line| line.expect("well-formed")).count()
+        };
+        let rows = value["rows"].as_array().expect("rows").len();
+        assert_eq!((lines("-runs.csv"), lines(".csv")), (runs, rows), "{name}");
+    }
+}
+
+#[test]
 fn every_schema_gets_a_file() {
     let folder = folder("files");
     run(&folder, &["schemas", "--out", "all"]);

@@ -7,6 +7,7 @@
 pub mod attack;
 pub mod cav;
 pub mod collision;
+pub mod experiment;
 pub mod ids;
 pub mod map;
 pub mod path;

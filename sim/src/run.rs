@@ -6,6 +6,7 @@ use mufasa::report::{FailedStage, Outcome as StageOutcome, Stage};
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, EncodeError, Frame};
 use mufasa_props::lent::Lent;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attack::{Attack, Attacker};
@@ -71,7 +72,9 @@ impl Settings {
 }
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum End {
     /// In the target zone.

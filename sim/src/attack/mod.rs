@@ -10,6 +10,7 @@ use std::collections::VecDeque;
 
 use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
 use mufasa_link::message::{self, Frame, Message, Payload};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::ids;
@@ -18,7 +19,9 @@ use crate::radio::{Radio, To};
 use crate::snapshot::Snapshot;
 
 /// What an attack does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// The planner of the station drives on another route (paper).

@@ -14,12 +14,15 @@ use mufasa::offloading::requester::{
 };
 use mufasa::report::{FailedStage, InvalidInput, Report};
 use mufasa::services::configuration::{Configuration, Group};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::sensing::Sensed;
 
 /// What is checked of remote data.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Variant {
     /// Quality of service alone: latency and inter-arrival time.

@@ -1,0 +1,76 @@
+//! What `mufasa evaluate` can be asked for.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, value_parser};
+use mufasa_sim::experiment::job::Options;
+
+/// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
+///
+/// Without an experiment: failures.
+#[derive(Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Exit codes: 0 done, 1 a run of `failures` that was checked by the hardened profile failed, 2 bad input or a
+file cannot be written."
+)]
+pub struct EvaluateArguments {
+    /// The experiment.
+    #[command(subcommand)]
+    pub experiment: Option<Experiment>,
+    /// How large it is, if it is not named.
+    #[command(flatten)]
+    pub size: SizeArguments,
+}
+
+/// The experiments.
+#[derive(Subcommand)]
+pub enum Experiment {
+    /// Collisions and targets not reached under each attack of the paper: none checked, paper, hardened.
+    Failures(SizeArguments),
+    /// How often each stage runs and finds a safety issue, under random attacks.
+    Stages(SizeArguments),
+    /// Every attack with tracking, planning or both offered: which stage finds it first, and when.
+    Attacks(SizeArguments),
+    /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
+    Availability(SizeArguments),
+}
+
+/// How large an experiment is, and where its results go.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+pub struct SizeArguments {
+    /// Scenarios of each combination, on each of two routes [default: failures 10, others 2]; of
+    /// `stages`: in all [default: 4].
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
+    pub scenarios: Option<u64>,
+    /// Other vehicles in the town [default: 15]; of `stages`: at most [default: 30].
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    pub vehicles: Option<u16>,
+    /// Seed of the first scenario; the others follow.
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Only runs whose id is this or begins with these parts, such as failures/paper/tracks-empty/0/3.
+    #[arg(long, value_name = "ID")]
+    pub only: Option<String>,
+    /// Threads [default: all processors]. The results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    pub threads: Option<u16>,
+    /// Write the table and all runs as JSON and CSV into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Put the table into a document, between the lines that mark its place.
+    #[arg(long, value_name = "FILE", conflicts_with = "only")]
+    pub into: Option<PathBuf>,
+}
+
+impl SizeArguments {
+    /// With the defaults of an experiment where nothing is said.
+    pub fn options(&self, defaults: Options) -> Options {
+        Options {
+            scenarios: self.scenarios.unwrap_or(defaults.scenarios),
+            vehicles: self.vehicles.map_or(defaults.vehicles, usize::from),
+            seed: self.seed,
+        }
+    }
+}

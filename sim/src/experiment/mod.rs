@@ -1,0 +1,12 @@
+//! Experiments: many runs of one plan each, and tables of what came of them.
+//!
+//! Each has its own file, with the runs that it makes, what is kept of each, and the rows of its table. The
+//! runs are made beside each other, but what comes of them stands in the order of the runs, so that a seed
+//! gives the same bytes with any number of threads.
+
+pub mod attacks;
+pub mod availability;
+pub mod failures;
+pub mod job;
+pub mod stages;
+pub mod watch;

@@ -1,0 +1,110 @@
+//! What an experiment sees of a run while it is made.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::cav::Cav;
+use crate::cav::guard::Decided;
+use crate::run::{Cycle, Watcher};
+use crate::snapshot::Snapshot;
+
+/// Where a cycle failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum By {
+    /// Track validation.
+    I,
+    /// Trajectory to map validation.
+    Ii,
+    /// Trajectory validation with tracks.
+    Iii,
+    /// Trajectory validation with detections.
+    Iv,
+    /// Trajectory validation with the grid.
+    V,
+    /// Nothing examined the trajectory (H-05).
+    NoObstacleCheck,
+    /// The input was invalid.
+    Input,
+}
+
+impl By {
+    /// All, in the order in which they are asked.
+    pub const ALL: [Self; 7] =
+        [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V, Self::NoObstacleCheck, Self::Input];
+
+    /// Its name in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::I => "i",
+            Self::Ii => "ii",
+            Self::Iii => "iii",
+            Self::Iv => "iv",
+            Self::V => "v",
+            Self::NoObstacleCheck => "no obstacle check",
+            Self::Input => "input",
+        }
+    }
+
+    fn of(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code).checked_sub(1)?).copied()
+    }
+}
+
+/// The first detection after a time, counted over the cycles with something remote.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct First {
+    /// Where the cycle failed.
+    pub by: By,
+    /// Cycles with something remote up to this one, which counts.
+    pub cycles: u64,
+    /// Way driven in them, m.
+    pub metres: f64,
+}
+
+/// Counts how offloading ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Watch {
+    from: f64,
+    last: Option<Cycle>,
+    /// Cycles with something remote from the time on, until the first detection.
+    pub cycles: u64,
+    /// Way driven in them, m.
+    pub metres: f64,
+    /// The first detection from the time on.
+    pub first: Option<First>,
+    /// Cycles with something remote that failed: each takes everything back.
+    pub fallbacks: u64,
+    /// How often a group was no longer remote although the cycle before was safe: late data or silence, or
+    /// the end of its area.
+    pub lost: u64,
+}
+
+impl Watch {
+    /// Looks for the first detection from this time on, s.
+    pub fn new(from: f64) -> Self {
+        Self { from, ..Self::default() }
+    }
+
+    /// Counts a cycle.
+    pub fn see(&mut self, cycle: &Cycle) {
+        let failed = By::of(cycle.failed).filter(|_| cycle.remote != 0);
+        let before = self.last.replace(*cycle);
+        self.fallbacks += u64::from(failed.is_some());
+        let ended = before.filter(|it| it.failed == 0).map_or(0, |it| it.remote & !cycle.remote);
+        self.lost += u64::from(ended.count_ones());
+        if cycle.remote == 0 || cycle.t < self.from || self.first.is_some() {
+            return;
+        }
+        self.cycles += 1;
+        let driven = before.filter(|it| it.t >= self.from && it.remote != 0);
+        self.metres += driven.map_or(0.0, |it| cycle.s - it.s);
+        self.first = failed.map(|by| First { by, cycles: self.cycles, metres: self.metres });
+    }
+}
+
+impl Watcher for Watch {
+    fn cycle(&mut self, _: &Snapshot, _: &Cav<'_>, _: &Decided, cycle: &Cycle) {
+        self.see(cycle);
+    }
+}

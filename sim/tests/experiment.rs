@@ -1,0 +1,148 @@
+//! The experiments: the same with any number of threads, and what the paper's figure says of this loop.
+
+use mufasa_sim::attack::Kind;
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::failures::{Failures, Row};
+use mufasa_sim::experiment::job::{self, Options};
+use mufasa_sim::experiment::watch::{By, First, Watch};
+use mufasa_sim::experiment::{attacks, availability, failures, stages};
+use mufasa_sim::map::streets::town;
+use mufasa_sim::run::Cycle;
+use serde::Serialize;
+
+/// Fewer scenarios than of the real ones: this is compiled without all optimisation.
+const SMALL: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
+
+/// As JSON, made by so many threads.
+fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync) -> String {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    serde_json::to_string_pretty(&pool.install(make)).expect("it is JSON")
+}
+
+fn small() -> Failures {
+    failures::experiment(&town(), SMALL, None, |_| ()).expect("the town can be")
+}
+
+fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
+    let is_it = |row: &&Row| (row.attack, row.variant) == (attack, variant);
+    *of.rows.iter().find(is_it).expect("there is a row")
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let town = town();
+    let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
+    let only = Some("failures/hardened/ghosts");
+    let make = || failures::experiment(&town, size, only, |_| ()).expect("the town can be");
+    let one = json(1, make);
+    assert_eq!(one, json(4, make));
+    assert_eq!(make().runs.len(), 4, "{one}");
+    let one = Options { scenarios: 2, ..size };
+    let only = Some("stages/paper");
+    let make = || stages::experiment(&town, one, only, |_| ()).expect("the town can be");
+    assert_eq!(json(1, make), json(4, make));
+}
+
+#[test]
+fn a_run_is_repeated_alone_by_its_id() {
+    let town = town();
+    let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
+    let make =
+        |only| failures::experiment(&town, size, Some(only), |_| ()).expect("the town can be");
+    let all = make("failures/sofof/tracks-empty");
+    let alone = make("failures/sofof/tracks-empty/1/1");
+    assert_eq!(alone.runs, [all.runs[3].clone()]);
+    assert_eq!(make("failures/sofof/tracks").runs, [], "no part of a part");
+}
+
+#[test]
+fn the_stages_save_what_quality_of_service_alone_loses() {
+    let made = small();
+    let runs = 4;
+    for variant in Variant::ALL {
+        let control = row(&made, None, variant);
+        assert_eq!((control.runs, control.failures), (runs, 0), "{control:?}");
+    }
+    for kind in Kind::PAPER {
+        let hardened = row(&made, Some(kind), Variant::Hardened);
+        assert_eq!((hardened.runs, hardened.failures), (runs, 0), "{hardened:?}");
+    }
+    for kind in [Kind::MapReplaced, Kind::TracksEmpty] {
+        let sofof = row(&made, Some(kind), Variant::Sofof);
+        assert!(2 * sofof.failures > runs, "{sofof:?}");
+    }
+    let rows = made.rows.iter().map(|row| row.runs).sum::<usize>();
+    assert_eq!((rows, made.rows.len()), (made.runs.len(), 12));
+}
+
+#[test]
+fn every_stage_but_one_detects_something_and_the_hardened_profile_arrives() {
+    let size = Options { scenarios: 2, vehicles: 30, seed: 0 };
+    let made = stages::experiment(&town(), size, None, |_| ()).expect("the town can be");
+    let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
+    assert_eq!(vehicles, [15, 30, 15, 30]);
+    assert!(made.rows.iter().all(|row| row.executions > 0), "{:?}", made.rows);
+    for variant in [Variant::Paper, Variant::Hardened] {
+        let of = made.rows.iter().filter(|row| row.variant == variant);
+        assert!(of.map(|row| row.detections).sum::<u64>() > 0, "{:?}", made.rows);
+    }
+    let hardened = made.runs.iter().filter(|run| run.variant == Variant::Hardened);
+    assert!(hardened.clone().all(|run| !run.end.is_failure()), "{:?}", made.runs);
+}
+
+#[test]
+fn ids_differ_and_every_combination_is_there() {
+    let town = town();
+    let size = Options { scenarios: 2, vehicles: 15, seed: 0 };
+    let mut ids: Vec<String> = failures::jobs(&town, size).into_iter().map(|it| it.id).collect();
+    ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(availability::jobs(&town, size).into_iter().map(|(_, it)| it.id));
+    let (all, kinds) = (ids.len(), Kind::ALL.len());
+    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 18 * 2 * 4);
+    assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), all);
+}
+
+#[test]
+fn the_seed_of_a_scenario_does_not_depend_on_variant_or_attack() {
+    let town = town();
+    let jobs = failures::jobs(&town, SMALL);
+    for (route, scenario) in job::starts(&town, SMALL) {
+        let of = jobs.iter().filter(|job| (job.route, job.scenario) == (route, scenario));
+        assert!(of.clone().all(|job| job.settings.seed == scenario), "{route} {scenario}");
+        assert_eq!(of.count(), 12);
+    }
+}
+
+#[test]
+fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
+    let cycle = |t: f64, remote: u8, failed: u8| Cycle {
+        t,
+        s: 10.0 * t,
+        speed: 10.0,
+        nearest: None,
+        remote,
+        failed,
+        attacked: true,
+        off_road: false,
+    };
+    let mut watch = Watch::new(5.0);
+    // Before the time: a fallback, but not the first detection.
+    watch.see(&cycle(4.0, 1, 1));
+    // Late data: both groups were remote and are no longer, after a safe cycle.
+    watch.see(&cycle(5.0, 3, 0));
+    watch.see(&cycle(5.1, 3, 0));
+    watch.see(&cycle(5.2, 0, 0));
+    watch.see(&cycle(6.0, 2, 0));
+    watch.see(&cycle(6.1, 2, 3));
+    watch.see(&cycle(6.2, 0, 0));
+    watch.see(&cycle(7.0, 2, 5));
+    assert_eq!((watch.fallbacks, watch.lost), (3, 2));
+    let first = watch.first.expect("there is one");
+    assert_eq!((first.by, first.cycles), (By::Iii, 4));
+    // From 50 to 51 m and from 60 to 61 m; the way between was driven by the CAV alone.
+    assert!((first.metres - 2.0).abs() < 1e-9, "{:?}", First { ..first });
+}
