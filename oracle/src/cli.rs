@@ -22,6 +22,7 @@ use self::arguments::{
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
+use crate::evaluate::{self, EvaluateArguments};
 use crate::explore;
 use crate::parameters_file;
 use crate::prove;
@@ -74,6 +75,8 @@ enum Command {
     Explore(ExploreArguments),
     /// Prove what is claimed with every engine that is here, and list what is proved.
     Prove(ProveArguments),
+    /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
+    Evaluate(EvaluateArguments),
     /// Drive a drive with requester and monitor, beside a station or over a broker.
     Vehicle(VehicleArguments),
     /// Serve vehicles over a broker, with stand-in services.
@@ -120,6 +123,7 @@ pub fn main() -> ExitCode {
         Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
+        Command::Evaluate(arguments) => evaluate::run(&arguments, &mut out, &mut io::stderr()),
         Command::Vehicle(arguments) => {
             Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
         }

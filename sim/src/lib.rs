@@ -12,6 +12,7 @@ pub mod path;
 pub mod pictures;
 pub mod pose;
 pub mod radio;
+pub mod replay;
 pub mod run;
 pub mod scenario;
 pub mod services;
