@@ -31,6 +31,7 @@ fn begin(guard: &mut Guard<'_>, at: i64) -> i64 {
     let mut actions =
         guard.happens(at, EventKind::Offer { station: STATION, groups }).expect("an offer");
     actions.extend(guard.happens(at, EventKind::Area { groups }).expect("an area"));
+    actions.extend(guard.happens(at, EventKind::Tick).expect("a tick"));
     let session = session_of(&actions, Group::Plan);
     let kind = EventKind::Confirm { station: STATION, group: Group::Plan, session };
     guard.happens(at, kind).expect("a confirmation");
@@ -49,7 +50,7 @@ fn nothing_of_an_ended_session_is_used() {
         let truth = world.snapshot();
         let cross_sections = world.route().cross_sections(0.0, f64::INFINITY);
         let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, 128, 2048));
-        let requester = Parameters { t_wait_ns: 0, ..Parameters::default() };
+        let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
         let mut guard = Guard::new(
             variant,
             mufasa::input::parameters::Parameters::default(),
@@ -76,7 +77,7 @@ fn nothing_of_an_ended_session_is_used() {
             };
             (0..50).map(point).collect()
         };
-        let nothing = Local { tracks: Some((0, &[])), points: None };
+        let nothing = Local { tracks: None, points: None };
         let trajectory = |session: i64, at: i64| Message {
             station: STATION,
             session,
