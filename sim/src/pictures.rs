@@ -84,8 +84,7 @@ pub fn sheet(town: &Town, route: usize, rows: &[&[Shot<'_>]]) -> String {
     let width = rows.iter().map(wide).fold(0.0, f64::max);
     let frames = rows.iter().copied().flatten();
     let height = 5.0 + frames.fold(0.0_f64, |most, (_, _, view)| most.max(view.height));
-    #[expect(clippy::cast_precision_loss, reason = "a few rows")]
-    let all = height * rows.len() as f64;
+    let all: f64 = rows.iter().map(|_| height).sum();
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0}\" height=\"{:.0}\" viewBox=\"0 0 {width:.2} {all:.2}\" \
          font-family=\"sans-serif\" font-size=\"2.6\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",

@@ -30,8 +30,7 @@ pub(super) fn svg(cycles: &[Cycle], event: f64, end: f64) -> String {
     let tops = [20.0, 20.0 + CURVE + 20.0];
     let bands = tops[1] + CURVE + 14.0;
     let rows = bands + 2.0 * (BAND + 6.0) + 8.0;
-    #[expect(clippy::cast_precision_loss, reason = "a few rows")]
-    let axis = rows + ROW * FAILED.len() as f64 + 4.0;
+    let axis = FAILED.iter().fold(rows, |y, _| y + ROW) + 4.0;
     let height = axis + 62.0;
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} \
