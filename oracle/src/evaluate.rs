@@ -1,6 +1,7 @@
 //! Experiments in a closed loop (`docs/evaluation.md`): tables, and JSON and CSV of all runs.
 
 pub mod arguments;
+mod replay;
 pub mod tables;
 
 use std::fmt::Display;
@@ -45,6 +46,7 @@ pub fn run(
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let (size, made) = match &arguments.experiment {
+        Some(Experiment::Replay(it)) => return replay::run(it, out, err),
         None => (&arguments.size, in_threads(&arguments.size, failures)),
         Some(Experiment::Failures(size)) => (size, in_threads(size, failures)),
         Some(Experiment::Stages(size)) => (size, in_threads(size, stages)),

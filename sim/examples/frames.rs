@@ -31,6 +31,7 @@ fn main() -> std::io::Result<()> {
                 .map(|i| snapshot.ego.rectangle.pose.ahead(f64::from(i), 0.0))
                 .collect(),
             tracks: snapshot.objects.iter().map(|object| object.rectangle).collect(),
+            is_remote: true,
             detections: snapshot.objects.iter().map(|object| object.rectangle.pose.at).collect(),
             cells: vec![snapshot.ego.rectangle.pose.ahead(15.0, 3.0)],
             cell_size: 0.5,

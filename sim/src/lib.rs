@@ -15,6 +15,7 @@ pub mod pictures;
 pub mod planner;
 pub mod pose;
 pub mod radio;
+pub mod replay;
 pub mod run;
 pub mod scenario;
 pub mod services;

@@ -11,6 +11,14 @@ use crate::traffic::agent::Kind;
 
 /// Resolution of a frame, pixels for each metre.
 const SCALE: f64 = 4.0;
+/// Colours of tracks: those that came over the link, and the CAV's own.
+pub const REMOTE: &str = "#c2185b";
+/// See `REMOTE`.
+pub const LOCAL: &str = "#00838f";
+/// Colour of detections.
+pub const DETECTION: &str = "#e67e00";
+/// Colour of the trajectory.
+pub const TRAJECTORY: &str = "#0b6e4f";
 /// Seconds of way that an arrow shows.
 const ARROW: f64 = 1.0;
 
@@ -21,6 +29,8 @@ pub struct Overlay {
     pub trajectory: Vec<Point>,
     /// Tracks.
     pub tracks: Vec<Rectangle>,
+    /// Whether they came over the link: drawn in another colour then.
+    pub is_remote: bool,
     /// Middles of detections, m.
     pub detections: Vec<Point>,
     /// Middles of occupied cells, m.
@@ -60,21 +70,36 @@ pub fn frame(
     strip(town, route, &[(snapshot, overlay, view)])
 }
 
+/// A moment, what is drawn over it, and what is seen of it.
+pub type Shot<'a> = (&'a Snapshot, &'a Overlay, View);
+
 /// Several frames beside each other, as a whole file; all as high as the highest.
-pub fn strip(town: &Town, route: usize, frames: &[(&Snapshot, &Overlay, View)]) -> String {
-    let width: f64 = frames.iter().map(|(_, _, view)| view.width + 2.0).sum();
-    let height = frames.iter().fold(0.0_f64, |most, (_, _, view)| most.max(view.height));
+pub fn strip(town: &Town, route: usize, frames: &[Shot<'_>]) -> String {
+    sheet(town, route, &[frames])
+}
+
+/// Rows of frames, as a whole file; all as high as the highest.
+pub fn sheet(town: &Town, route: usize, rows: &[&[Shot<'_>]]) -> String {
+    let wide = |row: &&[Shot<'_>]| row.iter().map(|(_, _, view)| view.width + 2.0).sum();
+    let width = rows.iter().map(wide).fold(0.0, f64::max);
+    let frames = rows.iter().copied().flatten();
+    let height = 5.0 + frames.fold(0.0_f64, |most, (_, _, view)| most.max(view.height));
+    let all: f64 = rows.iter().map(|_| height).sum();
     let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0}\" height=\"{:.0}\" viewBox=\"0 0 {width:.2} {:.2}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0}\" height=\"{:.0}\" viewBox=\"0 0 {width:.2} {all:.2}\" \
          font-family=\"sans-serif\" font-size=\"2.6\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
         width * SCALE,
-        (height + 5.0) * SCALE,
-        height + 5.0
+        all * SCALE,
     );
-    let mut left = 1.0;
-    for (index, (snapshot, overlay, view)) in frames.iter().enumerate() {
-        one(&mut text, (town, route), snapshot, overlay, (*view, left, index));
-        left += view.width + 2.0;
+    let (mut top, mut index) = (0.0, 0);
+    for row in rows {
+        let mut left = 1.0;
+        for shot in *row {
+            one(&mut text, (town, route), *shot, ([left, top], index));
+            left += shot.2.width + 2.0;
+            index += 1;
+        }
+        top += height;
     }
     text.push_str("</svg>\n");
     text
@@ -83,9 +108,8 @@ pub fn strip(town: &Town, route: usize, frames: &[(&Snapshot, &Overlay, View)]) 
 fn one(
     text: &mut String,
     (town, route): (&Town, usize),
-    snapshot: &Snapshot,
-    overlay: &Overlay,
-    (view, left, index): (View, f64, usize),
+    (snapshot, overlay, view): Shot<'_>,
+    ([left, top], index): ([f64; 2], usize),
 ) {
     let View { middle, width, height } = view;
     #[allow(clippy::cast_precision_loss, reason = "seconds for a reader")]
@@ -94,17 +118,19 @@ fn one(
     put(
         text,
         format_args!(
-            "<text x=\"{left:.2}\" y=\"3.4\" fill=\"#333\">t = {seconds:.2} s {caption}</text>\n"
+            "<text x=\"{left:.2}\" y=\"{:.2}\" fill=\"#333\">t = {seconds:.2} s {caption}</text>\n",
+            top + 3.4
         ),
     );
     put(
         text,
         format_args!(
-            "<clipPath id=\"f{index}\"><rect x=\"{left:.2}\" y=\"4.5\" width=\"{width:.2}\" height=\"{height:.2}\"/>\
-             </clipPath>\n<g clip-path=\"url(#f{index})\"><rect x=\"{left:.2}\" y=\"4.5\" width=\"{width:.2}\" \
-             height=\"{height:.2}\" fill=\"#f4f6f1\"/>\n<g transform=\"translate({:.3} {:.3}) scale(1 -1)\">\n",
+            "<clipPath id=\"f{index}\"><rect x=\"{left:.2}\" y=\"{0:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"/>\
+             </clipPath>\n<g clip-path=\"url(#f{index})\"><rect x=\"{left:.2}\" y=\"{0:.2}\" width=\"{width:.2}\" \
+             height=\"{height:.2}\" fill=\"#f4f6f1\"/>\n<g transform=\"translate({1:.3} {2:.3}) scale(1 -1)\">\n",
+            top + 4.5,
             left + width / 2.0 - middle.x,
-            4.5 + height / 2.0 + middle.y
+            top + 4.5 + height / 2.0 + middle.y
         ),
     );
     map(text, (town, route), snapshot, view);
@@ -122,16 +148,16 @@ fn one(
     }
     things(text, snapshot, view);
     if overlay.trajectory.len() > 1 {
-        polyline(text, &overlay.trajectory, "#0b6e4f", 0.5, 0.9);
+        polyline(text, &overlay.trajectory, TRAJECTORY, 0.5, 0.9);
     }
     for track in &overlay.tracks {
-        polygon(text, &corners(track), "none", "#c2185b");
+        polygon(text, &corners(track), "none", if overlay.is_remote { REMOTE } else { LOCAL });
     }
     for dot in &overlay.detections {
         put(
             text,
             format_args!(
-                "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"0.45\" fill=\"#e67e00\"/>\n",
+                "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"0.45\" fill=\"{DETECTION}\"/>\n",
                 dot.x, dot.y
             ),
         );
@@ -241,7 +267,7 @@ fn polygon(text: &mut String, points: &[Point], fill: &str, stroke: &str) {
     put(text, format_args!("\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"0.3\"/>\n"));
 }
 
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;")
 }
 

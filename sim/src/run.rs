@@ -165,6 +165,9 @@ impl std::error::Error for RunError {}
 pub trait Watcher {
     /// A cycle was decided.
     fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle);
+
+    /// The run is over; the last cycle was up to a period ago.
+    fn ended(&mut self, _: &Snapshot, _: &Cav<'_>) {}
 }
 
 /// Nobody looks.
@@ -236,6 +239,7 @@ pub fn run(
             outcome.end = end;
             outcome.t = seconds(world.time_ns());
             outcome.with = world.collision();
+            watcher.ended(&world.snapshot(), &cav);
             return Ok(outcome);
         }
     }

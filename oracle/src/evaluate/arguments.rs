@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, value_parser};
 use mufasa_sim::experiment::job::Options;
 
+use super::replay::ReplayArguments;
+
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
 ///
 /// Without an experiment: failures.
@@ -35,6 +37,8 @@ pub enum Experiment {
     Attacks(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Write one run as a page: frames from above around what happened, and a timeline.
+    Replay(ReplayArguments),
 }
 
 /// How large an experiment is, and where its results go.

@@ -289,7 +289,7 @@ impl<'a> Attacker<'a> {
                 }
             }
             Payload::Trajectory { points, .. } => {
-                if let Some(point) = points.get_mut(3) {
+                for point in points.iter_mut().skip(1) {
                     point.x = f64::NAN;
                 }
             }

@@ -49,6 +49,8 @@ pub struct Cav<'a> {
     sensed: Option<Sensed>,
     /// Remote tracks that the last safe cycle let the CAV's own planner have.
     tracks: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
+    /// Its own tracks of the last cycle, if MOT ran.
+    own: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
     /// What control follows.
     points: Vec<TrajectoryPoint>,
     /// What the CAV counts.
@@ -76,6 +78,7 @@ impl<'a> Cav<'a> {
             controller: Controller::new(body, control::Settings::default()),
             sensed: None,
             tracks: None,
+            own: None,
             points: Vec::new(),
             counts: Counts::default(),
         }
@@ -94,6 +97,13 @@ impl<'a> Cav<'a> {
     /// What control follows.
     pub fn points(&self) -> &[TrajectoryPoint] {
         &self.points
+    }
+
+    /// The tracks that it has, and whether they came over the link. None: neither did safe ones come nor
+    /// does its own MOT run.
+    pub fn tracks(&self) -> Option<(bool, &[mufasa::input::cycle::Track])> {
+        let remote = self.tracks.as_ref().map(|(_, tracks)| (true, tracks.as_slice()));
+        remote.or_else(|| self.own.as_ref().map(|(_, tracks)| (false, tracks.as_slice())))
     }
 
     /// What it measured last.
@@ -191,6 +201,7 @@ impl<'a> Cav<'a> {
         let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
         let mut decided = self.guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
+        self.own = own.map(|(stamp_ns, tracks)| (stamp_ns, tracks.to_vec()));
         self.act(now_ns, &decided.actions, radio);
         self.sensed = Some(sensed);
         // In `Local` nothing is checked, and after an unsafe cycle everything is local.

@@ -1,0 +1,105 @@
+//! What stands between link and control, by hand: nothing of an ended session is used.
+
+use mufasa::input::cycle::{Route, TrajectoryPoint};
+use mufasa::monitor::{Message, Time};
+use mufasa::offloading::requester::{Action, EventKind, Parameters, StationRecord};
+use mufasa::services::configuration::{Group, Groups};
+use mufasa_props::lent::Lent;
+use mufasa_sim::cav::guard::{Guard, Local, Variant};
+use mufasa_sim::cav::sensing::{Sensors, ego};
+use mufasa_sim::map::streets::town;
+use mufasa_sim::scenario::Scenario;
+use mufasa_sim::services::detectors::Errors;
+use mufasa_sim::world::World;
+
+const MS: i64 = 1_000_000;
+const STATION: i64 = 10;
+/// Of one cycle from the next, ns.
+const PERIOD: i64 = 100 * MS;
+
+fn session_of(actions: &[Action], wanted: Group) -> i64 {
+    let session = |action: &Action| match *action {
+        Action::Request { group, session, .. } if group == wanted => Some(session),
+        _ => None,
+    };
+    actions.iter().find_map(session).expect("a request")
+}
+
+/// Offers, asks for PLAN and confirms it, a little after `at`. Returns the session.
+fn begin(guard: &mut Guard<'_>, at: i64) -> i64 {
+    let groups = Groups::of(&[Group::Plan]);
+    let mut actions =
+        guard.happens(at, EventKind::Offer { station: STATION, groups }).expect("an offer");
+    actions.extend(guard.happens(at, EventKind::Area { groups }).expect("an area"));
+    actions.extend(guard.happens(at, EventKind::Tick).expect("a tick"));
+    let session = session_of(&actions, Group::Plan);
+    let kind = EventKind::Confirm { station: STATION, group: Group::Plan, session };
+    guard.happens(at, kind).expect("a confirmation");
+    session
+}
+
+#[test]
+fn nothing_of_an_ended_session_is_used() {
+    let town = town();
+    let route = town.ego_routes().next().expect("a route");
+    let mut scenario = Scenario::draw(&town, route, 0, 0);
+    scenario.actors.clear();
+    scenario.walkers.clear();
+    for variant in Variant::ALL {
+        let world = World::new(&town, &scenario, 0);
+        let truth = world.snapshot();
+        let cross_sections = world.route().cross_sections(0.0, f64::INFINITY);
+        let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, 128, 2048));
+        let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
+        let mut guard = Guard::new(
+            variant,
+            mufasa::input::parameters::Parameters::default(),
+            requester,
+            PERIOD.unsigned_abs(),
+            &mut table,
+            lent.memory(),
+        )
+        .expect("settings");
+        let corridor =
+            Route { closed: world.route().path.is_closed(), cross_sections: &cross_sections };
+        guard.set_route(&corridor).expect("a route");
+        let mut sensors = Sensors::new(0, world.body(), Errors::default());
+        let mut sensed = |at: i64| sensors.sense(&truth, world.route(), world.body(), at);
+        let me = ego(&truth, world.body());
+        // Stands where it is: safe wherever the road is free.
+        let stands = |from: i64| -> Vec<TrajectoryPoint> {
+            let point = |step: i64| TrajectoryPoint {
+                t_ns: from + step * PERIOD,
+                x: me.x,
+                y: me.y,
+                cos: me.cos,
+                sin: me.sin,
+            };
+            (0..50).map(point).collect()
+        };
+        let nothing = Local { tracks: None, points: None };
+        let trajectory = |session: i64, at: i64| Message {
+            station: STATION,
+            session,
+            generated: Time::from_nanoseconds(at),
+            stamp: Time::from_nanoseconds(at),
+            items: stands(at),
+        };
+        let first = begin(&mut guard, PERIOD);
+        guard.trajectory(PERIOD, trajectory(first, PERIOD)).expect("a station");
+        let local = Local { tracks: Some((PERIOD, &[])), ..nothing };
+        let still = mufasa::input::cycle::Ego { speed: 0.0, ..me };
+        let decided = guard.decide(PERIOD, still, &sensed(PERIOD), local);
+        assert!(decided.trajectory.is_some(), "{variant:?}: of the running session: {decided:?}");
+
+        guard.happens(2 * PERIOD, EventKind::Lost { station: STATION }).expect("a loss");
+        let second = begin(&mut guard, 2 * PERIOD);
+        assert_ne!(first, second);
+        let late = trajectory(first, 2 * PERIOD);
+        let actions = guard.trajectory(2 * PERIOD, late).expect("a station");
+        assert!(actions.contains(&Action::Drop(Group::Plan)), "{variant:?}: {actions:?}");
+        let local = Local { tracks: Some((2 * PERIOD, &[])), ..nothing };
+        let decided = guard.decide(2 * PERIOD, still, &sensed(2 * PERIOD), local);
+        assert_eq!(decided.trajectory, None, "{variant:?}: of an ended session");
+    }
+}

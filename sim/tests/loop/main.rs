@@ -1,0 +1,11 @@
+//! Tests of the closed loop: the link, the CAV, the station, the attacks, and what is made of a run.
+#![allow(clippy::cast_precision_loss, reason = "counts are small")]
+
+mod attacks;
+mod digest;
+mod guard;
+mod radio;
+mod replay;
+mod same;
+mod services;
+mod sessions;
