@@ -178,7 +178,7 @@ impl Watcher for () {
 /// Makes a run. The same arguments give the same outcome on any machine.
 ///
 /// Errors: settings, a route or a town that cannot be.
-pub fn run(
+pub fn simulate(
     town: &Town,
     scenario: &Scenario,
     settings: &Settings,

@@ -9,7 +9,7 @@ use super::watch::Watch;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{Outcome, RunError, Settings, run};
+use crate::run::{Outcome, RunError, Settings, simulate};
 use crate::scenario::Scenario;
 
 /// How large an experiment is.
@@ -88,7 +88,7 @@ pub fn make(
         let seed = job.settings.seed;
         let scenario = Scenario::draw(town, routes[job.route], job.vehicles, seed);
         let mut watch = Watch::new(job.watched_from);
-        let outcome = run(town, &scenario, &job.settings, &mut watch)?;
+        let outcome = simulate(town, &scenario, &job.settings, &mut watch)?;
         done(jobs.len());
         Ok((outcome, watch))
     };

@@ -14,7 +14,7 @@ use crate::cav::guard::{Decided, Variant};
 use crate::map::Town;
 use crate::pictures::{DETECTION, LOCAL, Overlay, REMOTE, Shot, TRAJECTORY, View, escape, sheet};
 use crate::pose::{Point, Pose, Rectangle};
-use crate::run::{Cycle, End, Outcome, RunError, Settings, Watcher, run};
+use crate::run::{Cycle, End, Outcome, RunError, Settings, Watcher, simulate};
 use crate::scenario::Scenario;
 use crate::snapshot::Snapshot;
 
@@ -84,7 +84,7 @@ impl Id {
         let attack = |kind| Attack { kind, from, until: f64::INFINITY, seed };
         settings.attacks = self.attack.into_iter().map(attack).collect();
         let mut replay = Replay::default();
-        let outcome = run(town, &scenario, &settings, &mut replay)?;
+        let outcome = simulate(town, &scenario, &settings, &mut replay)?;
         let page = replay.page(town, self, &outcome);
         Ok(Some((outcome, page)))
     }

@@ -7,7 +7,7 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::map::streets::town;
-use mufasa_sim::run::{Cycle, Outcome, Settings, Watcher, run};
+use mufasa_sim::run::{Cycle, Outcome, Settings, Watcher, simulate};
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::snapshot::Snapshot;
 
@@ -54,6 +54,6 @@ pub fn drive<W: Watcher + Default>(
     let attack = |kind| Attack { kind, from: FROM, until: 1e9, seed };
     settings.attacks = kind.into_iter().map(attack).collect();
     let mut watcher = W::default();
-    let outcome = run(&town, &scenario, &settings, &mut watcher).expect("settings");
+    let outcome = simulate(&town, &scenario, &settings, &mut watcher).expect("settings");
     (outcome, watcher)
 }
