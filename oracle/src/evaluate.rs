@@ -175,7 +175,7 @@ fn put(file: &Path, results: &Results) -> io::Result<()> {
 }
 
 fn bar(name: &str) -> ProgressBar {
-    let bar = progress::bar(0, "{prefix} {wide_bar} {pos}/{len} runs, {left} left");
+    let bar = progress::bar(0, "{prefix} {bar:30} {pos}/{len} runs, {left} left");
     bar.set_prefix(name.to_owned());
     bar
 }

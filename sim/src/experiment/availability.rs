@@ -15,7 +15,7 @@ use crate::services::way::seconds;
 
 /// Its name.
 pub const NAME: &str = "availability";
-/// A few scenarios of each of 38 combinations.
+/// A few scenarios of each of 36 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What is set.
