@@ -11,6 +11,7 @@ const PERIOD_NS: i64 = 100 * MS;
 /// When results are generated, how much later they arrive and the cycle looks, and how far ahead of
 /// their arrival they are stamped, ns.
 #[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_field_names, reason = "units")]
 struct Habit {
     latency_ns: i64,
     phase_ns: i64,
