@@ -36,21 +36,33 @@ pub enum To {
 pub struct Radio {
     settings: Settings,
     seed: u64,
-    sent: u64,
-    /// By arrival and number, so that nothing depends on anything else's order.
-    on_the_way: BTreeMap<(i64, u64), (To, Vec<u8>)>,
+    /// Messages so far: of those who are meant to send, and of others.
+    sent: [u64; 2],
+    /// By arrival, number and who sends, so that nothing depends on anything else's order.
+    on_the_way: BTreeMap<(i64, u64, usize), (To, Vec<u8>)>,
 }
 
 impl Radio {
     /// With nothing on its way.
     pub const fn new(settings: Settings, seed: u64) -> Self {
-        Self { settings, seed, sent: 0, on_the_way: BTreeMap::new() }
+        Self { settings, seed, sent: [0; 2], on_the_way: BTreeMap::new() }
     }
 
     /// Sends bytes at a time, ns.
     pub fn send(&mut self, now_ns: i64, to: To, bytes: Vec<u8>) {
-        self.sent += 1;
-        let mut draws = Draws::new([self.seed, u64::MAX, self.sent, 0]);
+        self.launch(now_ns, to, bytes, 0);
+    }
+
+    /// The same by somebody else, which leaves the fate of all other messages as it is: runs with and
+    /// without an attack have the same link.
+    pub fn forge(&mut self, now_ns: i64, to: To, bytes: Vec<u8>) {
+        self.launch(now_ns, to, bytes, 1);
+    }
+
+    fn launch(&mut self, now_ns: i64, to: To, bytes: Vec<u8>, by: usize) {
+        self.sent[by] += 1;
+        let number = self.sent[by];
+        let mut draws = Draws::new([self.seed, u64::MAX, number, u64::from(by > 0)]);
         if draws.share() < self.settings.loss {
             return;
         }
@@ -61,13 +73,13 @@ impl Radio {
         )]
         let jitter_ns = (-libm::log(1.0 - draws.share()) * self.settings.jitter_ns as f64) as i64;
         let arrival_ns = now_ns + self.settings.least_ns + jitter_ns;
-        self.on_the_way.insert((arrival_ns, self.sent), (to, bytes));
+        self.on_the_way.insert((arrival_ns, number, by), (to, bytes));
     }
 
     /// The next message that has arrived by a time, with its arrival, ns.
     pub fn receive(&mut self, now_ns: i64) -> Option<(i64, To, Vec<u8>)> {
         let entry = self.on_the_way.first_entry()?;
-        let (arrival_ns, _) = *entry.key();
+        let (arrival_ns, ..) = *entry.key();
         (arrival_ns <= now_ns).then(|| {
             let (to, bytes) = entry.remove();
             (arrival_ns, to, bytes)

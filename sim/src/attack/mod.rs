@@ -254,7 +254,7 @@ impl<'a> Attacker<'a> {
         };
         let mut send = |message: &Message| {
             if let Ok(bytes) = message::encode(message, frame) {
-                radio.send(now_ns, To::Vehicle, bytes);
+                radio.forge(now_ns, To::Vehicle, bytes);
             }
         };
         if self.does(Kind::TracksEmpty)
@@ -271,7 +271,7 @@ impl<'a> Attacker<'a> {
                 }));
             }
             for byte in 0..FLOOD / 2 {
-                radio.send(now_ns, To::Vehicle, vec![byte; 40]);
+                radio.forge(now_ns, To::Vehicle, vec![byte; 40]);
             }
         }
     }
