@@ -25,7 +25,7 @@ fn each_snippet_fails_for_the_reason_that_it_names() {
     let mut kinds = BTreeSet::new();
     for Snippet { place, error, code } in &snippets {
         let file = folder.join("snippet.rs");
-        fs::write(&file, code).expect("a file");
+        fs::write(&file, in_a_function(code)).expect("a file");
         let output = rustc(&folder, &["--crate-name", "snippet", "--error-format=short"], &file);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(!output.status.success(), "{place} compiles");
@@ -45,6 +45,13 @@ fn each_snippet_fails_for_the_reason_that_it_names() {
         kinds.insert(wanted);
     }
     assert!(kinds.len() >= 6, "{kinds:?}");
+}
+
+/// As rustdoc has it: the attributes of the file, then a function with the rest.
+fn in_a_function(code: &str) -> String {
+    let (attributes, rest): (Vec<&str>, Vec<&str>) =
+        code.lines().partition(|line| line.starts_with("#!["));
+    format!("{}\npub fn snippet() {{\n{}\n}}\n", attributes.join("\n"), rest.join("\n"))
 }
 
 /// Compiles `libm` and `mufasa`, as far as who uses them has to know.
