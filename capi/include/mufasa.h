@@ -369,10 +369,13 @@ enum MufasaDropReason
   MUFASA_DROP_REASON_LATE = 4,
   // Its stamp is more than max_age ago, so that no cycle can use it. It is no arrival.
   MUFASA_DROP_REASON_TOO_OLD = 5,
+  // For more than dt_max no cycle has had an element of the session that was current. It is no arrival:
+  // the session ends after dt_max.
+  MUFASA_DROP_REASON_STARVED = 6,
   // The time since the last arrival is above dt_max. The session has ended.
-  MUFASA_DROP_REASON_AFTER_SILENCE = 6,
+  MUFASA_DROP_REASON_AFTER_SILENCE = 7,
   // It is not generated later than the last one that was used: repeated, or overtaken.
-  MUFASA_DROP_REASON_NOT_NEWER = 7,
+  MUFASA_DROP_REASON_NOT_NEWER = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
