@@ -97,7 +97,7 @@ fn ids_differ_and_every_combination_is_there() {
     let mut ids: Vec<String> = failures::jobs(&town, size).into_iter().map(|it| it.id).collect();
     ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(availability::jobs(&town, size).into_iter().map(|(_, it)| it.id));
+    ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
     assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 18 * 2 * 4);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::job::{self, Job, Options, kind_name};
 use super::watch::{By, Watch};
-use crate::attack::{Attack, Kind};
+use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
 use crate::run::{End, Outcome, RunError};
@@ -20,8 +20,6 @@ use crate::run::{End, Outcome, RunError};
 pub const NAME: &str = "attacks";
 /// A few scenarios of each of 171 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
-/// When the attack begins, s.
-const FROM: f64 = 5.0;
 
 /// What the station offers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
@@ -54,11 +52,6 @@ impl Offered {
             Self::Plan => Groups::of(&[Group::Plan]),
             Self::Both => Groups::ALL,
         }
-    }
-
-    fn of(groups: Groups) -> Self {
-        let is_it = |it: &Self| it.groups() == groups;
-        Self::ALL.into_iter().find(is_it).unwrap_or(Self::Both)
     }
 }
 
@@ -132,22 +125,21 @@ pub struct Run {
     pub lost: u64,
 }
 
+/// The attack and what is offered.
+type What = (Option<Kind>, Offered);
+
 /// The runs.
-pub fn jobs(town: &Town, options: Options) -> Vec<Job> {
+pub fn jobs(town: &Town, options: Options) -> Vec<Job<What>> {
     let mut jobs = Vec::new();
     for attack in [None].into_iter().chain(Kind::ALL.map(Some)) {
         for offered in Offered::ALL {
             for variant in Variant::ALL {
-                let what = format!("{}/{}", kind_name(attack), offered.name());
+                let word = format!("{}/{}", kind_name(attack), offered.name());
                 for (route, scenario) in job::starts(town, options) {
                     let place = (variant, route, scenario);
-                    let mut job = Job::new(NAME, &what, place, options);
-                    let seed = job.settings.seed;
-                    let of = |kind| Attack { kind, from: FROM, until: f64::INFINITY, seed };
-                    job.settings.attacks.extend(attack.map(of));
+                    let mut job = Job::new(NAME, (&word, (attack, offered)), place, options);
                     job.settings.offers = offered.groups();
-                    job.watched_from = FROM;
-                    jobs.push(job);
+                    jobs.push(job.attacked(attack));
                 }
             }
         }
@@ -165,20 +157,18 @@ pub fn experiment(
     only: Option<&str>,
     done: impl Fn(usize) + Sync,
 ) -> Result<Attacks, RunError> {
-    let mut jobs = jobs(town, options);
-    jobs.retain(|job| job::is_chosen(job, only));
-    let made = job::make(town, &jobs, done)?;
-    let runs: Vec<Run> = jobs.iter().zip(&made).map(kept).collect();
+    let runs = job::make(town, jobs(town, options), only, done, kept)?;
     let same =
         |a: &Run, b: &Run| (a.attack, a.offered, a.variant) == (b.attack, b.offered, b.variant);
     Ok(Attacks { options, rows: runs.chunk_by(same).map(row).collect(), runs })
 }
 
-fn kept((job, (outcome, watch)): (&Job, &(Outcome, Watch))) -> Run {
+fn kept(job: &Job<What>, outcome: &Outcome, watch: &Watch) -> Run {
+    let (attack, offered) = job.what;
     Run {
         id: job.id.clone(),
-        attack: job.kind(),
-        offered: Offered::of(job.settings.offers),
+        attack,
+        offered,
         variant: job.settings.variant,
         route: job.route,
         scenario: job.scenario,

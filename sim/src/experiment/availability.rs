@@ -143,17 +143,18 @@ pub struct Run {
 
 type Set = (Factor, f64);
 
-/// The runs, each with what is set.
-pub fn jobs(town: &Town, options: Options) -> Vec<(Set, Job)> {
+/// The runs.
+pub fn jobs(town: &Town, options: Options) -> Vec<Job<Set>> {
     let mut jobs = Vec::new();
     for factor in Factor::ALL {
         for &value in factor.values() {
             for variant in [Variant::Paper, Variant::Hardened] {
                 for (route, scenario) in job::starts(town, options) {
-                    let what = format!("{}={value}", factor.name());
-                    let mut job = Job::new(NAME, &what, (variant, route, scenario), options);
+                    let (word, place) =
+                        (format!("{}={value}", factor.name()), (variant, route, scenario));
+                    let mut job = Job::new(NAME, (&word, (factor, value)), place, options);
                     factor.set(&mut job.settings, value);
-                    jobs.push(((factor, value), job));
+                    jobs.push(job);
                 }
             }
         }
@@ -171,17 +172,13 @@ pub fn experiment(
     only: Option<&str>,
     done: impl Fn(usize) + Sync,
 ) -> Result<Availability, RunError> {
-    let mut jobs = jobs(town, options);
-    jobs.retain(|(_, job)| job::is_chosen(job, only));
-    let (sets, jobs): (Vec<Set>, Vec<Job>) = jobs.into_iter().unzip();
-    let made = job::make(town, &jobs, done)?;
-    let runs = jobs.iter().zip(sets).zip(&made);
-    let runs: Vec<Run> = runs.map(|((job, set), made)| kept(job, set, made)).collect();
+    let runs = job::make(town, jobs(town, options), only, done, kept)?;
     let same = |a: &Run, b: &Run| (a.factor, a.value, a.variant) == (b.factor, b.value, b.variant);
     Ok(Availability { options, rows: runs.chunk_by(same).map(row).collect(), runs })
 }
 
-fn kept(job: &Job, (factor, value): Set, (outcome, watch): &(Outcome, Watch)) -> Run {
+fn kept(job: &Job<Set>, outcome: &Outcome, watch: &Watch) -> Run {
+    let (factor, value) = job.what;
     Run {
         id: job.id.clone(),
         factor,

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::job::{self, Job, Options, kind_name};
 use super::watch::Watch;
-use crate::attack::{Attack, Kind};
+use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
 use crate::run::{End, Outcome, RunError};
@@ -17,8 +17,6 @@ use crate::run::{End, Outcome, RunError};
 pub const NAME: &str = "failures";
 /// As large as the paper's, on each route.
 pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0 };
-/// When the attack begins, s.
-const FROM: f64 = 5.0;
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -84,19 +82,15 @@ pub struct Run {
 }
 
 /// The runs.
-pub fn jobs(town: &Town, options: Options) -> Vec<Job> {
+pub fn jobs(town: &Town, options: Options) -> Vec<Job<Option<Kind>>> {
     let attacks = [None].into_iter().chain(Kind::PAPER.map(Some));
     let mut jobs = Vec::new();
     for attack in attacks {
         for variant in Variant::ALL {
             for (route, scenario) in job::starts(town, options) {
                 let place = (variant, route, scenario);
-                let mut job = Job::new(NAME, kind_name(attack), place, options);
-                let seed = job.settings.seed;
-                let of = |kind| Attack { kind, from: FROM, until: f64::INFINITY, seed };
-                job.settings.attacks.extend(attack.map(of));
-                job.watched_from = FROM;
-                jobs.push(job);
+                let job = Job::new(NAME, (kind_name(attack), attack), place, options);
+                jobs.push(job.attacked(attack));
             }
         }
     }
@@ -113,17 +107,14 @@ pub fn experiment(
     only: Option<&str>,
     done: impl Fn(usize) + Sync,
 ) -> Result<Failures, RunError> {
-    let mut jobs = jobs(town, options);
-    jobs.retain(|job| job::is_chosen(job, only));
-    let made = job::make(town, &jobs, done)?;
-    let runs: Vec<Run> = jobs.iter().zip(&made).map(kept).collect();
+    let runs = job::make(town, jobs(town, options), only, done, kept)?;
     Ok(Failures { options, rows: rows(&runs), runs })
 }
 
-fn kept((job, (outcome, watch)): (&Job, &(Outcome, Watch))) -> Run {
+fn kept(job: &Job<Option<Kind>>, outcome: &Outcome, watch: &Watch) -> Run {
     Run {
         id: job.id.clone(),
-        attack: job.kind(),
+        attack: job.what,
         variant: job.settings.variant,
         route: job.route,
         scenario: job.scenario,

@@ -6,11 +6,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::watch::Watch;
-use crate::attack::Kind;
+use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
 use crate::map::Town;
 use crate::run::{Outcome, RunError, Settings, simulate};
 use crate::scenario::Scenario;
+
+/// When the attack of a run begins that has one, s.
+const FROM: f64 = 5.0;
 
 /// How large an experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -23,9 +26,11 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// A run of an experiment.
+/// A run of an experiment. `W`: what is special about it.
 #[derive(Clone, Debug)]
-pub struct Job {
+pub struct Job<W> {
+    /// What is special about it.
+    pub what: W,
     /// By which it can be repeated alone: experiment, variant, what is special, route, scenario.
     pub id: String,
     /// Which of the ego's routes.
@@ -43,12 +48,18 @@ pub struct Job {
 /// A scenario of an experiment: variant, route, which it is on the route.
 pub type Place = (Variant, usize, u64);
 
-impl Job {
+impl<W> Job<W> {
     /// A run without attacks, with everything offered and the defaults of [`Settings::new`]. `name`: of the
-    /// experiment; `what`: what is special about the run.
-    pub fn new(name: &str, what: &str, (variant, route, scenario): Place, of: Options) -> Self {
+    /// experiment; `what`: what is special about the run, in the word of its id and as a value.
+    pub fn new(
+        name: &str,
+        (word, what): (&str, W),
+        (variant, route, scenario): Place,
+        of: Options,
+    ) -> Self {
         Self {
-            id: format!("{name}/{}/{what}/{route}/{scenario}", variant.name()),
+            what,
+            id: format!("{name}/{}/{word}/{route}/{scenario}", variant.name()),
             route,
             scenario,
             vehicles: of.vehicles,
@@ -57,9 +68,14 @@ impl Job {
         }
     }
 
-    /// The kind of its attack, if it has one.
-    pub fn kind(&self) -> Option<Kind> {
-        self.settings.attacks.first().map(|attack| attack.kind)
+    /// The same under an attack that begins 5 s after the start and lasts, if it is one; in any case it is
+    /// watched from then on.
+    pub fn attacked(mut self, kind: Option<Kind>) -> Self {
+        let seed = self.settings.seed;
+        let attack = |kind| Attack { kind, from: FROM, until: f64::INFINITY, seed };
+        self.settings.attacks.extend(kind.map(attack));
+        self.watched_from = FROM;
+        self
     }
 }
 
@@ -69,28 +85,31 @@ pub fn kind_name(kind: Option<Kind>) -> &'static str {
 }
 
 /// Whether a run has this id, or an id that begins with these parts; every run, where nothing is named.
-pub fn is_chosen(job: &Job, only: Option<&str>) -> bool {
+fn is_chosen<W>(job: &Job<W>, only: Option<&str>) -> bool {
     let rest = only.map_or(Some(""), |only| job.id.strip_prefix(only));
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
-/// Makes the runs on the threads of this pool; what came of them in their order. `done`: called after each, in
-/// any order, with their number.
+/// Makes the runs, or those of them that `only` names, on the threads of this pool; what is `kept` of them in
+/// their order. `done`: called after each, in any order, with their number.
 ///
 /// Errors: settings, a route or a town that cannot be.
-pub fn make(
+pub fn make<W: Sync + Send, R: Send>(
     town: &Town,
-    jobs: &[Job],
+    mut jobs: Vec<Job<W>>,
+    only: Option<&str>,
     done: impl Fn(usize) + Sync,
-) -> Result<Vec<(Outcome, Watch)>, RunError> {
+    kept: impl Fn(&Job<W>, &Outcome, &Watch) -> R + Sync,
+) -> Result<Vec<R>, RunError> {
+    jobs.retain(|job| is_chosen(job, only));
     let routes: Vec<usize> = town.ego_routes().collect();
-    let one = |job: &Job| {
+    let one = |job: &Job<W>| {
         let seed = job.settings.seed;
         let scenario = Scenario::draw(town, routes[job.route], job.vehicles, seed);
         let mut watch = Watch::new(job.watched_from);
         let outcome = simulate(town, &scenario, &job.settings, &mut watch)?;
         done(jobs.len());
-        Ok((outcome, watch))
+        Ok(kept(job, &outcome, &watch))
     };
     jobs.par_iter().map(one).collect()
 }

@@ -108,13 +108,13 @@ pub struct Run {
 }
 
 /// The runs: the routes by turns, the vehicles from half of the most on.
-pub fn jobs(town: &Town, options: Options) -> Vec<Job> {
+pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
     let routes: Vec<usize> = town.ego_routes().collect();
     let mut jobs = Vec::new();
     for variant in [Variant::Paper, Variant::Hardened] {
         for (scenario, route) in (0..options.scenarios).zip((0..routes.len()).cycle()) {
             let place = (variant, route, scenario);
-            let mut job = Job::new(NAME, "random", place, options);
+            let mut job = Job::new(NAME, ("random", ()), place, options);
             let more = options.scenarios.saturating_sub(1).max(1);
             let share = usize::try_from(more - scenario.min(more)).unwrap_or(0);
             let least = options.vehicles / 2;
@@ -138,11 +138,10 @@ pub fn experiment(
     only: Option<&str>,
     done: impl Fn(usize) + Sync,
 ) -> Result<Stages, RunError> {
-    let mut jobs = jobs(town, options);
-    jobs.retain(|job| job::is_chosen(job, only));
-    let made = job::make(town, &jobs, done)?;
-    let runs: Vec<Run> = jobs.iter().zip(&made).map(kept).collect();
-    Ok(Stages { options, rows: rows(&runs, &made), runs })
+    let made = job::make(town, jobs(town, options), only, done, kept)?;
+    let rows = rows(&made);
+    let runs = made.into_iter().map(|(run, _)| run).collect();
+    Ok(Stages { options, rows, runs })
 }
 
 /// MOT on the first two thirds of the way to the target, PLAN on the last two.
@@ -172,9 +171,12 @@ fn attacks(seed: u64) -> Vec<Attack> {
     attacks
 }
 
-fn kept((job, (outcome, _)): (&Job, &(Outcome, Watch))) -> Run {
+/// A run, and the executions and detections of its stages.
+type Kept = (Run, [[u64; 2]; 5]);
+
+fn kept(job: &Job<()>, outcome: &Outcome, _: &Watch) -> Kept {
     let [i, ii, iii, iv, v] = outcome.stages;
-    Run {
+    let run = Run {
         id: job.id.clone(),
         variant: job.settings.variant,
         route: job.route,
@@ -196,20 +198,19 @@ fn kept((job, (outcome, _)): (&Job, &(Outcome, Watch))) -> Run {
         false_alarms: outcome.false_alarms,
         remote_mot: outcome.offloaded[0],
         remote_plan: outcome.offloaded[1],
-    }
+    };
+    (run, outcome.stages)
 }
 
-fn rows(runs: &[Run], made: &[(Outcome, Watch)]) -> Vec<Row> {
+fn rows(made: &[Kept]) -> Vec<Row> {
     let mut rows = Vec::new();
-    let mut made = made.iter();
-    for runs in runs.chunk_by(|a, b| a.variant == b.variant) {
-        let made: Vec<&(Outcome, Watch)> = made.by_ref().take(runs.len()).collect();
+    for made in made.chunk_by(|(a, _), (b, _)| a.variant == b.variant) {
         let sum = |stage: usize, of: usize| -> u64 {
-            made.iter().map(|(outcome, _)| outcome.stages[stage][of]).sum()
+            made.iter().map(|(_, stages)| stages[stage][of]).sum()
         };
         for (index, paper) in PAPER.into_iter().enumerate() {
             rows.push(Row {
-                variant: runs[0].variant,
+                variant: made[0].0.variant,
                 stage: By::ALL[index],
                 executions: sum(index, 0),
                 detections: sum(index, 1),
