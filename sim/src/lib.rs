@@ -1,7 +1,7 @@
 //! A closed loop: a CAV drives through a town with services of its own and of a station, while somebody
 //! attacks what comes over the link.
 //!
-//! The same seed gives the same bytes on any machine: numbers go through IEEE operations and libm alone,
+//! The same seed gives the same bytes, by argument on any machine: numbers go through IEEE operations and libm alone,
 //! time is simulated, and everything is kept in an order.
 
 pub mod attack;

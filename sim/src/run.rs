@@ -268,7 +268,7 @@ fn receive(
         return;
     };
     attacker.decoded(&mut message);
-    cav.took(now_ns, message, radio);
+    cav.take(now_ns, message, radio);
 }
 
 /// Another route of motor vehicles: of those whose path comes near the CAV's start or way, the one that leaves

@@ -136,17 +136,8 @@ impl<'a> Cav<'a> {
         self.happens(now_ns, EventKind::Area { groups: Groups::of(&groups) }, radio);
     }
 
-    /// Takes a message of the link. `after`: what became of what it says on the way from the decoder.
-    pub fn take(&mut self, now_ns: i64, bytes: &[u8], radio: &mut Radio) {
-        let Ok(message) = message::decode(bytes, &self.frame) else {
-            self.counts.malformed += 1;
-            return;
-        };
-        self.took(now_ns, message, radio);
-    }
-
     /// Takes a message that was decoded.
-    pub fn took(&mut self, now_ns: i64, message: Message, radio: &mut Radio) {
+    pub fn take(&mut self, now_ns: i64, message: Message, radio: &mut Radio) {
         let Message { sender: station, receiver, generated_ns, payload } = message;
         if receiver != ids::CAV && receiver != 0 {
             self.counts.dropped += 1;
