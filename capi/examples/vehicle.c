@@ -77,9 +77,9 @@ struct world {
   struct MufasaTrajectory plan;
 };
 
-static void look(struct world *w, int64_t now_ns, double aside) {
+static void look(struct world *w, struct MufasaTime now, double aside) {
   memset(w, 0, sizeof *w);
-  const double x = 5e-9 * (double)now_ns, front = x + 1.4 + 0.5 * 4.5, ahead = front + 20.0 + 2.25;
+  const double x = 5e-9 * (double)now.ns, front = x + 1.4 + 0.5 * 4.5, ahead = front + 20.0 + 2.25;
   struct MufasaEgo ego;
   ego.x = x, ego.y = 0, ego.cos = 1, ego.sin = 0, ego.speed = 5;
   ego.length = 4.5, ego.width = 1.9, ego.center_offset = 1.4;
@@ -92,33 +92,33 @@ static void look(struct world *w, int64_t now_ns, double aside) {
     track->cos = 1, track->vx = 5, track->length = 4.5, track->width = 1.9;
   }
   for (int i = 0; i < POINTS; ++i) {
-    w->points[i].t_ns = now_ns + 100 * MS * i;
+    w->points[i].t = mufasa_time_from_nanoseconds(now.ns + 100 * MS * i);
     w->points[i].x = x + 0.5 * i;
     w->points[i].cos = 1;
   }
-  w->detection_list.stamp_ns = w->lead.stamp_ns = w->plan.stamp_ns = now_ns;
+  w->detection_list.stamp = w->lead.stamp = w->plan.stamp = now;
   w->detection_list.items = w->detections, w->detection_list.items_len = CARS;
-  w->lead.gap = 20.0, w->lead.speed = 5.0; /* bumper to bumper */
+  w->lead.gap = mufasa_gap_between_bumpers(20.0), w->lead.speed = 5.0;
   w->plan.points = w->points, w->plan.points_len = POINTS;
   w->inputs.ego = ego, w->inputs.detections = &w->detection_list, w->inputs.lead = &w->lead;
   w->inputs.local_trajectory = &w->plan;
 }
 
 /* What came over the network since the last period. */
-static void receive(struct MufasaMonitor *monitor, int64_t now_ns, const struct world *w) {
+static void receive(struct MufasaMonitor *monitor, struct MufasaTime now, const struct world *w) {
   struct MufasaActions actions;
   if (running[0] != 0) {
     struct MufasaTrackMessage message;
-    message.station = 1, message.session = running[0], message.generated_ns = now_ns;
-    message.tracks.stamp_ns = now_ns, message.tracks.items = w->tracks, message.tracks.items_len = CARS;
+    message.station = 1, message.session = running[0], message.generated = now;
+    message.tracks.stamp = now, message.tracks.items = w->tracks, message.tracks.items_len = CARS;
     /* What a station sends may not fit: then it is ignored. */
-    if (mufasa_monitor_tracks(monitor, now_ns, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
+    if (mufasa_monitor_tracks(monitor, now, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
   }
   if (running[1] != 0) {
     struct MufasaTrajectoryMessage message;
-    message.station = 1, message.session = running[1], message.generated_ns = now_ns;
+    message.station = 1, message.session = running[1], message.generated = now;
     message.trajectory = w->plan;
-    if (mufasa_monitor_trajectory(monitor, now_ns, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
+    if (mufasa_monitor_trajectory(monitor, now, &message, &actions) == MUFASA_STATUS_OK) take(&actions);
   }
 }
 
@@ -129,10 +129,10 @@ int main(void) {
   struct MufasaMonitor *monitor = make_monitor();
   size_t offloaded = 0;
   for (int cycle = 0; cycle < 200; ++cycle) {
-    const int64_t now_ns = 100 * MS * cycle;
+    const struct MufasaTime now = mufasa_time_from_milliseconds(100 * cycle);
     struct MufasaEvent event;
     memset(&event, 0, sizeof event);
-    event.t_ns = now_ns, event.station = 1;
+    event.t = now, event.station = 1;
     if (cycle == 0) {
       event.event_type = MUFASA_EVENT_TYPE_OFFER;
       event.groups = MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN;
@@ -150,12 +150,12 @@ int main(void) {
     step(monitor, event);
 
     struct world w;
-    look(&w, now_ns, cycle >= 40 && cycle < 50 ? 3.0 : 0.0);
-    receive(monitor, now_ns, &w);
+    look(&w, now, cycle >= 40 && cycle < 50 ? 3.0 : 0.0);
+    receive(monitor, now, &w);
 
     /* The one way to what the station sent. */
     struct MufasaDecision decision;
-    check(mufasa_monitor_cycle(monitor, now_ns, &w.inputs, &decision), "a cycle");
+    check(mufasa_monitor_cycle(monitor, now, &w.inputs, &decision), "a cycle");
     if (decision.report.verdict != MUFASA_VERDICT_SAFE) {
       printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.1 * cycle,
              (int)decision.report.failed_stage);

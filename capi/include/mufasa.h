@@ -424,7 +424,7 @@ enum MufasaEventType
   MUFASA_EVENT_TYPE_CONFIRM = 6,
   // A station rejects: station, group, session.
   MUFASA_EVENT_TYPE_REJECT = 7,
-  // A result arrives: station, group, session, generated_ns.
+  // A result arrives: station, group, session, generated.
   MUFASA_EVENT_TYPE_DATA = 8,
   // A cycle ended: safe, groups whose data it used, sessions that they came from.
   MUFASA_EVENT_TYPE_VERDICT = 9,
@@ -447,6 +447,20 @@ typedef struct MufasaMonitor MufasaMonitor;
 // A requester in the memory of the caller; its content may change from version to version.
 typedef struct MufasaRequester MufasaRequester;
 
+// A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
+// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`.
+typedef struct MufasaTime {
+  // Nanoseconds after the clock's start.
+  int64_t ns;
+} MufasaTime;
+
+// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`.
+typedef struct MufasaGap {
+  // m, from the front edge of the CAV's rectangle to the nearest point of the leading vehicle, along
+  // the reference path.
+  double between_bumpers;
+} MufasaGap;
+
 // A detected object.
 typedef struct MufasaDetection {
   double x;
@@ -460,7 +474,7 @@ typedef struct MufasaDetection {
 // The detections of all local detectors.
 typedef struct MufasaDetectionList {
   // Time of measurement.
-  int64_t stamp_ns;
+  struct MufasaTime stamp;
   // Detections in list order.
   const struct MufasaDetection *items;
   // How many.
@@ -567,7 +581,7 @@ typedef struct MufasaRoute {
 
 // One pose of a trajectory.
 typedef struct MufasaTrajectoryPoint {
-  int64_t t_ns;
+  struct MufasaTime t;
   double x;
   double y;
   double cos;
@@ -586,7 +600,7 @@ typedef struct MufasaTrajectoryPoint {
 //   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
 typedef struct MufasaTrajectory {
   // Time of generation.
-  int64_t stamp_ns;
+  struct MufasaTime stamp;
   // Points in order of time.
   const struct MufasaTrajectoryPoint *points;
   // How many.
@@ -609,7 +623,7 @@ typedef struct MufasaTrack {
 // A list of tracks.
 typedef struct MufasaTrackList {
   // Time that the positions are valid for.
-  int64_t stamp_ns;
+  struct MufasaTime stamp;
   // Tracks in list order.
   const struct MufasaTrack *items;
   // How many.
@@ -618,17 +632,15 @@ typedef struct MufasaTrackList {
 
 // The leading vehicle.
 typedef struct MufasaLead {
-  int64_t stamp_ns;
-  // Bumper to bumper: from the front edge of the CAV's rectangle to the nearest point of the leading
-  // vehicle, along the reference path.
-  double gap;
+  struct MufasaTime stamp;
+  struct MufasaGap gap;
   double speed;
 } MufasaLead;
 
 // An occupancy grid map.
 typedef struct MufasaGrid {
   // Time of measurement.
-  int64_t stamp_ns;
+  struct MufasaTime stamp;
   // Origin.
   double x;
   // Origin.
@@ -660,7 +672,7 @@ typedef struct MufasaCycle {
   // A MufasaConfiguration.
   uint32_t configuration;
   // Time of the decision on the CAV's monotonic clock.
-  int64_t now_ns;
+  struct MufasaTime now;
   // Start from `mufasa_parameters_default`.
   struct MufasaParameters parameters;
   // The CAV itself.
@@ -773,7 +785,7 @@ typedef struct MufasaRequesterParameters {
 // Something that happens at a time. Fields that its type does not use may be anything.
 typedef struct MufasaEvent {
   // The CAV's monotonic clock.
-  int64_t t_ns;
+  struct MufasaTime t;
   // A MufasaEventType.
   uint32_t event_type;
   // A MufasaGroup.
@@ -790,7 +802,7 @@ typedef struct MufasaEvent {
   // in `groups` may be anything.
   int64_t sessions[2];
   // When the result was generated, on the CAV's clock.
-  int64_t generated_ns;
+  struct MufasaTime generated;
 } MufasaEvent;
 
 // Something to be done.
@@ -814,7 +826,7 @@ typedef struct MufasaGroupState {
   // The session, or 0.
   int64_t session;
   // Of a requested group: a confirmation must come before this time.
-  int64_t deadline_ns;
+  struct MufasaTime deadline;
   // The station whose results may reach control; 0 is the CAV.
   int64_t source;
 } MufasaGroupState;
@@ -830,7 +842,7 @@ typedef struct MufasaRequesterState {
   // 0: there never was a hold.
   uint32_t has_hold;
   // No request is sent before this time.
-  int64_t hold_until_ns;
+  struct MufasaTime hold_until;
 } MufasaRequesterState;
 
 // What a monitor is made with. The last five fields say how much memory it needs; what is longer is
@@ -878,7 +890,7 @@ typedef struct MufasaTrackMessage {
   // The session that it names.
   int64_t session;
   // When the station made it, on the CAV's clock.
-  int64_t generated_ns;
+  struct MufasaTime generated;
   // The tracks; they are copied.
   struct MufasaTrackList tracks;
 } MufasaTrackMessage;
@@ -890,7 +902,7 @@ typedef struct MufasaTrajectoryMessage {
   // The session that it names.
   int64_t session;
   // When the station made it, on the CAV's clock.
-  int64_t generated_ns;
+  struct MufasaTime generated;
   // The trajectory; it is copied.
   struct MufasaTrajectory trajectory;
 } MufasaTrajectoryMessage;
@@ -926,6 +938,9 @@ typedef struct MufasaDecision {
   const struct MufasaTrajectory *trajectory;
   // Releases to be sent, and local services that start or stop.
   struct MufasaActions actions;
+  // Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
+  // it in each period has started them even when he lost an action.
+  uint32_t local_services;
 } MufasaDecision;
 
 #ifdef __cplusplus
@@ -935,6 +950,25 @@ extern "C" {
 // The version of the library: 1000000 times the first number, 1000 times the second, and the third. Header
 // and library belong together only when these are those of the header.
 uint32_t mufasa_version(void);
+
+// So many nanoseconds after the clock's start.
+MUFASA_MUST_USE struct MufasaTime mufasa_time_from_nanoseconds(int64_t nanoseconds);
+
+// So many microseconds after the clock's start; beyond 2^63 ns (292 years) the earliest time, of which
+// nothing is current.
+MUFASA_MUST_USE
+struct MufasaTime mufasa_time_from_microseconds(int64_t microseconds);
+
+// As `mufasa_time_from_microseconds`, of milliseconds.
+MUFASA_MUST_USE struct MufasaTime mufasa_time_from_milliseconds(int64_t milliseconds);
+
+// As `mufasa_time_from_microseconds`, of seconds, to about the nearest nanosecond (doubles are coarser than
+// that from 104 days on); so is no number.
+MUFASA_MUST_USE
+struct MufasaTime mufasa_time_from_seconds(double seconds);
+
+// So many metres from bumper to bumper.
+MUFASA_MUST_USE struct MufasaGap mufasa_gap_between_bumpers(double metres);
 
 // Bytes of memory for the index of a list of so many detections; 2048 are enough for every list.
 size_t mufasa_detection_index_bytes(size_t items_len);
@@ -1104,7 +1138,7 @@ MufasaStatus mufasa_monitor_step(struct MufasaMonitor *monitor,
 // tracks as it says; `actions` is null or can be written to.
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_tracks(struct MufasaMonitor *monitor,
-                                   int64_t now_ns,
+                                   struct MufasaTime now,
                                    const struct MufasaTrackMessage *message,
                                    struct MufasaActions *actions);
 
@@ -1115,7 +1149,7 @@ MufasaStatus mufasa_monitor_tracks(struct MufasaMonitor *monitor,
 // As for `mufasa_monitor_tracks`.
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_trajectory(struct MufasaMonitor *monitor,
-                                       int64_t now_ns,
+                                       struct MufasaTime now,
                                        const struct MufasaTrajectoryMessage *message,
                                        struct MufasaActions *actions);
 
@@ -1131,7 +1165,7 @@ MufasaStatus mufasa_monitor_trajectory(struct MufasaMonitor *monitor,
 // during the call; `decision` is null or can be written to.
 MUFASA_MUST_USE
 MufasaStatus mufasa_monitor_cycle(struct MufasaMonitor *monitor,
-                                  int64_t now_ns,
+                                  struct MufasaTime now,
                                   const struct MufasaMonitorInputs *inputs,
                                   struct MufasaDecision *decision);
 

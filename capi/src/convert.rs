@@ -128,14 +128,18 @@ pub(crate) unsafe fn cycle<'a>(
     Ok(Cycle {
         profile: profile(raw.profile)?,
         parameters: raw.parameters.into(),
-        now_ns: raw.now_ns,
+        now_ns: raw.now.ns,
         configuration: configuration(raw.configuration)?,
         ego: ego(&raw.ego),
         trajectory,
         // SAFETY: as above.
         tracks: unsafe { tracks(raw.tracks, arena) }?,
         detections,
-        lead: lead.map(|it| Lead { stamp_ns: it.stamp_ns, gap: it.gap, speed: it.speed }),
+        lead: lead.map(|it| Lead {
+            stamp_ns: it.stamp.ns,
+            gap: it.gap.between_bumpers,
+            speed: it.speed,
+        }),
         route: Route { closed: raw.route.closed != 0, cross_sections },
         // SAFETY: as above.
         grid: unsafe { grid(raw.grid) }?,
@@ -153,12 +157,12 @@ unsafe fn detections_of<'a>(
 ) -> Result<DetectionList<'a>, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
     if let Some(index) = unsafe { kept.of(it) }? {
-        return Ok(DetectionList { stamp_ns: it.stamp_ns, items: index.items() });
+        return Ok(DetectionList { stamp_ns: it.stamp.ns, items: index.items() });
     }
     // SAFETY: as above.
     let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
     let items = arena.keep(items.iter().map(detection))?;
-    Ok(DetectionList { stamp_ns: it.stamp_ns, items })
+    Ok(DetectionList { stamp_ns: it.stamp.ns, items })
 }
 
 /// The indexes of the lists of a cycle: the first so many of these.
@@ -225,7 +229,7 @@ pub(crate) unsafe fn trajectory<'a>(
     // SAFETY: as above.
     let points = unsafe { list(it.points, it.points_len, POINTS) }?;
     let points = arena.keep(points.iter().map(trajectory_point))?;
-    Ok(Some(Trajectory { stamp_ns: it.stamp_ns, points }))
+    Ok(Some(Trajectory { stamp_ns: it.stamp.ns, points }))
 }
 
 /// # Safety
@@ -239,7 +243,7 @@ pub(crate) unsafe fn tracks<'a>(
     // SAFETY: as above.
     let items = unsafe { list(it.items, it.items_len, TRACKS) }?;
     let items = arena.keep(items.iter().map(track))?;
-    Ok(Some(TrackList { stamp_ns: it.stamp_ns, items }))
+    Ok(Some(TrackList { stamp_ns: it.stamp.ns, items }))
 }
 
 /// # Safety
@@ -254,7 +258,7 @@ pub(crate) unsafe fn grid<'a>(raw: *const MufasaGrid) -> Result<Option<Grid<'a>>
         Some(unsafe { list(it.unknown, it.unknown_len, BITMAP_BYTES) }?)
     };
     Ok(Some(Grid {
-        stamp_ns: it.stamp_ns,
+        stamp_ns: it.stamp.ns,
         x: it.x,
         y: it.y,
         cos: it.cos,
@@ -297,8 +301,8 @@ pub(crate) fn ego(raw: &MufasaEgo) -> Ego {
 }
 
 pub(crate) fn trajectory_point(raw: &MufasaTrajectoryPoint) -> TrajectoryPoint {
-    let MufasaTrajectoryPoint { t_ns, x, y, cos, sin } = *raw;
-    TrajectoryPoint { t_ns, x, y, cos, sin }
+    let MufasaTrajectoryPoint { t, x, y, cos, sin } = *raw;
+    TrajectoryPoint { t_ns: t.ns, x, y, cos, sin }
 }
 
 pub(crate) fn track(raw: &MufasaTrack) -> Track {

@@ -1,7 +1,8 @@
 //! The record of one cycle as C gives it (`spec/5-interfaces.md#cycle`): positions in m, speeds in
-//! m/s, times in ns, directions as cos and sin. Values outside their domain are found by the check.
+//! m/s, directions as cos and sin. Values outside their domain are found by the check.
 
 use crate::parameters::MufasaParameters;
+use crate::time::{MufasaGap, MufasaTime};
 
 /// A profile; `MufasaCycle.profile` and `mufasa_requester_init` take its number.
 #[repr(u32)]
@@ -48,7 +49,7 @@ pub struct MufasaEgo {
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaTrajectoryPoint {
-    pub t_ns: i64,
+    pub t: MufasaTime,
     pub x: f64,
     pub y: f64,
     pub cos: f64,
@@ -69,7 +70,7 @@ pub struct MufasaTrajectoryPoint {
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaTrajectory {
     /// Time of generation.
-    pub stamp_ns: i64,
+    pub stamp: MufasaTime,
     /// Points in order of time.
     pub points: *const MufasaTrajectoryPoint,
     /// How many.
@@ -97,7 +98,7 @@ pub struct MufasaTrack {
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaTrackList {
     /// Time that the positions are valid for.
-    pub stamp_ns: i64,
+    pub stamp: MufasaTime,
     /// Tracks in list order.
     pub items: *const MufasaTrack,
     /// How many.
@@ -122,7 +123,7 @@ pub struct MufasaDetection {
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaDetectionList {
     /// Time of measurement.
-    pub stamp_ns: i64,
+    pub stamp: MufasaTime,
     /// Detections in list order.
     pub items: *const MufasaDetection,
     /// How many.
@@ -134,10 +135,8 @@ pub struct MufasaDetectionList {
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaLead {
-    pub stamp_ns: i64,
-    /// Bumper to bumper: from the front edge of the CAV's rectangle to the nearest point of the leading
-    /// vehicle, along the reference path.
-    pub gap: f64,
+    pub stamp: MufasaTime,
+    pub gap: MufasaGap,
     pub speed: f64,
 }
 
@@ -169,7 +168,7 @@ pub struct MufasaRoute {
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaGrid {
     /// Time of measurement.
-    pub stamp_ns: i64,
+    pub stamp: MufasaTime,
     /// Origin.
     pub x: f64,
     /// Origin.
@@ -203,7 +202,7 @@ pub struct MufasaCycle {
     /// A MufasaConfiguration.
     pub configuration: u32,
     /// Time of the decision on the CAV's monotonic clock.
-    pub now_ns: i64,
+    pub now: MufasaTime,
     /// Start from `mufasa_parameters_default`.
     pub parameters: MufasaParameters,
     /// The CAV itself.

@@ -102,7 +102,7 @@ unsafe fn init(
     let items = unsafe { list(raw.items, raw.items_len, DETECTIONS) }?;
     let items: &'static [Detection] = arena.keep(items.iter().map(detection))?;
     let slots = arena.keep(items.iter().map(|_| Slot::default()))?;
-    let list = DetectionList { stamp_ns: raw.stamp_ns, items };
+    let list = DetectionList { stamp_ns: raw.stamp.ns, items };
     let index = DetectionIndex::new(&list, slots).map_err(|_| MufasaStatus::InvalidList)?;
     let place: *mut MufasaDetectionIndex = memory.cast();
     // SAFETY: not null, aligned and large enough (checked); the caller's memory.
@@ -142,8 +142,8 @@ impl<'a> Kept<'a> {
             }
             // SAFETY: the caller's duty.
             let kept: &'a MufasaDetectionIndex = unsafe { required(pointer) }?;
-            let MufasaDetectionList { stamp_ns, items, items_len } = kept.list;
-            if (stamp_ns, items, items_len) == (list.stamp_ns, list.items, list.items_len) {
+            let MufasaDetectionList { stamp, items, items_len } = kept.list;
+            if (stamp, items, items_len) == (list.stamp, list.items, list.items_len) {
                 return Ok(Some(kept.index));
             }
         }

@@ -3,6 +3,7 @@
 use mufasa::offloading::requester::{Action, Event, EventKind, Group, Groups, Sessions};
 
 use crate::status::MufasaStatus;
+use crate::time::MufasaTime;
 
 /// A group of services; a set of groups is the sum of their numbers.
 #[repr(u32)]
@@ -32,7 +33,7 @@ pub enum MufasaEventType {
     Confirm = 6,
     /// A station rejects: station, group, session.
     Reject = 7,
-    /// A result arrives: station, group, session, generated_ns.
+    /// A result arrives: station, group, session, generated.
     Data = 8,
     /// A cycle ended: safe, groups whose data it used, sessions that they came from.
     Verdict = 9,
@@ -43,7 +44,7 @@ pub enum MufasaEventType {
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaEvent {
     /// The CAV's monotonic clock.
-    pub t_ns: i64,
+    pub t: MufasaTime,
     /// A MufasaEventType.
     pub event_type: u32,
     /// A MufasaGroup.
@@ -60,7 +61,7 @@ pub struct MufasaEvent {
     /// in `groups` may be anything.
     pub sessions: [i64; 2],
     /// When the result was generated, on the CAV's clock.
-    pub generated_ns: i64,
+    pub generated: MufasaTime,
 }
 
 /// What the requester does; the comment says which fields of MufasaAction it uses.
@@ -98,7 +99,7 @@ pub const MUFASA_MAX_ACTIONS: usize = 8;
 
 /// The event of `mufasa`.
 pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
-    let &MufasaEvent { t_ns, event_type, station, session, generated_ns, .. } = raw;
+    let &MufasaEvent { t, event_type, station, session, generated, .. } = raw;
     let kinds = [
         MufasaEventType::Offer,
         MufasaEventType::Withdraw,
@@ -121,9 +122,12 @@ pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
             EventKind::Confirm { station, group: group(raw.group)?, session }
         }
         MufasaEventType::Reject => EventKind::Reject { station, group: group(raw.group)?, session },
-        MufasaEventType::Data => {
-            EventKind::Data { station, group: group(raw.group)?, session, generated_ns }
-        }
+        MufasaEventType::Data => EventKind::Data {
+            station,
+            group: group(raw.group)?,
+            session,
+            generated_ns: generated.ns,
+        },
         MufasaEventType::Verdict => {
             let used = groups(raw.groups)?;
             let [mot, plan] = raw.sessions;
@@ -132,7 +136,7 @@ pub(crate) fn event_of(raw: &MufasaEvent) -> Result<Event, MufasaStatus> {
             EventKind::Verdict { safe: raw.safe != 0, sessions }
         }
     };
-    Ok(Event { t_ns, kind })
+    Ok(Event { t_ns: t.ns, kind })
 }
 
 fn groups(raw: u32) -> Result<Groups, MufasaStatus> {
@@ -148,7 +152,7 @@ fn group(raw: u32) -> Result<Group, MufasaStatus> {
     found.ok_or(MufasaStatus::UnknownValue)
 }
 
-const fn group_number(group: Group) -> MufasaGroup {
+pub(crate) const fn group_number(group: Group) -> MufasaGroup {
     match group {
         Group::Mot => MufasaGroup::Mot,
         Group::Plan => MufasaGroup::Plan,

@@ -14,6 +14,7 @@ use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaEvent};
 use crate::memory::{put, required};
 use crate::parameters::MufasaRequesterParameters;
 use crate::status::MufasaStatus;
+use crate::time::MufasaTime;
 
 /// The state of a group.
 #[repr(u32)]
@@ -38,7 +39,7 @@ pub struct MufasaGroupState {
     /// The session, or 0.
     pub session: i64,
     /// Of a requested group: a confirmation must come before this time.
-    pub deadline_ns: i64,
+    pub deadline: MufasaTime,
     /// The station whose results may reach control; 0 is the CAV.
     pub source: i64,
 }
@@ -56,7 +57,7 @@ pub struct MufasaRequesterState {
     /// 0: there never was a hold.
     pub has_hold: u32,
     /// No request is sent before this time.
-    pub hold_until_ns: i64,
+    pub hold_until: MufasaTime,
 }
 
 /// A requester in the memory of the caller; its content may change from version to version.
@@ -194,14 +195,20 @@ pub(crate) fn state_of(requester: &Requester<'_>) -> MufasaRequesterState {
             }
         };
         let source = requester.source(group).station();
-        MufasaGroupState { kind, station, session, deadline_ns, source }
+        MufasaGroupState {
+            kind,
+            station,
+            session,
+            deadline: MufasaTime { ns: deadline_ns },
+            source,
+        }
     };
     MufasaRequesterState {
         mot: group(Group::Mot),
         plan: group(Group::Plan),
         configuration: convert::configuration_number(requester.configuration()),
         has_hold: u32::from(requester.hold_until_ns().is_some()),
-        hold_until_ns: requester.hold_until_ns().unwrap_or(0),
+        hold_until: MufasaTime { ns: requester.hold_until_ns().unwrap_or(0) },
     }
 }
 

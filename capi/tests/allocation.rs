@@ -19,6 +19,9 @@ use mufasa_capi::requester::{
     mufasa_requester_step,
 };
 use mufasa_capi::status::MufasaStatus;
+use mufasa_capi::time::MufasaTime;
+
+const EPOCH: MufasaTime = MufasaTime { ns: 0 };
 
 struct Counting;
 
@@ -80,7 +83,7 @@ fn a_check_allocates_nothing() {
         width: 2.0,
     };
     let point = |i: usize| MufasaTrajectoryPoint {
-        t_ns: 0,
+        t: EPOCH,
         x: place(i) / 10.0,
         y: 0.0,
         cos: 1.0,
@@ -89,16 +92,19 @@ fn a_check_allocates_nothing() {
     let tracks: Vec<_> = (0..200).map(track).collect();
     let detections: Vec<_> = (0..200).map(detection).collect();
     let points: Vec<_> = (0..1024)
-        .map(|i| MufasaTrajectoryPoint { t_ns: i64::try_from(i).expect("small"), ..point(i) })
+        .map(|i| MufasaTrajectoryPoint {
+            t: MufasaTime { ns: i64::try_from(i).expect("small") },
+            ..point(i)
+        })
         .collect();
     let side = |y| [[-10.0, y], [2000.0, y]];
     let cross_section =
         |i: usize, x| MufasaCrossSection { x, y: 0.0, left: side(3.0)[i], right: side(-3.0)[i] };
     let cross_sections = [cross_section(0, -10.0), cross_section(1, 2000.0)];
-    let trajectory = MufasaTrajectory { stamp_ns: 0, points: points.as_ptr(), points_len: 1024 };
-    let tracks = MufasaTrackList { stamp_ns: 0, items: tracks.as_ptr(), items_len: 200 };
+    let trajectory = MufasaTrajectory { stamp: EPOCH, points: points.as_ptr(), points_len: 1024 };
+    let tracks = MufasaTrackList { stamp: EPOCH, items: tracks.as_ptr(), items_len: 200 };
     let detections =
-        MufasaDetectionList { stamp_ns: 0, items: detections.as_ptr(), items_len: 200 };
+        MufasaDetectionList { stamp: EPOCH, items: detections.as_ptr(), items_len: 200 };
     let ego = MufasaEgo {
         x: 0.0,
         y: 0.0,
@@ -112,7 +118,7 @@ fn a_check_allocates_nothing() {
     let cycle = MufasaCycle {
         profile: MufasaProfile::Paper as u32,
         configuration: MufasaConfiguration::AllRemote as u32,
-        now_ns: 0,
+        now: EPOCH,
         parameters: mufasa_parameters_default(),
         ego,
         route: MufasaRoute {
@@ -165,7 +171,7 @@ fn a_requester_allocates_nothing() {
             [(MufasaEventType::Offer, 3), (MufasaEventType::Offer, 5), (MufasaEventType::Tick, 0)]
         {
             let event = MufasaEvent {
-                t_ns: 0,
+                t: EPOCH,
                 event_type: event_type as u32,
                 group: 0,
                 groups: 3,
@@ -173,7 +179,7 @@ fn a_requester_allocates_nothing() {
                 station,
                 session: 0,
                 sessions: [1, 2],
-                generated_ns: 0,
+                generated: EPOCH,
             };
             let places = actions.as_mut_ptr().cast();
             let len = &raw mut requests;

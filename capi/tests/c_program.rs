@@ -87,7 +87,8 @@ fn a_status_that_is_not_looked_at_does_not_compile() {
         format!(
             "#include \"mufasa.h\"\nint main(void) {{\n\
              struct MufasaDecision decision; struct MufasaActions actions;\n\
-             {before}mufasa_monitor_cycle(NULL, 0, NULL, &decision){after};\n\
+             struct MufasaTime now = mufasa_time_from_seconds(0.0);\n\
+             {before}mufasa_monitor_cycle(NULL, now, NULL, &decision){after};\n\
              {before}mufasa_monitor_step(NULL, NULL, &actions){after};\n\
              {before}mufasa_check(NULL, NULL, 0, NULL){after};\n return 0;\n}}\n"
         )
@@ -101,6 +102,42 @@ fn a_status_that_is_not_looked_at_does_not_compile() {
         arguments.extend([include.as_os_str(), source.as_os_str()]);
         let said = text(&run(cc, &arguments).expect("a compiler that starts"));
         assert_eq!(said.matches("-Wunused-result").count(), complaints, "{said}");
+    }
+}
+
+/// The same lines compile when each number says what it counts.
+#[test]
+fn a_bare_number_is_no_time_and_no_gap() {
+    let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
+    let program = |[now, stamp, gap]: [&str; 3]| {
+        format!(
+            "#include \"mufasa.h\"\nint main(void) {{\n\
+             struct MufasaDecision decision; struct MufasaLead lead;\n\
+             lead.stamp = {stamp};\n lead.gap = {gap};\n lead.speed = 0;\n\
+             return mufasa_monitor_cycle(NULL, {now}, NULL, &decision) == 0 && lead.speed > 0;\n}}\n"
+        )
+    };
+    let good = ["mufasa_time_from_microseconds(5)"; 2];
+    let good = [good[0], good[1], "mufasa_gap_between_bumpers(5)"];
+    let with = |i: usize, bad| {
+        let mut lines = good;
+        lines[i] = bad;
+        program(lines)
+    };
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bare.c");
+    let include = here().join("include");
+    for (lines, compiles) in [
+        (program(good), true),
+        (with(0, "5000"), false),
+        (with(1, "5000"), false),
+        (with(2, "5.0"), false),
+    ] {
+        fs::write(&source, &lines).expect("a source can be written");
+        let mut arguments = ["-std=c11", "-S", "-o", "/dev/null", "-I"].map(OsStr::new).to_vec();
+        arguments.extend([include.as_os_str(), source.as_os_str()]);
+        let output = run(cc, &arguments).expect("a compiler that starts");
+        assert_eq!(output.status.success(), compiles, "{lines}{}", text(&output));
+        assert!(compiles || text(&output).contains("incompatible type"), "{}", text(&output));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "mufasa.h"
 
 #define SECOND INT64_C(1000000000)
+#define AT(ns) mufasa_time_from_nanoseconds(ns)
 
 /* A straight road, a car 30 m ahead that track and detection agree on, a trajectory that begins
  * here. Everything points into this. */
@@ -25,20 +26,20 @@ struct scene {
 
 static void set_up(struct scene *s) {
   memset(s, 0, sizeof *s);
-  s->points[0] = (struct MufasaTrajectoryPoint){SECOND, 0, 0, 1, 0};
-  s->points[1] = (struct MufasaTrajectoryPoint){SECOND + SECOND / 10, 1, 0, 1, 0};
+  s->points[0] = (struct MufasaTrajectoryPoint){AT(SECOND), 0, 0, 1, 0};
+  s->points[1] = (struct MufasaTrajectoryPoint){AT(SECOND + SECOND / 10), 1, 0, 1, 0};
   s->track_items[0] = (struct MufasaTrack){7, 30, 0, 1, 0, 10, 0, 4.5, 1.8};
   s->detection_items[0] = (struct MufasaDetection){30, 0.1, 1, 0, 4.5, 1.8};
   s->cross_sections[0] = (struct MufasaCrossSection){0, 0, {0, 2}, {0, -2}};
   s->cross_sections[1] = (struct MufasaCrossSection){100, 0, {100, 2}, {100, -2}};
-  s->trajectory = (struct MufasaTrajectory){SECOND, s->points, 2};
-  s->tracks = (struct MufasaTrackList){SECOND, s->track_items, 1};
-  s->detections = (struct MufasaDetectionList){SECOND, s->detection_items, 1};
-  s->lead = (struct MufasaLead){SECOND, 25, 10};
-  s->grid = (struct MufasaGrid){SECOND, 0, -4, 1, 0, 1.0, 8, 8, s->bitmap, 8, NULL, 0};
+  s->trajectory = (struct MufasaTrajectory){AT(SECOND), s->points, 2};
+  s->tracks = (struct MufasaTrackList){AT(SECOND), s->track_items, 1};
+  s->detections = (struct MufasaDetectionList){AT(SECOND), s->detection_items, 1};
+  s->lead = (struct MufasaLead){AT(SECOND), mufasa_gap_between_bumpers(25), 10};
+  s->grid = (struct MufasaGrid){AT(SECOND), 0, -4, 1, 0, 1.0, 8, 8, s->bitmap, 8, NULL, 0};
   s->cycle.profile = MUFASA_PROFILE_PAPER;
   s->cycle.configuration = MUFASA_CONFIGURATION_ALL_REMOTE;
-  s->cycle.now_ns = SECOND;
+  s->cycle.now = AT(SECOND);
   s->cycle.parameters = mufasa_parameters_default();
   s->cycle.ego = (struct MufasaEgo){0, 0, 1, 0, 13.9, 4.8, 1.9, 1.4};
   s->cycle.route = (struct MufasaRoute){0, s->cross_sections, 2};
@@ -152,14 +153,14 @@ static void history(void) {
     seen[i].y += 30 + (double)i;
   }
   struct MufasaDetectionList lists[2] = {
-      {.stamp_ns = s.detections.stamp_ns - 300000000, .items = seen, .items_len = 8},
-      {.stamp_ns = s.detections.stamp_ns - 500000000, .items = seen, .items_len = 3}};
+      {.stamp = AT(s.detections.stamp.ns - 300000000), .items = seen, .items_len = 8},
+      {.stamp = AT(s.detections.stamp.ns - 500000000), .items = seen, .items_len = 3}};
   s.cycle.detection_history = lists;
   s.cycle.detection_history_len = 2;
   size_t enough = mufasa_scratch_bytes(&s.cycle);
   EXPECT(mufasa_check(&s.cycle, scratch, enough, &report) == MUFASA_STATUS_OK);
   EXPECT(report.verdict == MUFASA_VERDICT_SAFE);
-  lists[1].stamp_ns = lists[0].stamp_ns;
+  lists[1].stamp = lists[0].stamp;
   report = checked(&s.cycle);
   EXPECT(report.verdict == MUFASA_VERDICT_ERROR && report.input.index == 1);
   EXPECT(strcmp(report.input.field, "detection_history.stamp_ns") == 0);
@@ -176,7 +177,7 @@ static void indexes(void) {
     seen[i] = s.detection_items[0];
     seen[i].y += 30 + (double)i;
   }
-  struct MufasaDetectionList list = {s.detections.stamp_ns - 300000000, seen, 8};
+  struct MufasaDetectionList list = {AT(s.detections.stamp.ns - 300000000), seen, 8};
   s.cycle.profile = MUFASA_PROFILE_HARDENED;
   s.cycle.detection_history = &list;
   s.cycle.detection_history_len = 1;
@@ -193,7 +194,7 @@ static void indexes(void) {
   seen[5].y = 1e300; /* not to be done: it shows what is read */
   EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
   EXPECT(report.verdict == plain.verdict && checked(&s.cycle).verdict == MUFASA_VERDICT_ERROR);
-  list.stamp_ns -= 1; /* another list in the same memory */
+  list.stamp.ns -= 1; /* another list in the same memory */
   EXPECT(mufasa_check_with(&s.cycle, kept, 3, scratch, enough, &report) == MUFASA_STATUS_OK);
   EXPECT(report.verdict == MUFASA_VERDICT_ERROR);
   EXPECT(mufasa_detection_index_init(&list, memory, bytes, kept) == MUFASA_STATUS_INVALID_LIST);
@@ -289,33 +290,33 @@ static void trace(void) {
   init(MUFASA_PROFILE_PAPER);
   EXPECT(state().configuration == MUFASA_CONFIGURATION_LOCAL && !state().has_hold);
   EXPECT(step((struct MufasaEvent){
-             .t_ns = 0, .event_type = MUFASA_EVENT_TYPE_OFFER, .station = 1, .groups = both}) == 0);
-  EXPECT(step((struct MufasaEvent){.t_ns = 1, .event_type = MUFASA_EVENT_TYPE_TICK}) == 2);
+             .t = AT(0), .event_type = MUFASA_EVENT_TYPE_OFFER, .station = 1, .groups = both}) == 0);
+  EXPECT(step((struct MufasaEvent){.t = AT(1), .event_type = MUFASA_EVENT_TYPE_TICK}) == 2);
   EXPECT(is(0, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_MOT, 1, 1));
   EXPECT(is(1, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_PLAN, 1, 2));
   EXPECT(state().mot.kind == MUFASA_GROUP_STATE_KIND_REQUESTED);
-  EXPECT(state().mot.deadline_ns == 1 + SECOND / 2);
-  EXPECT(step((struct MufasaEvent){.t_ns = 2, .event_type = MUFASA_EVENT_TYPE_CONFIRM, .station = 1,
+  EXPECT(state().mot.deadline.ns == 1 + SECOND / 2);
+  EXPECT(step((struct MufasaEvent){.t = AT(2), .event_type = MUFASA_EVENT_TYPE_CONFIRM, .station = 1,
                                    .group = MUFASA_GROUP_MOT, .session = 1}) == 1);
   EXPECT(is(0, MUFASA_ACTION_TYPE_DEACTIVATE, MUFASA_GROUP_MOT, 0, 0));
   EXPECT(state().mot.source == 1 && state().plan.source == 0);
   EXPECT(state().configuration == MUFASA_CONFIGURATION_MOT_REMOTE);
-  struct MufasaEvent data = {.t_ns = 3, .event_type = MUFASA_EVENT_TYPE_DATA, .station = 1,
-                             .group = MUFASA_GROUP_MOT, .session = 1, .generated_ns = 1};
+  struct MufasaEvent data = {.t = AT(3), .event_type = MUFASA_EVENT_TYPE_DATA, .station = 1,
+                             .group = MUFASA_GROUP_MOT, .session = 1, .generated = AT(1)};
   EXPECT(step(data) == 0);
   data.session = 2;
   EXPECT(step(data) == 1 && is(0, MUFASA_ACTION_TYPE_DROP, MUFASA_GROUP_MOT, 0, 0));
 
   /* An unsafe cycle: everything returns, and offloading is barred for t_wait. */
-  EXPECT(step((struct MufasaEvent){.t_ns = 4, .event_type = MUFASA_EVENT_TYPE_VERDICT, .safe = 0,
+  EXPECT(step((struct MufasaEvent){.t = AT(4), .event_type = MUFASA_EVENT_TYPE_VERDICT, .safe = 0,
                                    .groups = MUFASA_GROUP_MOT}) == 3);
   EXPECT(is(0, MUFASA_ACTION_TYPE_RELEASE, MUFASA_GROUP_MOT, 1, 1));
   EXPECT(is(1, MUFASA_ACTION_TYPE_RELEASE, MUFASA_GROUP_PLAN, 1, 2));
   EXPECT(is(2, MUFASA_ACTION_TYPE_ACTIVATE, MUFASA_GROUP_MOT, 0, 0));
-  EXPECT(state().has_hold == 1 && state().hold_until_ns == 4 + 10 * SECOND);
-  struct MufasaEvent tick = {.t_ns = 3 + 10 * SECOND, .event_type = MUFASA_EVENT_TYPE_TICK};
+  EXPECT(state().has_hold == 1 && state().hold_until.ns == 4 + 10 * SECOND);
+  struct MufasaEvent tick = {.t = AT(3 + 10 * SECOND), .event_type = MUFASA_EVENT_TYPE_TICK};
   EXPECT(step(tick) == 0);
-  tick.t_ns += 1;
+  tick.t.ns += 1;
   EXPECT(step(tick) == 2 && is(0, MUFASA_ACTION_TYPE_REQUEST, MUFASA_GROUP_MOT, 1, 3));
   free(requester);
 }

@@ -6,15 +6,16 @@
 #include "mufasa.h"
 
 #define MS INT64_C(1000000)
+#define AT(ns) mufasa_time_from_nanoseconds(ns)
 
 static struct MufasaCrossSection road[2] = {{0, 0, {0, 3}, {0, -3}}, {200, 0, {200, 3}, {200, -3}}};
 static const struct MufasaRoute route = {0, road, 2};
 static struct MufasaDetection seen[2] = {{15, 0, 1, 0, 4.5, 1.8}, {25, 1, 1, 0, 4.5, 1.8}};
-static struct MufasaDetectionList detections = {0, seen, 1};
-static struct MufasaTrajectoryPoint points[3] = {{0, 0, 0, 1, 0}, {0, 0.5, 0, 1, 0}, {0, 1, 0, 1, 0}};
+static struct MufasaDetectionList detections = {{0}, seen, 1};
+static struct MufasaTrajectoryPoint points[3] = {{{0}, 0, 0, 1, 0}, {{0}, 0.5, 0, 1, 0}, {{0}, 1, 0, 1, 0}};
 static struct MufasaTrack tracks[3] = {{7, 15, 0, 1, 0, 0, 0, 4.5, 1.8}, {8, 25, 1, 1, 0, 0, 0, 4.5, 1.8}};
 static struct MufasaMonitorInputs inputs;
-static struct MufasaLead lead = {0, 30, 0};
+static struct MufasaLead lead = {{0}, {30}, 0};
 static struct MufasaTrajectory own;
 static struct MufasaActions actions;
 static struct MufasaDecision decision;
@@ -39,7 +40,7 @@ static MufasaStatus make(const struct MufasaMonitorSettings *it, struct MufasaMo
 }
 
 static MufasaStatus step(struct MufasaMonitor *monitor, uint32_t type, int64_t t_ns, uint32_t group, int64_t session) {
-  const struct MufasaEvent event = {.t_ns = t_ns, .event_type = type, .group = group, .groups = 3,
+  const struct MufasaEvent event = {.t = AT(t_ns), .event_type = type, .group = group, .groups = 3,
                                     .station = 1, .session = session};
   return mufasa_monitor_step(monitor, &event, &actions);
 }
@@ -68,20 +69,20 @@ static int is_local(const struct MufasaMonitor *monitor) {
 
 /* Tracks and a trajectory that agree with the detections, made 2 ms before `now_ns`. */
 static MufasaStatus receive(struct MufasaMonitor *monitor, int64_t now_ns, int64_t session, size_t how_many) {
-  const struct MufasaTrackMessage message = {1, session, now_ns - 2 * MS, {now_ns, tracks, how_many}};
-  return mufasa_monitor_tracks(monitor, now_ns, &message, &actions);
+  const struct MufasaTrackMessage message = {1, session, AT(now_ns - 2 * MS), {AT(now_ns), tracks, how_many}};
+  return mufasa_monitor_tracks(monitor, AT(now_ns), &message, &actions);
 }
 
 static MufasaStatus plan(struct MufasaMonitor *monitor, int64_t now_ns, int64_t session) {
-  for (int i = 0; i < 3; ++i) points[i].t_ns = now_ns + 100 * MS * i;
-  const struct MufasaTrajectoryMessage message = {1, session, now_ns - 2 * MS, {now_ns, points, 3}};
-  return mufasa_monitor_trajectory(monitor, now_ns, &message, &actions);
+  for (int i = 0; i < 3; ++i) points[i].t = AT(now_ns + 100 * MS * i);
+  const struct MufasaTrajectoryMessage message = {1, session, AT(now_ns - 2 * MS), {AT(now_ns), points, 3}};
+  return mufasa_monitor_trajectory(monitor, AT(now_ns), &message, &actions);
 }
 
 static void cycle(struct MufasaMonitor *monitor, int64_t now_ns) {
-  detections.stamp_ns = lead.stamp_ns = own.stamp_ns = now_ns;
+  detections.stamp = lead.stamp = own.stamp = AT(now_ns);
   memset(&decision, 0xff, sizeof decision);
-  EXPECT(mufasa_monitor_cycle(monitor, now_ns, &inputs, &decision) == MUFASA_STATUS_OK);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(now_ns), &inputs, &decision) == MUFASA_STATUS_OK);
 }
 
 static void data_come_out_of_a_safe_cycle_alone(void) {
@@ -100,6 +101,7 @@ static void data_come_out_of_a_safe_cycle_alone(void) {
   EXPECT(decision.tracks->items[0].id == 7 && decision.tracks->items[0].x == 15);
   EXPECT(decision.trajectory != NULL && decision.trajectory->points_len == 3);
   EXPECT(decision.trajectory->points[2].x == 1);
+  EXPECT(decision.local_services == 0);
   tracks[0].x = 15;
 
   /* Dropped: another session; not newer than the last. The last one used is still there. */
@@ -117,6 +119,7 @@ static void data_come_out_of_a_safe_cycle_alone(void) {
   EXPECT(decision.report.failed_stage == MUFASA_FAILED_STAGE_I);
   EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
   EXPECT(decision.actions.len == 4 && is_local(monitor));
+  EXPECT(decision.local_services == MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN);
   tracks[0].x = 15;
   EXPECT(receive(monitor, 16 * MS, 1, 1) == MUFASA_STATUS_OK && actions.len == 1);
   cycle(monitor, 17 * MS);
@@ -129,11 +132,11 @@ static void results_that_no_cycle_can_use_end_their_session(void) {
   struct MufasaMonitor *monitor = offloading();
   int64_t now_ns = 10 * MS;
   for (; !is_local(monitor) && now_ns < 1000 * MS; now_ns += 20 * MS) {
-    const struct MufasaTrackMessage ahead = {1, 1, now_ns, {now_ns + 500 * MS, tracks, 1}};
+    const struct MufasaTrackMessage ahead = {1, 1, AT(now_ns), {AT(now_ns + 500 * MS), tracks, 1}};
     EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, now_ns, 0, 0) == MUFASA_STATUS_OK);
-    EXPECT(mufasa_monitor_tracks(monitor, now_ns, &ahead, &actions) == MUFASA_STATUS_OK);
-    const struct MufasaTrajectoryMessage plan = {1, 2, now_ns, {now_ns + 500 * MS, points, 3}};
-    EXPECT(mufasa_monitor_trajectory(monitor, now_ns, &plan, &actions) == MUFASA_STATUS_OK);
+    EXPECT(mufasa_monitor_tracks(monitor, AT(now_ns), &ahead, &actions) == MUFASA_STATUS_OK);
+    const struct MufasaTrajectoryMessage plan = {1, 2, AT(now_ns), {AT(now_ns + 500 * MS), points, 3}};
+    EXPECT(mufasa_monitor_trajectory(monitor, AT(now_ns), &plan, &actions) == MUFASA_STATUS_OK);
     cycle(monitor, now_ns);
     EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE);
     EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
@@ -145,12 +148,12 @@ static void results_that_no_cycle_can_use_end_their_session(void) {
 static void faults_fall_back(void) {
   struct MufasaMonitor *monitor = offloading();
   memset(&decision, 0xff, sizeof decision);
-  EXPECT(mufasa_monitor_cycle(monitor, 5 * MS, NULL, &decision) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(5 * MS), NULL, &decision) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && decision.trajectory == NULL);
   EXPECT(decision.actions.len == 4 && is_local(monitor));
   monitor = offloading();
   detections.items_len = 3; /* more than the settings say */
-  EXPECT(mufasa_monitor_cycle(monitor, 5 * MS, &inputs, &decision) == MUFASA_STATUS_MEMORY_TOO_SMALL);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(5 * MS), &inputs, &decision) == MUFASA_STATUS_MEMORY_TOO_SMALL);
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
   detections.items_len = 1;
   monitor = offloading();
@@ -159,9 +162,10 @@ static void faults_fall_back(void) {
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
   EXPECT(strcmp(decision.report.input.field, "ego.width") == 0);
   inputs.ego.width = 1.9;
-  EXPECT(mufasa_monitor_cycle(monitor, 6 * MS, &inputs, NULL) == MUFASA_STATUS_NULL_POINTER);
-  EXPECT(mufasa_monitor_cycle(NULL, 6 * MS, &inputs, &decision) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(6 * MS), &inputs, NULL) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_cycle(NULL, AT(6 * MS), &inputs, &decision) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && decision.actions.len == 0);
+  EXPECT(decision.local_services == MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN);
 }
 
 static void events_that_are_not_for_the_caller(void) {
@@ -175,7 +179,7 @@ static void events_that_are_not_for_the_caller(void) {
   EXPECT(actions.dropped == MUFASA_DROP_REASON_TOO_LONG);
   EXPECT(receive(monitor, 6 * MS, 9, 1) == MUFASA_STATUS_OK);
   EXPECT(actions.dropped == MUFASA_DROP_REASON_OTHER_SESSION);
-  EXPECT(mufasa_monitor_tracks(monitor, 6 * MS, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
+  EXPECT(mufasa_monitor_tracks(monitor, AT(6 * MS), NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_step(monitor, NULL, &actions) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_step(monitor, NULL, NULL) == MUFASA_STATUS_NULL_POINTER);
   struct MufasaRoute other = route;
@@ -188,8 +192,8 @@ static void events_that_are_not_for_the_caller(void) {
   EXPECT(mufasa_monitor_route_problem(monitor, &problem) == MUFASA_STATUS_OK && problem.field[0] == 0);
   EXPECT(mufasa_monitor_set_route(monitor, NULL) == MUFASA_STATUS_NULL_POINTER);
   /* Late by 1 ns: the session ends. */
-  const struct MufasaTrackMessage late = {1, 1, 0, {60 * MS, tracks, 1}};
-  EXPECT(mufasa_monitor_tracks(monitor, 50 * MS + 1, &late, &actions) == MUFASA_STATUS_OK);
+  const struct MufasaTrackMessage late = {1, 1, {0}, {AT(60 * MS), tracks, 1}};
+  EXPECT(mufasa_monitor_tracks(monitor, AT(50 * MS + 1), &late, &actions) == MUFASA_STATUS_OK);
   EXPECT(actions.len == 3 && actions.items[0].action_type == MUFASA_ACTION_TYPE_DROP);
   EXPECT(actions.dropped == MUFASA_DROP_REASON_LATE);
 }
@@ -259,6 +263,18 @@ static void settings_that_no_monitor_can_keep(void) {
   EXPECT(mufasa_monitor_init(&it, memory, bytes, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);
 }
 
+/* Each unit is the same time; one that does not fit is none of which anything is current. */
+static void times_have_units(void) {
+  const int64_t ns = 5000 * MS;
+  EXPECT(mufasa_time_from_nanoseconds(ns).ns == ns && mufasa_time_from_microseconds(ns / 1000).ns == ns);
+  EXPECT(mufasa_time_from_milliseconds(5000).ns == ns && mufasa_time_from_seconds(5.0).ns == ns);
+  EXPECT(mufasa_time_from_microseconds(INT64_MAX / 1000 + 1).ns == INT64_MIN);
+  EXPECT(mufasa_time_from_milliseconds(INT64_MAX).ns == INT64_MIN);
+  EXPECT(mufasa_time_from_seconds(1e300).ns == INT64_MIN);
+  EXPECT(mufasa_time_from_seconds(strtod("nan", NULL)).ns == INT64_MIN);
+  EXPECT(mufasa_gap_between_bumpers(2.5).between_bumpers == 2.5);
+}
+
 int main(void) {
   inputs.ego = (struct MufasaEgo){0, 0, 1, 0, 5, 4.8, 1.9, 1.4};
   inputs.detections = &detections;
@@ -269,6 +285,7 @@ int main(void) {
   events_that_are_not_for_the_caller();
   settings_that_no_monitor_can_keep();
   a_status_of_the_settings_has_a_field();
+  times_have_units();
   EXPECT(mufasa_version() ==
          MUFASA_VERSION_MAJOR * 1000000 + MUFASA_VERSION_MINOR * 1000 + MUFASA_VERSION_PATCH);
   return report_failures();

@@ -19,6 +19,7 @@ use crate::event::{self, MufasaEvent};
 use crate::memory::{Arena, list, optional, put, required, required_mut};
 use crate::requester::{self, MufasaRequesterState};
 use crate::status::MufasaStatus;
+use crate::time::MufasaTime;
 
 /// Makes a monitor in `memory`, whose content means nothing before: everything local, no offers, no
 /// route, nothing seen yet. `*monitor` is where it is; it needs no end, and may not be moved. When the
@@ -96,12 +97,12 @@ pub unsafe extern "C" fn mufasa_monitor_step(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_monitor_tracks(
     monitor: *mut MufasaMonitor,
-    now_ns: i64,
+    now: MufasaTime,
     message: *const MufasaTrackMessage,
     actions: *mut MufasaActions,
 ) -> MufasaStatus {
     // SAFETY: the caller's duty.
-    let call = || unsafe { tracks(monitor, Time::from_nanoseconds(now_ns), message) };
+    let call = || unsafe { tracks(monitor, now.time(), message) };
     // SAFETY: as above.
     unsafe { tell(actions, call) }
 }
@@ -115,12 +116,12 @@ pub unsafe extern "C" fn mufasa_monitor_tracks(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_monitor_trajectory(
     monitor: *mut MufasaMonitor,
-    now_ns: i64,
+    now: MufasaTime,
     message: *const MufasaTrajectoryMessage,
     actions: *mut MufasaActions,
 ) -> MufasaStatus {
     // SAFETY: the caller's duty.
-    let call = || unsafe { trajectory(monitor, Time::from_nanoseconds(now_ns), message) };
+    let call = || unsafe { trajectory(monitor, now.time(), message) };
     // SAFETY: as above.
     unsafe { tell(actions, call) }
 }
@@ -139,7 +140,7 @@ pub unsafe extern "C" fn mufasa_monitor_trajectory(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mufasa_monitor_cycle(
     monitor: *mut MufasaMonitor,
-    now_ns: i64,
+    now: MufasaTime,
     inputs: *const MufasaMonitorInputs,
     decision: *mut MufasaDecision,
 ) -> MufasaStatus {
@@ -153,9 +154,9 @@ pub unsafe extern "C" fn mufasa_monitor_cycle(
         }
     };
     // SAFETY: as above.
-    let (status, told) = match unsafe { cycle(monitor, now_ns, inputs) } {
+    let (status, told) = match unsafe { cycle(monitor, now, inputs) } {
         Ok(told) => (MufasaStatus::Ok, told),
-        Err(status) => (status, fall_back(monitor, now_ns)),
+        Err(status) => (status, fall_back(monitor, now)),
     };
     // SAFETY: as above.
     unsafe { put(decision, told) }.map_or_else(|fault| fault, |()| status)
@@ -273,12 +274,12 @@ unsafe fn tracks(
     // SAFETY: the caller's duty, here and below.
     let MufasaMonitor { monitor, tracks: received, .. } = unsafe { required_mut(monitor) }?;
     // SAFETY: as above.
-    let MufasaTrackMessage { station, session, generated_ns, tracks } = unsafe { required(raw) }?;
+    let MufasaTrackMessage { station, session, generated, tracks } = unsafe { required(raw) }?;
     // SAFETY: as above.
     let items = unsafe { list(tracks.items, tracks.items_len, convert::TRACKS) }?;
     let items = items.iter().map(convert::track);
     received.arrive(items, *session, |session, items| {
-        let message = message((*station, session, *generated_ns), tracks.stamp_ns, items);
+        let message = message((*station, session, *generated), tracks.stamp, items);
         monitor.tracks(now, message).map_err(requester::refused)
     })
 }
@@ -294,12 +295,12 @@ unsafe fn trajectory(
     let MufasaMonitor { monitor, trajectory: received, .. } = unsafe { required_mut(monitor) }?;
     // SAFETY: as above.
     let raw = unsafe { required(raw) }?;
-    let MufasaTrajectoryMessage { station, session, generated_ns, trajectory } = raw;
+    let MufasaTrajectoryMessage { station, session, generated, trajectory } = raw;
     // SAFETY: as above.
     let points = unsafe { list(trajectory.points, trajectory.points_len, convert::POINTS) }?;
     let points = points.iter().map(convert::trajectory_point);
     received.arrive(points, *session, |session, items| {
-        let message = message((*station, session, *generated_ns), trajectory.stamp_ns, items);
+        let message = message((*station, session, *generated), trajectory.stamp, items);
         monitor.trajectory(now, message).map_err(requester::refused)
     })
 }
@@ -308,7 +309,7 @@ unsafe fn trajectory(
 /// As for [`mufasa_monitor_cycle`].
 unsafe fn cycle(
     monitor: &mut MufasaMonitor,
-    now_ns: i64,
+    now: MufasaTime,
     raw: *const MufasaMonitorInputs,
 ) -> Result<MufasaDecision, MufasaStatus> {
     // SAFETY: the caller's duty, here and below.
@@ -318,20 +319,19 @@ unsafe fn cycle(
     // SAFETY: the memory is the monitor's, and nothing in it is used after the call.
     let mut arena = unsafe { Arena::new(scratch, scratch_bytes) }?;
     let MufasaMonitor { monitor, tracks, trajectory, verdicts, .. } = monitor;
-    let now = Time::from_nanoseconds(now_ns);
-    let mut inputs = Inputs::new(now, convert::ego(&raw.ego));
+    let mut inputs = Inputs::new(now.time(), convert::ego(&raw.ego));
     // SAFETY: the caller's duty, here and below.
     if let Some(it) = unsafe { optional(raw.detections) }? {
         fits(it.items_len, most_detections)?;
         // SAFETY: as above.
         let items = unsafe { list(it.items, it.items_len, DETECTIONS) }?;
         let items = arena.keep(items.iter().map(detection))?;
-        inputs = inputs.detections(Time::from_nanoseconds(it.stamp_ns), items);
+        inputs = inputs.detections(it.stamp.time(), items);
     }
     // SAFETY: as above.
     if let Some(it) = unsafe { optional(raw.lead) }? {
-        let stamp = Time::from_nanoseconds(it.stamp_ns);
-        inputs = inputs.lead(stamp, Gap::between_bumpers(it.gap), it.speed);
+        let gap = Gap::between_bumpers(it.gap.between_bumpers);
+        inputs = inputs.lead(it.stamp.time(), gap, it.speed);
     }
     // SAFETY: as above.
     let grid = unsafe { convert::grid(raw.grid) }?;
@@ -357,7 +357,7 @@ unsafe fn cycle(
     if let Some(element) = trajectory.accepted() {
         inputs = inputs.remote_trajectory::<Stored<TrajectoryPoint>>(element);
     }
-    Ok(verdicts.tell(&monitor.cycle(&inputs)))
+    Ok(verdicts.of_cycle(monitor, &inputs))
 }
 
 /// Whether a list is no longer than the settings say.
@@ -366,7 +366,7 @@ const fn fits(len: usize, most: usize) -> Result<(), MufasaStatus> {
 }
 
 /// An unsafe cycle, because its inputs cannot be read: no CAV has a width that is no number.
-fn fall_back(monitor: &mut MufasaMonitor, now_ns: i64) -> MufasaDecision {
+fn fall_back(monitor: &mut MufasaMonitor, now: MufasaTime) -> MufasaDecision {
     let nowhere = Ego {
         x: 0.0,
         y: 0.0,
@@ -378,7 +378,7 @@ fn fall_back(monitor: &mut MufasaMonitor, now_ns: i64) -> MufasaDecision {
         center_offset: 0.0,
     };
     let MufasaMonitor { monitor, verdicts, .. } = monitor;
-    let inputs = Inputs::new(Time::from_nanoseconds(now_ns), nowhere);
-    let actions = verdicts.tell(&monitor.cycle(&inputs)).actions;
+    let inputs = Inputs::new(now.time(), nowhere);
+    let actions = verdicts.of_cycle(monitor, &inputs).actions;
     MufasaDecision { actions, ..nothing_decided() }
 }

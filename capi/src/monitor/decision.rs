@@ -3,12 +3,13 @@
 use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{Decision, DropReason, Verified};
-use mufasa::offloading::requester::Action;
+use mufasa::monitor::{Decision, DropReason, Inputs, Monitor, Verified};
+use mufasa::offloading::requester::{Action, Group, Source};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
 use crate::report::{self, MufasaReport};
+use crate::time::MufasaTime;
 
 /// Why a message of a station was dropped; of several reasons the first in this order.
 #[repr(u32)]
@@ -78,7 +79,13 @@ pub struct MufasaDecision {
     pub trajectory: *const MufasaTrajectory,
     /// Releases to be sent, and local services that start or stop.
     pub actions: MufasaActions,
+    /// Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
+    /// it in each period has started them even when he lost an action.
+    pub local_services: u32,
 }
+
+/// All are local.
+const EVERY_GROUP: u32 = MufasaGroup::Mot as u32 | MufasaGroup::Plan as u32;
 
 /// Where verified data are for C to read.
 pub(super) struct Verdicts {
@@ -89,14 +96,27 @@ pub(super) struct Verdicts {
 }
 
 impl Verdicts {
-    /// The decision for C. A list is there as long as the lists that were given: they fit.
-    pub(super) fn tell(&mut self, decision: &Decision<'_>) -> MufasaDecision {
+    /// A cycle, and its decision for C. A list is there as long as the lists that were given: they fit.
+    pub(super) fn of_cycle(
+        &mut self,
+        monitor: &mut Monitor<'_>,
+        inputs: &Inputs<'_>,
+    ) -> MufasaDecision {
+        let told = self.tell(&monitor.cycle(inputs));
+        let is_local = |group: &Group| monitor.source(*group) == Source::Local;
+        let local = Group::ALL.into_iter().filter(is_local);
+        let local_services = local.fold(0, |sum, group| sum | event::group_number(group) as u32);
+        MufasaDecision { local_services, ..told }
+    }
+
+    fn tell(&mut self, decision: &Decision<'_>) -> MufasaDecision {
         match decision {
             Decision::Safe { tracks, trajectory, report, actions } => MufasaDecision {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
                 actions: actions_of(actions),
+                local_services: EVERY_GROUP,
             },
             Decision::Unsafe { report, actions } => MufasaDecision {
                 report: match report {
@@ -106,6 +126,7 @@ impl Verdicts {
                 tracks: null(),
                 trajectory: null(),
                 actions: actions_of(actions),
+                local_services: EVERY_GROUP,
             },
         }
     }
@@ -116,7 +137,8 @@ impl Verdicts {
         }
         self.tracks.iter_mut().zip(list.items).for_each(|(place, it)| *place = track(it));
         let (items, items_len) = (self.tracks.as_ptr(), list.items.len());
-        self.track_list = MufasaTrackList { stamp_ns: list.stamp_ns, items, items_len };
+        self.track_list =
+            MufasaTrackList { stamp: MufasaTime { ns: list.stamp_ns }, items, items_len };
         &raw const self.track_list
     }
 
@@ -126,7 +148,8 @@ impl Verdicts {
         }
         self.points.iter_mut().zip(it.points).for_each(|(place, it)| *place = point(it));
         let (points, points_len) = (self.points.as_ptr(), it.points.len());
-        self.trajectory = MufasaTrajectory { stamp_ns: it.stamp_ns, points, points_len };
+        self.trajectory =
+            MufasaTrajectory { stamp: MufasaTime { ns: it.stamp_ns }, points, points_len };
         &raw const self.trajectory
     }
 }
@@ -138,6 +161,7 @@ pub(super) fn nothing_decided() -> MufasaDecision {
         tracks: null(),
         trajectory: null(),
         actions: actions_of(&[]),
+        local_services: EVERY_GROUP,
     }
 }
 
@@ -165,5 +189,5 @@ fn track(it: &Track) -> MufasaTrack {
 
 fn point(it: &TrajectoryPoint) -> MufasaTrajectoryPoint {
     let TrajectoryPoint { t_ns, x, y, cos, sin } = *it;
-    MufasaTrajectoryPoint { t_ns, x, y, cos, sin }
+    MufasaTrajectoryPoint { t: MufasaTime { ns: t_ns }, x, y, cos, sin }
 }

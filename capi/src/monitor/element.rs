@@ -4,11 +4,12 @@ use core::mem::swap;
 use core::slice;
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
-use mufasa::monitor::{Accepted, Arrival, Message, Time};
+use mufasa::monitor::{Accepted, Arrival, Message};
 
 use super::decision::{MufasaActions, MufasaDropReason, actions_of};
 use crate::cycle::{MufasaTrackList, MufasaTrajectory};
 use crate::status::MufasaStatus;
+use crate::time::MufasaTime;
 
 /// Sessions are numbered from 1.
 const NO_SESSION: i64 = 0;
@@ -22,7 +23,7 @@ pub struct MufasaTrackMessage {
     /// The session that it names.
     pub session: i64,
     /// When the station made it, on the CAV's clock.
-    pub generated_ns: i64,
+    pub generated: MufasaTime,
     /// The tracks; they are copied.
     pub tracks: MufasaTrackList,
 }
@@ -36,7 +37,7 @@ pub struct MufasaTrajectoryMessage {
     /// The session that it names.
     pub session: i64,
     /// When the station made it, on the CAV's clock.
-    pub generated_ns: i64,
+    pub generated: MufasaTime,
     /// The trajectory; it is copied.
     pub trajectory: MufasaTrajectory,
 }
@@ -133,12 +134,11 @@ impl<T> Received<T> {
 
 /// The message of `mufasa` with stored elements.
 pub(super) fn message<T>(
-    (station, session, generated_ns): (i64, i64, i64),
-    stamp_ns: i64,
+    (station, session, generated): (i64, i64, MufasaTime),
+    stamp: MufasaTime,
     items: Stored<T>,
 ) -> Message<Stored<T>> {
-    let (generated, stamp) =
-        (Time::from_nanoseconds(generated_ns), Time::from_nanoseconds(stamp_ns));
+    let (generated, stamp) = (generated.time(), stamp.time());
     Message { station, session, generated, stamp, items }
 }
 

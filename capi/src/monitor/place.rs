@@ -21,6 +21,7 @@ use crate::cycle::{
 };
 use crate::memory::{Arena, put, required};
 use crate::status::MufasaStatus;
+use crate::time::MufasaTime;
 
 /// What the CAV knows when a cycle begins; times on its monotonic clock, units and frames as in
 /// MufasaCycle. Profile, parameters, configuration, route, the station's data and earlier detections are
@@ -175,8 +176,8 @@ pub(super) unsafe fn init(
     let verdicts = Verdicts {
         tracks: arena.keep((0..sizes.tracks).map(|_| c_track()))?,
         points: arena.keep((0..sizes.points).map(|_| c_point()))?,
-        track_list: MufasaTrackList { stamp_ns: 0, items: null(), items_len: 0 },
-        trajectory: MufasaTrajectory { stamp_ns: 0, points: null(), points_len: 0 },
+        track_list: MufasaTrackList { stamp: MufasaTime::EPOCH, items: null(), items_len: 0 },
+        trajectory: MufasaTrajectory { stamp: MufasaTime::EPOCH, points: null(), points_len: 0 },
     };
     let monitor = Monitor::new(settings.of_monitor()?, parts).map_err(refused)?;
     let (scratch, scratch_bytes) = arena.rest();
@@ -204,5 +205,5 @@ const fn c_track() -> MufasaTrack {
 }
 
 const fn c_point() -> MufasaTrajectoryPoint {
-    MufasaTrajectoryPoint { t_ns: 0, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 }
+    MufasaTrajectoryPoint { t: MufasaTime::EPOCH, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 }
 }
