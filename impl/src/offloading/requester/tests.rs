@@ -132,13 +132,13 @@ fn a_hold_from_outside_bars_requests_until_its_end() -> TestResult {
     let parameters = Parameters { t_wait_ns: 10, ..Parameters::default() };
     let mut requester = Requester::new(Profile::Hardened, parameters, &mut table)?;
     requester.hold(i64::MIN);
-    requester.step(&Event { t_ns: 0, kind: offer(1, Groups::from(MOT)) })?;
+    let _none = requester.step(&Event { t_ns: 0, kind: offer(1, Groups::from(MOT)) })?;
     let asked = requester.step(&Event { t_ns: 0, kind: EventKind::Tick })?;
     assert_eq!(asked.as_slice(), [Action::Request { station: 1, group: MOT, session: 1 }]);
     let confirm = EventKind::Confirm { station: 1, group: MOT, session: 1 };
     requester.hold(5);
-    requester.step(&Event { t_ns: 0, kind: confirm })?;
-    requester.step(&Event { t_ns: 0, kind: offer(1, Groups::ALL) })?;
+    let _none = requester.step(&Event { t_ns: 0, kind: confirm })?;
+    let _none = requester.step(&Event { t_ns: 0, kind: offer(1, Groups::ALL) })?;
     requester.hold(-1);
     for t_ns in 0..5 {
         assert!(requester.step(&Event { t_ns, kind: EventKind::Tick })?.is_empty(), "{t_ns}");
