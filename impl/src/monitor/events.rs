@@ -152,10 +152,29 @@ impl Monitor<'_> {
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
+        if kind == EventKind::Tick {
+            for group in Group::ALL {
+                // A hold that begins at a tick bars the requests of that tick.
+                if self.requester.is_silent(group, t_ns) {
+                    self.hold_after(group, t_ns);
+                }
+            }
+        }
         let actions = self.requester.step(&Event { t_ns, kind })?;
         for group in Group::ALL {
-            self.served.get_mut(group).runs(t_ns, self.requester.session_of(group));
+            let running = self.requester.session_of(group);
+            if self.served.get(group).has_ended(running) {
+                self.hold_after(group, t_ns);
+            }
+            self.served.get_mut(group).runs(t_ns, running);
         }
         Ok(actions)
+    }
+
+    /// The group returns to local now: its session may have been of no use for long, and the next one
+    /// may be no better.
+    fn hold_after(&mut self, group: Group, now_ns: i64) {
+        let again_ns = self.served.get(group).again_ns(now_ns, self.settings.period_ns());
+        self.requester.hold(again_ns);
     }
 }

@@ -20,6 +20,21 @@ impl Served {
         }
     }
 
+    /// Whether a session ran that does not any more.
+    pub(super) fn has_ended(&self, running: Option<Running>) -> bool {
+        self.session.is_some() && self.session != running.map(|it| it.session)
+    }
+
+    /// When a station may be asked again if the session ends now: 9 times as long after it as nothing of
+    /// it was current, and at least 9 periods. All in ns.
+    pub(super) fn again_ns(&self, now_ns: i64, period_ns: i64) -> i64 {
+        // In 128 bits none of this can overflow.
+        let [now_ns, last_ns, period_ns] = [now_ns, self.last_ns, period_ns].map(i128::from);
+        let without_ns = now_ns.saturating_sub(last_ns).max(period_ns);
+        let again_ns = now_ns.saturating_add(without_ns.saturating_mul(9));
+        i64::try_from(again_ns).unwrap_or(i64::MAX)
+    }
+
     /// A cycle in which an element of the session was current, or none. After a clock was set back, time
     /// counts from there. In a group that is local this means nothing: a session begins anew.
     pub(super) fn cycle(&mut self, now_ns: i64, has_current: bool, dt_max_ns: i64) {

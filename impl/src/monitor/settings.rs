@@ -70,13 +70,17 @@ impl Settings {
 }
 
 impl Settings {
+    /// The nominal period of the remote's results, saturated.
+    pub(super) fn period_ns(&self) -> i64 {
+        i64::try_from(self.period.as_nanos()).unwrap_or(i64::MAX)
+    }
+
     /// The first time above 0 and below `LEAST_NS`, ns. Exactly 0 is no slip of a unit.
     fn too_short(&self) -> Option<(&'static str, i64)> {
-        let period_ns = i64::try_from(self.period.as_nanos()).unwrap_or(i64::MAX);
         let requester::Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, .. } =
             self.requester;
         let times = [
-            ("period", period_ns),
+            ("period", self.period_ns()),
             ("stages.max_age_ns", self.stages.max_age_ns),
             ("stages.step_max_ns", self.stages.step_max_ns),
             ("requester.t_wait_ns", t_wait_ns),

@@ -48,6 +48,16 @@ impl<'a> Requester<'a> {
         }
     }
 
+    /// Whether a tick now would end the session of a remote group for its silence.
+    pub(crate) fn is_silent(&self, group: Group, now_ns: i64) -> bool {
+        match self.slots.get(group) {
+            Slot::Local | Slot::Requested { .. } => false,
+            Slot::Remote { arrivals, .. } => {
+                arrivals.silence(now_ns, self.parameters.limits()).is_some()
+            }
+        }
+    }
+
     /// The groups that may be offloaded here (CODM). Source: `spec/2-offloading.md#requester`.
     pub const fn area(&self) -> Groups {
         self.area

@@ -22,6 +22,16 @@ impl Requester<'_> {
         self.decide(event).map(Actions::of)
     }
 
+    /// Bars requests until a time: `hold_until` becomes the later of its old value and this one, in ns.
+    /// What is requested or remote stays so. To be called before a tick that is not to send them any more.
+    /// Source: `spec/2-offloading.md#fallback`, `spec/5-interfaces.md#monitor`.
+    pub const fn hold(&mut self, until_ns: i64) {
+        self.hold_until_ns = match self.hold_until_ns {
+            Some(old_ns) if old_ns > until_ns => Some(old_ns),
+            Some(_) | None => Some(until_ns),
+        };
+    }
+
     /// Takes one event and says what has to be done about it, kind by kind.
     pub(crate) fn decide(&mut self, event: &Event) -> Result<ByKind, RequesterError> {
         if let Some(station) = event.kind.station().filter(|&station| station < 1) {
@@ -179,7 +189,7 @@ impl Requester<'_> {
         for group in Group::ALL {
             self.leave(group, Farewell::Release, out);
         }
-        self.hold(now_ns);
+        self.wait(now_ns);
     }
 
     /// The arrivals of the running session, if this is the one.
@@ -214,7 +224,7 @@ impl Requester<'_> {
     fn violate(&mut self, group: Group, now_ns: i64, out: &mut Outbox) {
         self.leave(group, Farewell::Release, out);
         if self.parameters.qos_hold {
-            self.hold(now_ns);
+            self.wait(now_ns);
         }
     }
 
@@ -233,10 +243,8 @@ impl Requester<'_> {
         }
     }
 
-    /// Bars requests until `now + t_wait`, and never for less long than before.
-    fn hold(&mut self, now_ns: i64) {
-        let until_ns = now_ns.saturating_add(self.parameters.t_wait_ns);
-        let old_ns = self.hold_until_ns.unwrap_or(until_ns);
-        self.hold_until_ns = Some(until_ns.max(old_ns));
+    /// Bars requests for `t_wait`, and never for less long than before.
+    const fn wait(&mut self, now_ns: i64) {
+        self.hold(now_ns.saturating_add(self.parameters.t_wait_ns));
     }
 }

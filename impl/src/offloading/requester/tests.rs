@@ -124,3 +124,33 @@ fn a_verdict_of_another_session_stops_nothing() -> TestResult {
     assert_eq!(step(safe(Some(1)))?, []);
     Ok(())
 }
+
+/// `spec/2-offloading.md#fallback`: a hold is never made shorter, and bars requests alone.
+#[test]
+fn a_hold_from_outside_bars_requests_until_its_end() -> TestResult {
+    let mut table = [StationRecord::FREE; 2];
+    let parameters = Parameters { t_wait_ns: 10, ..Parameters::default() };
+    let mut requester = Requester::new(Profile::Hardened, parameters, &mut table)?;
+    requester.hold(i64::MIN);
+    let _none = requester.step(&Event { t_ns: 0, kind: offer(1, Groups::from(MOT)) })?;
+    let asked = requester.step(&Event { t_ns: 0, kind: EventKind::Tick })?;
+    assert_eq!(asked.as_slice(), [Action::Request { station: 1, group: MOT, session: 1 }]);
+    let confirm = EventKind::Confirm { station: 1, group: MOT, session: 1 };
+    requester.hold(5);
+    let _none = requester.step(&Event { t_ns: 0, kind: confirm })?;
+    let _none = requester.step(&Event { t_ns: 0, kind: offer(1, Groups::ALL) })?;
+    requester.hold(-1);
+    for t_ns in 0..5 {
+        assert!(requester.step(&Event { t_ns, kind: EventKind::Tick })?.is_empty(), "{t_ns}");
+    }
+    assert_eq!(requester.configuration(), Configuration::MotRemote);
+    let asked = requester.step(&Event { t_ns: 5, kind: EventKind::Tick })?;
+    assert_eq!(asked.as_slice(), [Action::Request { station: 1, group: PLAN, session: 2 }]);
+    let unsafe_cycle = EventKind::Verdict { safe: false, sessions: Sessions::NONE };
+    requester.hold(15);
+    let _fallback = requester.step(&Event { t_ns: 6, kind: unsafe_cycle })?;
+    assert_eq!(requester.hold_until_ns(), Some(16));
+    requester.hold(i64::MAX);
+    assert_eq!(requester.hold_until_ns(), Some(i64::MAX));
+    Ok(())
+}
