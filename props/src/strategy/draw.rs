@@ -11,7 +11,7 @@ use proptest::prelude::{Strategy, any};
 const TAPE: usize = 160;
 
 /// Length of the tapes for sequences of events.
-const LONG_TAPE: usize = 640;
+const LONG_TAPE: usize = 1_280;
 
 /// Reads choices from a tape.
 #[derive(Clone, Debug)]

@@ -351,19 +351,31 @@ fn as_the_plain_calls(profile: Profile) {
             Pair { monitor, plain, base, route, draw, now_ns, tracks, points, fallbacks, habit };
         let seen = &mut *seen.borrow_mut();
         pair.event(EventKind::Offer { station: 1, groups: Groups::ALL }, seen);
-        for _ in 0..30 {
+        for _ in 0..40 {
+            if pair.now_ns > i64::MAX / 2 {
+                break;
+            }
             pair.now_ns += pair.draw.pick(&[100 * MS, 100 * MS, 50 * MS, 30 * MS, 101 * MS, 0]);
-            if pair.draw.one_in(60) {
+            if pair.draw.one_in(40) {
                 // The clock is set back; not before the domain of times.
                 let back_ns = pair.draw.pick(&[2_000 * MS, 1_001 * MS, 999 * MS]);
                 pair.now_ns = pair.now_ns.saturating_sub(back_ns);
+            }
+            let end_ns = pair.plain.requester.hold_until_ns().unwrap_or(pair.now_ns);
+            let left_ns = end_ns.saturating_sub(pair.now_ns);
+            if (1..20_000 * MS).contains(&left_ns) && pair.draw.one_in(2) {
+                // To the end of the hold; up to it cycles go on, so that a history is there. They are not
+                // counted: mostly nothing is remote.
+                for before_ns in [600, 400, 200].map(|ms| ms * MS) {
+                    pair.now_ns = pair.now_ns.max(end_ns.saturating_sub(before_ns));
+                    pair.cycle(&mut Seen::default());
+                }
+                pair.now_ns = end_ns;
             }
             match pair.draw.below(6) {
                 0..=3 => pair.period(seen),
                 4 => pair.any(seen),
                 _ if pair.draw.one_in(4) => {
-                    let end_ns = pair.plain.requester.hold_until_ns().unwrap_or(pair.now_ns);
-                    pair.now_ns = pair.now_ns.max(end_ns);
                     pair.event(EventKind::Offer { station: 1, groups: Groups::ALL }, seen);
                 }
                 _ => pair.period(seen),

@@ -2,6 +2,7 @@
 //! and each mistake that those leave to the caller is an error or does not compile (what does not compile
 //! stands in the documentation of `impl/src/monitor`).
 
+mod again;
 mod dropped;
 mod equal;
 mod kit;

@@ -100,7 +100,11 @@ impl<'a> Plain<'a> {
     }
 
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
-        let actions = self.requester.step(&Event { t_ns, kind }).expect("a station").to_vec();
+        let event = Event { t_ns, kind };
+        for group in self.returning(&event) {
+            self.hold(t_ns, group);
+        }
+        let actions = self.requester.step(&event).expect("a station").to_vec();
         if let EventKind::Data { group, session, generated_ns, .. } = kind
             && !actions.contains(&Action::Drop(group))
         {
@@ -115,6 +119,28 @@ impl<'a> Plain<'a> {
             }
         }
         actions
+    }
+
+    /// The groups that are remote before an event and not after it, or then by another session.
+    fn returning(&self, event: &Event) -> Vec<Group> {
+        let mut table = self.requester.stations().to_vec();
+        table.push(StationRecord::default());
+        let mut copy = Requester::resume(self.requester.suspend(), &mut table);
+        copy.step(event).expect("a station").as_slice();
+        let session = |of: &Requester<'_>, group| of.session_of(group).map(|it| it.session);
+        let before = |group: &Group| session(&self.requester, *group);
+        let ends =
+            |group: &Group| before(group).is_some() && before(group) != session(&copy, *group);
+        Group::ALL.into_iter().filter(ends).collect()
+    }
+
+    /// After a session: nine times as long as it was of no use, and at least nine periods.
+    fn hold(&mut self, t_ns: i64, group: Group) {
+        let since_ns = self.service[place(group)].expect("a running session").since_ns;
+        let unused_ns = i128::from(t_ns) - i128::from(since_ns);
+        let least_ns = i128::try_from(self.settings.period.as_nanos()).expect("a period");
+        let until_ns = i128::from(t_ns) + 9 * unused_ns.max(least_ns);
+        self.requester.hold(i64::try_from(until_ns).unwrap_or(i64::MAX));
     }
 
     /// A cycle looked at its groups, and this is what was current of the remote ones.
