@@ -4,7 +4,7 @@ use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::monitor::{Decision, DropReason, Verified};
-use mufasa::offloading::requester::Action;
+use mufasa::offloading::requester::{Action, Actions};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
@@ -90,15 +90,15 @@ pub(super) struct Verdicts {
 
 impl Verdicts {
     /// The decision for C. A list is there as long as the lists that were given: they fit.
-    pub(super) fn tell(&mut self, decision: &Decision<'_>) -> MufasaDecision {
+    pub(super) fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {
         match decision {
-            Decision::Safe { tracks, trajectory, report, actions } => MufasaDecision {
+            Decision::Safe { tracks, trajectory, report } => MufasaDecision {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
                 actions: actions_of(actions),
             },
-            Decision::Unsafe { report, actions } => MufasaDecision {
+            Decision::Unsafe { report } => MufasaDecision {
                 report: match report {
                     Ok(report) => report::report_of(report),
                     Err(problem) => report::error(Some(*problem)),

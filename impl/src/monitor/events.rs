@@ -79,20 +79,22 @@ impl Monitor<'_> {
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
     /// with a stamp at most `max_age_ns` old, while cycles find what is current; more tracks than `rows`
-    /// were lent are dropped.
+    /// were lent are dropped. The actions are those of a message that was dropped: a violation of quality of
+    /// service ends the session, with releases and activations.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn tracks<L: AsRef<[Track]>>(
         &mut self,
         now: Time,
         message: Message<L>,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         let is_too_long = message.items.as_ref().len() > self.rows.len();
         self.arrival(now, Group::Mot, message, is_too_long)
     }
 
     /// A trajectory arrives. Used is what is of the running session of PLAN, in time, newer than
-    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current. What its
+    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current; actions as
+    /// of [`Self::tracks`]. What its
     /// points have to be like to be safe: [`Inputs::remote_trajectory`](super::Inputs::remote_trajectory).
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
@@ -100,7 +102,7 @@ impl Monitor<'_> {
         &mut self,
         now: Time,
         message: Message<L>,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         self.arrival(now, Group::Plan, message, false)
     }
 
@@ -110,7 +112,7 @@ impl Monitor<'_> {
         group: Group,
         message: Message<L>,
         is_too_long: bool,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         let Message { station, session, generated, stamp, items } = message;
         let generated_ns = generated.as_nanoseconds();
         let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
@@ -128,7 +130,8 @@ impl Monitor<'_> {
         let data = EventKind::Data { station, group, session: named, generated_ns };
         let actions = self.step(now, data)?;
         if !actions.contains(&Action::Drop(group)) {
-            return Ok(Arrival::Accepted(Accepted { session, generated, stamp, items }));
+            let element = Accepted { session, generated, stamp, items };
+            return Ok((Arrival::Accepted(element), actions));
         }
         let why = if is_too_long {
             DropReason::TooLong
@@ -147,7 +150,7 @@ impl Monitor<'_> {
         } else {
             DropReason::NotNewer
         };
-        Ok(Arrival::Dropped { why, actions })
+        Ok((Arrival::Dropped { why }, actions))
     }
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {

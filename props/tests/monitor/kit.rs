@@ -166,13 +166,14 @@ impl Station {
         (tracks, points.and_then(|arrival| self.accepted(arrival)))
     }
 
-    pub fn accepted<L>(&mut self, arrival: Arrival<L>) -> Option<Accepted<L>> {
+    pub fn accepted<L>(
+        &mut self,
+        (arrival, actions): (Arrival<L>, Actions),
+    ) -> Option<Accepted<L>> {
+        self.take(&actions);
         match arrival {
             Arrival::Accepted(element) => Some(element),
-            Arrival::Dropped { actions, .. } => {
-                self.take(&actions);
-                None
-            }
+            Arrival::Dropped { .. } => None,
         }
     }
 }

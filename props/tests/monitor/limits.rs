@@ -129,9 +129,9 @@ fn a_list_of_detections_that_does_not_fit_is_an_error() {
         let world = World::at(0);
         let detections: Vec<Detection> = world.detections.into_iter().cycle().take(items).collect();
         let inputs = Inputs::new(at(0), world.ego).detections(at(0), &detections);
-        match monitor.cycle(&inputs) {
+        match monitor.cycle(&inputs).0 {
             Decision::Safe { .. } => assert!(fits),
-            Decision::Unsafe { report, .. } => {
+            Decision::Unsafe { report } => {
                 let (field, problem) = ("detections.items", Problem::ScratchTooSmall);
                 assert!(!fits);
                 assert_eq!(report, Err(InvalidInput { field, index: None, problem }));
@@ -149,8 +149,8 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let mut monitor = buffers.monitor(settings()).expect("a monitor");
     let world = World::at(0);
     let inputs = Inputs::new(at(0), world.ego);
-    match monitor.cycle(&inputs) {
-        Decision::Unsafe { report, .. } => {
+    match monitor.cycle(&inputs).0 {
+        Decision::Unsafe { report } => {
             let error = report.expect_err("no route");
             assert_eq!((error.field, error.problem), ("route", Problem::NoRoute));
             assert!(error.to_string().contains("no route was set"), "{error}");
@@ -165,7 +165,7 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let mut invalid = cross_sections.clone();
     invalid[3].y = f64::NAN;
     assert_eq!(monitor.set_route(&route(&invalid)).map_err(|it| it.index), Err(Some(3)));
-    assert!(matches!(monitor.cycle(&inputs), Decision::Safe { .. }), "the first one");
+    assert!(matches!(monitor.cycle(&inputs).0, Decision::Safe { .. }), "the first one");
     let shorter = Route { closed: false, cross_sections: &cross_sections[..2] };
     assert_eq!(monitor.set_route(&shorter), Ok(()));
 }
@@ -203,7 +203,7 @@ fn times_at_the_limits_of_64_bits_do_no_harm() {
         if let Some(tracks) = &tracks {
             inputs = inputs.remote_tracks(tracks);
         }
-        if let Decision::Safe { tracks: Some(tracks), .. } = monitor.cycle(&inputs) {
+        if let (Decision::Safe { tracks: Some(tracks), .. }, _) = monitor.cycle(&inputs) {
             let age = i128::from(now_ns) - i128::from(tracks.stamp_ns);
             assert!((0..=i128::from(100 * MS)).contains(&age));
             came_out += 1;
@@ -253,7 +253,7 @@ fn results_that_no_cycle_can_use_end_their_session() {
             if let Some(points) = &points {
                 inputs = inputs.remote_trajectory(points);
             }
-            let Decision::Safe { trajectory, actions, .. } = monitor.cycle(&inputs) else {
+            let (Decision::Safe { trajectory, .. }, actions) = monitor.cycle(&inputs) else {
                 panic!("nothing is wrong with what is used");
             };
             assert_eq!(trajectory.is_some(), points.is_some());

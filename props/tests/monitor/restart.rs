@@ -21,9 +21,10 @@ fn cycle(
     if let Some(points) = points {
         inputs = inputs.remote_trajectory(points);
     }
-    match monitor.cycle(&inputs) {
-        Decision::Safe { tracks, trajectory, actions, .. } => {
-            station.take(&actions);
+    let (decision, actions) = monitor.cycle(&inputs);
+    station.take(&actions);
+    match decision {
+        Decision::Safe { tracks, trajectory, .. } => {
             usize::from(tracks.is_some()) + usize::from(trajectory.is_some())
         }
         Decision::Unsafe { report, .. } => panic!("{report:?}"),
