@@ -9,8 +9,8 @@
 //!
 //! # A vehicle loop
 //!
-//! With a stand-in for the station, which answers at once: in the first period both groups are asked
-//! for, in the second they are remote, and what they send is driven once it is checked. With a drive
+//! With a stand-in for the station, which answers at once: when the CAV has seen what is around for half
+//! a second both groups are asked for, and what comes of them is driven once it is checked. With a drive
 //! and a station that goes wrong: `examples/vehicle.rs`.
 //!
 //! ```
@@ -44,7 +44,7 @@
 //! };
 //! let parked = Detection { x: 3.0, y: 5.0, cos: 1.0, sin: 0.0, length: 4.5, width: 1.9 };
 //! let mut driven_as_verified = 0;
-//! for period in 0..20 {
+//! for period in 0..30 {
 //!     let now = Time::from_milliseconds(50 * period)?;
 //!
 //!     // Events in, actions out. A real loop sends requests and releases to their stations, and starts

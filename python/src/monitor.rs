@@ -333,6 +333,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
         MonitorError::NoPeriod => "period",
         MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
+        MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",

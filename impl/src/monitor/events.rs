@@ -5,6 +5,7 @@ use super::Monitor;
 use super::element::{Accepted, Arrival, DropReason, Message};
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
+use crate::input::profile::Profile;
 use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
 use crate::services::configuration::Group;
 use crate::stages::given::is_current;
@@ -72,7 +73,8 @@ impl Monitor<'_> {
     }
 
     /// Time passes: deadlines, silence and requests are decided. To be called in each period, and before
-    /// the cycle of the period. Source: `spec/2-offloading.md#requester`.
+    /// the cycle of the period. After a session no request is sent for a while, nor, in the hardened
+    /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
         self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
@@ -156,6 +158,11 @@ impl Monitor<'_> {
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
         if kind == EventKind::Tick {
+            let is_hardened = self.settings.profile == Profile::Hardened;
+            if is_hardened && !self.history.reaches_back(t_ns) {
+                // Nothing would be examined as moving (H-13).
+                self.requester.hold(t_ns.saturating_add(1));
+            }
             for group in Group::ALL {
                 // A hold that begins at a tick bars the requests of that tick.
                 if self.requester.is_silent(group, t_ns) {

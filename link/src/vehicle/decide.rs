@@ -30,7 +30,7 @@ impl<T: Transport> Vehicle<'_, T> {
             self.route = Some(cycle.route.clone());
         }
         let points = known.trajectory.map(|it| moved(it, later_ns));
-        let mut inputs = Inputs::new(time(now_ns), known.ego);
+        let mut inputs = Inputs::new(time(now_ns), self.played.decided(cycle));
         if let Some(list) = known.detections {
             inputs = inputs.detections(later(list.stamp_ns), list.items);
         }

@@ -341,7 +341,7 @@ fn as_the_plain_calls(profile: Profile) {
         };
         let mut buffers = Buffers::new(600, cross_sections.len());
         let mut settings = Settings { profile, stages, ..settings() };
-        settings.requester.t_wait_ns = draw.pick(&[0, 150 * MS, 10_000 * MS]);
+        settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };
         let route = Route { closed, cross_sections: &cross_sections };

@@ -3,6 +3,7 @@
 //! stands in the documentation of `impl/src/monitor`).
 
 mod dropped;
+mod early;
 mod equal;
 mod kit;
 mod limits;

@@ -9,7 +9,9 @@ use mufasa::offloading::requester::{
 use mufasa::report::{FailedStage, Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Station, World, at, message, road, route, seconds, settings};
+use super::kit::{
+    Buffers, MS, Station, World, at, look_around, message, road, route, seconds, settings,
+};
 use super::plain::check_plainly;
 
 /// The plain record of a world, without history.
@@ -168,14 +170,14 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
     assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
 }
 
-/// Detections that were not current are no history: the same drive with late scans until its last cycle
-/// is as one without any. `spec/5-interfaces.md#monitor.4`.
+/// Detections that were not current are no history: in the same drive with late scans until its last cycle
+/// no station is asked. `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.11`.
 #[test]
 fn detections_that_were_not_current_are_not_kept() {
     let (end_ns, cross_sections) = (1_100 * MS, road());
     for (late_ns, is_safe) in [(100 * MS, false), (100 * MS + 1, true)] {
         let mut buffers = Buffers::new(16, 40);
-        let mut monitor = buffers.on(&cross_sections);
+        let mut monitor = buffers.started_on(&cross_sections);
         let mut station = Station::default();
         let mut last = None;
         for i in 0..=11 {
@@ -190,9 +192,13 @@ fn detections_that_were_not_current_are_not_kept() {
             if let (11, Some(tracks), Some(points)) = (i, &tracks, &points) {
                 inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
             }
-            last = Some(matches!(monitor.cycle(&inputs), (Decision::Safe { .. }, _)));
+            let (decision, actions) = monitor.cycle(&inputs);
+            last = Some(matches!(decision, Decision::Safe { .. }));
+            station.take(&actions);
         }
         assert_eq!(last, Some(is_safe), "{late_ns} ns late");
+        assert_eq!(station.sessions, [None; 2], "released, or never asked");
+        assert_eq!(monitor.requester().sessions() == 0, is_safe, "{late_ns} ns late");
     }
 }
 
@@ -215,8 +221,10 @@ fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     assert_eq!(last, Some(Vec::new()), "the plain requester uses it");
 
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    let cross_sections = road();
+    let mut monitor = buffers.on(&cross_sections);
     let now = Time::from_microseconds(now_us).expect("a time");
+    look_around(&mut monitor, now.as_nanoseconds(), World::at);
     let generated = Time::from_microseconds(generated_us).expect("a time");
     let _none = monitor.offer(now, 1, Groups::ALL).expect("a station");
     let _requests = monitor.tick(now);

@@ -4,7 +4,9 @@
 use mufasa::monitor::{Decision, Inputs, Message, Monitor};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Points, Station, Tracks, World, at, message, road, settings};
+use super::kit::{
+    Buffers, MS, Points, Station, Tracks, World, at, look_around, message, road, settings,
+};
 
 const PERIOD_NS: i64 = 100 * MS;
 
@@ -84,6 +86,7 @@ fn drive(habit: impl Fn(i64) -> Habit) -> (i64, Option<i64>, [bool; 2]) {
             assert_eq!(station.released, 2, "both groups, once");
             let end_ns = start_ns + habit.latency_ns;
             let again_ns = end_ns + 9 * (end_ns - last_ns).max(PERIOD_NS);
+            look_around(&mut monitor, again_ns, World::at);
             station.take(&monitor.tick(at(again_ns - 1)));
             assert_eq!(station.asked, [], "{habit:?}: not before {again_ns}");
             // The next session is no worse for it.
