@@ -12,7 +12,7 @@ use mufasa::monitor::{
     Accepted, Arrival, Decision, GridMap, Inputs, Memory, Message, Monitor, Settings, Time,
 };
 use mufasa::offloading::requester::{
-    Event, EventKind, Parameters, Requester, Sessions, StationRecord,
+    Actions, Event, EventKind, Parameters, Requester, Sessions, StationRecord,
 };
 use mufasa::services::configuration::{Configuration, Group, Groups};
 
@@ -101,7 +101,8 @@ impl<'a> Monitored<'a> {
             let items = known.or(cycle.detections.as_ref()).map_or(&[][..], |list| list.items);
             let then = Time::from_nanoseconds(stamp_ns);
             let inputs = Inputs::new(then, cycle.ego).detections(then, items);
-            assert!(matches!(monitor.cycle(&inputs), Decision::Safe { .. }));
+            let (decision, _none) = monitor.cycle(&inputs);
+            assert!(matches!(decision, Decision::Safe { .. }));
         }
         let now = Time::from_nanoseconds(cycle.now_ns);
         let _none = monitor.offer(now, 1, Groups::ALL).expect("a station");
@@ -141,7 +142,8 @@ impl<'a> Monitored<'a> {
 
     /// Whether the cycle is safe, and both results of the station come out.
     pub fn cycle(&mut self) -> bool {
-        match black_box(self.monitor.cycle(black_box(&self.inputs))) {
+        let (decision, _actions) = black_box(self.monitor.cycle(black_box(&self.inputs)));
+        match decision {
             Decision::Safe { tracks, trajectory, .. } => tracks.is_some() && trajectory.is_some(),
             Decision::Unsafe { .. } => false,
         }
@@ -153,10 +155,10 @@ fn message<L>(session: i64, now: Time, stamp_ns: i64, items: L) -> Message<L> {
     Message { station: 1, session, generated: now, stamp, items }
 }
 
-fn accepted<'a, L: 'a>(arrival: Arrival<L>) -> &'a Accepted<L> {
+fn accepted<'a, L: 'a>((arrival, actions): (Arrival<L>, Actions)) -> &'a Accepted<L> {
     match arrival {
         Arrival::Accepted(element) => Box::leak(Box::new(element)),
-        Arrival::Dropped { why, actions } => panic!("{why}: {actions:?}"),
+        Arrival::Dropped { why } => panic!("{why}: {actions:?}"),
     }
 }
 

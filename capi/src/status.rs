@@ -35,6 +35,9 @@ pub enum MufasaStatus {
     DtMaxNotAbovePeriod = 12,
     /// A value of the route is outside its domain.
     InvalidRoute = 13,
-    /// A time above 0 and below 1 ms: it is taken for one in another unit than nanoseconds.
+    /// A time above 0 and below 1 ms, or t_wait above 0 and below 1 s: it is taken for one in another unit
+    /// than nanoseconds.
     TimeTooShort = 14,
+    /// max_age is below l_max, so that no cycle could use some of the results that are in time.
+    MaxAgeBelowLMax = 15,
 }

@@ -76,24 +76,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
 
         // The one way to what the station sent.
-        match monitor.cycle(&inputs) {
-            Decision::Safe { trajectory: Some(trajectory), actions, .. } => {
+        let (decision, actions) = monitor.cycle(&inputs);
+        match decision {
+            Decision::Safe { trajectory: Some(trajectory), .. } => {
                 kept = trajectory.points.to_vec();
                 driven.push(follow(trajectory));
-                station.take(&actions);
             }
-            Decision::Safe { trajectory: None, actions, .. } => {
+            Decision::Safe { trajectory: None, .. } => {
                 driven.push(first(if station.planner_stands { &kept } else { &own_plan }));
-                station.take(&actions);
             }
-            Decision::Unsafe { report, actions } => {
+            Decision::Unsafe { report } => {
                 let why = report.map(|report| report.failed_stage);
                 println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
                 driven.push(first(&own_plan));
-                station.take(&actions);
                 fallbacks += 1;
             }
         }
+        station.take(&actions);
         if cycle % 10 == 0 {
             println!("{:4.1} s: {:?}", seconds(cycle), monitor.configuration());
         }
@@ -117,12 +116,15 @@ fn first(points: &[TrajectoryPoint]) -> Option<TrajectoryPoint> {
     points.first().copied()
 }
 
-fn accepted<L>(arrival: Arrival<L>, station: &mut Station) -> Option<Accepted<L>> {
+fn accepted<L>(
+    (arrival, actions): (Arrival<L>, Actions),
+    station: &mut Station,
+) -> Option<Accepted<L>> {
+    station.take(&actions);
     match arrival {
         Arrival::Accepted(element) => Some(element),
-        Arrival::Dropped { why, actions } => {
+        Arrival::Dropped { why } => {
             println!("dropped: {why}");
-            station.take(&actions);
             None
         }
     }

@@ -9,8 +9,8 @@
 //!
 //! # A vehicle loop
 //!
-//! With a stand-in for the station, which answers at once: in the first period both groups are asked
-//! for, in the second they are remote, and what they send is driven once it is checked. With a drive
+//! With a stand-in for the station, which answers at once: when the CAV has seen what is around for half
+//! a second both groups are asked for, and what comes of them is driven once it is checked. With a drive
 //! and a station that goes wrong: `examples/vehicle.rs`.
 //!
 //! ```
@@ -44,7 +44,7 @@
 //! };
 //! let parked = Detection { x: 3.0, y: 5.0, cos: 1.0, sin: 0.0, length: 4.5, width: 1.9 };
 //! let mut driven_as_verified = 0;
-//! for period in 0..20 {
+//! for period in 0..30 {
 //!     let now = Time::from_milliseconds(50 * period)?;
 //!
 //!     // Events in, actions out. A real loop sends requests and releases to their stations, and starts
@@ -67,8 +67,8 @@
 //!         let items = vec![Track { id: 1, x, y, cos, sin, vx: 0.0, vy: 0.0, length, width }];
 //!         let message = Message { station: 1, session, generated: now, stamp: now, items };
 //!         match monitor.tracks(now, message)? {
-//!             Arrival::Accepted(element) => tracks = Some(element),
-//!             Arrival::Dropped { why, .. } => panic!("{why}"),
+//!             (Arrival::Accepted(element), _none) => tracks = Some(element),
+//!             (Arrival::Dropped { why }, actions) => panic!("{why}, to be done: {actions:?}"),
 //!         }
 //!     }
 //!     if let Some(session) = plan.map(|running| running.session) {
@@ -76,8 +76,8 @@
 //!         let items = vec![TrajectoryPoint { t_ns, x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 }];
 //!         let message = Message { station: 1, session, generated: now, stamp: now, items };
 //!         match monitor.trajectory(now, message)? {
-//!             Arrival::Accepted(element) => trajectory = Some(element),
-//!             Arrival::Dropped { why, .. } => panic!("{why}"),
+//!             (Arrival::Accepted(element), _none) => trajectory = Some(element),
+//!             (Arrival::Dropped { why }, actions) => panic!("{why}, to be done: {actions:?}"),
 //!         }
 //!     }
 //!
@@ -90,20 +90,20 @@
 //!     if let Some(trajectory) = &trajectory {
 //!         inputs = inputs.remote_trajectory(trajectory);
 //!     }
-//!     match monitor.cycle(&inputs) {
-//!         Decision::Safe { trajectory: Some(trajectory), actions, .. } => {
+//!     // Whatever it decides, local services start or stop, and releases are sent.
+//!     let (decision, actions) = monitor.cycle(&inputs);
+//!     match decision {
+//!         Decision::Safe { trajectory: Some(trajectory), .. } => {
 //!             // Only here is there a trajectory of the station to be driven.
 //!             assert_eq!(trajectory.points.len(), 1);
 //!             driven_as_verified += 1;
-//!             let _stop_local_services = actions;
 //!         }
-//!         Decision::Safe { trajectory: None, actions, .. } => {
+//!         Decision::Safe { trajectory: None, .. } => {
 //!             // Nothing current was there to be checked. The local planner is followed; where it is
 //!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
 //!             // copy. Where that lasts, the session ends as for silence.
-//!             let _stop_local_services = actions;
 //!         }
-//!         Decision::Unsafe { report, actions } => {
+//!         Decision::Unsafe { report } => {
 //!             // The local services go on, and nothing of the station is used.
 //!             panic!("{report:?}, to be done: {actions:?}");
 //!         }

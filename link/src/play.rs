@@ -1,8 +1,9 @@
 //! A drive as it is played in real time: what the vehicle senses, and what a station answers.
 //!
-//! The time of a drive is moved to the shared clock, and nothing else is changed. A cycle that is
-//! decided at T is sensed 30 ms before, when the vehicle sends what it knows; that is also how old the
-//! detections of recorded drives are when they are used.
+//! The time of a drive is moved to the shared clock. A cycle of the time T of the drive is sensed 30 ms
+//! before, when the vehicle sends what it knows; that is also how old the detections of recorded drives are
+//! at T. It is decided up to 30 ms after T, so that whatever the station answers within l_max is there:
+//! until then the CAV drives straight on, and nothing else is changed.
 
 use std::fmt;
 
@@ -14,8 +15,16 @@ use mufasa_props::bridge;
 
 use crate::message::{EncodeError, Frame};
 
-/// How long before its decision a cycle is sensed, ns.
+/// How long before its time in the drive a cycle is sensed, ns.
 pub const SENSED_BEFORE_NS: i64 = 30_000_000;
+
+/// How long after it is sensed a cycle is decided, ns, where the period leaves so much time: l_max, 50 ms, and
+/// 10 ms for the way to the station and its answer. All that comes until then is at most so old, which is
+/// below max_age, 100 ms.
+pub const DECIDED_AFTER_NS: i64 = 60_000_000;
+
+/// What of a period is left between a decision and the next cycle, ns.
+const LEFT_NS: i64 = 10_000_000;
 
 /// How far from the drive a vehicle may be that a station still follows, m.
 const ON_THE_DRIVE_M: f64 = 2.0;
@@ -124,7 +133,7 @@ impl Played {
         &self.cycles[0].parameters
     }
 
-    /// When the first cycle is decided, in the time of the drive, ns.
+    /// The time of the first cycle in the drive, ns.
     pub fn begin_ns(&self) -> i64 {
         self.cycles[0].now_ns
     }
@@ -140,15 +149,24 @@ impl Played {
 
     /// Pose and speed of the CAV when a cycle is sensed: it has driven straight on since then.
     pub fn sensed(cycle: &Cycle) -> Ego {
-        let ego = bridge::to_impl(cycle).borrow(&[]).ego;
-        #[allow(clippy::cast_precision_loss, reason = "30 ms")]
-        let way_m = ego.speed * SENSED_BEFORE_NS as f64 * 1e-9;
-        Ego { x: ego.x - way_m * ego.cos, y: ego.y - way_m * ego.sin, ..ego }
+        driven_on(bridge::to_impl(cycle).borrow(&[]).ego, -SENSED_BEFORE_NS)
     }
 
     /// When a cycle is sensed, in the time of the drive, ns.
     pub fn sensed_ns(cycle: &Cycle) -> i64 {
         cycle.now_ns.saturating_sub(SENSED_BEFORE_NS)
+    }
+
+    /// How long after its time in the drive a cycle is decided, ns: less than `DECIDED_AFTER_NS` after it was
+    /// sensed where the next one is sensed before.
+    pub fn decided_late_ns(&self) -> i64 {
+        let after_ns = DECIDED_AFTER_NS.min(self.period_ns.saturating_sub(LEFT_NS));
+        after_ns.saturating_sub(SENSED_BEFORE_NS)
+    }
+
+    /// Pose and speed of the CAV when a cycle is decided: it has driven straight on.
+    pub fn decided(&self, cycle: &Cycle) -> Ego {
+        driven_on(bridge::to_impl(cycle).borrow(&[]).ego, self.decided_late_ns())
     }
 
     /// The cycle that a vehicle senses that is there, and about when, in the time of the drive, ns, if
@@ -173,6 +191,13 @@ impl Played {
     pub fn at(&self, sensed_ns: i64) -> Option<&Cycle> {
         self.cycles.iter().min_by_key(|cycle| Self::sensed_ns(cycle).abs_diff(sensed_ns))
     }
+}
+
+/// The CAV so much later, ns, if it drives straight on.
+fn driven_on(ego: Ego, later_ns: i64) -> Ego {
+    #[allow(clippy::cast_precision_loss, reason = "some tens of milliseconds")]
+    let way_m = ego.speed * later_ns as f64 * 1e-9;
+    Ego { x: ego.x + way_m * ego.cos, y: ego.y + way_m * ego.sin, ..ego }
 }
 
 /// The points of a trajectory, so much later.
@@ -213,6 +238,30 @@ mod tests {
         let (ego, sensed_ns) = (Played::sensed(cycle), Played::sensed_ns(cycle));
         assert_eq!(played.find(&ego, Some(sensed_ns + 40_000_000)), Some(15));
         assert_eq!(played.find(&ego, None), Some(10));
+    }
+
+    #[test]
+    fn what_comes_within_l_max_is_there_when_its_cycle_is_decided() {
+        let with_period = |ms| {
+            let mut drive = demo();
+            for (i, it) in (0..).zip(&mut drive.cycles) {
+                it.cycle.now_ns = i * ms * 1_000_000;
+            }
+            Played::new(drive).unwrap()
+        };
+        let after = |played: &Played| SENSED_BEFORE_NS + played.decided_late_ns();
+        let ms = 1_000_000;
+        let shipped = mufasa::offloading::requester::Parameters::default();
+        let max_age_ns = mufasa::input::parameters::Parameters::default().max_age_ns;
+        assert!(after(&with_period(100)) >= shipped.l_max_ns + 10 * ms);
+        assert!(after(&with_period(100)) <= max_age_ns);
+        // The fastest drive that is played: as long as its period allows.
+        assert_eq!([40, 70, 71].map(|it| after(&with_period(it)) / ms), [30, 60, 60]);
+        let played = with_period(100);
+        let cycle = played.cycle(5).unwrap();
+        let (early, late) = (Played::sensed(cycle), played.decided(cycle));
+        assert!(((late.x - early.x).hypot(late.y - early.y) - 0.06 * late.speed).abs() < 1e-9);
+        assert!(late.speed > 1.0);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What a cycle ends in.
 
 use mufasa::monitor::Decision as NativeDecision;
+use mufasa::offloading::requester::Actions as NativeActions;
 use mufasa_props::bridge;
 use pyo3::prelude::*;
 
@@ -26,24 +27,28 @@ struct Data {
 }
 
 impl Decision {
-    pub fn new(py: Python<'_>, calls: &Calls, decision: &NativeDecision<'_>) -> PyResult<Self> {
+    pub fn new(
+        py: Python<'_>,
+        calls: &Calls,
+        (decision, to_do): &(NativeDecision<'_>, NativeActions),
+    ) -> PyResult<Self> {
         let call = || calls.current();
-        let actions = |actions: &[_]| Py::new(py, Actions::new(actions));
+        let actions = Py::new(py, Actions::new(to_do))?;
         let report = |report| {
             let report = bridge::report_from_impl(report);
             verdict(py, String::new(), report).map(Bound::unbind)
         };
         Ok(match decision {
-            NativeDecision::Safe { tracks, trajectory, report: of_safe, actions: to_do } => {
+            NativeDecision::Safe { tracks, trajectory, report: of_safe } => {
                 let tracks = tracks.as_ref().map(|it| Py::new(py, VerifiedTracks::new(call(), it)));
                 let trajectory =
                     trajectory.as_ref().map(|it| Py::new(py, VerifiedTrajectory::new(call(), it)));
                 let data =
                     Some(Data { tracks: tracks.transpose()?, trajectory: trajectory.transpose()? });
                 let (report, error) = (Some(report(of_safe)?), None);
-                Self { call: call(), data, report, error, actions: actions(to_do)? }
+                Self { call: call(), data, report, error, actions }
             }
-            NativeDecision::Unsafe { report: why, actions: to_do } => {
+            NativeDecision::Unsafe { report: why } => {
                 let (report, error) = match why {
                     Ok(of_unsafe) => (Some(report(of_unsafe)?), None),
                     Err(problem) => {
@@ -51,7 +56,7 @@ impl Decision {
                         (None, Some(problem.into_value(py).into_any()))
                     }
                 };
-                Self { call: call(), data: None, report, error, actions: actions(to_do)? }
+                Self { call: call(), data: None, report, error, actions }
             }
         })
     }

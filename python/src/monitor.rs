@@ -304,15 +304,15 @@ impl Monitor {
     }
 }
 
-/// Keeps an element that was accepted; what has to be done about one that was not.
-fn take<L>(arrival: Arrival<L>, last: &mut Option<Accepted<L>>) -> Vec<Action> {
-    match arrival {
-        Arrival::Accepted(element) => {
-            *last = Some(element);
-            Vec::new()
-        }
-        Arrival::Dropped { actions, .. } => actions.to_vec(),
+/// Keeps an element that was accepted; what has to be done.
+fn take<L>(
+    (arrival, actions): (Arrival<L>, NativeActions),
+    last: &mut Option<Accepted<L>>,
+) -> Vec<Action> {
+    if let Arrival::Accepted(element) = arrival {
+        *last = Some(element);
     }
+    actions.to_vec()
 }
 
 fn set(groups: &[String]) -> PyResult<Groups> {
@@ -333,6 +333,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::Stages(_) | MonitorError::Requester(_) => "parameters",
         MonitorError::NoPeriod => "period",
         MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
+        MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",

@@ -4,7 +4,7 @@ use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::monitor::{Decision, DropReason, Inputs, Monitor, Verified};
-use mufasa::offloading::requester::{Action, Group, Source};
+use mufasa::offloading::requester::{Action, Actions, Group, Source};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
 use crate::event::{self, MUFASA_MAX_ACTIONS, MufasaAction, MufasaActionType, MufasaGroup};
@@ -109,16 +109,16 @@ impl Verdicts {
         MufasaDecision { local_services, ..told }
     }
 
-    fn tell(&mut self, decision: &Decision<'_>) -> MufasaDecision {
+    fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {
         match decision {
-            Decision::Safe { tracks, trajectory, report, actions } => MufasaDecision {
+            Decision::Safe { tracks, trajectory, report } => MufasaDecision {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
             },
-            Decision::Unsafe { report, actions } => MufasaDecision {
+            Decision::Unsafe { report } => MufasaDecision {
                 report: match report {
                     Ok(report) => report::report_of(report),
                     Err(problem) => report::error(Some(*problem)),

@@ -5,6 +5,7 @@ use core::slice;
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::monitor::{Accepted, Arrival, Message};
+use mufasa::offloading::requester::Actions;
 
 use super::decision::{MufasaActions, MufasaDropReason, actions_of};
 use crate::cycle::{MufasaTrackList, MufasaTrajectory};
@@ -97,7 +98,7 @@ impl<T> Received<T> {
         &mut self,
         items: impl ExactSizeIterator<Item = T>,
         session: i64,
-        tell: impl FnOnce(i64, Stored<T>) -> Result<Arrival<Stored<T>>, MufasaStatus>,
+        tell: impl FnOnce(i64, Stored<T>) -> Result<(Arrival<Stored<T>>, Actions), MufasaStatus>,
     ) -> Result<MufasaActions, MufasaStatus> {
         if let Some(stored) = self.store(items) {
             return Ok(self.take(tell(session, stored)?));
@@ -109,14 +110,14 @@ impl<T> Received<T> {
 
     /// What has to be done about it. An element that was accepted is the last one from now on; the place of
     /// the one before is spare.
-    fn take(&mut self, arrival: Arrival<Stored<T>>) -> MufasaActions {
+    fn take(&mut self, (arrival, actions): (Arrival<Stored<T>>, Actions)) -> MufasaActions {
         match arrival {
             Arrival::Accepted(element) => {
                 self.accepted = Some(element);
                 swap(&mut self.spare, &mut self.other);
-                actions_of(&[])
+                actions_of(&actions)
             }
-            Arrival::Dropped { why, actions } => {
+            Arrival::Dropped { why } => {
                 MufasaActions { dropped: why.into(), ..actions_of(&actions) }
             }
         }

@@ -79,8 +79,17 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
         MonitorError::NoPeriod => report::wrong("period_ns", POSITIVE),
         MonitorError::TimeTooShort { field, .. } => {
             let field = if field == "period" { "period_ns" } else { field };
-            report::wrong(field, "above 0 and below 1 ms; is it in another unit? Give nanoseconds")
+            let message = if field == "requester.t_wait_ns" {
+                "above 0 and below 1 s; is it in another unit? Give nanoseconds"
+            } else {
+                "above 0 and below 1 ms; is it in another unit? Give nanoseconds"
+            };
+            report::wrong(field, message)
         }
+        MonitorError::MaxAgeBelowLMax { .. } => report::wrong(
+            "parameters.max_age_ns",
+            "below requester.l_max_ns, so that no cycle could use what is in time; give at least that",
+        ),
         MonitorError::DtMaxNotAbovePeriod { .. } => report::wrong(
             "requester.dt_max_ns",
             "not above period_ns; give that and its largest jitter",

@@ -80,6 +80,7 @@ pub(super) fn refused(error: MonitorError) -> MufasaStatus {
         }
         MonitorError::NoPeriod => MufasaStatus::InvalidPeriod,
         MonitorError::TimeTooShort { .. } => MufasaStatus::TimeTooShort,
+        MonitorError::MaxAgeBelowLMax { .. } => MufasaStatus::MaxAgeBelowLMax,
         MonitorError::DtMaxNotAbovePeriod { .. } => MufasaStatus::DtMaxNotAbovePeriod,
         MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
     }

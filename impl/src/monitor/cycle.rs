@@ -16,7 +16,8 @@ use crate::stages::given::is_current;
 
 impl Monitor<'_> {
     /// Decides on the inputs and tells the requester: after an unsafe cycle no group is remote, and
-    /// nothing is left for the caller but to take the actions. To be called in each period, offloading
+    /// nothing is left for the caller but to take the actions. They are beside the decision, whatever it
+    /// is: releases to be sent, local services that start, and after a safe one those that stop (H-08). To be called in each period, offloading
     /// or not, so that the detections of the last second are there when they are needed.
     ///
     /// Time: that of `stages::check` with indexes, and linear in the detections.
@@ -40,9 +41,8 @@ impl Monitor<'_> {
     /// ```compile_fail,E0499
     /// # use mufasa::monitor::{Decision, Inputs, Monitor, Time};
     /// fn after_the_session<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>, now: Time) {
-    ///     if let Decision::Safe { trajectory: Some(trajectory), actions: _, .. } =
-    ///         monitor.cycle(inputs)
-    ///     {
+    ///     let (decision, _to_be_done) = monitor.cycle(inputs);
+    ///     if let Decision::Safe { trajectory: Some(trajectory), .. } = decision {
     ///         let actions = monitor.tick(now);
     ///         drop((trajectory, actions));
     ///     }
@@ -82,7 +82,19 @@ impl Monitor<'_> {
     /// fn taken<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>, now: Time) {
     ///     let _to_be_done = monitor.tick(now);
     ///     let _to_be_done = monitor.lost(now, 1).unwrap();
-    ///     let _decision = monitor.cycle(inputs);
+    ///     let (_decision, _to_be_done) = monitor.cycle(inputs);
+    /// }
+    /// ```
+    ///
+    /// Nor can the actions alone: a decision is not to be had without them.
+    ///
+    /// ```compile_fail,E0308
+    /// # use mufasa::monitor::{Decision, Inputs, Monitor};
+    /// fn actions_forgotten<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>) -> usize {
+    ///     match monitor.cycle(inputs) {
+    ///         Decision::Safe { trajectory, .. } => trajectory.map_or(0, |it| it.points.len()),
+    ///         Decision::Unsafe { .. } => 0,
+    ///     }
     /// }
     /// ```
     ///
@@ -92,7 +104,7 @@ impl Monitor<'_> {
     /// ```compile_fail,E0599
     /// # use mufasa::monitor::{Inputs, Monitor};
     /// fn looks_safe<'m>(monitor: &'m mut Monitor<'_>, inputs: &Inputs<'m>) -> bool {
-    ///     monitor.cycle(inputs).is_ok()
+    ///     monitor.cycle(inputs).0.is_ok()
     /// }
     /// ```
     ///
@@ -104,7 +116,7 @@ impl Monitor<'_> {
     /// ```
     ///
     /// Source: `spec/5-interfaces.md#monitor`.
-    pub fn cycle<'m>(&'m mut self, inputs: &Inputs<'m>) -> Decision<'m> {
+    pub fn cycle<'m>(&'m mut self, inputs: &Inputs<'m>) -> (Decision<'m>, Actions) {
         let now_ns = inputs.now.as_nanoseconds();
         let remote = Group::ALL.map(|group| self.requester.session_of(group));
         let [mot, plan] = remote;
@@ -140,15 +152,16 @@ impl Monitor<'_> {
         };
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
-        match report {
+        let decision = match report {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);
                 let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot));
                 let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan));
-                Decision::Safe { tracks, trajectory, report, actions }
+                Decision::Safe { tracks, trajectory, report }
             }
-            report => Decision::Unsafe { report, actions },
-        }
+            report => Decision::Unsafe { report },
+        };
+        (decision, actions)
     }
 
     /// Checks the cycle, and keeps its detections when they are valid and current.

@@ -4,11 +4,12 @@ use core::marker::PhantomData;
 use core::ops::Deref;
 
 use crate::input::cycle::{TrackList, Trajectory};
-use crate::offloading::requester::{Actions, Source};
+use crate::offloading::requester::Source;
 use crate::report::{InvalidInput, Report};
 
 /// The end of a cycle. Only the safe one holds data, and as long as it is looked at the monitor takes
-/// neither event nor cycle. Source: `spec/5-interfaces.md#monitor`.
+/// neither event nor cycle. What has to be done comes beside it ([`Monitor::cycle`](super::Monitor::cycle)).
+/// Source: `spec/5-interfaces.md#monitor`.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use = "an unsafe cycle has to be left for the local services"]
 #[allow(clippy::large_enum_variant, reason = "no heap, and one of them a cycle")]
@@ -28,16 +29,12 @@ pub enum Decision<'m> {
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
         report: Report,
-        /// Local services that stop (H-08).
-        actions: Actions,
     },
     /// A stage failed, remote data are invalid, or local input is. The requester has fallen back: no
     /// group is remote any more, and no data of this cycle may reach control.
     Unsafe {
         /// What failed; an error is invalid local input.
         report: Result<Report, InvalidInput>,
-        /// Releases to be sent, and local services that start.
-        actions: Actions,
     },
 }
 

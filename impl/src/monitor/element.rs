@@ -4,7 +4,6 @@
 use core::fmt;
 
 use super::time::Time;
-use crate::offloading::requester::Actions;
 
 /// A message of a station with a result: tracks, or the points of a trajectory, in any holder of a
 /// slice (`Vec`, an array, `&[Track]`). Source: `spec/5-interfaces.md#monitor`.
@@ -57,9 +56,9 @@ impl<L> fmt::Debug for Accepted<L> {
     }
 }
 
-/// What became of a message. Source: `spec/5-interfaces.md#monitor`.
+/// What became of a message; what has to be done about it comes beside it. Source: `spec/5-interfaces.md#monitor`.
 #[derive(Debug)]
-#[must_use = "what the requester does about a message has to be done"]
+#[must_use = "an element that is accepted is for the next cycle"]
 pub enum Arrival<L> {
     /// It is of the running session and in time: to be checked in a cycle.
     Accepted(Accepted<L>),
@@ -67,9 +66,6 @@ pub enum Arrival<L> {
     Dropped {
         /// Why.
         why: DropReason,
-        /// What has to be done about it: a violation of quality of service ends the session, with
-        /// releases and activations.
-        actions: Actions,
     },
 }
 

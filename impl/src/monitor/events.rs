@@ -5,6 +5,7 @@ use super::Monitor;
 use super::element::{Accepted, Arrival, DropReason, Message};
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
+use crate::input::profile::Profile;
 use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
 use crate::services::configuration::Group;
 use crate::stages::given::is_current;
@@ -72,27 +73,30 @@ impl Monitor<'_> {
     }
 
     /// Time passes: deadlines, silence and requests are decided. To be called in each period, and before
-    /// the cycle of the period. Source: `spec/2-offloading.md#requester`.
+    /// the cycle of the period. After a session no request is sent for a while, nor, in the hardened
+    /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
         self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
     /// with a stamp at most `max_age_ns` old, while cycles find what is current; more tracks than `rows`
-    /// were lent are dropped.
+    /// were lent are dropped. The actions are those of a message that was dropped: a violation of quality of
+    /// service ends the session, with releases and activations.
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
     pub fn tracks<L: AsRef<[Track]>>(
         &mut self,
         now: Time,
         message: Message<L>,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         let is_too_long = message.items.as_ref().len() > self.rows.len();
         self.arrival(now, Group::Mot, message, is_too_long)
     }
 
     /// A trajectory arrives. Used is what is of the running session of PLAN, in time, newer than
-    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current. What its
+    /// the last, and with a stamp at most `max_age_ns` old, while cycles find what is current; actions as
+    /// of [`Self::tracks`]. What its
     /// points have to be like to be safe: [`Inputs::remote_trajectory`](super::Inputs::remote_trajectory).
     ///
     /// Errors: a station below 1. Source: `spec/2-offloading.md#quality-of-service`.
@@ -100,7 +104,7 @@ impl Monitor<'_> {
         &mut self,
         now: Time,
         message: Message<L>,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         self.arrival(now, Group::Plan, message, false)
     }
 
@@ -110,7 +114,7 @@ impl Monitor<'_> {
         group: Group,
         message: Message<L>,
         is_too_long: bool,
-    ) -> Result<Arrival<L>, RequesterError> {
+    ) -> Result<(Arrival<L>, Actions), RequesterError> {
         let Message { station, session, generated, stamp, items } = message;
         let generated_ns = generated.as_nanoseconds();
         let [stamp_ns, now_ns] = [stamp, now].map(Time::as_nanoseconds);
@@ -128,7 +132,8 @@ impl Monitor<'_> {
         let data = EventKind::Data { station, group, session: named, generated_ns };
         let actions = self.step(now, data)?;
         if !actions.contains(&Action::Drop(group)) {
-            return Ok(Arrival::Accepted(Accepted { session, generated, stamp, items }));
+            let element = Accepted { session, generated, stamp, items };
+            return Ok((Arrival::Accepted(element), actions));
         }
         let why = if is_too_long {
             DropReason::TooLong
@@ -147,12 +152,17 @@ impl Monitor<'_> {
         } else {
             DropReason::NotNewer
         };
-        Ok(Arrival::Dropped { why, actions })
+        Ok((Arrival::Dropped { why }, actions))
     }
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
         if kind == EventKind::Tick {
+            let is_hardened = self.settings.profile == Profile::Hardened;
+            if is_hardened && !self.history.reaches_back(t_ns) {
+                // Nothing would be examined as moving (H-13).
+                self.requester.hold(t_ns.saturating_add(1));
+            }
             for group in Group::ALL {
                 // A hold that begins at a tick bars the requests of that tick.
                 if self.requester.is_silent(group, t_ns) {

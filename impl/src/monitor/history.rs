@@ -15,6 +15,9 @@ const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
 const LEAST_NS: i64 = 200_000_000;
 const LONGEST_NS: i64 = 1_000_000_000;
 
+/// How far back the history of a CAV reaches that asks for a session, ns: the age of the reference list.
+const REACH_NS: i64 = 500_000_000;
+
 /// A list that is kept.
 #[derive(Clone, Copy, Debug)]
 struct Kept {
@@ -59,6 +62,13 @@ impl<'a> History<'a> {
     /// Whether a list can be kept.
     pub(super) const fn holds(&self, list: &DetectionList<'_>) -> bool {
         list.items.len() <= self.capacity
+    }
+
+    /// Whether a list is kept that is from 500 ms to 1 s old at this time: soon after it a cycle finds how
+    /// what it sees has moved (H-13).
+    pub(super) fn reaches_back(&self, now_ns: i64) -> bool {
+        let ages = REACH_NS..=LONGEST_NS;
+        self.kept.iter().flatten().any(|kept| ages.contains(&elapsed_ns(kept.stamp_ns, now_ns)))
     }
 
     /// Those of the usable lists whose ages are nearest to 300, 500 and 800 ms (of two the younger),

@@ -5,6 +5,12 @@
 //! [`Monitor::cycle`] alone, and only when it is safe. The functions beneath, [`crate::stages::check`] and
 //! [`crate::offloading::requester::Requester::step`], answer the same, and leave it to the caller to
 //! bring them together.
+//!
+//! Two rules bar requests beside those of the requester. After a session no station is asked for nine times
+//! as long as nothing of it was of use, and at least for nine periods: so that one which sends nothing of
+//! use has a group for at most a tenth of the time (F-43). And in the hardened profile no station is asked
+//! before the CAV's own detections reach back half a second: without them nothing that the station leaves
+//! out is examined as moving (H-13). Both show in [`Requester::hold_until_ns`].
 
 mod cycle;
 mod decision;

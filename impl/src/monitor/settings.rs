@@ -12,6 +12,9 @@ use crate::report::InvalidInput;
 /// The shortest time above 0 that is taken for one in nanoseconds: no period, latency or age of a vehicle
 /// is shorter, and each of these in milliseconds or microseconds is, up to 1000 s and 1 s.
 const LEAST_NS: i64 = 1_000_000;
+/// The same for `t_wait`: after a safety issue nobody waits for less, and seconds in microseconds or
+/// milliseconds are less, up to 10^6 s and 1000 s.
+const LEAST_WAIT_NS: i64 = 1_000_000_000;
 
 /// What a monitor is made with. Source: `spec/5-interfaces.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +61,10 @@ impl Settings {
         if let Some((field, ns)) = self.too_short() {
             return Err(MonitorError::TimeTooShort { field, ns });
         }
+        let [max_age_ns, l_max_ns] = [self.stages.max_age_ns, self.requester.l_max_ns];
+        if max_age_ns < l_max_ns {
+            return Err(MonitorError::MaxAgeBelowLMax { max_age_ns, l_max_ns });
+        }
         // A negative dt_max is refused by the requester.
         if u128::try_from(dt_max_ns).is_ok_and(|dt_max_ns| dt_max_ns <= self.period.as_nanos()) {
             return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
@@ -75,7 +82,7 @@ impl Settings {
         i64::try_from(self.period.as_nanos()).unwrap_or(i64::MAX)
     }
 
-    /// The first time above 0 and below `LEAST_NS`, ns. Exactly 0 is no slip of a unit.
+    /// The first time above 0 and below the least that a vehicle has, ns. Exactly 0 is no slip of a unit.
     fn too_short(&self) -> Option<(&'static str, i64)> {
         let requester::Parameters { t_wait_ns, request_timeout_ns, l_max_ns, dt_max_ns, .. } =
             self.requester;
@@ -88,8 +95,13 @@ impl Settings {
             ("requester.l_max_ns", l_max_ns),
             ("requester.dt_max_ns", dt_max_ns),
         ];
-        times.into_iter().find(|(_, ns)| 0 < *ns && *ns < LEAST_NS)
+        times.into_iter().find(|(field, ns)| 0 < *ns && *ns < least_ns(field))
     }
+}
+
+/// The shortest time above 0 that a setting may have, ns.
+fn least_ns(field: &str) -> i64 {
+    if field == "requester.t_wait_ns" { LEAST_WAIT_NS } else { LEAST_NS }
 }
 
 /// Why a monitor could not be made. Source: `spec/5-interfaces.md#monitor`.
@@ -101,12 +113,21 @@ pub enum MonitorError {
     Requester(RequesterError),
     /// The nominal period is 0.
     NoPeriod,
-    /// A time above 0 and below 1 ms: it is taken for one in another unit.
+    /// A time above 0 and below 1 ms, or a `t_wait` above 0 and below 1 s: it is taken for one in another
+    /// unit.
     TimeTooShort {
         /// The setting.
         field: &'static str,
         /// What was given, ns.
         ns: i64,
+    },
+    /// `stages.max_age_ns` is below `requester.l_max_ns`: of what arrives in time some would be too old for
+    /// every cycle.
+    MaxAgeBelowLMax {
+        /// Largest age of what a cycle uses, ns.
+        max_age_ns: i64,
+        /// Largest latency that is no violation, ns.
+        l_max_ns: i64,
     },
     /// `requester.dt_max_ns` is not above the nominal period.
     DtMaxNotAbovePeriod {
@@ -141,7 +162,14 @@ impl fmt::Display for MonitorError {
             }
             Self::TimeTooShort { field, ns } => write!(
                 f,
-                "settings.{field} = {ns} ns is below 1 ms; is it in another unit? Give nanoseconds"
+                "settings.{field} = {ns} ns is below {}; is it in another unit? Give nanoseconds",
+                if least_ns(field) == LEAST_NS { "1 ms" } else { "1 s" }
+            ),
+            Self::MaxAgeBelowLMax { max_age_ns, l_max_ns } => write!(
+                f,
+                "settings.stages.max_age_ns = {max_age_ns} is below settings.requester.l_max_ns = \
+                 {l_max_ns}: a result of that latency is in time, and older than any cycle uses; give \
+                 max_age_ns at least l_max_ns and the longest time from an arrival to its cycle"
             ),
             Self::DtMaxNotAbovePeriod { dt_max_ns, period } => write!(
                 f,

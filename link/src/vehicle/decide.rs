@@ -30,7 +30,7 @@ impl<T: Transport> Vehicle<'_, T> {
             self.route = Some(cycle.route.clone());
         }
         let points = known.trajectory.map(|it| moved(it, later_ns));
-        let mut inputs = Inputs::new(time(now_ns), known.ego);
+        let mut inputs = Inputs::new(time(now_ns), self.played.decided(cycle));
         if let Some(list) = known.detections {
             inputs = inputs.detections(later(list.stamp_ns), list.items);
         }
@@ -55,11 +55,11 @@ impl<T: Transport> Vehicle<'_, T> {
         let before = self.states();
         let configuration = self.monitor.configuration();
         let begun = Instant::now();
-        let decision = self.monitor.cycle(&inputs);
+        let (decision, actions) = self.monitor.cycle(&inputs);
         let took = begun.elapsed();
-        let (report, actions) = match &decision {
-            Decision::Safe { report, actions, .. } => (Ok(*report), *actions),
-            Decision::Unsafe { report, actions } => (*report, *actions),
+        let report = match &decision {
+            Decision::Safe { report, .. } => Ok(*report),
+            Decision::Unsafe { report } => *report,
         };
         let is_safe = matches!(decision, Decision::Safe { .. });
         self.tally.decided(now_ns, self.next, configuration, is_safe, &report, took);

@@ -2,7 +2,8 @@
 //!
 //! It has no clock and waits for nothing: [`Vehicle::step`] is told the time, takes what has arrived,
 //! and does what is due. A period has two moments. When a cycle is *sensed* the vehicle sends its state,
-//! its detections and signs of life; 30 ms later it is *decided*, with what has come until then.
+//! its detections and signs of life; 60 ms later, where the period is long enough, it is *decided*, with what
+//! has come until then: all that needed no longer than l_max.
 
 mod decide;
 pub mod log;
@@ -74,7 +75,7 @@ pub struct Vehicle<'a, T> {
     transport: &'a mut T,
     tally: &'a mut Tally,
     monitor: Monitor<'a>,
-    /// When the first cycle is decided, on the shared clock, ns.
+    /// The time of the first cycle, on the shared clock, ns.
     begin_ns: i64,
     next: usize,
     is_sensed: bool,
@@ -140,7 +141,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 (later_ns.saturating_add(pause_ns), sensed_ns.saturating_add(pause_ns));
             self.tally.paused();
         }
-        let decided_ns = cycle.now_ns.saturating_add(later_ns);
+        let decided_ns = cycle.now_ns.saturating_add(later_ns + played.decided_late_ns());
         if !self.is_sensed && now_ns >= sensed_ns {
             self.is_sensed = true;
             self.tell(now_ns, sensed_ns, cycle, later_ns);
@@ -170,6 +171,11 @@ impl<'a, T: Transport> Vehicle<'a, T> {
     /// Waits until something arrives, at most so long.
     pub fn wait(&mut self, at_most: Duration) {
         self.transport.wait(at_most);
+    }
+
+    /// Before when no station is asked, ns, if that ever was so.
+    pub fn hold_until_ns(&self) -> Option<i64> {
+        self.monitor.requester().hold_until_ns()
     }
 
     /// Which groups are remote.

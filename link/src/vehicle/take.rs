@@ -1,7 +1,7 @@
 //! What a vehicle does with what it receives.
 
 use mufasa::monitor::{Accepted, Arrival, Message as Received};
-use mufasa::offloading::requester::{GroupState, RequesterError};
+use mufasa::offloading::requester::{Actions, GroupState, RequesterError};
 use mufasa::services::configuration::Group;
 
 use super::log::{What, digest};
@@ -75,25 +75,26 @@ impl<T: Transport> Vehicle<'_, T> {
         before: [GroupState; 2],
         came: &Came,
         digest: u64,
-        arrival: Result<Arrival<L>, RequesterError>,
+        arrival: Result<(Arrival<L>, Actions), RequesterError>,
     ) -> Option<Accepted<L>> {
         let Came { group, station, session, generated_ns } = *came;
         let latency_ns = now_ns.saturating_sub(generated_ns);
-        let accepted = matches!(arrival, Ok(Arrival::Accepted(_)));
+        let accepted = matches!(arrival, Ok((Arrival::Accepted(_), _)));
         let what =
             What::Arrived { group: word(group), station, session, latency_ns, accepted, digest };
         self.tally.note(now_ns, what);
         match arrival {
-            Ok(Arrival::Accepted(element)) => {
-                self.tally.accepted(group, latency_ns);
-                return Some(element);
-            }
-            Ok(Arrival::Dropped { actions, .. }) => {
+            Ok((arrival, actions)) => {
                 self.answered(now_ns, before, Ok(actions), "late");
+                let Arrival::Accepted(element) = arrival else { return None };
+                self.tally.accepted(group, latency_ns);
+                Some(element)
             }
-            Err(error) => self.answered(now_ns, before, Err(error), "late"),
+            Err(error) => {
+                self.answered(now_ns, before, Err(error), "late");
+                None
+            }
         }
-        None
     }
 }
 

@@ -153,7 +153,8 @@ fn cycle(
     if let Some(points) = points {
         inputs = inputs.remote_trajectory(points);
     }
-    let Decision::Safe { trajectory, actions, .. } = monitor.cycle(&inputs) else {
+    let (decision, actions) = monitor.cycle(&inputs);
+    let Decision::Safe { trajectory, .. } = decision else {
         panic!("an unsafe cycle at {}", world.now_ns);
     };
     let is_out = trajectory.is_some_and(|it| it.source() != Source::Local);

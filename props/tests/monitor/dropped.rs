@@ -2,7 +2,7 @@
 
 use mufasa::input::cycle::Track;
 use mufasa::monitor::{Arrival, DropReason, Inputs, Message, Monitor, Time};
-use mufasa::offloading::requester::{Group, Source};
+use mufasa::offloading::requester::{Actions, Group, Source};
 
 use crate::kit::{Buffers, MS, World, at, message, road};
 use crate::misuse::driven;
@@ -10,10 +10,10 @@ use crate::misuse::driven;
 /// What is wrong with a message that comes at a time.
 type Change = fn(&mut Message<Vec<Track>>, Time);
 
-fn why<L>(arrival: &Arrival<L>) -> Option<DropReason> {
+fn why<L>((arrival, _): &(Arrival<L>, Actions)) -> Option<DropReason> {
     match arrival {
         Arrival::Accepted(_) => None,
-        Arrival::Dropped { why, .. } => Some(*why),
+        Arrival::Dropped { why } => Some(*why),
     }
 }
 
@@ -86,7 +86,7 @@ fn a_message_of_a_starved_group_says_so() {
         let answer = why(&monitor.tracks(now, sent).expect("a station"));
         let later = at((ms + 10) * MS);
         let own = Inputs::new(later, World::at((ms + 10) * MS).ego);
-        let decision = monitor.cycle(&own);
+        let (decision, _) = monitor.cycle(&own);
         assert!(matches!(decision, mufasa::monitor::Decision::Safe { .. }), "{decision:?}");
         answer
     };
@@ -115,7 +115,7 @@ fn a_list_too_long_for_the_lent_memory_is_no_arrival() {
     let world = World::at(240 * MS);
     let now = at(world.now_ns);
     let own = Inputs::new(now, world.ego).detections(now, &world.detections);
-    let decision = monitor.cycle(&own);
+    let (decision, _) = monitor.cycle(&own);
     assert!(matches!(decision, mufasa::monitor::Decision::Safe { .. }), "{decision:?}");
     assert_eq!(send(&mut monitor, 360, 5), Some(DropReason::TooLong));
     // 151 ms after the last arrival.

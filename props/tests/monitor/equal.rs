@@ -6,7 +6,9 @@ use std::cell::RefCell;
 use mufasa::input::cycle::{Route, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Accepted, Arrival, Decision, Message, Monitor, Settings};
-use mufasa::offloading::requester::{EventKind, Group, GroupState, Groups, Source, StationRecord};
+use mufasa::offloading::requester::{
+    Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
+};
 use mufasa::services::configuration::Configuration;
 use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;
@@ -135,14 +137,15 @@ impl Pair<'_, '_, '_> {
         let is_still = starved(&self.plain)[place(group)].is_some();
         let (generated, stamp) = (at(generated_ns), at(stamp_ns));
         let items = copy.items.clone();
-        match self.arrive(Message { station, session, generated, stamp, items }) {
+        let (arrival, taken) = self.arrive(Message { station, session, generated, stamp, items });
+        assert_eq!(taken.to_vec(), actions);
+        match arrival {
             Arrival::Accepted(token) => {
                 assert!(actions.is_empty(), "{actions:?}");
                 let fallbacks = self.fallbacks;
                 self.keep(Held { token, copy, fallbacks });
             }
-            Arrival::Dropped { actions: dropped, .. } => {
-                assert_eq!(dropped.to_vec(), actions);
+            Arrival::Dropped { .. } => {
                 assert!(!actions.is_empty());
                 seen.dropped += 1;
                 seen.starved_and_dropped += u64::from(is_starved && is_still);
@@ -191,10 +194,11 @@ impl Pair<'_, '_, '_> {
         let ended = self.plain.cycle(&own, tracks.map(|it| &it.copy), points.map(|it| &it.copy));
         let is_remote = before != Configuration::Local;
         seen.cycles += 1;
-        match self.monitor.cycle(&inputs) {
-            Decision::Safe { tracks: out, trajectory, report, actions } => {
+        let (decision, actions) = self.monitor.cycle(&inputs);
+        assert_eq!(actions.to_vec(), ended.actions);
+        match decision {
+            Decision::Safe { tracks: out, trajectory, report } => {
                 assert!(same(&Ok(report), &ended.report), "{report:?} {:?}", ended.report);
-                assert_eq!(actions.to_vec(), ended.actions);
                 assert_eq!([out.is_some(), trajectory.is_some()], ended.verified);
                 seen.safe += 1;
                 if let (Some(out), Some(held)) = (out, tracks) {
@@ -222,9 +226,8 @@ impl Pair<'_, '_, '_> {
                     assert_eq!((out.stamp_ns, out.points), expected);
                 }
             }
-            Decision::Unsafe { report, actions } => {
+            Decision::Unsafe { report } => {
                 assert!(same(&report, &ended.report), "{report:?} {:?}", ended.report);
-                assert_eq!(actions.to_vec(), ended.actions);
                 assert_eq!(self.monitor.configuration(), Configuration::Local);
                 seen.errors += u64::from(report.is_err());
                 seen.unsafe_while_remote += u64::from(is_remote);
@@ -279,12 +282,12 @@ impl Pair<'_, '_, '_> {
 
 /// Where accepted elements go.
 trait Keeps<T> {
-    fn arrive(&mut self, message: Message<Vec<T>>) -> Arrival<Vec<T>>;
+    fn arrive(&mut self, message: Message<Vec<T>>) -> (Arrival<Vec<T>>, Actions);
     fn keep(&mut self, held: Held<T>);
 }
 
 impl Keeps<Track> for Pair<'_, '_, '_> {
-    fn arrive(&mut self, message: Message<Vec<Track>>) -> Arrival<Vec<Track>> {
+    fn arrive(&mut self, message: Message<Vec<Track>>) -> (Arrival<Vec<Track>>, Actions) {
         self.monitor.tracks(at(self.now_ns), message).expect("a station")
     }
 
@@ -294,7 +297,10 @@ impl Keeps<Track> for Pair<'_, '_, '_> {
 }
 
 impl Keeps<TrajectoryPoint> for Pair<'_, '_, '_> {
-    fn arrive(&mut self, message: Message<Vec<TrajectoryPoint>>) -> Arrival<Vec<TrajectoryPoint>> {
+    fn arrive(
+        &mut self,
+        message: Message<Vec<TrajectoryPoint>>,
+    ) -> (Arrival<Vec<TrajectoryPoint>>, Actions) {
         self.monitor.trajectory(at(self.now_ns), message).expect("a station")
     }
 
@@ -335,7 +341,7 @@ fn as_the_plain_calls(profile: Profile) {
         };
         let mut buffers = Buffers::new(600, cross_sections.len());
         let mut settings = Settings { profile, stages, ..settings() };
-        settings.requester.t_wait_ns = draw.pick(&[0, 150 * MS, 10_000 * MS]);
+        settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };
         let route = Route { closed, cross_sections: &cross_sections };

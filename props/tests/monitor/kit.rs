@@ -4,7 +4,9 @@ use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, Trajector
 use mufasa::input::detection_index::Slot;
 use mufasa::input::route_index::Block;
 use mufasa::input::scratch::{Column, Row, Sizes};
-use mufasa::monitor::{Accepted, Arrival, Memory, Message, Monitor, MonitorError, Settings, Time};
+use mufasa::monitor::{
+    Accepted, Arrival, Decision, Inputs, Memory, Message, Monitor, MonitorError, Settings, Time,
+};
 use mufasa::offloading::requester::{Action, Actions, Group, Groups, StationRecord};
 
 pub const MS: i64 = 1_000_000;
@@ -45,11 +47,30 @@ impl Buffers {
         Monitor::new(settings, memory)
     }
 
-    /// A monitor with the settings of this kit, on this road.
-    pub fn on(&mut self, road: &[CrossSection]) -> Monitor<'_> {
+    /// A monitor with the settings of this kit that has just been started on this road.
+    pub fn started_on(&mut self, road: &[CrossSection]) -> Monitor<'_> {
         let mut monitor = self.monitor(settings()).expect("a monitor");
         monitor.set_route(&route(road)).expect("a route");
         monitor
+    }
+
+    /// And at time 0 it has seen enough to ask a station.
+    pub fn on(&mut self, road: &[CrossSection]) -> Monitor<'_> {
+        let mut monitor = self.started_on(road);
+        look_around(&mut monitor, 0, World::at);
+        monitor
+    }
+}
+
+/// The cycles of the half second before a time, in which the CAV sees what is around: before that no station
+/// is asked (`spec/5-interfaces.md#monitor.11`).
+pub fn look_around(monitor: &mut Monitor<'_>, until_ns: i64, world: impl Fn(i64) -> World) {
+    for i in (1..=5).rev() {
+        let world = world(until_ns - 100 * i * MS);
+        let now = at(world.now_ns);
+        let inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+        let (decision, actions) = monitor.cycle(&inputs);
+        assert!(matches!(decision, Decision::Safe { .. }) && actions.is_empty(), "{decision:?}");
     }
 }
 
@@ -166,13 +187,14 @@ impl Station {
         (tracks, points.and_then(|arrival| self.accepted(arrival)))
     }
 
-    pub fn accepted<L>(&mut self, arrival: Arrival<L>) -> Option<Accepted<L>> {
+    pub fn accepted<L>(
+        &mut self,
+        (arrival, actions): (Arrival<L>, Actions),
+    ) -> Option<Accepted<L>> {
+        self.take(&actions);
         match arrival {
             Arrival::Accepted(element) => Some(element),
-            Arrival::Dropped { actions, .. } => {
-                self.take(&actions);
-                None
-            }
+            Arrival::Dropped { .. } => None,
         }
     }
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{Detection, Route};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Decision, Gap, Inputs, Message, MonitorError, Settings};
+use mufasa::monitor::{Decision, Gap, Inputs, Message, Monitor, MonitorError, Settings};
 use mufasa::offloading::requester::{Group, Groups, RequesterError};
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration;
@@ -51,6 +51,24 @@ fn parameters_outside_of_their_domain_are_refused() {
     assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
 }
 
+/// `spec/5-interfaces.md#monitor.6`: equality is no error, and the defaults are far from it.
+#[test]
+fn a_max_age_below_l_max_is_refused() {
+    let with = |max_age_ns, l_max_ns| {
+        let mut settings = settings();
+        settings.stages.max_age_ns = max_age_ns;
+        settings.requester.l_max_ns = l_max_ns;
+        settings
+    };
+    let (max_age_ns, l_max_ns) = (100 * MS, 100 * MS + 1);
+    let (error, words) = refused(with(max_age_ns, l_max_ns));
+    assert_eq!(error, MonitorError::MaxAgeBelowLMax { max_age_ns, l_max_ns });
+    assert!(words.contains("max_age_ns = 100000000") && words.contains("100000001"), "{words}");
+    assert!(Buffers::new(16, 40).monitor(with(100 * MS, 100 * MS)).is_ok());
+    let default = settings();
+    assert_eq!((default.stages.max_age_ns, default.requester.l_max_ns), (100 * MS, 50 * MS));
+}
+
 /// Sets a time, ns.
 type Change = fn(&mut Settings, i64);
 
@@ -71,15 +89,18 @@ fn times_below_a_millisecond_are_refused_and_zero_is_not() {
             change(&mut wrong, ns);
             wrong
         };
-        for ns in [1, 100, 10_000, MS - 1] {
+        let least_ns = if field == "requester.t_wait_ns" { 1_000 * MS } else { MS };
+        for ns in [1, 100, 10_000, least_ns - 1] {
             let (error, words) = refused(with(ns));
             assert_eq!(error, MonitorError::TimeTooShort { field, ns });
             assert!(words.contains(field) && words.contains("unit"), "{words}");
         }
         // dt_max has to be above the period anyway.
         if field != "requester.dt_max_ns" {
-            for ns in [0, MS] {
-                assert!(Buffers::new(16, 40).monitor(with(ns)).is_ok(), "{field} {ns}");
+            for ns in [0, least_ns] {
+                let mut right = with(ns);
+                right.requester.l_max_ns = right.requester.l_max_ns.min(right.stages.max_age_ns);
+                assert!(Buffers::new(16, 40).monitor(right).is_ok(), "{field} {ns}");
             }
         }
     }
@@ -129,9 +150,9 @@ fn a_list_of_detections_that_does_not_fit_is_an_error() {
         let world = World::at(0);
         let detections: Vec<Detection> = world.detections.into_iter().cycle().take(items).collect();
         let inputs = Inputs::new(at(0), world.ego).detections(at(0), &detections);
-        match monitor.cycle(&inputs) {
+        match monitor.cycle(&inputs).0 {
             Decision::Safe { .. } => assert!(fits),
-            Decision::Unsafe { report, .. } => {
+            Decision::Unsafe { report } => {
                 let (field, problem) = ("detections.items", Problem::ScratchTooSmall);
                 assert!(!fits);
                 assert_eq!(report, Err(InvalidInput { field, index: None, problem }));
@@ -149,8 +170,8 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let mut monitor = buffers.monitor(settings()).expect("a monitor");
     let world = World::at(0);
     let inputs = Inputs::new(at(0), world.ego);
-    match monitor.cycle(&inputs) {
-        Decision::Unsafe { report, .. } => {
+    match monitor.cycle(&inputs).0 {
+        Decision::Unsafe { report } => {
             let error = report.expect_err("no route");
             assert_eq!((error.field, error.problem), ("route", Problem::NoRoute));
             assert!(error.to_string().contains("no route was set"), "{error}");
@@ -165,51 +186,63 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let mut invalid = cross_sections.clone();
     invalid[3].y = f64::NAN;
     assert_eq!(monitor.set_route(&route(&invalid)).map_err(|it| it.index), Err(Some(3)));
-    assert!(matches!(monitor.cycle(&inputs), Decision::Safe { .. }), "the first one");
+    assert!(matches!(monitor.cycle(&inputs).0, Decision::Safe { .. }), "the first one");
     let shorter = Route { closed: false, cross_sections: &cross_sections[..2] };
     assert_eq!(monitor.set_route(&shorter), Ok(()));
 }
 
-/// Times at the limits of 64 bits, forwards and backwards, with every input: no panic, and data that are
-/// not current never come out.
+/// Times at the limits of 64 bits, forwards and backwards, with every input, in one monitor and each alone:
+/// no panic, and data that are not current never come out.
 #[test]
 fn times_at_the_limits_of_64_bits_do_no_harm() {
     let cross_sections = road();
     let times = [i64::MIN, i64::MIN + 1, -1, 0, 1, i64::MAX - 1, i64::MAX];
     let mut buffers = Buffers::new(16, 40);
     let mut monitor = buffers.on(&cross_sections);
-    let world = World::at(0);
     let mut came_out = 0;
     for (now_ns, stamp_ns) in
         times.iter().flat_map(|now_ns| times.map(|stamp_ns| (*now_ns, stamp_ns)))
     {
-        let (now, stamp) = (at(now_ns), at(stamp_ns));
-        let mut station = Station::default();
-        station.take(&monitor.offer(now, 1, Groups::ALL).expect("a station"));
-        station.take(&monitor.tick(now));
-        for (group, session) in Group::ALL.into_iter().zip(station.sessions) {
-            let Some(session) = session else { continue };
-            let _done = monitor.confirm(now, 1, group, session).expect("a station");
-        }
-        let items = world.tracks.clone();
-        let session = station.sessions[0].unwrap_or(0);
-        let message = Message { station: 1, session, generated: stamp, stamp, items };
-        let tracks = monitor.tracks(now, message).expect("a station");
-        let tracks = station.accepted(tracks);
-        let mut inputs = Inputs::new(now, world.ego)
-            .detections(stamp, &world.detections)
-            .lead(stamp, Gap::between_bumpers(20.0), 5.0)
-            .local_trajectory(stamp, &world.points);
-        if let Some(tracks) = &tracks {
-            inputs = inputs.remote_tracks(tracks);
-        }
-        if let Decision::Safe { tracks: Some(tracks), .. } = monitor.cycle(&inputs) {
-            let age = i128::from(now_ns) - i128::from(tracks.stamp_ns);
-            assert!((0..=i128::from(100 * MS)).contains(&age));
-            came_out += 1;
-        }
+        came_out += i32::from(comes_out(&mut monitor, now_ns, stamp_ns));
+        let mut buffers = Buffers::new(16, 40);
+        let mut alone = buffers.started_on(&cross_sections);
+        came_out += i32::from(comes_out(&mut alone, now_ns, stamp_ns));
     }
-    assert!(came_out > 0);
+    assert!(came_out >= 5, "{came_out}");
+}
+
+/// Whether tracks come out that a station sends at a time.
+fn comes_out(monitor: &mut Monitor<'_>, now_ns: i64, stamp_ns: i64) -> bool {
+    let world = World::at(0);
+    let (now, stamp) = (at(now_ns), at(stamp_ns));
+    let before = at(now_ns.saturating_sub(500 * MS));
+    let seen = Inputs::new(before, world.ego).detections(before, &world.detections);
+    let _decided = monitor.cycle(&seen);
+    let mut station = Station::default();
+    station.take(&monitor.offer(now, 1, Groups::ALL).expect("a station"));
+    station.take(&monitor.tick(now));
+    for (group, session) in Group::ALL.into_iter().zip(station.sessions) {
+        let Some(session) = session else { continue };
+        let _done = monitor.confirm(now, 1, group, session).expect("a station");
+    }
+    let items = world.tracks.clone();
+    let session = station.sessions[0].unwrap_or(0);
+    let message = Message { station: 1, session, generated: stamp, stamp, items };
+    let tracks = monitor.tracks(now, message).expect("a station");
+    let tracks = station.accepted(tracks);
+    let mut inputs = Inputs::new(now, world.ego)
+        .detections(stamp, &world.detections)
+        .lead(stamp, Gap::between_bumpers(20.0), 5.0)
+        .local_trajectory(stamp, &world.points);
+    if let Some(tracks) = &tracks {
+        inputs = inputs.remote_tracks(tracks);
+    }
+    let (Decision::Safe { tracks: Some(tracks), .. }, _) = monitor.cycle(&inputs) else {
+        return false;
+    };
+    let age = i128::from(now_ns) - i128::from(tracks.stamp_ns);
+    assert!((0..=i128::from(100 * MS)).contains(&age));
+    true
 }
 
 /// `spec/5-interfaces.md#monitor.8`: results that are made in time and that no cycle can use, because they
@@ -253,7 +286,7 @@ fn results_that_no_cycle_can_use_end_their_session() {
             if let Some(points) = &points {
                 inputs = inputs.remote_trajectory(points);
             }
-            let Decision::Safe { trajectory, actions, .. } = monitor.cycle(&inputs) else {
+            let (Decision::Safe { trajectory, .. }, actions) = monitor.cycle(&inputs) else {
                 panic!("nothing is wrong with what is used");
             };
             assert_eq!(trajectory.is_some(), points.is_some());

@@ -4,6 +4,7 @@
 
 mod again;
 mod dropped;
+mod early;
 mod equal;
 mod kit;
 mod limits;

@@ -9,7 +9,9 @@ use mufasa::offloading::requester::{
 use mufasa::report::{FailedStage, Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Station, World, at, message, road, route, seconds, settings};
+use super::kit::{
+    Buffers, MS, Station, World, at, look_around, message, road, route, seconds, settings,
+};
 use super::plain::check_plainly;
 
 /// The plain record of a world, without history.
@@ -59,13 +61,11 @@ fn period(
     if let Some(points) = &points {
         inputs = inputs.remote_trajectory(points);
     }
-    match monitor.cycle(&inputs) {
-        Decision::Safe { actions, .. } => {
-            station.take(&actions);
-            None
-        }
-        Decision::Unsafe { report, actions } => {
-            station.take(&actions);
+    let (decision, actions) = monitor.cycle(&inputs);
+    station.take(&actions);
+    match decision {
+        Decision::Safe { .. } => None,
+        Decision::Unsafe { report } => {
             let report = report.expect("valid input");
             let rule = report.stages.iter().find_map(|outcome| match outcome {
                 Outcome::Failed(witness) => Some(witness.rule),
@@ -123,7 +123,7 @@ fn a_fallback_cannot_be_thrown_away() {
     assert_eq!(Group::ALL.map(|group| monitor.source(group)), [Source::Local; 2]);
     assert_eq!(monitor.requester().hold_until_ns(), Some(world.now_ns + 10_000 * MS));
     // The same data again: of an ended session, they count as missing.
-    match monitor.cycle(&inputs) {
+    match monitor.cycle(&inputs).0 {
         Decision::Safe { tracks: None, trajectory: None, report, .. } => {
             assert!(report.stages.iter().all(|stage| *stage == Outcome::NotScheduled));
         }
@@ -170,14 +170,14 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
     assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
 }
 
-/// Detections that were not current are no history: the same drive with late scans until its last cycle
-/// is as one without any. `spec/5-interfaces.md#monitor.4`.
+/// Detections that were not current are no history: in the same drive with late scans until its last cycle
+/// no station is asked. `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.11`.
 #[test]
 fn detections_that_were_not_current_are_not_kept() {
     let (end_ns, cross_sections) = (1_100 * MS, road());
     for (late_ns, is_safe) in [(100 * MS, false), (100 * MS + 1, true)] {
         let mut buffers = Buffers::new(16, 40);
-        let mut monitor = buffers.on(&cross_sections);
+        let mut monitor = buffers.started_on(&cross_sections);
         let mut station = Station::default();
         let mut last = None;
         for i in 0..=11 {
@@ -192,9 +192,13 @@ fn detections_that_were_not_current_are_not_kept() {
             if let (11, Some(tracks), Some(points)) = (i, &tracks, &points) {
                 inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
             }
-            last = Some(matches!(monitor.cycle(&inputs), Decision::Safe { .. }));
+            let (decision, actions) = monitor.cycle(&inputs);
+            last = Some(matches!(decision, Decision::Safe { .. }));
+            station.take(&actions);
         }
         assert_eq!(last, Some(is_safe), "{late_ns} ns late");
+        assert_eq!(station.sessions, [None; 2], "released, or never asked");
+        assert_eq!(monitor.requester().sessions() == 0, is_safe, "{late_ns} ns late");
     }
 }
 
@@ -217,17 +221,18 @@ fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     assert_eq!(last, Some(Vec::new()), "the plain requester uses it");
 
     let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(settings()).expect("a monitor");
+    let cross_sections = road();
+    let mut monitor = buffers.on(&cross_sections);
     let now = Time::from_microseconds(now_us).expect("a time");
+    look_around(&mut monitor, now.as_nanoseconds(), World::at);
     let generated = Time::from_microseconds(generated_us).expect("a time");
     let _none = monitor.offer(now, 1, Groups::ALL).expect("a station");
     let _requests = monitor.tick(now);
     let _none = monitor.confirm(now, 1, Group::Mot, 1).expect("a station");
     let old = Message { generated, ..message(1, now, Vec::new()) };
-    match monitor.tracks(now, old).expect("a station") {
-        Arrival::Dropped { actions, .. } => assert_eq!(actions.len(), 2, "dropped and released"),
-        Arrival::Accepted(element) => panic!("{element:?}"),
-    }
+    let (arrival, actions) = monitor.tracks(now, old).expect("a station");
+    assert!(matches!(arrival, Arrival::Dropped { .. }), "{arrival:?}");
+    assert_eq!(actions.len(), 2, "dropped and released");
 }
 
 /// A gap of 10 m bumper to bumper, below s_follow at 5 m/s behind a car that stands, is 13.65 m from the
@@ -263,20 +268,20 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let first = first.expect("accepted");
     let repeated = message(session, now, world.points.clone());
     let repeated = monitor.trajectory(now, repeated).expect("a station");
-    assert!(matches!(repeated, Arrival::Dropped { why: DropReason::NotNewer, .. }), "twice");
+    assert!(matches!(repeated.0, Arrival::Dropped { why: DropReason::NotNewer }), "twice");
     let other = message(session + 7, now, world.points.clone());
     let other = monitor.trajectory(now, other).expect("a station");
     assert!(
-        matches!(other, Arrival::Dropped { why: DropReason::OtherSession, .. }),
+        matches!(other.0, Arrival::Dropped { why: DropReason::OtherSession }),
         "of another session"
     );
     let world = World::at(320 * MS);
     let now = at(world.now_ns);
     let newer = monitor.trajectory(now, message(session, now, world.points.clone()));
-    let Ok(Arrival::Accepted(newer)) = newer else { panic!("in time and newer") };
+    let Ok((Arrival::Accepted(newer), _)) = newer else { panic!("in time and newer") };
     let come_out = |monitor: &mut Monitor<'_>, token| {
         let own = Inputs::new(now, world.ego).detections(now, &world.detections);
-        match monitor.cycle(&own.remote_trajectory(token)) {
+        match monitor.cycle(&own.remote_trajectory(token)).0 {
             Decision::Safe { trajectory, .. } => trajectory.map(|it| it.stamp_ns),
             Decision::Unsafe { report, .. } => panic!("{report:?}"),
         }
@@ -285,10 +290,11 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     assert_eq!(come_out(&mut monitor, &newer), Some(world.now_ns));
     let now = at(400 * MS);
     let nothing = message(session, now, Vec::<TrajectoryPoint>::new());
-    let Ok(Arrival::Accepted(nothing)) = monitor.trajectory(now, nothing) else { panic!("empty") };
+    let arrival = monitor.trajectory(now, nothing);
+    let Ok((Arrival::Accepted(nothing), _)) = arrival else { panic!("empty") };
     let inputs = Inputs::new(now, world.ego).remote_trajectory(&nothing);
-    match monitor.cycle(&inputs) {
-        Decision::Unsafe { report: Ok(report), .. } => {
+    match monitor.cycle(&inputs).0 {
+        Decision::Unsafe { report: Ok(report) } => {
             assert_eq!(report.failed_stage, Some(FailedStage::Input), "empty");
         }
         decision => panic!("{decision:?}"),

@@ -104,6 +104,9 @@ impl<'a> Plain<'a> {
         for group in self.returning(&event) {
             self.hold(t_ns, group);
         }
+        if kind == EventKind::Tick && !self.has_seen_enough(t_ns) {
+            self.requester.hold(t_ns.saturating_add(1));
+        }
         let actions = self.requester.step(&event).expect("a station").to_vec();
         if let EventKind::Data { group, session, generated_ns, .. } = kind
             && !actions.contains(&Action::Drop(group))
@@ -119,6 +122,14 @@ impl<'a> Plain<'a> {
             }
         }
         actions
+    }
+
+    /// Whether H-13 would have a list to judge motion by.
+    fn has_seen_enough(&self, t_ns: i64) -> bool {
+        let age_ns = |stamp_ns: i64| i128::from(t_ns) - i128::from(stamp_ns);
+        let usable = i128::from(500 * MS)..=i128::from(1000 * MS);
+        self.settings.profile == Profile::Paper
+            || self.kept.iter().any(|(stamp_ns, _)| usable.contains(&age_ns(*stamp_ns)))
     }
 
     /// The groups that are remote before an event and not after it, or then by another session.

@@ -2,76 +2,140 @@
 //! earlier life.
 
 use mufasa::monitor::{Decision, Inputs, Monitor, Settings};
+use mufasa::offloading::requester::Groups;
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{Buffers, MS, Points, Station, Tracks, World, at, message, road, route, settings};
 
-/// A cycle on these elements; how many remote data come out.
-fn cycle(
-    monitor: &mut Monitor<'_>,
-    station: &mut Station,
-    world: &World,
-    (tracks, points): (&Tracks, &Points),
-) -> usize {
-    let now = at(world.now_ns);
-    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-    if let Some(tracks) = tracks {
-        inputs = inputs.remote_tracks(tracks);
-    }
-    if let Some(points) = points {
-        inputs = inputs.remote_trajectory(points);
-    }
-    match monitor.cycle(&inputs) {
-        Decision::Safe { tracks, trajectory, actions, .. } => {
-            station.take(&actions);
-            usize::from(tracks.is_some()) + usize::from(trajectory.is_some())
+/// The station, and what is left of the vehicle's earlier lives.
+#[derive(Default)]
+struct Left {
+    station: Station,
+    /// Of the life before, which the station goes on with for a while.
+    sessions: [Option<i64>; 2],
+    kept: (Tracks, Points),
+}
+
+impl Left {
+    /// A life from one ms to another, in periods of 100 ms from its start on: when a cycle first had remote
+    /// data of both groups, ms. What is of the life before is never used.
+    fn live(&mut self, monitor: &mut Monitor<'_>, [from, to]: [i64; 2]) -> Option<i64> {
+        let (mut fresh, mut first): ((Tracks, Points), _) = ((None, None), None);
+        for ms in from..to {
+            let world = World::at(ms * MS);
+            let now = at(world.now_ns);
+            match (ms - from) % 100 {
+                0 => {
+                    let actions = monitor.offer(now, 1, Groups::ALL).expect("a station");
+                    self.station.take(&actions);
+                }
+                10 => {
+                    for (group, session) in std::mem::take(&mut self.station.asked) {
+                        let actions = monitor.confirm(now, 1, group, session).expect("a station");
+                        self.station.take(&actions);
+                    }
+                }
+                20 => self.station.take(&monitor.tick(now)),
+                30 => fresh = self.results(monitor, &world),
+                60 => {
+                    let kept = std::mem::take(&mut self.kept);
+                    assert_eq!(self.cycle(monitor, &world, &kept), 0, "of the life before");
+                    self.kept = kept;
+                    match self.cycle(monitor, &world, &fresh) {
+                        0 => assert_eq!(first, None, "offloaded, and at {ms} not any more"),
+                        out => first = first.or((out == 2).then_some(ms)),
+                    }
+                }
+                _ => {}
+            }
         }
-        Decision::Unsafe { report, .. } => panic!("{report:?}"),
+        self.sessions = std::mem::take(&mut self.station).sessions;
+        self.kept = fresh;
+        first
+    }
+
+    /// What comes of the sessions before, and of the running ones.
+    fn results(&mut self, monitor: &mut Monitor<'_>, world: &World) -> (Tracks, Points) {
+        let [[old_mot, old_plan], [mot, plan]] = [self.sessions, self.station.sessions];
+        let mut come = |mot: Option<i64>, plan: Option<i64>| {
+            let now = at(world.now_ns);
+            let tracks = mot.map(|it| message(it, now, world.tracks.clone()));
+            let tracks = tracks.map(|it| monitor.tracks(now, it).expect("a station"));
+            let points = plan.map(|it| message(it, now, world.points.clone()));
+            let points = points.map(|it| monitor.trajectory(now, it).expect("a station"));
+            let station = &mut self.station;
+            let tracks = tracks.and_then(|it| station.accepted(it));
+            (tracks, points.and_then(|it| station.accepted(it)))
+        };
+        assert!(matches!(come(old_mot, old_plan), (None, None)), "of the life before");
+        come(mot, plan)
+    }
+
+    /// A cycle on these elements; how many remote data come out.
+    fn cycle(
+        &mut self,
+        monitor: &mut Monitor<'_>,
+        world: &World,
+        (tracks, points): &(Tracks, Points),
+    ) -> usize {
+        let now = at(world.now_ns);
+        let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+        if let Some(tracks) = tracks {
+            inputs = inputs.remote_tracks(tracks);
+        }
+        if let Some(points) = points {
+            inputs = inputs.remote_trajectory(points);
+        }
+        let (decision, actions) = monitor.cycle(&inputs);
+        self.station.take(&actions);
+        match decision {
+            Decision::Safe { tracks, trajectory, .. } => {
+                usize::from(tracks.is_some()) + usize::from(trajectory.is_some())
+            }
+            Decision::Unsafe { report } => panic!("{report:?}"),
+        }
     }
 }
 
-/// `spec/5-interfaces.md#monitor.7`, and `spec/5-interfaces.md#monitor.1`: until both groups are
-/// confirmed again no remote data come out, neither those kept from before nor late messages of the
-/// sessions before; then they do.
+/// `spec/5-interfaces.md#monitor.7`, and `spec/5-interfaces.md#monitor.1`: killed at each ms of a period, and
+/// again in the same way, each life reaches offloading as soon as the first: asked at its tick after
+/// half a second was seen, confirmed in the next period.
 #[test]
-fn killed_and_started_again_offloading_is_reached_anew() {
+fn killed_at_any_ms_and_started_again_offloading_is_reached_anew() {
     let cross_sections = road();
-    for killed_after in 0..12 {
+    for killed_at in 0..100 {
         let mut buffers = Buffers::new(16, 40);
-        let mut station = Station::default();
-        let mut kept = (None, None);
+        let mut left = Left::default();
         let mut sessions_before = 0;
-        {
-            let mut monitor = buffers.on(&cross_sections);
-            for i in 0..killed_after {
-                let world = World::at(100 * i * MS);
-                kept = station.period(&mut monitor, &world);
-                let out = cycle(&mut monitor, &mut station, &world, (&kept.0, &kept.1));
-                assert_eq!(out, if i < 1 { 0 } else { 2 }, "requests, then data");
-                sessions_before = monitor.requester().sessions();
-            }
+        for life in 0..3 {
+            let from = life * (1_000 + killed_at);
+            let settings = Settings { sessions_before, ..settings() };
+            let mut monitor = buffers.monitor(settings).expect("a monitor");
+            monitor.set_route(&route(&cross_sections)).expect("a route");
+            let first = left.live(&mut monitor, [from, from + 1_000 + killed_at]);
+            assert_eq!(first, Some(from + 760), "life {life}, killed at {killed_at}");
+            assert_eq!(monitor.configuration(), Configuration::AllRemote);
+            sessions_before += 2;
+            assert_eq!(monitor.requester().sessions(), sessions_before);
         }
+    }
+}
+
+/// Killed before anything was offloaded, while it was asked for, and after: the next life does not mind.
+#[test]
+fn killed_before_it_is_offloaded_it_is_offloaded_in_the_next_life() {
+    let cross_sections = road();
+    for killed_at in (0..1_000).step_by(7) {
+        let mut buffers = Buffers::new(16, 40);
+        let mut left = Left::default();
+        let mut monitor = buffers.started_on(&cross_sections);
+        let first = left.live(&mut monitor, [0, killed_at]);
+        assert_eq!(first, (killed_at > 760).then_some(760));
+        let sessions_before = monitor.requester().sessions();
         let settings = Settings { sessions_before, ..settings() };
         let mut monitor = buffers.monitor(settings).expect("a monitor");
         monitor.set_route(&route(&cross_sections)).expect("a route");
-        let [old_mot, old_plan] = station.sessions;
-        let mut station = Station::default();
-        for i in killed_after..killed_after + 5 {
-            let world = World::at(100 * i * MS);
-            let now = at(world.now_ns);
-            let fresh = station.period(&mut monitor, &world);
-            for session in [old_mot, old_plan].into_iter().flatten() {
-                let late = monitor.tracks(now, message(session, now, world.tracks.clone()));
-                assert_eq!(station.accepted(late.expect("a station")).map(|_| ()), None);
-                let late = monitor.trajectory(now, message(session, now, world.points.clone()));
-                assert_eq!(station.accepted(late.expect("a station")).map(|_| ()), None);
-            }
-            assert_eq!(cycle(&mut monitor, &mut station, &world, (&kept.0, &kept.1)), 0);
-            let again = (&fresh.0, &fresh.1);
-            let out = cycle(&mut monitor, &mut station, &world, again);
-            assert_eq!(out, if i < killed_after + 1 { 0 } else { 2 });
-        }
-        assert_eq!(monitor.configuration(), Configuration::AllRemote);
-        assert_eq!(monitor.requester().sessions(), sessions_before + 2);
+        let first = left.live(&mut monitor, [killed_at, killed_at + 1_000]);
+        assert_eq!(first, Some(killed_at + 760), "killed at {killed_at}");
     }
 }

@@ -33,11 +33,11 @@ fn a_monitor_fits_into_a_stack_of_32_kib() {
         let now = at(world.now_ns);
         let _actions = monitor.tick(now);
         let arrival = monitor.tracks(now, message(session, now, tracks)).expect("a station");
-        let Arrival::Accepted(tracks) = arrival else { panic!("{arrival:?}") };
+        let (Arrival::Accepted(tracks), _) = arrival else { panic!("{arrival:?}") };
         let own = Inputs::new(now, world.ego).detections(now, &world.detections);
-        match monitor.cycle(&own.remote_tracks(&tracks)) {
+        match monitor.cycle(&own.remote_tracks(&tracks)).0 {
             Decision::Safe { tracks, .. } => tracks.map(|list| list.items.len()),
-            Decision::Unsafe { report, .. } => panic!("{report:?}"),
+            Decision::Unsafe { report } => panic!("{report:?}"),
         }
     };
     let thread = thread::Builder::new().stack_size(STACK).spawn(run).expect("a thread");

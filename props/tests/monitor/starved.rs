@@ -4,7 +4,9 @@
 use mufasa::monitor::{Decision, Inputs, Message, Monitor};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Points, Station, Tracks, World, at, message, road, settings};
+use super::kit::{
+    Buffers, MS, Points, Station, Tracks, World, at, look_around, message, road, settings,
+};
 
 const PERIOD_NS: i64 = 100 * MS;
 
@@ -57,8 +59,8 @@ fn period(
     if let Some(points) = &points {
         inputs = inputs.remote_trajectory(points);
     }
-    let decision = monitor.cycle(&inputs);
-    let Decision::Safe { tracks, trajectory, actions, .. } = decision else {
+    let (decision, actions) = monitor.cycle(&inputs);
+    let Decision::Safe { tracks, trajectory, .. } = decision else {
         panic!("{habit:?} at {start_ns}: {decision:?}");
     };
     station.take(&actions);
@@ -82,10 +84,15 @@ fn drive(habit: impl Fn(i64) -> Habit) -> (i64, Option<i64>, [bool; 2]) {
         }
         if monitor.configuration() == Configuration::Local {
             assert_eq!(station.released, 2, "both groups, once");
+            let end_ns = start_ns + habit.latency_ns;
+            let again_ns = end_ns + 9 * (end_ns - last_ns).max(PERIOD_NS);
+            look_around(&mut monitor, again_ns, World::at);
+            station.take(&monitor.tick(at(again_ns - 1)));
+            assert_eq!(station.asked, [], "{habit:?}: not before {again_ns}");
             // The next session is no worse for it.
-            let _last_ns = begin(&mut monitor, &mut station, (i + 1) * PERIOD_NS);
+            let _last_ns = begin(&mut monitor, &mut station, again_ns);
             assert_eq!(monitor.configuration(), Configuration::AllRemote);
-            return (last_ns, Some(start_ns + habit.latency_ns), out);
+            return (last_ns, Some(end_ns), out);
         }
     }
     (last_ns, None, out)

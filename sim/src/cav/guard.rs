@@ -9,7 +9,7 @@ use mufasa::monitor::{
     Time,
 };
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
+    Action, Actions, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
     StationRecord,
 };
 use mufasa::report::{FailedStage, InvalidInput, Report};
@@ -240,15 +240,16 @@ impl<'a> Guard<'a> {
                 let inputs = inputs(t_ns, ego, sensed, local);
                 let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);
                 let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
-                match monitor.cycle(&inputs) {
-                    Decision::Safe { tracks, trajectory, report, actions } => Decided {
+                let (decision, actions) = monitor.cycle(&inputs);
+                match decision {
+                    Decision::Safe { tracks, trajectory, report } => Decided {
                         is_safe: true,
                         report: Some(Ok(report)),
                         trajectory: trajectory.map(|it| it.points.to_vec()),
                         tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
                         actions: actions.to_vec(),
                     },
-                    Decision::Unsafe { report, actions } => Decided {
+                    Decision::Unsafe { report } => Decided {
                         is_safe: false,
                         report: Some(report),
                         trajectory: None,
@@ -306,14 +307,14 @@ fn keep<T>(
     Ok(actions)
 }
 
-fn accept<T>(arrival: Arrival<Vec<T>>, kept: &mut Option<Accepted<Vec<T>>>) -> Vec<Action> {
-    match arrival {
-        Arrival::Accepted(element) => {
-            *kept = Some(element);
-            Vec::new()
-        }
-        Arrival::Dropped { actions, .. } => actions.to_vec(),
+fn accept<T>(
+    (arrival, actions): (Arrival<Vec<T>>, Actions),
+    kept: &mut Option<Accepted<Vec<T>>>,
+) -> Vec<Action> {
+    if let Arrival::Accepted(element) = arrival {
+        *kept = Some(element);
     }
+    actions.to_vec()
 }
 
 fn inputs<'c>(t_ns: i64, ego: Ego, sensed: &'c Sensed, local: Local<'c>) -> Inputs<'c> {
