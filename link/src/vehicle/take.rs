@@ -1,6 +1,6 @@
 //! What a vehicle does with what it receives.
 
-use mufasa::monitor::{Accepted, Arrival, Message as Received};
+use mufasa::monitor::{Accepted, Arrival, DropReason, Message as Received};
 use mufasa::offloading::requester::{GroupState, RequesterError};
 use mufasa::services::configuration::Group;
 
@@ -88,12 +88,32 @@ impl<T: Transport> Vehicle<'_, T> {
                 self.tally.accepted(group, latency_ns);
                 return Some(element);
             }
-            Ok(Arrival::Dropped { actions, .. }) => {
-                self.answered(now_ns, before, Ok(actions), "late");
+            Ok(Arrival::Dropped { why, actions }) => {
+                let what = match group {
+                    Group::Mot => "tracks",
+                    Group::Plan => "trajectory",
+                };
+                self.tally.traffic().dropped(&format!("{what}: {why}"));
+                self.answered(now_ns, before, Ok(actions), left_for(why));
             }
-            Err(error) => self.answered(now_ns, before, Err(error), "late"),
+            // It names no station, and has changed nothing.
+            Err(error) => self.answered(now_ns, before, Err(error), "no station"),
         }
         None
+    }
+}
+
+/// Why a session ended with a result that is of no use; most of them end none.
+const fn left_for(why: DropReason) -> &'static str {
+    match why {
+        DropReason::Late => "late",
+        DropReason::FromTheFuture => "from the future",
+        DropReason::AfterSilence => "silent",
+        DropReason::TooLong
+        | DropReason::OtherSession
+        | DropReason::TooOld
+        | DropReason::Starved
+        | DropReason::NotNewer => "of no use",
     }
 }
 
