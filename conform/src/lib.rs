@@ -72,6 +72,7 @@ pub fn run(
             "{}: the records, shrunk where that was possible",
             files.reproducers.display()
         )?;
+        writeln!(out, "what each rule means: docs/conformance.md, section 3")?;
     }
     if summary.interrupted {
         return Ok(INTERRUPTED);

@@ -28,7 +28,7 @@ struct Data {
 impl Decision {
     pub fn new(py: Python<'_>, calls: &Calls, decision: &NativeDecision<'_>) -> PyResult<Self> {
         let call = || calls.current();
-        let actions = |actions: &[_]| Py::new(py, Actions::new(actions));
+        let actions = |actions: &[_]| Py::new(py, Actions::new(actions, None));
         let report = |report| {
             let report = bridge::report_from_impl(report);
             verdict(py, String::new(), report).map(Bound::unbind)
