@@ -138,7 +138,7 @@ fn a_norm_in_doubles_is_found_by_the_vectors_and_hidden_by_a_tolerance() {
     let run = |name: &str, more: &[&str]| {
         let folder = folder(name);
         let least = ["--kinds", "cycle", "--cases", "0", "--profile", "paper"];
-        let options = [&least, &["--time-limit", "60000"], more].concat();
+        let options = [&least[..], &["--time-limit", "60000"], more].concat();
         let output = with_vectors(&folder, &options, &["python3", "-c", IN_DOUBLES, programs]);
         (output.status.code(), text(&output), folder)
     };
