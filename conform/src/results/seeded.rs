@@ -102,18 +102,19 @@ fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
             "{cases} random cases find {count} with a chance of at least {LIKELY} % ({seeds} seeds)"
         ));
     }
-    let mut text = format!(
-        "what that means: of {} bugs seeded in programs, of this profile and these kinds, {};\n",
-        bugs.len(),
-        ways.join(", ")
-    );
-    if cases > 0 {
-        text += &format!("least likely by the cases: {};\n", least_likely(&bugs, cases));
-    }
     let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
     let missed: Vec<&str> = missed.map(|bug| bug.name.as_str()).collect();
     let missed = if missed.is_empty() { String::from("none") } else { missed.join(", ") };
-    Some(text + "found in neither way: " + &missed)
+    let least = match cases {
+        0 => String::new(),
+        _ => format!("least likely by the cases: {};\n", least_likely(&bugs, cases)),
+    };
+    Some(format!(
+        "what that means: of {} bugs seeded in programs, of this profile and these kinds, {};\n\
+         {least}found in neither way: {missed}",
+        bugs.len(),
+        ways.join(", ")
+    ))
 }
 
 /// The bugs that so many cases find with the lowest chances, and how many more are not sure.
