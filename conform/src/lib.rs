@@ -45,8 +45,8 @@ const BAD_INPUT: u8 = 2;
 /// Ended before its end, as a shell says it of a program that Ctrl-C ends.
 pub const INTERRUPTED: u8 = 130;
 
-/// Runs a campaign or a shard of it: writes what is found to `out` as it is found, and the files
-/// at the end, which comes early when `stop` is set. Returns the exit code: 0 without a
+/// Runs a campaign or a shard of it: names to `out` what is found as it is found, and writes the
+/// report and the files at the end, which comes early when `stop` is set. Returns the exit code: 0 without a
 /// disagreement, 1 with one, 2 when some file could not be read or nothing was compared, 130 when
 /// it was interrupted. Errors: bad usage.
 pub fn run(
@@ -72,6 +72,7 @@ pub fn run(
             "{}: the records, shrunk where that was possible",
             files.reproducers.display()
         )?;
+        writeln!(out, "what each rule means: docs/conformance.md, section 3")?;
     }
     if summary.interrupted {
         return Ok(INTERRUPTED);
@@ -92,13 +93,6 @@ pub fn merge(
     out: &mut impl Write,
 ) -> Result<u8, ConformError> {
     let summary = Summary::merge(inputs)?;
-    for (at, found) in summary.classes.iter().enumerate() {
-        if summary.classes[..at].iter().any(|it| it.class.is_of_rule(&found.class)) {
-            results::report::further(found, out)?;
-        } else {
-            results::report::found(found, out)?;
-        }
-    }
     results::report::end(&summary, out)?;
     if let Some(folder) = folder {
         Files::prepare(folder, None)?.write(&summary)?;

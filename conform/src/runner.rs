@@ -101,8 +101,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Asks all vectors, then all cases; prints the first class of each rule with its smallest case as it is found,
-    /// and the names of the others.
+    /// Asks all vectors, then all cases; prints the name of the first class of each rule as it is found.
     /// Errors: the program cannot be started again, `out` cannot be written.
     pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
         let (first, step) = self.settings.shard.unwrap_or((0, 1));
@@ -297,10 +296,9 @@ impl<'a> Runner<'a> {
                 let (count, first) = of_class.map_or((0, None), |it| (it.count, it.first));
                 let vectors = of_class.map_or_else(Vec::new, |it| it.vectors.clone());
                 let is_new = !self.classes.keys().any(|it| it.is_of_rule(class));
-                let print = |out: &mut _| {
-                    if is_new { report::found(&found, out) } else { report::further(&found, out) }
-                };
-                self.bar.suspend(|| print(out).and_then(|()| out.flush()))?;
+                if is_new {
+                    self.bar.suspend(|| report::noticed(&found, out).and_then(|()| out.flush()))?;
+                }
                 self.classes.insert(class.clone(), Found { count, vectors, first, ..found });
             }
             self.bar.set_message("");

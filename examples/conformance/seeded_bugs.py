@@ -73,6 +73,12 @@ BUGS = [
     python("key-twice", "mufasa_py.py",
            'return dict(pairs) if len(dict(pairs)) == len(pairs) else {**dict(pairs), "twice": None}',
            "return dict(pairs)", "of a key that stands twice the last value counts", "line"),
+    python("norm-in-doubles", "record.py",
+           """        norm = Fraction(item["cos"])**2 + Fraction(item["sin"])**2
+        if abs(norm - 1) > Fraction(1e-6):""",
+           """        norm = item["cos"] * item["cos"] + item["sin"] * item["sin"]
+        if abs(norm - 1) > 1e-6:""",
+           "cos^2 + sin^2 of a direction is computed and compared in doubles"),
     hardened("any-number-missed", "hardened.py", 'spare = min(parameters["miss_budget"], backed)',
              "spare = backed", "H-01: any number of backed tracks may be left out"),
     hardened("no-shift", "detection_history.py", 'if received and now["detections"]:', "if False:",

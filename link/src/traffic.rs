@@ -20,7 +20,8 @@ pub struct Traffic {
     pub unsent: Counts,
     /// Messages that could be read, by kind.
     pub received: Counts,
-    /// What of that was not used: results of no running session, late or repeated; messages for others.
+    /// What of that was not used: results with the reason of the monitor, such as `tracks: latency above
+    /// l_max`; messages for others.
     pub dropped: Counts,
     /// Bytes that are no message, by what is wrong.
     pub malformed: Counts,

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use mufasa::monitor::DropReason;
 use mufasa::offloading::requester::Action as NativeAction;
 use mufasa_model::offloading::requester::Action;
 use mufasa_props::bridge;
@@ -13,14 +14,16 @@ use pyo3::types::{PyIterator, PyList};
 /// or indexed; a monitor takes no further call before.
 #[pyclass(frozen, module = "mufasa")]
 pub struct Actions {
-    actions: Vec<Action>,
+    items: Vec<Action>,
+    /// Why the element that arrived is of no use, if there is one.
+    why: Option<DropReason>,
     taken: AtomicBool,
 }
 
 impl Actions {
-    pub fn new(actions: &[NativeAction]) -> Self {
-        let actions: Vec<Action> = actions.iter().copied().map(bridge::action_from_impl).collect();
-        Self { taken: AtomicBool::new(actions.is_empty()), actions }
+    pub fn new(actions: &[NativeAction], why: Option<DropReason>) -> Self {
+        let items: Vec<Action> = actions.iter().copied().map(bridge::action_from_impl).collect();
+        Self { taken: AtomicBool::new(items.is_empty()), items, why }
     }
 
     pub fn are_taken(&self) -> bool {
@@ -28,7 +31,8 @@ impl Actions {
     }
 
     fn list<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let actions: PyResult<Vec<_>> = self.actions.iter().map(|it| action(py, it)).collect();
+        let actions = self.items.iter().map(|it| action(py, it, self.why));
+        let actions: PyResult<Vec<_>> = actions.collect();
         PyList::new(py, actions?)
     }
 
@@ -41,7 +45,7 @@ impl Actions {
 #[pymethods]
 impl Actions {
     fn __len__(&self) -> usize {
-        self.actions.len()
+        self.items.len()
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
@@ -57,8 +61,12 @@ impl Actions {
     }
 }
 
-/// An action as Python's.
-fn action<'py>(py: Python<'py>, action: &Action) -> PyResult<Bound<'py, PyAny>> {
+/// An action as Python's; `why` of an element that is dropped.
+fn action<'py>(
+    py: Python<'py>,
+    action: &Action,
+    why: Option<DropReason>,
+) -> PyResult<Bound<'py, PyAny>> {
     let class = |name| py.import("mufasa._types")?.getattr(name);
     match *action {
         Action::Request { station, group, session } => {
@@ -69,6 +77,20 @@ fn action<'py>(py: Python<'py>, action: &Action) -> PyResult<Bound<'py, PyAny>> 
         }
         Action::Activate(group) => class("Activate")?.call1((names::group(group),)),
         Action::Deactivate(group) => class("Deactivate")?.call1((names::group(group),)),
-        Action::Drop(group) => class("Drop")?.call1((names::group(group),)),
+        Action::Drop(group) => class("Drop")?.call1((names::group(group), why.map(word))),
+    }
+}
+
+/// As `DropReason` of `mufasa._types` has it.
+const fn word(why: DropReason) -> &'static str {
+    match why {
+        DropReason::TooLong => "too_long",
+        DropReason::OtherSession => "other_session",
+        DropReason::FromTheFuture => "from_the_future",
+        DropReason::Late => "late",
+        DropReason::TooOld => "too_old",
+        DropReason::Starved => "starved",
+        DropReason::AfterSilence => "after_silence",
+        DropReason::NotNewer => "not_newer",
     }
 }

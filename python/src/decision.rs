@@ -33,7 +33,7 @@ impl Decision {
         (decision, to_do): &(NativeDecision<'_>, NativeActions),
     ) -> PyResult<Self> {
         let call = || calls.current();
-        let actions = Py::new(py, Actions::new(to_do))?;
+        let actions = Py::new(py, Actions::new(to_do, None))?;
         let report = |report| {
             let report = bridge::report_from_impl(report);
             verdict(py, String::new(), report).map(Bound::unbind)

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
-    Accepted, Arrival, Message, Monitor as NativeMonitor, MonitorError, Settings,
+    Accepted, Arrival, DropReason, Message, Monitor as NativeMonitor, MonitorError, Settings,
     Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
@@ -157,8 +157,8 @@ impl Monitor {
         let (generated, stamp) = (generated.time, stamp.time);
         let message = Message { station, session, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.tracks(now.time, message));
-        let to_do = take(arrival.map_err(refused)?, &mut self.tracks);
-        self.told(py, now.time, &to_do)
+        let (to_do, why) = take(arrival.map_err(refused)?, &mut self.tracks);
+        self.told(py, now.time, &to_do, why)
     }
 
     /// A trajectory of a station arrives; it is copied.
@@ -178,8 +178,8 @@ impl Monitor {
         let (generated, stamp) = (generated.time, stamp.time);
         let message = Message { station, session, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.trajectory(now.time, message));
-        let to_do = take(arrival.map_err(refused)?, &mut self.trajectory);
-        self.told(py, now.time, &to_do)
+        let (to_do, why) = take(arrival.map_err(refused)?, &mut self.trajectory);
+        self.told(py, now.time, &to_do, why)
     }
 
     /// Decides on the inputs and tells the requester: to be called in each period, offloading or not.
@@ -282,13 +282,19 @@ impl Monitor {
     ) -> PyResult<Py<Actions>> {
         self.begin(py)?;
         let to_do = self.place.with_dependent_mut(|_, monitor| call(monitor, now.time));
-        self.told(py, now.time, &to_do.map_err(refused)?)
+        self.told(py, now.time, &to_do.map_err(refused)?, None)
     }
 
-    /// What has to be done about a call that was taken.
-    fn told(&mut self, py: Python<'_>, now: NativeTime, to_do: &[Action]) -> PyResult<Py<Actions>> {
+    /// What has to be done about a call that was taken, and why an element is of no use.
+    fn told(
+        &mut self,
+        py: Python<'_>,
+        now: NativeTime,
+        to_do: &[Action],
+        why: Option<DropReason>,
+    ) -> PyResult<Py<Actions>> {
         self.last = now;
-        let actions = Py::new(py, Actions::new(to_do))?;
+        let actions = Py::new(py, Actions::new(to_do, why))?;
         self.to_do = Some(actions.clone_ref(py));
         Ok(actions)
     }
@@ -304,15 +310,19 @@ impl Monitor {
     }
 }
 
-/// Keeps an element that was accepted; what has to be done.
+/// Keeps an element that was accepted; what has to be done, and why one was not.
 fn take<L>(
     (arrival, actions): (Arrival<L>, NativeActions),
     last: &mut Option<Accepted<L>>,
-) -> Vec<Action> {
-    if let Arrival::Accepted(element) = arrival {
-        *last = Some(element);
-    }
-    actions.to_vec()
+) -> (Vec<Action>, Option<DropReason>) {
+    let why = match arrival {
+        Arrival::Accepted(element) => {
+            *last = Some(element);
+            None
+        }
+        Arrival::Dropped { why } => Some(why),
+    };
+    (actions.to_vec(), why)
 }
 
 fn set(groups: &[String]) -> PyResult<Groups> {

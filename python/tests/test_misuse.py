@@ -11,7 +11,18 @@ from typing import Any
 import mufasa
 import pytest
 from conftest import PERIOD, Scene, at
-from mufasa import Detections, Drop, Gap, InvalidInput, Lead, Monitor, Release, Time, Tracks
+from mufasa import (
+    Detections,
+    Drop,
+    DropReason,
+    Gap,
+    InvalidInput,
+    Lead,
+    Monitor,
+    Release,
+    Time,
+    Tracks,
+)
 
 
 def test_nothing_of_an_unsafe_cycle_can_be_had(scene: Scene) -> None:
@@ -159,7 +170,7 @@ def test_requests_and_drops_cannot_be_thrown_away(scene: Scene) -> None:
     late = monitor.tracks(now, station=1, session=7, generated=now, stamp=now, items=[])
     with pytest.raises(mufasa.ActionsNotTaken):
         monitor.tick(at(30))
-    assert list(late) == [Drop("mot")]
+    assert list(late) == [Drop("mot", "other_session")]
     assert not monitor.tick(at(30))
 
 
@@ -261,24 +272,41 @@ def test_no_message_of_an_earlier_life_fits(scene: Scene) -> None:
     dropped = second.tracks(
         now, station=1, session=1, generated=now, stamp=now, items=scene.tracks
     )
-    assert list(dropped) == [Drop("mot")]
+    assert list(dropped) == [Drop("mot", "other_session")]
     running = second.session_of("mot")
     assert running is not None and running == (1, 3)
 
 
-@pytest.mark.parametrize(("generated", "session"), [(at(-50), 1), (at(10), 2), (at(5), 1)])
+@pytest.mark.parametrize(
+    ("why", "ms", "generated", "stamp", "session"),
+    [
+        ("other_session", 10, 10, 10, 2),
+        ("from_the_future", 10, 11, 10, 1),
+        ("late", 10, -50, 10, 1),
+        ("too_old", 10, 10, -500, 1),
+        ("after_silence", 400, 400, 400, 1),
+        ("not_newer", 10, 5, 10, 1),
+    ],
+)
 def test_late_foreign_and_repeated_data_are_not_used(
-    scene: Scene, generated: Time, session: int
+    scene: Scene, why: DropReason, ms: int, generated: int, stamp: int, session: int
 ) -> None:
     monitor = scene.offloading()
     scene.safe(monitor, 5)
-    now = at(10)
-    answer = monitor.tracks(
-        now, station=1, session=session, generated=generated, stamp=now, items=scene.aside
+    actions = monitor.tracks(
+        at(ms),
+        station=1,
+        session=session,
+        generated=at(generated),
+        stamp=at(stamp),
+        items=scene.aside,
     )
-    assert list(answer)[0] == Drop("mot")
+    answer = list(actions)
+    assert [it for it in answer if isinstance(it, Drop)] == [Drop("mot", why)]
+    has_ended = why in ("from_the_future", "late", "after_silence")
+    assert (monitor.session_of("mot") is None) == has_ended
     # The last element that was used still decides, or none after a violation of quality of service.
-    assert scene.decide(monitor, 10).report is not None
+    assert scene.decide(monitor, ms).report is not None
 
 
 def test_results_that_no_cycle_can_use_end_their_session(scene: Scene) -> None:

@@ -6,42 +6,61 @@ use std::io::{self, Write};
 use crate::judge::class::{Breach, Kind, Scale};
 use crate::results::summary::{Found, Summary};
 
-/// So many places of a rule are named.
-const PLACES: usize = 4;
+/// So many places of a rule are named; of lines that are no records, whose places are many and
+/// alike, fewer.
+const PLACES: usize = 5;
+const LINES: usize = 2;
 
-/// Prints a line per rule with its commonest places, and what to mend first.
+/// Of a program that is at its beginning one answer in so many is wrong, or more.
+const BEGINNING: u64 = 5;
+
+/// Prints with what to begin, where much is wrong and less can be asked.
+pub fn begin(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    if is_beginning(summary) && !is_least(summary) {
+        writeln!(out, "\nmuch disagrees; begin with fewer: --profile paper --kinds cycle")?;
+    }
+    Ok(())
+}
+
+/// Prints a line per rule with its commonest places.
 pub fn print(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     for (kind, breach) in rules(summary) {
+        let classes = || {
+            let is_of_rule = |it: &&Found| (it.class.kind, it.class.breach) == (kind, breach);
+            summary.classes.iter().filter(is_of_rule)
+        };
         let mut places: Vec<(&str, u64)> = Vec::new();
-        for found in &summary.classes {
-            let class = &found.class;
-            if (class.kind, class.breach) != (kind, breach) {
-                continue;
-            }
-            match places.iter_mut().find(|(place, _)| *place == class.place) {
+        for found in classes() {
+            match places.iter_mut().find(|(place, _)| *place == found.class.place) {
                 Some((_, count)) => *count += found.count,
-                None => places.push((&class.place, found.count)),
+                None => places.push((&found.class.place, found.count)),
             }
         }
         let count: u64 = places.iter().map(|(_, count)| count).sum();
-        places.sort_by_key(|(_, count)| Reverse(*count));
-        let named = places.iter().filter(|(place, _)| !place.is_empty()).take(PLACES);
-        let mut words: Vec<String> =
-            named.map(|(place, count)| format!("{place} ({count})")).collect();
-        if places.len() > PLACES {
-            words.push(format!("{} more", places.len() - PLACES));
-        }
-        let colon = if words.is_empty() { "" } else { ": " };
+        let is_rounding = |it: &&Found| it.class.scale == Scale::Threshold;
+        let rounding: u64 = classes().filter(is_rounding).map(|it| it.count).sum();
+        let rounding = match rounding {
+            0 => String::new(),
+            some => format!(" ({some} at the threshold)"),
+        };
+        let words = named(places, if kind == Kind::Line { LINES } else { PLACES });
         let (kind, breach) = (kind.name(), breach.name());
-        writeln!(out, "{count:>8} x  {kind} {breach}{colon}{}", words.join(", "))?;
-    }
-    if let Some(first) = first(summary) {
-        writeln!(out, "mend first: {} ({} cases; id {})", first.class, first.count, first.id)?;
-    }
-    if is_beginning(summary) {
-        writeln!(out, "most cases disagree; begin with fewer: --profile paper --kinds cycle")?;
+        writeln!(out, "{count:>8} x  {kind} {breach}{rounding}{words}")?;
     }
     Ok(())
+}
+
+/// The commonest places with their counts, so many at most.
+fn named(mut places: Vec<(&str, u64)>, most: usize) -> String {
+    places.retain(|(place, _)| !place.is_empty());
+    places.sort_by_key(|(_, count)| Reverse(*count));
+    let words: Vec<String> =
+        places.iter().take(most).map(|(place, count)| format!("{place} ({count})")).collect();
+    match places.len().saturating_sub(most) {
+        _ if words.is_empty() => String::new(),
+        0 => format!(": {}", words.join(", ")),
+        more => format!(": {} and {more} more", words.join(", ")),
+    }
 }
 
 /// Kinds and rules that break, in the order of the classes.
@@ -52,21 +71,31 @@ fn rules(summary: &Summary) -> Vec<(Kind, Breach)> {
     rules
 }
 
-/// What to mend first: what gives no answer, then what rounding does not explain, cycles before
-/// other records, the commonest, the smallest.
-fn first(summary: &Summary) -> Option<&Found> {
-    summary.classes.iter().min_by_key(|found| {
+/// One class of each rule, in the order in which to mend them: what gives no answer, then what
+/// rounding does not explain, cycles before other records, the commonest, the smallest.
+pub fn order(summary: &Summary) -> Vec<&Found> {
+    let mut classes: Vec<&Found> = summary.classes.iter().collect();
+    classes.sort_by_key(|found| {
         let class = &found.class;
         let is_threshold = class.scale == Scale::Threshold;
         (!class.breach.is_broken(), is_threshold, class.kind, Reverse(found.count), found.size)
-    })
+    });
+    let mut order: Vec<&Found> = Vec::new();
+    for found in classes {
+        if !order.iter().any(|it| it.class.is_of_rule(&found.class)) {
+            order.push(found);
+        }
+    }
+    order
 }
 
-/// Whether most cases disagree, of more than the smallest task.
-fn is_beginning(summary: &Summary) -> bool {
+/// Whether so many answers are wrong that one record says more than several.
+pub fn is_beginning(summary: &Summary) -> bool {
+    BEGINNING * summary.disagreements() >= summary.asked + summary.vectors && !summary.is_empty()
+}
+
+/// Whether less cannot be asked, or other options would not mean less.
+fn is_least(summary: &Summary) -> bool {
     let campaign = &summary.campaign;
-    let is_least = campaign.profile == "paper" && campaign.kinds == [Kind::Cycle];
-    campaign.drives.is_empty()
-        && !is_least
-        && 2 * summary.disagreements() > summary.asked + summary.vectors
+    !campaign.drives.is_empty() || (campaign.profile == "paper" && campaign.kinds == [Kind::Cycle])
 }

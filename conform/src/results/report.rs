@@ -20,17 +20,20 @@ const TOLERATED: &str = "no disagreement beyond the tolerance (this is not confo
 /// Longest record that is printed; the file has all.
 const MOST: usize = 4000;
 
-/// Prints a class of a rule of which another was printed.
-pub fn further(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, size, unit, .. } = found;
-    let plural = if *size == 1 { "" } else { "s" };
-    writeln!(out, "DISAGREES  {class} ({size} {unit}{plural})")
+/// So many rules are shown with a record, of a program that is nearly right.
+const SHOWN: usize = 3;
+
+/// Prints that a rule broke for the first time; the end shows more.
+pub fn noticed(found: &Found, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "found: {}", found.class)
 }
 
 /// Prints a class with its smallest case.
-pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, id, name, about, told, shrunk, before, size, unit, record, .. } = found;
-    writeln!(out, "\nDISAGREES  {class}")?;
+fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
+    let Found { class, count, id, name, about, told, shrunk, before, size, unit, record, .. } =
+        found;
+    let plural = if *count == 1 { "" } else { "s" };
+    writeln!(out, "DISAGREES  {class}, {count} time{plural}")?;
     writeln!(out, "  program  {}", told.answered)?;
     writeln!(out, "  exact    {}", told.expected)?;
     if let Some(numbers) = &told.numbers {
@@ -67,16 +70,32 @@ pub fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-/// Prints what was asked, the rules that broke with their counts, what to mend first, one sentence,
+/// Prints what to mend first, the rules that broke with their counts, what was asked, one sentence,
 /// and what a clean run means.
 pub fn end(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    wrong(summary, out)?;
     counts(summary, out)?;
     seeded::words(summary).map_or(Ok(()), |words| writeln!(out, "{words}"))
 }
 
+/// The class to mend first, with its record, and of a program that is nearly right one of each of a
+/// few rules; then all rules.
+fn wrong(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    advice::begin(summary, out)?;
+    let order = advice::order(summary);
+    let shown = if advice::is_beginning(summary) { 1 } else { SHOWN };
+    for (at, class) in order.iter().take(shown).enumerate() {
+        writeln!(out, "{}", if at == 0 { "\nmend first:" } else { "" })?;
+        found(class, out)?;
+    }
+    if !order.is_empty() {
+        writeln!(out)?;
+    }
+    advice::print(summary, out)
+}
+
 fn counts(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "\n{}", coverage(&summary.groups))?;
-    advice::print(summary, out)?;
+    writeln!(out, "\n{}", coverage(&summary.groups).trim_end())?;
     for kind in &summary.given_up {
         let name = kind.name();
         writeln!(out, "given up: {name} records, after too many restarts of the program")?;

@@ -1,4 +1,4 @@
-//! What a clean run means: how many of the bugs that were seeded into programs such a run finds.
+//! What a clean run means: with what chance such a run finds each bug that was seeded into a program.
 //! The record is written by `examples/conformance/campaign --write`.
 
 use serde::Deserialize;
@@ -9,7 +9,10 @@ use crate::results::summary::{Campaign, Summary};
 const RECORD: &str = include_str!("../../data/seeded-bugs.json");
 
 /// A bug counts as found by so many cases when they find it with this share of the seeds, percent.
-const LIKELY: u64 = 95;
+const LIKELY: u64 = 99;
+
+/// So many bugs that are less likely found are named with their chances.
+const NAMED: usize = 5;
 
 /// What was measured.
 #[derive(Clone, Debug, Deserialize)]
@@ -18,10 +21,17 @@ struct Record {
     /// A number of what the generators gave when it was measured.
     #[cfg_attr(not(test), expect(dead_code, reason = "a test compares it"))]
     generators: String,
+    /// The same of the vectors.
+    #[cfg_attr(not(test), expect(dead_code, reason = "a test compares it"))]
+    vectors_asked: String,
     /// What it was measured with: commit, versions, day; of older records unknown.
     #[serde(default)]
     #[expect(dead_code, reason = "for the documents")]
     measured: Option<String>,
+    /// The same of the vectors, where they were asked anew since.
+    #[serde(default)]
+    #[expect(dead_code, reason = "for the documents")]
+    vectors_measured: Option<String>,
     /// Seeds tried with each bug.
     seeds: u64,
     /// Cases of each seed.
@@ -45,18 +55,23 @@ struct Bug {
     vectors: u64,
     /// By seed: the first random case that finds it, from 1 on.
     first: Vec<Option<u64>>,
+    /// What it was measured with, where that was done for it alone.
+    #[serde(default)]
+    #[expect(dead_code, reason = "for the documents")]
+    measured: Option<String>,
 }
 
 impl Bug {
-    /// Whether so many cases find it with `LIKELY` percent of the seeds.
-    fn is_likely_found(&self, cases: u64) -> bool {
+    /// With what share of the seeds so many cases find it, percent, rounded down.
+    fn chance(&self, cases: u64) -> u64 {
         let found = self.first.iter().flatten().filter(|first| **first <= cases).count() as u64;
-        !self.first.is_empty() && 100 * found >= LIKELY * self.first.len() as u64
+        (100 * found).checked_div(self.first.len() as u64).unwrap_or(0)
     }
 }
 
-/// Of the seeded bugs of this profile and these kinds those that the vectors find, and those that as
-/// many random cases do; `None` for a run that is not clean, of drives, or with a tolerance.
+/// Of the seeded bugs of this profile and these kinds how many the vectors find, how many as many
+/// random cases, and the chances of the least likely; `None` for a run that is not clean, of drives,
+/// or with a tolerance.
 pub fn words(summary: &Summary) -> Option<String> {
     let campaign = &summary.campaign;
     let is_whole = summary.is_complete() && summary.skipped + summary.vectors_skipped == 0;
@@ -76,7 +91,7 @@ fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
     }
     let cases = campaign.cases.min(record.most);
     let by_vectors = |bug: &&&Bug| campaign.vectors > 0 && bug.vectors > 0;
-    let by_cases = |bug: &&&Bug| bug.is_likely_found(cases);
+    let by_cases = |bug: &&&Bug| bug.chance(cases) >= LIKELY;
     let mut ways = Vec::new();
     if campaign.vectors > 0 {
         ways.push(format!("the vectors find {}", bugs.iter().filter(by_vectors).count()));
@@ -90,20 +105,44 @@ fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
     let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
     let missed: Vec<&str> = missed.map(|bug| bug.name.as_str()).collect();
     let missed = if missed.is_empty() { String::from("none") } else { missed.join(", ") };
+    let least = match cases {
+        0 => String::new(),
+        _ => format!("least likely by the cases: {};\n", least_likely(&bugs, cases)),
+    };
     Some(format!(
         "what that means: of {} bugs seeded in programs, of this profile and these kinds, {};\n\
-         not found so: {missed}",
+         {least}found in neither way: {missed}",
         bugs.len(),
         ways.join(", ")
     ))
 }
 
+/// The bugs that so many cases find with the lowest chances, and how many more are not sure.
+fn least_likely(bugs: &[&Bug], cases: u64) -> String {
+    let mut chances: Vec<(u64, &str)> =
+        bugs.iter().map(|bug| (bug.chance(cases), bug.name.as_str())).collect();
+    chances.retain(|(chance, _)| *chance < LIKELY);
+    chances.sort_unstable();
+    let mut words: Vec<String> =
+        chances.iter().take(NAMED).map(|(chance, name)| format!("{name} {chance} %")).collect();
+    match chances.len().saturating_sub(NAMED) {
+        _ if words.is_empty() => return String::from("none"),
+        0 => {}
+        more => words.push(format!("{more} more below {LIKELY} %")),
+    }
+    words.join(", ")
+}
+
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use mufasa_model::input::cycle::Profile;
 
     use super::*;
     use crate::cases::generate::Generator;
+    use crate::cases::vectors::fitting;
+    use crate::settings::Settings;
 
     fn campaign(profile: &str, kinds: &[Kind], vectors: u64, cases: u64) -> Campaign {
         Campaign {
@@ -148,10 +187,10 @@ mod tests {
                 bug["profile"] == profile && kinds.iter().any(|kind| bug["kind"] == **kind)
             })
             .collect();
+        // Of 20 seeds 99 % are all.
         let likely = |bug: &&&serde_json::Value| {
             let firsts = bug["first"].as_array().expect("first");
-            let late = firsts.iter().filter(|it| it.as_u64().is_none_or(|it| it > cases)).count();
-            20 * late <= firsts.len()
+            firsts.iter().all(|it| it.as_u64().is_some_and(|it| it <= cases))
         };
         let by_vectors = bugs.iter().filter(|bug| bug["vectors"] != 0).count();
         [bugs.len(), by_vectors, bugs.iter().filter(likely).count()]
@@ -195,7 +234,7 @@ mod tests {
         });
         let named: Vec<&str> = record.bugs.iter().map(|bug| bug.name.as_str()).collect();
         assert_eq!(named, of_list.collect::<Vec<_>>());
-        assert_eq!(named.len(), 30);
+        assert_eq!(named.len(), 31);
         for Bug { name, program, profile, about, vectors, first, .. } in &record.bugs {
             assert_eq!(first.len(), seeds, "{name}");
             let chance = |cases: u64| {
@@ -211,18 +250,10 @@ mod tests {
     }
 
     /// As `digest` of `examples/conformance/campaign` has it.
-    fn digest() -> String {
+    fn digest(lines: impl Iterator<Item = String>) -> String {
         let mut number = 0xcbf2_9ce4_8422_2325_u64;
-        for profile in [Profile::Paper, Profile::Hardened] {
-            for seed in [1, 2] {
-                let generator = Generator { seed, profile, kinds: Kind::ALL.into() };
-                for case in 0..150 {
-                    let line = generator.question(case).line(&format!("c-{case}")) + "\n";
-                    for byte in line.bytes() {
-                        number = (number ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-                    }
-                }
-            }
+        for byte in lines.flat_map(|line| (line + "\n").into_bytes()) {
+            number = (number ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
         format!("{number:016x}")
     }
@@ -231,11 +262,46 @@ mod tests {
     #[test]
     fn the_bugs_were_measured_with_the_generators_as_they_are() {
         let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let cases = [Profile::Paper, Profile::Hardened].into_iter().flat_map(|profile| {
+            [1, 2].into_iter().flat_map(move |seed| {
+                let generator = Generator { seed, profile, kinds: Kind::ALL.into() };
+                (0..150).map(move |case| generator.question(case).line(&format!("c-{case}")))
+            })
+        });
         assert_eq!(
             record.generators,
-            digest(),
+            digest(cases),
             "the generators of `mufasa conform` have changed since its seeded bugs were measured; \
              examples/conformance/campaign --write measures them anew (about half an hour)"
+        );
+    }
+
+    /// Nor of other vectors.
+    #[test]
+    fn the_bugs_were_measured_with_the_vectors_as_they_are() {
+        let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let vectors = [Profile::Paper, Profile::Hardened].into_iter().flat_map(|profile| {
+            let settings = Settings {
+                command: Vec::new(),
+                profile,
+                cases: None,
+                seed: 0,
+                time_limit: Duration::ZERO,
+                kinds: Kind::ALL.into(),
+                shard: None,
+                drives: Vec::new(),
+                vectors: true,
+                tolerance: None,
+                out: "out".into(),
+            };
+            let given = fitting(&settings).expect("author and model agree");
+            given.into_iter().map(|it| it.question.line(&it.id))
+        });
+        assert_eq!(
+            record.vectors_asked,
+            digest(vectors),
+            "the vectors of `mufasa conform` have changed since its seeded bugs were measured; \
+             examples/conformance/campaign --vectors --write measures that anew (two minutes)"
         );
     }
 
@@ -249,29 +315,62 @@ mod tests {
             about: String::new(),
             vectors,
             first: first.into(),
+            measured: None,
         };
         let bugs = vec![
             bug("hidden", 0, &[Some(99), None]),
             bug("written", 2, &[None, None]),
             bug("drawn", 0, &[Some(1), Some(100)]),
         ];
-        let generators = String::new();
-        let record = Record { generators, measured: None, seeds: 2, most: 1000, bugs };
+        let record = Record {
+            generators: String::new(),
+            vectors_asked: String::new(),
+            measured: None,
+            vectors_measured: None,
+            seeds: 2,
+            most: 1000,
+            bugs,
+        };
         let say = |vectors, cases| {
             of_record(&record, &campaign("paper", &[Kind::Cycle], vectors, cases)).expect("words")
         };
         assert_eq!(
             say(5, 100),
             "what that means: of 3 bugs seeded in programs, of this profile and these kinds, the \
-             vectors find 1, 100 random cases find 1 with a chance of at least 95 % (2 seeds);\n\
-             not found so: hidden"
+             vectors find 1, 100 random cases find 1 with a chance of at least 99 % (2 seeds);\n\
+             least likely by the cases: written 0 %, hidden 50 %;\n\
+             found in neither way: hidden"
         );
         assert!(say(5, 99).ends_with(
-            "find 0 with a chance of at least 95 % (2 seeds);\nnot found so: hidden, drawn"
+            "find 0 with a chance of at least 99 % (2 seeds);\n\
+             least likely by the cases: written 0 %, drawn 50 %, hidden 50 %;\n\
+             found in neither way: hidden, drawn"
         ));
-        assert!(say(0, 100).ends_with("not found so: hidden, written"));
+        assert!(say(0, 100).ends_with("\nfound in neither way: hidden, written"));
         assert!(!say(0, 100).contains("vectors") && !say(5, 0).contains("random"));
         assert_eq!(of_record(&record, &campaign("hardened", &[Kind::Cycle], 5, 100)), None);
+    }
+
+    /// What is not named is counted, and what is found with every seed is not among it.
+    #[test]
+    fn five_of_the_least_likely_are_named() {
+        let names = ["a", "b", "c", "d", "e", "f", "g", "sure"];
+        let bug = |(at, name): (usize, &&str)| Bug {
+            name: (*name).to_owned(),
+            program: String::new(),
+            profile: String::new(),
+            kind: Kind::Cycle,
+            about: String::new(),
+            vectors: 1,
+            first: (0..7).map(|seed| (seed < at).then_some(9)).collect(),
+            measured: None,
+        };
+        let bugs: Vec<Bug> = names.iter().enumerate().map(bug).collect();
+        let of =
+            |count: usize, cases| least_likely(&bugs.iter().take(count).collect::<Vec<_>>(), cases);
+        assert_eq!(of(8, 9), "a 0 %, b 14 %, c 28 %, d 42 %, e 57 %, 2 more below 99 %");
+        assert_eq!(of(2, 8), "a 0 %, b 0 %");
+        assert_eq!(least_likely(&[&bugs[7]], 9), "none");
     }
 
     #[test]

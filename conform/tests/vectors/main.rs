@@ -2,6 +2,7 @@
 
 mod implementation;
 mod mutants;
+mod norm;
 mod published;
 mod schemas;
 

@@ -87,8 +87,8 @@ fn requirements() -> BTreeSet<String> {
             }
         }
     }
-    names.extend((1..=12).map(|n| format!("H-{n:02}")));
-    names.extend((1..=23).map(|n| format!("F-{n:02}")));
+    names.extend((1..=13).map(|n| format!("H-{n:02}")));
+    names.extend((1..=43).map(|n| format!("F-{n:02}")));
     names
 }
 

@@ -277,8 +277,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 // The drive holds what the local services would say, whether they compute or not.
                 Action::Activate(_) => self.tally.local_services("started"),
                 Action::Deactivate(_) => self.tally.local_services("stopped"),
-                Action::Drop(Group::Mot) => self.tally.traffic().dropped("tracks"),
-                Action::Drop(Group::Plan) => self.tally.traffic().dropped("trajectory"),
+                // Counted with the reason where it came.
+                Action::Drop(_) => {}
             }
         }
     }

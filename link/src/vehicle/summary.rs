@@ -51,7 +51,8 @@ pub struct Summary {
     pub offloaded_s: f64,
     /// Returns of both groups to the local services for an unsafe cycle.
     pub fallbacks: u64,
-    /// Sessions that ended, by the reason: `late` and `silent` are violations of the quality of service.
+    /// Sessions that ended, by the reason: `late`, `from the future` and `silent` are violations of the
+    /// quality of service.
     pub left: Counts,
     /// Remote results that reached control.
     pub used: u64,

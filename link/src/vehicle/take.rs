@@ -1,6 +1,6 @@
 //! What a vehicle does with what it receives.
 
-use mufasa::monitor::{Accepted, Arrival, Message as Received};
+use mufasa::monitor::{Accepted, Arrival, DropReason, Message as Received};
 use mufasa::offloading::requester::{Actions, GroupState, RequesterError};
 use mufasa::services::configuration::Group;
 
@@ -84,17 +84,37 @@ impl<T: Transport> Vehicle<'_, T> {
             What::Arrived { group: word(group), station, session, latency_ns, accepted, digest };
         self.tally.note(now_ns, what);
         match arrival {
-            Ok((arrival, actions)) => {
-                self.answered(now_ns, before, Ok(actions), "late");
-                let Arrival::Accepted(element) = arrival else { return None };
+            Ok((Arrival::Accepted(element), actions)) => {
+                self.answered(now_ns, before, Ok(actions), "accepted");
                 self.tally.accepted(group, latency_ns);
-                Some(element)
+                return Some(element);
             }
-            Err(error) => {
-                self.answered(now_ns, before, Err(error), "late");
-                None
+            Ok((Arrival::Dropped { why }, actions)) => {
+                let what = match group {
+                    Group::Mot => "tracks",
+                    Group::Plan => "trajectory",
+                };
+                self.tally.traffic().dropped(&format!("{what}: {why}"));
+                self.answered(now_ns, before, Ok(actions), left_for(why));
             }
+            // It names no station, and has changed nothing.
+            Err(error) => self.answered(now_ns, before, Err(error), "no station"),
         }
+        None
+    }
+}
+
+/// Why a session ended with a result that is of no use; most of them end none.
+const fn left_for(why: DropReason) -> &'static str {
+    match why {
+        DropReason::Late => "late",
+        DropReason::FromTheFuture => "from the future",
+        DropReason::AfterSilence => "silent",
+        DropReason::TooLong
+        | DropReason::OtherSession
+        | DropReason::TooOld
+        | DropReason::Starved
+        | DropReason::NotNewer => "of no use",
     }
 }
 

@@ -6,8 +6,9 @@ use std::rc::Rc;
 use mufasa::services::configuration::Configuration;
 use mufasa_link::message::{Payload, decode};
 use mufasa_link::transport::{Address, Transport};
+use mufasa_model::offloading::requester::Parameters;
 
-use crate::world::{Seen, Somebody, World};
+use crate::world::{MS, Seen, Somebody, World};
 
 /// What must hold whatever happens.
 fn holds(seen: &Seen) {
@@ -31,6 +32,9 @@ fn results_60_ms_late_end_their_sessions() {
     offloaded_around(&seen, [3_900, 6_100]);
     // 60 ms are above l_max = 50 ms, and far below the time that a request has.
     assert!(seen.vehicle.left["late"] >= 2, "{:?}", seen.vehicle.left);
+    let dropped = &seen.vehicle.traffic.dropped;
+    assert!(dropped["tracks: latency above l_max"] >= 1, "{dropped:?}");
+    assert!(dropped["trajectory: latency above l_max"] >= 1, "{dropped:?}");
     assert!(seen.vehicle.offloaded < 175, "{}", seen.vehicle.offloaded);
 }
 
@@ -42,7 +46,22 @@ fn results_45_ms_late_are_of_use_to_no_cycle_and_end_their_session() {
     // next, which is more than max_age: the group is starved, and silent.
     assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
     assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
+    let dropped = &seen.vehicle.traffic.dropped;
+    assert!(dropped["tracks: no cycle could use those before it"] >= 1, "{dropped:?}");
     offloaded_around(&seen, [3_900, 6_100]);
+}
+
+/// The first result after a silence that no tick has seen yet ends the session as silent, not as late.
+#[test]
+fn a_result_after_a_silence_ends_its_session_as_silent() {
+    let requester = Parameters { dt_max_ns: 101 * MS, ..Parameters::default() };
+    let disturbances = vec!["delay=8@4..6"];
+    let seen = World { disturbances, requester, ..World::default() }.drive();
+    holds(&seen);
+    let dropped = &seen.vehicle.traffic.dropped;
+    assert!(dropped["tracks: more than dt_max after the last arrival"] >= 1, "{dropped:?}");
+    assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
+    assert!(seen.vehicle.left["silent"] >= 2, "{:?}", seen.vehicle.left);
 }
 
 #[test]
@@ -50,7 +69,8 @@ fn repeated_results_are_dropped_and_nothing_else_happens() {
     let seen = World { disturbances: vec!["duplicate@4..6"], ..World::default() }.drive();
     holds(&seen);
     assert!(
-        (19..=21).contains(&seen.vehicle.traffic.dropped["tracks"]),
+        (19..=21)
+            .contains(&seen.vehicle.traffic.dropped["tracks: not newer than the last one used"]),
         "{:?}",
         seen.vehicle.traffic.dropped
     );

@@ -11,7 +11,7 @@ use mufasa_link::message::{Message, Payload, decode};
 use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
 use mufasa_model::offloading::requester::Parameters;
 
-use crate::world::{MS, Seen, Somebody, World};
+use crate::world::{MS, START_NS, Seen, Somebody, World};
 
 const VEHICLE: Address = Address::Vehicle(1);
 
@@ -46,9 +46,28 @@ fn sessions_that_nobody_asked_for_change_nothing() {
     });
     assert!(seen.vehicle.offloaded >= 175, "{:?}", seen.vehicle);
     assert_eq!(seen.vehicle.left.keys().collect::<Vec<_>>(), ["end"]);
-    assert!(seen.vehicle.traffic.dropped["tracks"] > 1_000, "{:?}", seen.vehicle.traffic.dropped);
+    let dropped = &seen.vehicle.traffic.dropped;
+    assert!(dropped["tracks: not of the running session"] > 1_000, "{dropped:?}");
     // Each confirmation is answered with a release of the session that it names.
     assert!(seen.vehicle.traffic.sent["release"] > 1_000, "{:?}", seen.vehicle.traffic.sent);
+}
+
+/// Whoever can send as the station ends its session with a result from the future; it is not called late.
+#[test]
+fn a_result_from_the_future_ends_its_session_and_is_said_to() {
+    let seen = while_somebody(|ms, by| {
+        if ms == 4_005 {
+            // The numbers that the first sessions have.
+            for session in (1..=4).map(|number| START_NS + number) {
+                let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
+                let ahead = Message { generated_ns: by.now_ns + MS, ..message(by, 1, 1, tracks) };
+                by.say(VEHICLE, &ahead);
+            }
+        }
+    });
+    assert_eq!(seen.vehicle.left.get("from the future"), Some(&1), "{:?}", seen.vehicle.left);
+    assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
+    assert_eq!(seen.vehicle.traffic.dropped["tracks: generated after it arrived"], 1);
 }
 
 #[test]

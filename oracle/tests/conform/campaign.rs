@@ -137,3 +137,64 @@ fn an_interrupted_campaign_leaves_what_is_known_and_does_not_look_complete() {
     let merged = merged.expect("mufasa runs");
     assert_eq!(merged.status.code(), Some(2), "{}", text(&merged));
 }
+
+/// The vectors have been asked, one of them disagrees, and it is ended among the cases.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_campaign_says_what_the_vectors_found() {
+    use std::os::unix::process::CommandExt;
+    use std::process::Stdio;
+    use std::time::{Duration, Instant};
+
+    let out = folder("interrupted-late");
+    let reached = out.join("reached");
+    let program = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        case $line in
+        *'"id":"collision'*) printf '%s\n' "$line" | sed 's/"verdict":.*/"verdict":"safe","failed_stage":null}}/';;
+        *'"id":"c-9"'*) : > "{}"; printf '%s\n' "$line";;
+        *) printf '%s\n' "$line";; esac; done"#,
+        reached.display()
+    );
+    let mut running = Command::new(MUFASA)
+        .args(["conform", "--cases", "100000000", "--kinds", "cycle", "--profile", "paper"])
+        .args(["--time-limit", "60000", "--out"])
+        .arg(&out)
+        .args(["--", "sh", "-c", &program])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .process_group(0)
+        .spawn()
+        .expect("mufasa runs");
+    let begun = Instant::now();
+    while !reached.exists() {
+        if running.try_wait().expect("a process").is_some() {
+            let output = running.wait_with_output().expect("it ended");
+            assert_eq!(output.status.code(), Some(2), "{}", text(&output));
+            return eprintln!("NOT RUN: interrupted: there is no `sh` here");
+        }
+        assert!(begun.elapsed().as_secs() < 300, "the cases are not reached");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let group = format!("-{}", running.id());
+    let killed = Command::new("kill").args(["-INT", "--", &group]).status();
+    assert!(killed.expect("kill runs").success());
+    let output = running.wait_with_output().expect("it ends");
+    let told = text(&output);
+    assert_eq!(output.status.code(), Some(130), "{told}");
+    let known = summary(&out);
+    assert!(known.interrupted && known.asked >= 9, "{told}");
+    assert_eq!(known.vectors, known.campaign.vectors, "{told}");
+    let wrong = known.wrong_vectors();
+    assert!(!wrong.is_empty() && wrong.iter().all(|id| id.starts_with("collision")), "{told}");
+    assert!(told.contains("\nmend first:\nDISAGREES  cycle soundness"), "{told}");
+    assert!(
+        told.contains(&format!("vectors asked: {} DISAGREE: collision", wrong.len())),
+        "{told}"
+    );
+    assert!(told.contains(" cases asked, INTERRUPTED: no disagreement so far"), "{told}");
+    let reproducers = fs::read_to_string(out.join("reproducers.jsonl")).expect("reproducers");
+    assert_eq!(reproducers.lines().count(), known.classes.len(), "{told}");
+    let junit = fs::read_to_string(out.join("junit.xml")).expect("JUnit XML");
+    assert!(junit.contains("interrupted after") && junit.contains("<failure"), "{junit}");
+}

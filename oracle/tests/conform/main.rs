@@ -73,8 +73,13 @@ fn script(test: &str, options: &[&str], script: &str) -> Option<(Summary, String
     assert_eq!(reproducers.lines().count(), summary.classes.len());
     for (line, found) in reproducers.lines().zip(&summary.classes) {
         assert_eq!(line, found.line());
-        assert!(told.contains(&format!("DISAGREES  {}", found.class)), "{told}");
+        let rule = format!(" x  {} {}", found.class.kind.name(), found.class.breach.name());
+        assert!(told.contains(&rule), "{told}");
     }
+    let shown =
+        summary.classes.iter().filter(|it| told.contains(&format!("DISAGREES  {},", it.class)));
+    assert!((1..=3).contains(&shown.count()), "{told}");
+    assert!(told.contains("\nmend first:\nDISAGREES  "), "{told}");
     let junit = fs::read_to_string(folder.join("junit.xml")).expect("JUnit XML");
     let document = roxmltree::Document::parse(&junit).expect("XML");
     let failures = document.descendants().filter(|node| node.has_tag_name("failure")).count();

@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Command;
 
+use mufasa_conform::Scale;
+
 use crate::{EACH, MUFASA, SAFE, folder, summary, text, with_vectors};
 
 #[test]
@@ -121,4 +123,40 @@ fn what_is_left_out_is_counted_on_the_line_of_its_own() {
         told.contains(&said) && told.contains("\n0 of 20 cases asked, 20 left out\n"),
         "{told}"
     );
+}
+
+/// The program in Python, with the norm of directions in doubles in place of fractions.
+const IN_DOUBLES: &str = "import sys, runpy; sys.path.insert(0, sys.argv[1]); import record; \
+                          record.Fraction = float; \
+                          runpy.run_path(sys.argv[1] + '/mufasa_py.py', run_name='__main__')";
+
+/// The vectors at the bound find what is decided in doubles, and nothing else; `--tolerance` hides
+/// it, and the report says that it does.
+#[test]
+fn a_norm_in_doubles_is_found_by_the_vectors_and_hidden_by_a_tolerance() {
+    let programs = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/conformance");
+    let run = |name: &str, more: &[&str]| {
+        let folder = folder(name);
+        let least = ["--kinds", "cycle", "--cases", "0", "--profile", "paper"];
+        let options = [&least[..], &["--time-limit", "60000"], more].concat();
+        let output = with_vectors(&folder, &options, &["python3", "-c", IN_DOUBLES, programs]);
+        (output.status.code(), text(&output), folder)
+    };
+    let (code, told, out) = run("norm", &[]);
+    if code == Some(2) {
+        eprintln!("NOT RUN: norm in doubles: there is no `python3` here");
+        return;
+    }
+    assert_eq!(code, Some(1), "{told}");
+    let found = summary(&out);
+    let wrong = found.wrong_vectors();
+    assert_eq!(wrong.len(), 16, "{told}");
+    assert!(wrong.iter().all(|id| id.starts_with("input-norm-")), "{told}");
+    assert!(found.classes.iter().all(|it| it.class.scale == Scale::Threshold), "{told}");
+    let (code, told, out) = run("norm-tolerated", &["--tolerance", "1e-6"]);
+    assert_eq!(code, Some(0), "{told}");
+    let found = summary(&out);
+    assert_eq!((found.vectors_tolerated, found.disagreements()), (16, 0), "{told}");
+    let said = "16 agree within the tolerance only: no disagreement beyond the tolerance (this is not conformance)";
+    assert!(told.contains(&format!("{} vectors asked, {said}", found.vectors)), "{told}");
 }

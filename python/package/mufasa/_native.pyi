@@ -243,7 +243,7 @@ class Monitor:
         items: Rows,
     ) -> Actions:
         """Tracks (``Track``) of a station arrive; they are copied. Used are those of the running session,
-        in time, and newer than the last; of others the actions have a ``Drop``."""
+        in time, and newer than the last; of others the actions have a ``Drop`` that says why."""
 
     def trajectory(
         self,

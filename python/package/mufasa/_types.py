@@ -12,6 +12,16 @@ if TYPE_CHECKING:
 Profile = Literal["paper", "hardened"]
 Configuration = Literal["Local", "MotRemote", "AllRemote", "PlanRemote"]
 Group = Literal["mot", "plan"]
+DropReason = Literal[
+    "too_long",
+    "other_session",
+    "from_the_future",
+    "late",
+    "too_old",
+    "starved",
+    "after_silence",
+    "not_newer",
+]
 
 Record = Mapping[str, Any]
 """A record of ``spec/5-interfaces.md#cycle``."""
@@ -177,9 +187,11 @@ class Deactivate(NamedTuple):
 
 
 class Drop(NamedTuple):
-    """Do not use the element that arrived."""
+    """Do not use the element that arrived; ``why``: of several reasons the first in the order of
+    ``DropReason``. ``from_the_future``, ``late`` and ``after_silence`` have ended its session."""
 
     group: Group
+    why: DropReason
 
 
 Action = Union[Request, Release, Activate, Deactivate, Drop]

@@ -8,6 +8,7 @@ use mufasa_model::services::configuration::Configuration::{
     AllRemote, Local, MotRemote, PlanRemote,
 };
 use mufasa_props::bridge::{Answer, check_impl};
+use mufasa_props::strategy::input::directions;
 
 /// What a program with a fault answers.
 type Mutant = fn(&Cycle) -> Answer;
@@ -61,6 +62,16 @@ fn zero_for_nan(cycle: &mut Cycle) {
     }
     for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
         mend(&mut point.x);
+    }
+}
+
+/// Directions within rounding of the bound of their norm as who computes it in doubles sees them.
+fn norm_in_doubles(cycle: &mut Cycle) {
+    for (cos, sin) in directions(cycle) {
+        let excess = (*cos * *cos + *sin * *sin - 1.0).abs();
+        if (excess - 1e-6).abs() < 1e-15 {
+            (*cos, *sin) = if excess <= 1e-6 { (1.0, 0.0) } else { (0.0, 0.0) };
+        }
     }
 }
 
@@ -209,6 +220,7 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
     sees!("column AllRemote of the schedule", |c| c.configuration = AllRemote),
     sees!("column PlanRemote of the schedule", |c| c.configuration = PlanRemote),
     sees!("zero for NaN", |c| zero_for_nan(c)),
+    sees!("norms in doubles", |c| norm_in_doubles(c)),
     ("indices not reported", |cycle| answers(cycle, forget_index)),
     ("remote problems are errors", |cycle| answers(cycle, swap_blame)),
     ("a missing input fails", |cycle| {
