@@ -225,6 +225,11 @@ static void a_status_of_the_settings_has_a_field(void) {
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_TIME_TOO_SHORT && monitor == NULL);
   it.requester.t_wait_ns = -1;
   is_about(&it, MUFASA_STATUS_NEGATIVE_PARAMETER, "t_wait_ns");
+  it.requester.t_wait_ns = 1000 * MS - 1;
+  is_about(&it, MUFASA_STATUS_TIME_TOO_SHORT, "requester.t_wait_ns");
+  it = settings();
+  it.requester.l_max_ns = it.stages.max_age_ns + 1;
+  is_about(&it, MUFASA_STATUS_MAX_AGE_BELOW_L_MAX, "parameters.max_age_ns");
   it = settings();
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");

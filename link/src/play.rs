@@ -242,9 +242,9 @@ mod tests {
 
     #[test]
     fn what_comes_within_l_max_is_there_when_its_cycle_is_decided() {
-        let with_period = |ms| {
+        let with_period = |ms: i64| {
             let mut drive = demo();
-            for (i, it) in (0..).zip(&mut drive.cycles) {
+            for (i, it) in (0_i64..).zip(&mut drive.cycles) {
                 it.cycle.now_ns = i * ms * 1_000_000;
             }
             Played::new(drive).unwrap()

@@ -45,10 +45,12 @@ class Scene:
 
     @staticmethod
     def monitor(**settings: Any) -> Monitor:
-        """With everything local, and a route."""
+        """With everything local, and a route; it has seen enough to ask a station at 0 ms."""
         settings.setdefault("parameters", {"dt_max_ns": 150_000_000})
         monitor = Monitor(PERIOD, **settings)
         monitor.set_route(Scene.road)
+        for ms in range(-500, 0, 100):
+            assert Scene.decide(monitor, ms).safe
         return monitor
 
     @staticmethod

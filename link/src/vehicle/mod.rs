@@ -141,7 +141,8 @@ impl<'a, T: Transport> Vehicle<'a, T> {
                 (later_ns.saturating_add(pause_ns), sensed_ns.saturating_add(pause_ns));
             self.tally.paused();
         }
-        let decided_ns = cycle.now_ns.saturating_add(later_ns + played.decided_late_ns());
+        let decided_ns =
+            cycle.now_ns.saturating_add(later_ns).saturating_add(played.decided_late_ns());
         if !self.is_sensed && now_ns >= sensed_ns {
             self.is_sensed = true;
             self.tell(now_ns, sensed_ns, cycle, later_ns);

@@ -45,15 +45,15 @@ fn a_drive_waits_for_a_computer_that_is_late() {
     let vehicle =
         Vehicle::new(1, START_NS, &played, settings, &mut lent, &mut of_vehicle, &mut tally);
     let mut vehicle = vehicle.unwrap();
-    // The first cycle is sensed 70 ms after the start and decided at 100 ms.
-    for (ms, due_ms) in [(0, 70), (70, 100), (100, 100), (101, 170), (190, 200), (200, 200)] {
+    // The first cycle is sensed 70 ms after the start and decided at 130 ms.
+    for (ms, due_ms) in [(0, 70), (70, 130), (130, 130), (131, 170), (190, 230), (230, 230)] {
         let due = vehicle.step(START_NS + ms * MS).unwrap();
         assert_eq!(due, Some(START_NS + due_ms * MS), "at {ms} ms");
     }
     // Three seconds late: the cycle that is due is sensed now, and no other is left out.
-    assert_eq!(vehicle.step(START_NS + 3_270 * MS).unwrap(), Some(START_NS + 3_300 * MS));
-    assert_eq!(vehicle.step(START_NS + 3_300 * MS).unwrap(), Some(START_NS + 3_300 * MS));
-    assert_eq!(vehicle.step(START_NS + 3_301 * MS).unwrap(), Some(START_NS + 3_370 * MS));
+    assert_eq!(vehicle.step(START_NS + 3_270 * MS).unwrap(), Some(START_NS + 3_330 * MS));
+    assert_eq!(vehicle.step(START_NS + 3_330 * MS).unwrap(), Some(START_NS + 3_330 * MS));
+    assert_eq!(vehicle.step(START_NS + 3_331 * MS).unwrap(), Some(START_NS + 3_370 * MS));
     drop(vehicle);
     assert_eq!((tally.summary().cycles, tally.summary().paused), (3, 1));
 }

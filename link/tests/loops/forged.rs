@@ -127,8 +127,9 @@ fn a_trajectory_in_the_running_session_that_leaves_the_road_is_caught_and_starts
     );
 }
 
+/// The next offer comes within half a second; the station is asked nine periods after its session ended.
 #[test]
-fn a_withdrawal_that_is_forged_lasts_until_the_next_offer() {
+fn a_withdrawal_that_is_forged_lasts_for_nine_periods() {
     let seen = while_somebody(|ms, by| {
         if ms == 4_000 {
             let forged = message(by, 1, 1, Payload::Withdraw);
@@ -136,7 +137,8 @@ fn a_withdrawal_that_is_forged_lasts_until_the_next_offer() {
         }
     });
     assert_eq!(seen.vehicle.left["withdrawn"], 2);
-    assert!(seen.offloaded_after(4_000).is_some_and(|ms| ms < 4_800), "{:?}", seen.changes);
+    let again = seen.offloaded_after(4_000);
+    assert!(again.is_some_and(|ms| (4_900..5_040).contains(&ms)), "{:?}", seen.changes);
 }
 
 #[test]

@@ -84,6 +84,8 @@ pub struct Seen {
     pub station: StationSummary,
     /// At which times, ms since the start, the groups that are remote changed, and to what.
     pub changes: Vec<(i64, Configuration)>,
+    /// At which times, ms since the start, the vehicle learned until when, in these ms, it asks no station.
+    pub holds: Vec<(i64, i64)>,
 }
 
 impl Seen {
@@ -124,7 +126,7 @@ impl World {
         let disturbances = self.disturbances.iter().map(|it| it.parse().expect("one")).collect();
         let mut of_vehicle = Disturbed::new(hub.join(Address::Vehicle(1)), disturbances);
         let mut tally = Tally::default();
-        let mut changes = vec![];
+        let (mut changes, mut holds) = (vec![], vec![]);
         let mut station_summary = StationSummary::default();
         let mut ms = 0;
         let mut lives = self.restarts.clone();
@@ -152,6 +154,12 @@ impl World {
                         station.step(now_ns - MS / 2);
                     }
                     has_ended = vehicle.step(now_ns).expect("a route that fits").is_none();
+                    if let Some(hold_ns) = vehicle.hold_until_ns() {
+                        let until_ms = (hold_ns - START_NS) / MS + 1;
+                        if holds.last().is_none_or(|(_, it)| *it != until_ms) {
+                            holds.push((ms, until_ms));
+                        }
+                    }
                     let configuration = vehicle.configuration();
                     if changes.last().map_or(Configuration::Local, |(_, it)| *it) != configuration {
                         changes.push((ms, configuration));
@@ -160,11 +168,12 @@ impl World {
                 }
                 station_summary = station.summary();
                 if has_ended {
-                    return Seen { vehicle: tally.summary(), station: station_summary, changes };
+                    let vehicle = tally.summary();
+                    return Seen { vehicle, station: station_summary, changes, holds };
                 }
             }
             // Killed: it says nothing more, and nobody else remembers it.
         }
-        Seen { vehicle: tally.summary(), station: station_summary, changes }
+        Seen { vehicle: tally.summary(), station: station_summary, changes, holds }
     }
 }

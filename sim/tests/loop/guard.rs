@@ -77,7 +77,6 @@ fn nothing_of_an_ended_session_is_used() {
             };
             (0..50).map(point).collect()
         };
-        let nothing = Local { tracks: None, points: None };
         let trajectory = |session: i64, at: i64| Message {
             station: STATION,
             session,
@@ -85,21 +84,32 @@ fn nothing_of_an_ended_session_is_used() {
             stamp: Time::from_nanoseconds(at),
             items: stands(at),
         };
-        let first = begin(&mut guard, PERIOD);
-        guard.trajectory(PERIOD, trajectory(first, PERIOD)).expect("a station");
-        let local = Local { tracks: Some((PERIOD, &[])), ..nothing };
         let still = mufasa::input::cycle::Ego { speed: 0.0, ..me };
-        let decided = guard.decide(PERIOD, still, &sensed(PERIOD), local);
+        let mut decide = |guard: &mut Guard<'_>, at: i64| {
+            let local = Local { tracks: Some((at, &[])), points: None };
+            guard.decide(at, still, &sensed(at), local)
+        };
+        // A station is asked when half a second was seen.
+        for at in 1..6 {
+            assert!(decide(&mut guard, at * PERIOD).is_safe, "{variant:?}");
+        }
+        let from = 6 * PERIOD;
+        let first = begin(&mut guard, from);
+        guard.trajectory(from, trajectory(first, from)).expect("a station");
+        let decided = decide(&mut guard, from);
         assert!(decided.trajectory.is_some(), "{variant:?}: of the running session: {decided:?}");
 
-        guard.happens(2 * PERIOD, EventKind::Lost { station: STATION }).expect("a loss");
-        let second = begin(&mut guard, 2 * PERIOD);
+        // And again nine periods after a session.
+        guard.happens(7 * PERIOD, EventKind::Lost { station: STATION }).expect("a loss");
+        for at in 7..16 {
+            assert!(decide(&mut guard, at * PERIOD).is_safe, "{variant:?}");
+        }
+        let from = 16 * PERIOD;
+        let second = begin(&mut guard, from);
         assert_ne!(first, second);
-        let late = trajectory(first, 2 * PERIOD);
-        let actions = guard.trajectory(2 * PERIOD, late).expect("a station");
+        let actions = guard.trajectory(from, trajectory(first, from)).expect("a station");
         assert!(actions.contains(&Action::Drop(Group::Plan)), "{variant:?}: {actions:?}");
-        let local = Local { tracks: Some((2 * PERIOD, &[])), ..nothing };
-        let decided = guard.decide(2 * PERIOD, still, &sensed(2 * PERIOD), local);
+        let decided = decide(&mut guard, from);
         assert_eq!(decided.trajectory, None, "{variant:?}: of an ended session");
     }
 }
