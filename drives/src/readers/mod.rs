@@ -13,6 +13,7 @@ mod npy;
 mod order;
 pub mod route;
 mod scenario;
+mod sides;
 mod solution;
 mod source;
 mod strip;
@@ -27,9 +28,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use crate::DEMO;
 use crate::drive::{Drive, DriveCycle, Stream};
 use crate::options::{Options, Sensor};
+use crate::{DEMO, counted};
 use content::Content;
 use error::ReadError;
 use scenario::Scenario;
@@ -147,7 +148,7 @@ fn lines(path: &Path, text: String) -> Vec<Result<Stream, ReadError>> {
     }
     let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
     if !places.is_empty() {
-        let notes = vec![format!("{} cycles as recorded", places.len())];
+        let notes = vec![format!("{} as recorded", counted(places.len(), "cycle"))];
         let source = path.display().to_string();
         let lead_range_m = Sensor::default().lead_range_m;
         let count = places.len();
