@@ -89,7 +89,13 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         return Err(element.error("leftBound", message));
     }
     let references = |name: &'static str| -> Result<Vec<i64>, ReadError> {
-        element.all(name).map(|e| e.integer_attribute("ref")).collect()
+        let ids: Result<Vec<_>, _> =
+            element.all(name).map(|e| e.integer_attribute("ref")).collect();
+        // A network has many, and what is collected has room for more than it holds.
+        ids.map(|mut ids| {
+            ids.shrink_to_fit();
+            ids
+        })
     };
     let beside = |name: &'static str| -> Result<Option<i64>, ReadError> {
         match element.find(name) {
@@ -108,10 +114,10 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
 /// What was met on the way.
 #[derive(Default)]
 struct Reader {
-    lanelets: BTreeMap<i64, Lanelet>,
+    lanelets: BTreeMap<i64, Box<Lanelet>>,
     /// Lanelets whose bounds are on the wrong sides.
     left_out: Vec<LeftOut>,
-    ids: BTreeSet<i64>,
+    ids_left_out: BTreeSet<i64>,
     objects: Vec<Object>,
     intervals: usize,
     sets: usize,
@@ -168,14 +174,15 @@ impl Reader {
 
     fn lanelet(&mut self, element: Element<'_>) -> Result<(), ReadError> {
         let id = element.integer_attribute("id")?;
-        if !self.ids.insert(id) {
+        if self.lanelets.contains_key(&id) || self.ids_left_out.contains(&id) {
             return Err(element.error("id", "two lanelets have this id"));
         }
         let lanelet = lanelet(element, id)?;
         if let Some(inversion) = sides::inversion(&lanelet) {
+            self.ids_left_out.insert(id);
             self.left_out.push(LeftOut::of(lanelet, inversion, element));
         } else {
-            self.lanelets.insert(id, lanelet);
+            self.lanelets.insert(id, Box::new(lanelet));
         }
         Ok(())
     }
