@@ -3,6 +3,7 @@
 
 pub mod attacks;
 pub mod check;
+mod counts;
 pub mod drive;
 mod geometry;
 pub mod options;
@@ -14,6 +15,7 @@ mod recording;
 pub use attacks::error::InjectError;
 pub use attacks::inject;
 pub use attacks::injection::{Attack, Injection, ParseInjectionError};
+pub use counts::counted;
 pub use drive::{Drive, DriveCycle, Stream};
 pub use options::{GridSize, Options, Sensor, Tail};
 pub use readers::error::{OtherLines, ReadError};

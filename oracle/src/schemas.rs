@@ -14,8 +14,25 @@ use serde_json::Value;
 use crate::explore::report::ExplorationReport;
 use crate::prove::claim::Claim;
 
+/// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
+/// is written, each of a file or of a line.
+pub const WRITTEN: [(&str, &str, &[&str]); 12] = [
+    ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
+    ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
+    ("conform", "out", &["conform-summary"]),
+    ("explore", "out", &["exploration"]),
+    ("prove", "out", &["claim"]),
+    ("evaluate failures", "out", &["evaluation-failures"]),
+    ("evaluate stages", "out", &["evaluation-stages"]),
+    ("evaluate attacks", "out", &["evaluation-attacks"]),
+    ("evaluate availability", "out", &["evaluation-availability"]),
+    ("vehicle", "json", &["vehicle-summary"]),
+    ("vehicle", "log", &["vehicle-log"]),
+    ("station", "json", &["station-summary"]),
+];
+
 /// The schemas by the stem of their file's name: those of records and answers, of a line of `check
-/// --json`, of the summary of `conform`, of a line of `prove`, of what `vehicle` and `station` write at their end and of what
+/// --json`, of the summary of `conform`, of a line of `prove`, of what `vehicle` and `station` write at their end, of a line of the log of `vehicle` and of what
 /// `explore` and `evaluate` write.
 pub fn all() -> Vec<(&'static str, Value)> {
     let mut schemas = schema::all();
@@ -23,6 +40,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("conform-summary", schema::written::<Summary>()));
     schemas.push(("claim", schema::written::<Claim>()));
     schemas.push(("vehicle-summary", schema::written::<vehicle::summary::Summary>()));
+    schemas.push(("vehicle-log", schema::written::<vehicle::log::Entry>()));
     schemas.push(("station-summary", schema::written::<StationSummary>()));
     schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
     schemas.push(("evaluation-failures", schema::written::<failures::Failures>()));

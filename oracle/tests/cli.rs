@@ -319,15 +319,17 @@ fn a_reader_that_goes_away_ends_the_program_quietly() {
 fn standard_input_is_checked_from_its_first_byte() {
     let folder = folder("standard_input");
     let file = lines(&folder, "a", 3, &[0]);
-    let mut cat = Command::new("cat").arg(&file).stdout(Stdio::piped()).spawn().unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
-        .args(["check", "--summary", "/dev/stdin"])
-        .stdin(cat.stdout.take().unwrap())
-        .output()
-        .unwrap();
-    assert!(cat.wait().unwrap().success());
-    assert_eq!(code(&output), 1, "{}", stderr(&output));
-    assert!(stdout(&output).contains("3 cycles: 2 safe, 1 unsafe"), "{}", stdout(&output));
+    for stdin in ["/dev/stdin", "-"] {
+        let mut cat = Command::new("cat").arg(&file).stdout(Stdio::piped()).spawn().unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_mufasa"))
+            .args(["check", "--summary", stdin])
+            .stdin(cat.stdout.take().unwrap())
+            .output()
+            .unwrap();
+        assert!(cat.wait().unwrap().success());
+        assert_eq!(code(&output), 1, "{}", stderr(&output));
+        assert!(stdout(&output).contains("3 cycles: 2 safe, 1 unsafe"), "{}", stdout(&output));
+    }
 }
 
 /// `spec/5-interfaces.md#programs-under-test.1`

@@ -116,12 +116,21 @@ fn shells_complete_and_man_has_a_page_for_every_command() {
         assert_eq!(output.status.code(), Some(0), "{shell}");
         assert!(text(&output.stdout).contains(word), "{shell}");
     }
+    let help = text(&output(&["--help"]).stdout);
+    let list = help.split_once("Commands:\n").expect("a list of commands").1;
+    let list = list.split_once("\n\n").expect("options behind it").0;
+    let names = list.lines().filter_map(|line| line.split_ascii_whitespace().next());
+    let commands: Vec<_> = names.filter(|it| *it != "help").collect();
+    assert!(commands.contains(&"vehicle") && commands.contains(&"station"), "{commands:?}");
+    let completions = text(&output(&["completions", "bash"]).stdout);
     let folder = folder("man");
     let output = output(&["man", "--out", folder.to_str().expect("a plain name")]);
     assert_eq!(output.status.code(), Some(0));
-    for command in ["", "-check", "-conform", "-prove", "-oracle", "-vectors", "-explore"] {
-        let page = fs::read_to_string(folder.join(format!("mufasa{command}.1")));
+    assert!(folder.join("mufasa.1").exists());
+    for command in commands {
+        let page = fs::read_to_string(folder.join(format!("mufasa-{command}.1")));
         assert!(page.expect("there is a page").contains(".SH DESCRIPTION"), "{command}");
+        assert!(completions.contains(&format!("mufasa__subcmd__{command}")), "{command}");
     }
 }
 
@@ -142,6 +151,50 @@ fn without_a_command_it_says_first_where_it_writes() {
     demo.wait().expect("it ends");
     read.expect("there is a line");
     assert_eq!(first.trim_end(), "mufasa: no command, so the demo, which writes into mufasa-demo/");
+}
+
+/// The small drive of the readers' tests.
+fn small() -> [String; 2] {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../drives/data/readers/");
+    ["small-2018b.xml", "small.KS2.solution.xml"].map(|name| format!("{data}{name}"))
+}
+
+/// What is said of progress where standard error is no terminal.
+#[test]
+fn verbose_shows_progress_as_lines_and_quiet_shows_none() {
+    let [scenario, solution] = small();
+    let said = |option: &[&str]| {
+        let output = output(&[&["check", "--summary", &scenario, &solution], option].concat());
+        text(&output.stderr)
+    };
+    assert_eq!(said(&["-q"]), "");
+    assert_eq!(said(&[]), "");
+    let lines = said(&["-v"]);
+    assert!(lines.lines().count() > 0, "no line");
+    assert!(
+        lines.lines().all(|line| line.contains(" cycles, ") && line.ends_with(" left")),
+        "{lines}"
+    );
+}
+
+/// One range for all that the CAV sees, as long as the lead has none of its own.
+#[test]
+fn the_range_of_the_detectors_is_that_of_the_lead_where_none_is_said() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../drives/data/demo/");
+    let files = ["urban.xml", "urban.solution.xml"].map(|name| format!("{data}{name}"));
+    // The lines of cycles do not say what the ranges are.
+    let answers = |ranges: &[&str]| {
+        let output = output(&[&["check", "--json", &files[0], &files[1]], ranges].concat());
+        let lines = text(&output.stdout);
+        let of_cycles: Vec<_> = lines.lines().filter(|it| it.contains("checked_cycle")).collect();
+        of_cycles.join("\n")
+    };
+    let [own, both, far] = [
+        answers(&["--sensor-range", "5"]),
+        answers(&["--sensor-range", "5", "--lead-range", "5"]),
+        answers(&["--sensor-range", "5", "--lead-range", "80"]),
+    ];
+    assert!(!own.is_empty() && own == both && own != far);
 }
 
 #[test]

@@ -125,11 +125,18 @@ fn the_summary_of_a_vehicle_is_what_its_schema_says() {
     };
     let lines: Vec<_> = (0..4).map(at).collect();
     fs::write(folder.join("drive.jsonl"), lines.join("\n")).expect("it can be written");
-    let text = run(&folder, &["vehicle", "drive.jsonl", "--json", "vehicle.json"]);
+    let out = ["--json", "vehicle.json", "--log", "log.jsonl"];
+    let text = run(&folder, &[&["vehicle", "drive.jsonl"], &out[..]].concat());
     assert!(text.contains("station"), "both are in one process: {text}");
     let text = fs::read_to_string(folder.join("vehicle.json")).expect("it was written");
     assert_eq!(parsed(&text)["cycles"], 4);
     assert_valid(&validators["vehicle-summary"], &parsed(&text));
+    let log = fs::read_to_string(folder.join("log.jsonl")).expect("it was written");
+    let entries: Vec<_> = log.lines().map(parsed).collect();
+    assert!(entries.iter().any(|it| it["what"] == "decided"), "{log}");
+    for entry in entries {
+        assert_valid(&validators["vehicle-log"], &entry);
+    }
 }
 
 #[test]

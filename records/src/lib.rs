@@ -4,6 +4,7 @@ pub mod answer;
 pub mod composition_answer;
 pub mod error;
 pub mod files;
+pub mod lines;
 pub mod names;
 pub mod offloading_answer;
 pub mod record;
@@ -89,9 +90,12 @@ pub fn cycles_from_lines(text: &str) -> Vec<Result<(String, Cycle), LineError>> 
     text.lines().enumerate().map(|(index, line)| cycle_from_line(line, index + 1)).collect()
 }
 
-/// The cycle of line number `number` (from 1), with its id.
-pub fn cycle_from_line(line: &str, number: usize) -> Result<(String, Cycle), LineError> {
-    match parse(line.as_bytes(), number)? {
+/// The cycle of line number `number` (from 1), given without its newline, with its id.
+pub fn cycle_from_line(
+    line: impl AsRef<[u8]>,
+    number: usize,
+) -> Result<(String, Cycle), LineError> {
+    match parse(line.as_ref(), number)? {
         Record::Cycle { id, cycle } => Ok((id, *cycle)),
         Record::Offloading { id, .. } | Record::Composition { id, .. } => {
             let problem = InvalidInput {

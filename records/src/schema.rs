@@ -56,10 +56,27 @@ fn generator(contract: Contract) -> SchemaGenerator {
 /// Unknown fields are an error.
 fn closed() -> impl Transform {
     RecursiveTransform(|schema: &mut Schema| {
+        spread(schema);
         if schema.get("properties").is_some() {
             schema.insert(String::from("additionalProperties"), false.into());
         }
     })
+}
+
+/// Puts the fields that all kinds of an object have into each kind, so that each can be closed.
+fn spread(schema: &mut Schema) {
+    let Some(object) = schema.as_object_mut().filter(|it| it.contains_key("oneOf")) else { return };
+    let Some(Value::Object(fields)) = object.remove("properties") else { return };
+    let required = object.remove("required").and_then(|it| it.as_array().cloned());
+    let kinds = object.get_mut("oneOf").and_then(Value::as_array_mut);
+    for kind in kinds.into_iter().flatten() {
+        if let Some(own) = kind["properties"].as_object_mut() {
+            own.extend(fields.clone());
+        }
+        if let Some(own) = kind["required"].as_array_mut() {
+            own.extend(required.iter().flatten().cloned());
+        }
+    }
 }
 
 fn vector() -> Value {

@@ -17,7 +17,7 @@ impl core::fmt::Display for PathError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::TooFew(count) => {
-                write!(f, "a path of {count} points: give two, or three if it is closed")
+                write!(f, "a path needs two points, or three if it is closed; given: {count}")
             }
             Self::NotFinite(index) => write!(f, "point {index} is not finite"),
             Self::Repeated(index) => write!(f, "point {index} repeats the one before it: drop it"),

@@ -18,7 +18,11 @@ fn folder() -> Option<PathBuf> {
     let places = named.map_or(vec![beside, deeper], |named| vec![named]);
     let found = places.iter().map(|place| place.join("ulm")).find(|place| place.is_dir());
     if found.is_none() {
-        let line = format!("NOT RUN: no maps of Ulm in {}; set MUFASA_DATA\n", places[0].display());
+        let line = format!(
+            "NOT RUN: {}: no maps of Ulm in {}; set MUFASA_DATA\n",
+            std::thread::current().name().unwrap_or("a test"),
+            places[0].display()
+        );
         std::io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
     }
     found

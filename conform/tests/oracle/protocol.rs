@@ -3,7 +3,8 @@
 use std::io::{self, BufReader, Cursor, Read, Write};
 use std::sync::mpsc;
 
-use mufasa_conform::reference::{self as oracle, MAX_LINE_BYTES};
+use mufasa_conform::reference as oracle;
+use mufasa_records::lines::MAX_LINE_BYTES;
 use serde_json::Value;
 
 use crate::common::{COMPOSITION, CYCLE, TRACE, answers};

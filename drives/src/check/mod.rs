@@ -21,7 +21,7 @@ use mufasa_model::offloading::requester::Parameters;
 use self::checked::Checked;
 use self::judge::in_order;
 use self::tally::Tally;
-use crate::{ReadError, Stream};
+use crate::{ReadError, Stream, counted};
 
 /// Errors of single cycles that are written out per drive.
 const ERRORS: usize = 10;
@@ -101,7 +101,7 @@ impl Findings {
             // Of nothing there is nothing to agree on.
             0 if tally.cycles == 0 => String::new(),
             0 => "; model and implementation agree".to_owned(),
-            count => format!("; model and implementation DISAGREE {count} times"),
+            count => format!("; model and implementation DISAGREE {}", counted(*count, "time")),
         };
         let mut text = format!(
             "{}, {}: {} safe, {} unsafe, {}, {offloaded} offloaded{agreement}",
@@ -216,15 +216,6 @@ pub fn complain(err: &mut impl Write, message: &str) {
 pub fn progress(cycles: usize) -> ProgressBar {
     let steps = u64::try_from(cycles).unwrap_or(u64::MAX);
     crate::progress::bar(steps, "{bar:40} {pos}/{len} cycles, {left} left")
-}
-
-/// `1 drive`, `2 drives`; of several words the first takes the s.
-pub fn counted(count: usize, what: &str) -> String {
-    match what.split_once(' ') {
-        _ if count == 1 => format!("1 {what}"),
-        Some((first, rest)) => format!("{count} {first}s {rest}"),
-        None => format!("{count} {what}s"),
-    }
 }
 
 #[cfg(test)]

@@ -8,10 +8,10 @@ use mufasa_props::conformance::{Answer, name};
 use mufasa_records::names;
 
 use super::checked::Checked;
-use super::counted;
 use super::fallback::{Hold, RequesterRun, UnsafeCycle};
 use super::words;
 use crate::check::table;
+use crate::counted;
 
 /// Breaches of conformance that are written out.
 const DISAGREEMENTS: usize = 10;
@@ -92,17 +92,21 @@ fn write_course(
     let words_of = |index: usize| words::answer(answer(&checked.judged[index]));
     writeln!(
         out,
-        "fallbacks{whose}: {} ({} of {} cycles offloaded)",
+        "fallbacks{whose}: {} ({} of {} offloaded)",
         run.fallbacks(),
         run.offloaded,
-        checked.judged.len()
+        counted(checked.judged.len(), "cycle")
     )?;
     if run.late > 0 {
-        writeln!(out, "  data too late {} times: back to local without a wait", run.late)?;
+        writeln!(
+            out,
+            "  data too late {}: back to local without a wait",
+            counted(run.late, "time")
+        )?;
     }
     if run.silent > 0 {
-        let times = run.silent;
-        writeln!(out, "  silence longer than dt_max {times} times: back to local without a wait")?;
+        let times = counted(run.silent, "time");
+        writeln!(out, "  silence longer than dt_max {times}: back to local without a wait")?;
     }
     let mut rest = &run.unsafe_cycles[..];
     while let Some((first, after)) = rest.split_first() {

@@ -70,7 +70,8 @@ fn report_in_words(report: &Report) -> String {
     }
 }
 
-/// A witness in words, with the two numbers compared; a reader sees that the relation holds.
+/// A witness in words, with the two numbers compared; a reader sees that the relation holds, also where it
+/// is between numbers that are the same double.
 pub fn witness(witness: &Witness) -> String {
     let (what, unit, relation) = phrase(witness);
     let equal = witness.compared[0].partial_cmp(&witness.compared[1]) == Some(Ordering::Equal);
@@ -78,14 +79,12 @@ pub fn witness(witness: &Witness) -> String {
     let meets =
         matches!(witness.rule, Rule::Collision | Rule::CollisionStanding | Rule::CollisionMoving);
     let relation = if meets && equal { "<=" } else { relation };
-    let by_less = if equal && matches!(relation, "<" | ">") {
-        ", by less than the nearest doubles show"
-    } else {
-        ""
-    };
-    let [left, right] = numbers(witness.compared);
-    let (left, right) = (with_unit(&left, unit), with_unit(&right, unit));
-    format!("{what} ({left} {relation} {right}{by_less})")
+    let [left, right] = numbers(witness.compared).map(|number| with_unit(&number, unit));
+    match relation {
+        "<" if equal => format!("{what} (below {right} by less than doubles tell apart)"),
+        ">" if equal => format!("{what} (above {right} by less than doubles tell apart)"),
+        _ => format!("{what} ({left} {relation} {right})"),
+    }
 }
 
 /// What happened, the unit of the numbers compared, and how they compare.
@@ -172,7 +171,7 @@ fn numbers([left, right]: [f64; 2]) -> [String; 2] {
     let at = |decimals: usize| [left, right].map(|v| trimmed(&format!("{v:.decimals$}")));
     let differ = |pair: &[String; 2]| pair[0] != pair[1];
     // Equal numbers never differ; doubles that do, do so at the latest in `to_string`.
-    let equal = left.total_cmp(&right).is_eq();
+    let equal = left.partial_cmp(&right) == Some(Ordering::Equal);
     let most = if equal { 2 } else { 12 };
     (2..=most)
         .map(at)

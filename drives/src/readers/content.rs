@@ -1,8 +1,10 @@
 //! What a file holds, by its bytes and not by its name.
 
+use std::io::BufRead;
 use std::path::Path;
 
 use crate::readers::error::{ReadError, quoted};
+use crate::readers::source::Unpacked;
 use crate::readers::xml_parts::Parts;
 use crate::readers::{formats, npy};
 
@@ -11,12 +13,16 @@ pub(crate) enum Content {
     Scenario(String),
     Solution(String),
     Map(Vec<u8>),
-    Lines(String),
+    Lines(Box<dyn BufRead>),
 }
 
 impl Content {
-    /// Recognises the bytes of a file.
-    pub(crate) fn of(path: &Path, bytes: Vec<u8>) -> Result<Self, ReadError> {
+    /// Recognises a file by its first bytes. Lines are left to be read; all else is read as a whole.
+    pub(crate) fn of(path: &Path, mut file: Unpacked) -> Result<Self, ReadError> {
+        if are_lines(file.peek_text()) {
+            return Ok(Self::Lines(Box::new(file.reader())));
+        }
+        let bytes = file.bytes().map_err(|error| ReadError::file(path, error.to_string()))?;
         if bytes.starts_with(npy::MAGIC) {
             return Ok(Self::Map(bytes));
         }
@@ -29,13 +35,9 @@ impl Content {
         })?;
         // A byte order mark is no content.
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        match text.trim_start().chars().next() {
-            Some('{') => return Ok(Self::Lines(text)),
-            Some('<') => {}
-            _ => {
-                let message = format!("neither XML nor JSON Lines; {}", formats::READ);
-                return Err(ReadError::file(path, message));
-            }
+        if !text.trim_start().starts_with('<') {
+            let message = format!("neither XML nor JSON Lines; {}", formats::READ);
+            return Err(ReadError::file(path, message));
         }
         match Parts::of(path, &text)?.root(|root| Ok(root.name().to_owned()))?.as_str() {
             "commonRoad" => Ok(Self::Scenario(text)),
@@ -50,4 +52,11 @@ impl Content {
             }
         }
     }
+}
+
+/// Whether a text that starts so is one of JSON objects; behind a byte order mark or blanks, too.
+fn are_lines(head: &[u8]) -> bool {
+    let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
+    // In UTF-16 and UTF-32 there is a zero behind it.
+    text.starts_with(b"{") && text.get(1) != Some(&0)
 }

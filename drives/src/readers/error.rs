@@ -23,7 +23,7 @@ pub struct ReadError {
 }
 
 /// What is wrong with further lines of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OtherLines {
     /// The first of them, in their order.
     pub errors: Vec<ReadError>,
@@ -76,17 +76,18 @@ impl ReadError {
         Self::file(file, message)
     }
 
-    /// The errors of the lines of one file as one error; `None` when there are none.
-    pub(crate) fn of_lines(mut errors: Vec<Self>) -> Option<Self> {
-        let more = errors.len().saturating_sub(LINES_MAX);
-        errors.truncate(LINES_MAX);
-        let mut errors = errors.into_iter();
-        let mut first = errors.next()?;
-        let errors: Vec<Self> = errors.collect();
-        if !errors.is_empty() {
-            first.others = Some(Box::new(OtherLines { errors, more }));
+    /// What is wrong with the lines of one file: the error of one more of them joins those before it.
+    pub(crate) fn join(lines: &mut Option<Self>, error: Self) {
+        let Some(first) = lines else {
+            *lines = Some(error);
+            return;
+        };
+        let others = first.others.get_or_insert_default();
+        if others.errors.len() + 1 < LINES_MAX {
+            others.errors.push(error);
+        } else {
+            others.more += 1;
         }
-        Some(first)
     }
 
     /// The same error at an element of the file.

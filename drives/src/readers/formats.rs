@@ -6,11 +6,12 @@ pub(crate) const GZ: &[u8] = b"\x1f\x8b";
 const UNPACK: &str = "unpack it and give what is in it; of packed files only gz is read";
 const RECORDS: &str =
     "write its cycles as JSON Lines, a record of spec/5-interfaces.md#cycle on every line";
-const UTF_8: &str = "write it as UTF-8, as `iconv -f UTF-16 -t UTF-8 FILE` does";
+const UTF_16: &str = "write it as UTF-8, as `iconv -f UTF-16 -t UTF-8 FILE` does";
+const UTF_32: &str = "write it as UTF-8, as `iconv -f UTF-32 -t UTF-8 FILE` does";
 const XML: &str = "write it as XML, as CommonRoadFileWriter of commonroad-io does";
 
-/// First bytes, what they are of, and what to do.
-const KNOWN: [(&[u8], &str, &str); 16] = [
+/// First bytes, what they are of, and what to do; the longer ones of two that start alike come first.
+const KNOWN: [(&[u8], &str, &str); 23] = [
     (GZ, "a gz file within a gz file", UNPACK),
     (b"PK\x03\x04", "a zip archive", UNPACK),
     (b"PK\x05\x06", "an empty zip archive", UNPACK),
@@ -22,11 +23,18 @@ const KNOWN: [(&[u8], &str, &str); 16] = [
     (b"SQLite format 3\x00", "an SQLite database, such as a rosbag of ROS 2", RECORDS),
     (b"\x89HDF\r\n", "an HDF5 file", RECORDS),
     (b"PAR1", "a Parquet file", RECORDS),
-    (b"\xff\xfe", "text in UTF-16", UTF_8),
-    (b"\xfe\xff", "text in UTF-16", UTF_8),
-    (b"<\x00", "text in UTF-16", UTF_8),
-    (b"{\x00", "text in UTF-16", UTF_8),
-    (b"\x00<", "text in UTF-16", UTF_8),
+    (b"\xff\xfe\x00\x00", "text in UTF-32", UTF_32),
+    (b"\x00\x00\xfe\xff", "text in UTF-32", UTF_32),
+    (b"<\x00\x00\x00", "text in UTF-32", UTF_32),
+    (b"{\x00\x00\x00", "text in UTF-32", UTF_32),
+    (b"\x00\x00\x00<", "text in UTF-32", UTF_32),
+    (b"\x00\x00\x00{", "text in UTF-32", UTF_32),
+    (b"\xff\xfe", "text in UTF-16", UTF_16),
+    (b"\xfe\xff", "text in UTF-16", UTF_16),
+    (b"<\x00", "text in UTF-16", UTF_16),
+    (b"{\x00", "text in UTF-16", UTF_16),
+    (b"\x00<", "text in UTF-16", UTF_16),
+    (b"\x00{", "text in UTF-16", UTF_16),
 ];
 /// What `check` reads, for a file that is nothing known.
 pub(crate) const READ: &str = "CommonRoad XML, JSON Lines of cycles and maps as .npy are read, \

@@ -21,7 +21,8 @@ pub(crate) struct Lanelet {
 /// All lanelets by id.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Network {
-    pub lanelets: BTreeMap<i64, Lanelet>,
+    /// Boxed, for a tree has room for twice its values.
+    pub lanelets: BTreeMap<i64, Box<Lanelet>>,
 }
 
 /// How one lanelet of a trajectory follows the last.

@@ -1,8 +1,11 @@
 //! Lanelets whose bounds are not what they should be: the drive does without them, where it can.
 
+use crate::counted;
 use crate::geometry::Point;
 use crate::readers::error::ReadError;
 use crate::readers::lanes::{Change, Lanelet, Network, Run};
+use crate::readers::sides::Inversion;
+use crate::readers::xml::Element;
 
 /// Ids that a note names.
 const NAMED_MAX: usize = 8;
@@ -10,8 +13,32 @@ const NAMED_MAX: usize = 8;
 /// A lanelet that is no part of the network.
 pub(crate) struct LeftOut {
     pub lanelet: Lanelet,
+    /// Where its bounds are on the wrong sides.
+    pub inversion: Inversion,
     /// What is wrong with it.
     pub error: ReadError,
+}
+
+impl LeftOut {
+    pub(crate) fn of(lanelet: Lanelet, inversion: Inversion, element: Element<'_>) -> Self {
+        let wrong = "the left bound is not left of the right one";
+        let error = match inversion {
+            Inversion::Whole => element.error("leftBound", wrong),
+            Inversion::Segment(i) => {
+                let message = format!("{wrong} from this point to the next");
+                element.error("leftBound", message).index(i)
+            }
+        };
+        Self { lanelet, inversion, error }
+    }
+
+    /// The id, and the segment where it is one.
+    fn name(&self) -> String {
+        match self.inversion {
+            Inversion::Whole => self.lanelet.id.to_string(),
+            Inversion::Segment(i) => format!("{} (segment {i})", self.lanelet.id),
+        }
+    }
 }
 
 /// What is said of the lanelets left out of a network; `None` where there are none.
@@ -19,12 +46,12 @@ pub(crate) fn note(left_out: &[LeftOut]) -> Option<String> {
     if left_out.is_empty() {
         return None;
     }
-    let ids: Vec<_> = left_out.iter().take(NAMED_MAX).map(|it| it.lanelet.id.to_string()).collect();
+    let names: Vec<_> = left_out.iter().take(NAMED_MAX).map(LeftOut::name).collect();
     let more = if left_out.len() > NAMED_MAX { " ..." } else { "" };
     Some(format!(
-        "{} lanelets left out, whose left bound is not left of the right one: {}{more}",
-        left_out.len(),
-        ids.join(" ")
+        "{} left out, whose left bound is not left of the right one: {}{more}",
+        counted(left_out.len(), "lanelet"),
+        names.join(" ")
     ))
 }
 

@@ -8,13 +8,16 @@ pub mod error;
 mod formats;
 mod lanes;
 mod left_out;
+mod lines;
 mod map;
 mod npy;
 mod order;
 pub mod route;
 mod scenario;
+mod sides;
 mod solution;
 mod source;
+mod spool;
 mod strip;
 mod surface;
 mod vehicle;
@@ -24,21 +27,22 @@ mod xml_marks;
 mod xml_parts;
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::DEMO;
-use crate::drive::{Drive, DriveCycle, Stream};
-use crate::options::{Options, Sensor};
+use crate::drive::{Drive, Stream};
+use crate::options::Options;
 use content::Content;
 use error::ReadError;
 use scenario::Scenario;
 use source::Source;
+use spool::Spool;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
 /// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines
 /// (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, up to
-/// 1 GiB unpacked, and may be a pipe.
+/// 1 GiB unpacked, and may be a pipe. Cycles are read line by line and kept in a temporary file.
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
 /// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark
@@ -54,9 +58,10 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
     let mut drives = Vec::new();
     // The scenario last read, and whether a drive was made of it.
     let mut scenario: Option<(PathBuf, Scenario, bool)> = None;
+    let spool = Arc::new(Spool::default());
     let sources = paths.iter().map(|path| Source::new(path)).collect();
     for mut source in order::solutions_behind_scenarios(sources) {
-        let content = source.bytes().and_then(|bytes| Content::of(&source.path, bytes));
+        let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;
         if !matches!(content, Ok(Content::Solution(_))) {
             drives.extend(unsolved(scenario.take(), options));
@@ -78,7 +83,7 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
                 )),
             }),
             Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
-            Ok(Content::Lines(text)) => drives.extend(lines(path, text)),
+            Ok(Content::Lines(text)) => drives.extend(lines::drive(path, text, &spool)),
             Err(error) => drives.push(Err(error)),
         }
     }
@@ -117,55 +122,4 @@ fn unsolved(
         Some((file, scenario, false)) => Some(commonroad::recorded(&scenario, &file, options)),
         Some((_, _, true)) | None => None,
     }
-}
-
-/// The cycles of JSON Lines as one drive, after the error of the lines that are none.
-fn lines(path: &Path, text: String) -> Vec<Result<Stream, ReadError>> {
-    let mut errors = Vec::new();
-    // Where the lines of cycles are: their numbers, and their places in the text.
-    let mut places: Vec<(usize, Range<usize>)> = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        match mufasa_records::cycle_from_line(line, index + 1) {
-            Ok(_) => {
-                let start = line.as_ptr().addr() - text.as_ptr().addr();
-                places.push((index + 1, start..start + line.len()));
-            }
-            Err(error) => {
-                let element = error.id.map_or_else(String::new, |id| format!("cycle {id}"));
-                let read = ReadError::file(path, error.message)
-                    .line(u32::try_from(error.line).unwrap_or(u32::MAX));
-                let mut read = read.at(element, error.field);
-                read.index = error.index;
-                errors.push(read);
-            }
-        }
-    }
-    if places.is_empty() && is_one_document(&text) {
-        let message = "one JSON document spread over lines; JSON Lines have every record on a \
-                       line of its own, as `jq -c . FILE` writes it";
-        errors = vec![ReadError::file(path, message)];
-    }
-    let mut results: Vec<_> = ReadError::of_lines(errors).into_iter().map(Err).collect();
-    if !places.is_empty() {
-        let notes = vec![format!("{} cycles as recorded", places.len())];
-        let source = path.display().to_string();
-        let lead_range_m = Sensor::default().lead_range_m;
-        let count = places.len();
-        let make = move |index: usize| {
-            let (number, place) = &places[index];
-            match mufasa_records::cycle_from_line(&text[place.clone()], *number) {
-                Ok((id, cycle)) => DriveCycle { id, cycle },
-                Err(error) => unreachable!("line {number} was a cycle: {}", error.message),
-            }
-        };
-        let mut drive = Stream::new(source::stem(path), source, count, make);
-        (drive.lead_range_m, drive.notes) = (lead_range_m, notes);
-        results.push(Ok(drive));
-    }
-    results
-}
-
-/// Whether a text of several lines is JSON as a whole.
-fn is_one_document(text: &str) -> bool {
-    text.trim().lines().nth(1).is_some() && serde_json::from_str::<serde_json::Value>(text).is_ok()
 }

@@ -4,7 +4,7 @@
 use crate::readers::source::Source;
 
 /// The root element of a benchmark file, with its attributes, is in its first bytes.
-const HEAD: u64 = 4096;
+const HEAD: usize = 4096;
 
 /// Which scenario a file is, or is a solution of.
 enum Benchmark {

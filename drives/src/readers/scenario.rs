@@ -6,10 +6,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use crate::geometry::{Point, Rectangle, add, cross, sub};
+use crate::counted;
+use crate::geometry::{Point, Rectangle, add};
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::left_out::{self, LeftOut};
+use crate::readers::sides;
 use crate::readers::xml::Element;
 use crate::readers::xml_parts::Parts;
 use crate::recording::object::{Footprint, Motion, Object, State};
@@ -75,16 +77,6 @@ fn distinct_ids(root: Element<'_>, objects: &[Object]) -> Result<(), ReadError> 
     }
 }
 
-/// Whether the left bound is left of the right one in the direction from start to end.
-fn leads(lanelet: &Lanelet) -> bool {
-    let Lanelet { left, right, center, .. } = lanelet;
-    // Twice the signed area between the bounds, direction by direction.
-    let side: f64 = (1..center.len())
-        .map(|i| cross(sub(center[i], center[i - 1]), sub(left[i], right[i])))
-        .sum();
-    side > 0.0
-}
-
 fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
     let left = element.get("leftBound")?.points()?;
     let right = element.get("rightBound")?.points()?;
@@ -97,7 +89,13 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
         return Err(element.error("leftBound", message));
     }
     let references = |name: &'static str| -> Result<Vec<i64>, ReadError> {
-        element.all(name).map(|e| e.integer_attribute("ref")).collect()
+        let ids: Result<Vec<_>, _> =
+            element.all(name).map(|e| e.integer_attribute("ref")).collect();
+        // A network has many, and what is collected has room for more than it holds.
+        ids.map(|mut ids| {
+            ids.shrink_to_fit();
+            ids
+        })
     };
     let beside = |name: &'static str| -> Result<Option<i64>, ReadError> {
         match element.find(name) {
@@ -116,10 +114,10 @@ fn lanelet(element: Element<'_>, id: i64) -> Result<Lanelet, ReadError> {
 /// What was met on the way.
 #[derive(Default)]
 struct Reader {
-    lanelets: BTreeMap<i64, Lanelet>,
+    lanelets: BTreeMap<i64, Box<Lanelet>>,
     /// Lanelets whose bounds are on the wrong sides.
     left_out: Vec<LeftOut>,
-    ids: BTreeSet<i64>,
+    ids_left_out: BTreeSet<i64>,
     objects: Vec<Object>,
     intervals: usize,
     sets: usize,
@@ -132,23 +130,26 @@ impl Reader {
         let mut notes = Vec::new();
         if self.intervals > 0 {
             notes.push(format!(
-                "{} states give intervals or areas; the middle of each is taken",
-                self.intervals
+                "{} with intervals or areas; the middle of each is taken",
+                counted(self.intervals, "state")
             ));
         }
         if self.sets > 0 {
             notes.push(format!(
-                "{} obstacles are sets of occupied places: from the second step on, each place is \
-                 an object that stands still, with the smallest rectangle around it",
-                self.sets
+                "{} given as sets of occupied places: from the second step on, each place is an \
+                 object that stands still, with the smallest rectangle around it",
+                counted(self.sets, "obstacle")
             ));
         }
         if self.slivers > 0 {
-            notes.push(format!("{} occupied places widened to 0.01 m", self.slivers));
+            notes.push(format!(
+                "{} widened to 0.01 m",
+                counted(self.slivers, "place that is occupied")
+            ));
         }
         if self.obstacles_left_out > 0 {
-            let count = self.obstacles_left_out;
-            notes.push(format!("{count} environment and phantom obstacles left out"));
+            let count = counted(self.obstacles_left_out, "obstacle");
+            notes.push(format!("{count} left out, of environment or phantoms"));
         }
         notes
     }
@@ -173,15 +174,15 @@ impl Reader {
 
     fn lanelet(&mut self, element: Element<'_>) -> Result<(), ReadError> {
         let id = element.integer_attribute("id")?;
-        if !self.ids.insert(id) {
+        if self.lanelets.contains_key(&id) || self.ids_left_out.contains(&id) {
             return Err(element.error("id", "two lanelets have this id"));
         }
         let lanelet = lanelet(element, id)?;
-        if leads(&lanelet) {
-            self.lanelets.insert(id, lanelet);
+        if let Some(inversion) = sides::inversion(&lanelet) {
+            self.ids_left_out.insert(id);
+            self.left_out.push(LeftOut::of(lanelet, inversion, element));
         } else {
-            let error = element.error("leftBound", "the left bound is not left of the right one");
-            self.left_out.push(LeftOut { lanelet, error });
+            self.lanelets.insert(id, Box::new(lanelet));
         }
         Ok(())
     }

@@ -2,55 +2,123 @@
 //!
 //! Whatever is judged comes from one reading of the file. Its first bytes are looked at before, to
 //! put solutions behind their scenarios: of a file on a disk by opening it once more, so that many
-//! files are neither held nor kept open at once; anything else (a pipe, standard input) has its
-//! bytes only once and is read whole then.
+//! files are not kept open at once; anything else (a pipe, standard input) has its bytes only once
+//! and is kept open then.
 
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use flate2::read::MultiGzDecoder;
+use flate2::bufread::MultiGzDecoder;
 
 use crate::readers::error::ReadError;
 use crate::readers::formats;
 
 /// Most bytes that a gz file may unpack to: 1 GiB. A small file can claim any size.
 const UNPACKED_MAX: u64 = 1 << 30;
+/// Standard input, as programs are told to read it.
+const STDIN: &str = "-";
+/// Bytes that are looked at to recognise a format.
+const HEAD: usize = 4096;
 
 /// A file that was named.
 pub(crate) struct Source {
     pub path: PathBuf,
-    /// What was read when the first bytes were looked at.
-    read: Option<io::Result<Vec<u8>>>,
+    is_stdin: bool,
+    /// Where the first bytes were looked at and come only once.
+    opened: Option<io::Result<Unpacked>>,
 }
 
 impl Source {
     pub(crate) fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), read: None }
+        let is_stdin = path == Path::new(STDIN);
+        let path = if is_stdin { Path::new("/dev/stdin") } else { path };
+        Self { path: path.to_owned(), is_stdin, opened: None }
     }
 
     /// The first bytes, unpacked; fewer, or none, where the file cannot be read.
-    pub(crate) fn head(&mut self, most: u64) -> Vec<u8> {
+    pub(crate) fn head(&mut self, most: usize) -> Vec<u8> {
         // Opened again, /dev/stdin goes on where it is on some systems, even if it is a file.
         let is_file = fs::metadata(&self.path).is_ok_and(|it| it.is_file());
-        if is_file && !self.path.starts_with("/dev") {
-            return File::open(&self.path).map_or_else(|_| Vec::new(), |file| first(file, most));
-        }
-        let path = &self.path;
-        match self.read.get_or_insert_with(|| fs::read(path)) {
-            Ok(bytes) => first(bytes.as_slice(), most),
-            Err(_) => Vec::new(),
-        }
+        let comes_again = is_file && !self.path.starts_with("/dev");
+        let mut opened = self.opened.take().unwrap_or_else(|| self.unpacked());
+        let head = opened.as_mut().map_or_else(|_| Vec::new(), |file| file.peek(most).to_vec());
+        self.opened = (!comes_again).then_some(opened);
+        head
     }
 
     /// All bytes, unpacked.
-    pub(crate) fn bytes(&mut self) -> Result<Vec<u8>, ReadError> {
-        let bytes = self.read.take().unwrap_or_else(|| fs::read(&self.path));
-        let bytes =
-            bytes.map_err(|e| ReadError::file(&self.path, format!("cannot be read: {e}")))?;
-        if bytes.starts_with(formats::GZ) {
-            return unpacked(&self.path, &bytes, UNPACKED_MAX);
+    pub(crate) fn open(&mut self) -> Result<Unpacked, ReadError> {
+        let opened = self.opened.take().unwrap_or_else(|| self.unpacked());
+        opened.map_err(|error| ReadError::file(&self.path, error.to_string()))
+    }
+
+    fn unpacked(&self) -> io::Result<Unpacked> {
+        if self.is_stdin {
+            return Unpacked::of(io::stdin(), 0, UNPACKED_MAX);
         }
+        let file = File::open(&self.path).map_err(|error| unread(&error))?;
+        let length = file.metadata().map_or(0, |it| it.len());
+        Unpacked::of(file, length, UNPACKED_MAX)
+    }
+}
+
+/// The bytes of a file, unpacked as they are read. Its errors say what is wrong with the file.
+pub(crate) struct Unpacked {
+    /// What was looked at.
+    head: Vec<u8>,
+    rest: BufReader<Box<dyn Read>>,
+    /// As far as it is known; 0 where it is not.
+    length: usize,
+}
+
+impl Unpacked {
+    fn of(file: impl Read + 'static, length: u64, most: u64) -> io::Result<Self> {
+        let mut file = BufReader::with_capacity(1 << 16, file);
+        let mut mark = Vec::new();
+        let read = (&mut file).take(2).read_to_end(&mut mark);
+        read.map_err(|error| unread(&error))?;
+        let is_packed = mark == formats::GZ;
+        let whole = Cursor::new(mark).chain(file);
+        let rest: Box<dyn Read> = if is_packed {
+            Box::new(Guard { inner: MultiGzDecoder::new(whole), left: most, failure: broken })
+        } else {
+            Box::new(Guard { inner: whole, left: u64::MAX, failure: unread })
+        };
+        let rest = BufReader::with_capacity(1 << 16, rest);
+        let length = if is_packed { 0 } else { usize::try_from(length).unwrap_or(0) };
+        Ok(Self { head: Vec::new(), rest, length })
+    }
+
+    /// The first bytes, `most` where there are as many.
+    fn peek(&mut self, most: usize) -> &[u8] {
+        let missing = most.saturating_sub(self.head.len()) as u64;
+        if let Err(error) = (&mut self.rest).take(missing).read_to_end(&mut self.head) {
+            // Who reads on gets it behind what could be read.
+            self.rest = BufReader::new(Box::new(Broken(Some(error))));
+        }
+        &self.head
+    }
+
+    /// The first bytes, so many that one is no blank where there is one.
+    pub(crate) fn peek_text(&mut self) -> &[u8] {
+        let mut most = HEAD;
+        while self.peek(most).len() == most && self.head.trim_ascii().is_empty() {
+            most *= 2;
+        }
+        &self.head
+    }
+
+    /// All bytes from the first on.
+    pub(crate) fn reader(self) -> impl BufRead {
+        Cursor::new(self.head).chain(self.rest)
+    }
+
+    /// All bytes at once.
+    pub(crate) fn bytes(self) -> io::Result<Vec<u8>> {
+        let mut bytes = self.head;
+        bytes.reserve_exact(self.length.saturating_sub(bytes.len()));
+        { self.rest }.read_to_end(&mut bytes)?;
         Ok(bytes)
     }
 }
@@ -62,36 +130,46 @@ pub(crate) fn stem(path: &Path) -> String {
     name.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// The first bytes of what can be read, unpacked where they are packed.
-fn first(mut file: impl Read, most: u64) -> Vec<u8> {
-    let mut mark = Vec::new();
-    let mut head = Vec::new();
-    // What could be read before an error is all that can be looked at.
-    let _ = (&mut file).take(2).read_to_end(&mut mark);
-    let whole = mark.as_slice().chain(file);
-    let _ = if mark == formats::GZ {
-        MultiGzDecoder::new(whole).take(most).read_to_end(&mut head)
-    } else {
-        whole.take(most).read_to_end(&mut head)
-    };
-    head
+/// Says of errors what they mean for the file, and ends what is too long.
+struct Guard<R> {
+    inner: R,
+    left: u64,
+    failure: fn(&io::Error) -> io::Error,
 }
 
-fn unpacked(path: &Path, packed: &[u8], most: u64) -> Result<Vec<u8>, ReadError> {
-    let mut bytes = Vec::new();
-    let result = MultiGzDecoder::new(packed).take(most + 1).read_to_end(&mut bytes);
-    if bytes.len() as u64 > most {
-        let message = format!(
-            "unpacks to more than {most} bytes, the most that is read of a gz file; give it \
-             unpacked if it is what it should be"
-        );
-        return Err(ReadError::file(path, message));
+impl<R: Read> Read for Guard<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = match self.inner.read(buffer) {
+            Err(error) if error.kind() != ErrorKind::Interrupted => Err((self.failure)(&error)),
+            read => read,
+        }?;
+        self.left = self.left.checked_sub(read as u64).ok_or_else(too_long)?;
+        Ok(read)
     }
-    result.map_err(|e| {
-        let message = format!("this gz file is cut off or broken ({e}); pack it again");
-        ReadError::file(path, message)
-    })?;
-    Ok(bytes)
+}
+
+/// What is left where reading failed before.
+struct Broken(Option<io::Error>);
+
+impl Read for Broken {
+    fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+        self.0.take().map_or(Ok(0), Err)
+    }
+}
+
+fn unread(error: &io::Error) -> io::Error {
+    io::Error::other(format!("cannot be read: {error}"))
+}
+
+fn broken(error: &io::Error) -> io::Error {
+    io::Error::other(format!("this gz file is cut off or broken ({error}); pack it again"))
+}
+
+fn too_long() -> io::Error {
+    io::Error::other(format!(
+        "unpacks to more than {UNPACKED_MAX} bytes, the most that is read of a gz file; give it \
+         unpacked if it is what it should be"
+    ))
 }
 
 #[cfg(test)]
@@ -111,16 +189,41 @@ mod tests {
 
     #[test]
     fn a_gz_file_is_unpacked_up_to_the_limit() {
-        let path = Path::new("x.gz");
+        let unpacked =
+            |bytes: &[u8], most: u64| Unpacked::of(Cursor::new(bytes.to_vec()), 0, most).unwrap();
+        let bytes = |packed: &[u8], most: u64| unpacked(packed, most).bytes();
         let whole = packed(&[7; 1000]);
-        assert_eq!(unpacked(path, &whole, 1000).unwrap(), [7; 1000]);
-        let error = unpacked(path, &whole, 999).unwrap_err();
-        assert!(error.message.contains("more than 999 bytes"), "{error}");
-        let error = unpacked(path, &whole[..whole.len() - 3], 1000).unwrap_err();
-        assert!(error.message.contains("cut off or broken"), "{error}");
-        assert_eq!(first(whole.as_slice(), 10), [7; 10]);
+        assert_eq!(bytes(&whole, 1000).unwrap(), [7; 1000]);
+        let error = bytes(&whole, 999).unwrap_err().to_string();
+        assert!(error.contains("unpacks to more than"), "{error}");
+        let error = bytes(&whole[..whole.len() - 3], 1000).unwrap_err().to_string();
+        assert!(error.contains("cut off or broken"), "{error}");
+        assert_eq!(unpacked(&whole, 1000).peek(10), [7; 10]);
         let parts = [packed(b"ab"), packed(b"cd")].concat();
-        assert_eq!(unpacked(path, &parts, 4).unwrap(), b"abcd");
+        assert_eq!(bytes(&parts, 4).unwrap(), b"abcd");
+    }
+
+    #[test]
+    fn what_was_looked_at_is_read_again_and_so_is_an_error() {
+        let text = b"  some text".repeat(1000);
+        let mut plain = Unpacked::of(Cursor::new(text.clone()), 3, 0).unwrap();
+        assert_eq!((plain.peek(3).len(), plain.peek(9)), (3, &text[..9]));
+        assert_eq!(plain.bytes().unwrap(), text);
+        let whole = packed(&text);
+        let mut cut =
+            Unpacked::of(Cursor::new(whole[..whole.len() - 3].to_vec()), 0, 1 << 20).unwrap();
+        assert_eq!(cut.peek(1 << 20), text);
+        let error = cut.bytes().unwrap_err().to_string();
+        assert!(error.contains("cut off or broken"), "{error}");
+    }
+
+    #[test]
+    fn blanks_do_not_hide_a_text() {
+        let text = [&b" ".repeat(3 * HEAD)[..], b"{"].concat();
+        let mut blank = Unpacked::of(Cursor::new(text.clone()), 0, 0).unwrap();
+        assert_eq!(blank.peek_text(), text);
+        let mut nothing = Unpacked::of(Cursor::new(b" ".repeat(HEAD)), 0, 0).unwrap();
+        assert_eq!(nothing.peek_text().len(), HEAD);
     }
 
     #[test]

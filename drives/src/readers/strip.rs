@@ -79,7 +79,7 @@ impl Strip {
         ids.extend(&run.lanelets);
         ids.extend(network.extension(last, true, far));
         let lanelets: Vec<&Lanelet> =
-            ids.iter().filter_map(|id| network.lanelets.get(id)).collect();
+            ids.iter().filter_map(|id| network.lanelets.get(id).map(Box::as_ref)).collect();
         let (mut center, mut left, mut right) = (Vec::new(), Vec::new(), Vec::new());
         for lanelet in &lanelets {
             for i in 0..lanelet.center.len() {

@@ -78,7 +78,7 @@ impl Surface {
     pub(crate) fn near(network: &Network, points: &[Point], reach: f64) -> Self {
         let (low, high) = around(points);
         let (low, high) = (low.map(|x| x - reach), high.map(|x| x + reach));
-        let outlines = network.lanelets.values().map(Outline::new);
+        let outlines = network.lanelets.values().map(|it| Outline::new(it));
         Self { outlines: outlines.filter(|it| it.meets(low, high)).collect() }
     }
 

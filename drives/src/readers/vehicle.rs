@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::counted;
 use crate::geometry::distance;
 use crate::options::{Options, Tail};
 use crate::readers::error::ReadError;
@@ -40,10 +41,10 @@ impl<'a> Vehicle<'a> {
 
     fn new(object: &'a Object, states: &'a [State], chosen: &str) -> Self {
         let note = format!(
-            "CAV: recorded {} {} ({chosen}), {} states over {:.1} m",
+            "CAV: recorded {} {} ({chosen}), {} over {:.1} m",
             object.kind,
             object.id,
-            states.len(),
+            counted(states.len(), "state"),
             travelled(states)
         );
         Self { object, states, notes: vec![note] }

@@ -158,7 +158,12 @@ impl<'a> Element<'a> {
 
     /// The children named `point`, each a position.
     pub(crate) fn points(self) -> Result<Vec<Point>, ReadError> {
-        self.all("point").enumerate().map(|(i, p)| p.point().map_err(|e| e.index(i))).collect()
+        // Counted first, so that there is room for no more.
+        let mut points = Vec::with_capacity(self.all("point").count());
+        for (i, point) in self.all("point").enumerate() {
+            points.push(point.point().map_err(|e| e.index(i))?);
+        }
+        Ok(points)
     }
 }
 

@@ -18,6 +18,7 @@ use mufasa_model::input::cycle::{
     Cycle, DetectionList, Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint,
 };
 
+use crate::counted;
 use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, add, cross, direction, mix, mix_angle, scale, sub};
 use crate::options::{Options, Sensor, Tail};
@@ -56,7 +57,11 @@ pub(crate) fn drive(mut recording: Recording, options: &Options, every: usize) -
     let every = every.max(1);
     let mut notes = std::mem::take(&mut recording.notes);
     let count = cycles(&recording.ego, recording.dt_ns, options);
-    notes.push(format!("{} cycles from {} states", count.div_ceil(every), recording.ego.len()));
+    notes.push(format!(
+        "{} from {}",
+        counted(count.div_ceil(every), "cycle"),
+        counted(recording.ego.len(), "state")
+    ));
     let short = recording.ego.len() - count;
     if short > 0 {
         notes.push(format!(

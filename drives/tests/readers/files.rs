@@ -20,7 +20,11 @@ pub fn shared(what: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    let line = format!("NOT RUN: no recordings in {}; set MUFASA_DATA\n", folder.display());
+    let line = format!(
+        "NOT RUN: {}: no recordings in {}; set MUFASA_DATA\n",
+        std::thread::current().name().unwrap_or("a test"),
+        folder.display()
+    );
     // The macros' output is captured, and nobody would see it.
     std::io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
     None

@@ -36,6 +36,37 @@ fn a_lanelet_on_the_wrong_sides_or_without_area_is_left_out_with_a_note() {
     assert!(drive.notes.iter().any(|it| it == note), "{:?}", drive.notes);
 }
 
+/// A lane left of that of the drive, whose bounds are at these y every 20 m.
+fn beside(left: &[f64], right: &[f64]) -> String {
+    let bound = |name: &str, line: &[f64]| {
+        let point = |(i, y)| format!("<point><x>{}</x><y>{y}</y></point>", 20 * i);
+        let points: String = line.iter().enumerate().map(point).collect();
+        format!("<{name}>{points}</{name}>")
+    };
+    format!(
+        "<lanelet id=\"2\">{}{}</lanelet>",
+        bound("leftBound", left),
+        bound("rightBound", right)
+    )
+}
+
+/// Bounds that cross and cross back were once taken for those of a road.
+#[test]
+fn a_lanelet_whose_bounds_swap_on_the_way_is_left_out_from_there() {
+    let road = lanelet(1, [0.0, 120.0], [0.0, -3.5], "");
+    let notes = |beside: String| {
+        let drive = solved(&[road.clone(), beside]).unwrap();
+        drive.notes.into_iter().filter(|it| it.contains("left out")).collect::<Vec<_>>()
+    };
+    let (left, right) = ([3.5, 3.5, 3.5, 0.0, 3.5, 3.5], [0.0, 0.0, 0.0, 3.5, 0.0, 0.0]);
+    let swapped = notes(beside(&left, &right));
+    let note = "1 lanelet left out, whose left bound is not left of the right one: 2 (segment 2)";
+    assert_eq!(swapped, [note]);
+    // A lane that begins and ends at a point, with one of its points twice.
+    let (left, right) = ([0.0, 3.5, 3.5, 3.5, 0.0, 0.0], [0.0; 6]);
+    assert_eq!(notes(beside(&left, &right)), [""; 0]);
+}
+
 #[test]
 fn a_lanelet_that_the_route_needs_is_refused() {
     let next = "<successor ref=\"3\"/>";
@@ -48,6 +79,10 @@ fn a_lanelet_that_the_route_needs_is_refused() {
     };
     // The drive is on it and on no other.
     needed(&[before.clone(), lanelet(3, [20.0, 120.0], [-3.5, 0.0], "")]);
+    let crossed = beside(&[0.0, 0.0, -3.5, 0.0], &[-3.5, -3.5, 0.0, -3.5]);
+    let elsewhere = lanelet(4, [0.0, 120.0], [7.0, 3.5], "");
+    let error = solved(&[crossed, elsewhere]).unwrap_err();
+    assert_eq!((error.element.as_str(), error.index), ("commonRoad/lanelet[2]", Some(1)));
     // It alone connects the two that the drive is on.
     let point = lanelet(3, [20.0, 20.0], [0.0, -3.5], "<successor ref=\"4\"/>");
     needed(&[before, point.clone(), behind.clone()]);
@@ -65,7 +100,7 @@ fn scenarios_with_one_such_lanelet_give_drives() {
         let alone = one(&[file(".xml")], &Options::default()).unwrap();
         let solved = one(&[file(".xml"), file(".solution1.KS2.xml")], &Options::default()).unwrap();
         for drive in [alone, solved] {
-            assert!(drive.notes[0].starts_with("1 lanelets left out"), "{:?}", drive.notes);
+            assert!(drive.notes[0].starts_with("1 lanelet left out"), "{:?}", drive.notes);
         }
     }
 }

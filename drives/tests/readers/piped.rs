@@ -10,6 +10,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use mufasa_drives::{Drive, Options, read};
 use mufasa_records::cycle_to_line;
+use mufasa_records::lines::MAX_LINE_BYTES;
 
 use super::broken::map;
 use super::files::{Scratch, one, own, small};
@@ -98,6 +99,33 @@ fn packed_files_give_the_drives_of_what_is_in_them() {
     assert_eq!(one(&[piped], &Options::default()).unwrap().cycles.len(), 3);
 }
 
+/// Each was once the end of the whole file.
+#[test]
+fn a_line_that_is_too_long_or_no_text_is_named_and_the_others_are_read() {
+    let folder = Scratch::new();
+    let (drive, text) = lines(4096);
+    let mut lines: Vec<&[u8]> = text.split(|byte| *byte == b'\n').collect();
+    let long = b"{".repeat(MAX_LINE_BYTES + 1);
+    lines.insert(1, &long);
+    lines.insert(3, b"{\"id\": \"\xff\"}");
+    let content = lines.join(&b'\n');
+    for path in [folder.write("plain", &content), pipe(&folder, "piped", content.clone())] {
+        let mut drives = read(&[path], &Options::default());
+        assert_eq!(drives.pop().unwrap().unwrap().cycles, drive.cycles);
+        let error = drives.pop().unwrap().unwrap_err();
+        assert_eq!(
+            (error.line, error.message.contains("is longer than 67108864 bytes")),
+            (Some(2), true)
+        );
+        let other = &error.others.unwrap().errors[0];
+        assert_eq!(
+            (other.line, other.message.contains("is not UTF-8")),
+            (Some(4), true),
+            "{other}"
+        );
+    }
+}
+
 /// What is in a file of that content, as far as its refusal says.
 fn refused(folder: &Scratch, content: &[u8]) -> String {
     let path: &Path = &folder.write("f", content);
@@ -110,8 +138,12 @@ fn refused(folder: &Scratch, content: &[u8]) -> String {
 fn other_formats_are_named_with_what_to_do() {
     let folder = Scratch::new();
     let utf_16: Vec<u8> = "\u{feff}<a/>".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let utf_32 =
+        |text: &str| text.chars().flat_map(|c| u32::from(c).to_le_bytes()).collect::<Vec<_>>();
+    let big: Vec<u8> = "{".chars().flat_map(|c| u32::from(c).to_be_bytes()).collect();
+    let [marked, bare] = ["\u{feff}<a/>", "{\"a\": 1}"].map(utf_32);
     let protobuf = b"\n\x40\n\x052020a\x12\x12ZAM_Test-1_1_T-1\x1a\x08\x08\xe8\x07\xff";
-    let cases: [(&[u8], &str, &str); 14] = [
+    let cases: [(&[u8], &str, &str); 17] = [
         (b"", "an empty file", "are read"),
         (b"PK\x03\x04\x14\x00", "zip", "unpack it"),
         (b"\x28\xb5\x2f\xfd\x04", "zstd", "unpack it"),
@@ -121,6 +153,9 @@ fn other_formats_are_named_with_what_to_do() {
         (b"SQLite format 3\x00\x10", "rosbag of ROS 2", "JSON Lines"),
         (&utf_16, "UTF-16", "iconv"),
         (&utf_16[2..], "UTF-16", "iconv"),
+        (&marked, "UTF-32", "iconv -f UTF-32"),
+        (&bare, "UTF-32", "iconv -f UTF-32"),
+        (&big, "UTF-32", "iconv -f UTF-32"),
         (protobuf, "protobuf", "as XML"),
         (b"t,x,y\n0,1,2\n", "CSV", "JSON Lines"),
         (b"t;x\r\n0;1\r\n", "CSV", "JSON Lines"),

@@ -6,10 +6,11 @@ use std::fmt;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One thing that happened.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Entry {
     /// When, on the shared clock, ns.
     pub at_ns: i64,
@@ -19,7 +20,7 @@ pub struct Entry {
 }
 
 /// What happened. Groups are `mot` and `plan`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "what", rename_all = "snake_case")]
 pub enum What {
     /// The vehicle began; nothing of an earlier life counts any more.

@@ -22,7 +22,7 @@ Exit codes: 0 all cycles safe, 1 some unsafe or offloading lost (data too late, 
 input (the other files are still checked), 3 model and implementation disagree; the highest that applies.")]
 pub(super) struct CheckArguments {
     /// CommonRoad scenarios (each followed by its solutions, if any), JSON Lines of cycles, maps
-    /// as .npy; recognised by their content, each also as .gz or from a pipe such as /dev/stdin.
+    /// as .npy; recognised by their content, each also as .gz or from a pipe; - is standard input.
     #[arg(required = true)]
     pub(super) files: Vec<PathBuf>,
     /// Profile of recorded drives; records name their own.

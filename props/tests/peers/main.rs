@@ -23,7 +23,11 @@ fn read(name: &str) -> Option<String> {
     match fs::read_to_string(&path) {
         Ok(text) => Some(text),
         Err(error) => {
-            let line = format!("NOT RUN: {}: {error}; set MUFASA_DATA\n", path.display());
+            let line = format!(
+                "NOT RUN: {}: {}: {error}; set MUFASA_DATA\n",
+                std::thread::current().name().unwrap_or("a test"),
+                path.display()
+            );
             // The macros' output is captured, and nobody would see it.
             io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
             None
@@ -40,5 +44,5 @@ fn a_test_without_data_says_so_aloud() {
         .output()
         .expect("this program starts");
     let text = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && text.contains("NOT RUN: /no such folder"), "{text}");
+    assert!(output.status.success() && text.contains(": /no such folder"), "{text}");
 }
