@@ -156,8 +156,8 @@ mod tests {
         for after in [0, 1, 4].map(Duration::from_secs) {
             assert_eq!(said(3, after), "?", "{after:?}");
         }
-        assert_eq!(said(0, Duration::from_secs(60)), "?");
-        let known = said(500_000, Duration::from_secs(60));
+        assert_eq!(said(0, Duration::from_mins(1)), "?");
+        let known = said(500_000, Duration::from_mins(1));
         assert!(known.ends_with(" s") || known.ends_with(" min"), "{known}");
     }
 

@@ -39,7 +39,8 @@ fn a_station_is_asked_when_half_a_second_was_seen() {
         for ms in 0..1_000 {
             let asked = asked(&mut monitor, ms * MS);
             if asked > 0 && first.is_none() {
-                (first, _) = (Some(ms), assert_eq!(asked, 2));
+                assert_eq!(asked, 2);
+                first = Some(ms);
             }
             if ms % 100 == 0 {
                 look(&mut monitor, ms * MS, Some(30 * MS));

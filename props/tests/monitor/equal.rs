@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 use mufasa::input::cycle::{Route, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Accepted, Arrival, Decision, Message, Monitor, Settings};
+use mufasa::monitor::{Arrival, Decision, Message, Monitor, Settings};
 use mufasa::offloading::requester::{
     Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
 };
@@ -15,17 +15,11 @@ use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
 use mufasa_props::strategy::whole;
 
+use super::held::{Held, choose};
 use super::kit::{Buffers, MS, at, place, road, settings};
 use super::plain::{Own, Plain, Received};
 use super::scene::{Base, inputs, same};
 use super::seen::{Seen, starved};
-
-/// An accepted element, a copy of it, and how many unsafe cycles there were before it.
-struct Held<T> {
-    token: Accepted<Vec<T>>,
-    copy: Received<T>,
-    fallbacks: u32,
-}
 
 /// Both sides, and what came to the monitor.
 struct Pair<'a, 'd, 't> {
@@ -306,15 +300,6 @@ impl Keeps<TrajectoryPoint> for Pair<'_, '_, '_> {
 
     fn keep(&mut self, held: Held<TrajectoryPoint>) {
         self.points.push(held);
-    }
-}
-
-/// Mostly the last one.
-fn choose<'h, T>(draw: &mut Draw<'_>, held: &'h [Held<T>]) -> Option<&'h Held<T>> {
-    match draw.below(8) {
-        6 => held.get(draw.below(held.len().max(1))),
-        7 => None,
-        _ => held.last(),
     }
 }
 

@@ -6,6 +6,7 @@ mod again;
 mod dropped;
 mod early;
 mod equal;
+mod held;
 mod kit;
 mod limits;
 mod misuse;
