@@ -82,8 +82,11 @@ enum MufasaStatus
   MUFASA_STATUS_DT_MAX_NOT_ABOVE_PERIOD = 12,
   // A value of the route is outside its domain.
   MUFASA_STATUS_INVALID_ROUTE = 13,
-  // A time above 0 and below 1 ms: it is taken for one in another unit than nanoseconds.
+  // A time above 0 and below 1 ms, or t_wait above 0 and below 1 s: it is taken for one in another unit
+  // than nanoseconds.
   MUFASA_STATUS_TIME_TOO_SHORT = 14,
+  // max_age is below l_max, so that no cycle could use some of the results that are in time.
+  MUFASA_STATUS_MAX_AGE_BELOW_L_MAX = 15,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
