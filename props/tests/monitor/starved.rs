@@ -172,7 +172,8 @@ fn results_that_cycles_can_use_keep_their_session() {
     }
 }
 
-/// The hold that begins when a tick finds silence bars the requests of that tick, and ends to the nanosecond.
+/// `spec/5-interfaces.md#monitor.10`: the hold that begins when a tick finds silence bars the requests of that
+/// tick, and ends to the nanosecond.
 #[test]
 fn the_tick_that_ends_a_session_asks_nobody() {
     let cross_sections = road();
@@ -199,8 +200,8 @@ fn the_tick_that_ends_a_session_asks_nobody() {
 /// Something that returns groups to local at a time.
 type End = fn(&mut Monitor<'_>, Time) -> Actions;
 
-/// Withdrawn, lost, out of the area, late: after each no station is asked for nine periods, as the
-/// last cycle had what it needs.
+/// `spec/5-interfaces.md#monitor.10`: withdrawn, lost, out of the area, late: after each no station is asked
+/// for nine periods, as the last cycle had what it needs.
 #[test]
 fn after_every_end_of_a_session_nine_periods_are_waited() {
     let ends: [(&str, End, usize); 5] = [
