@@ -16,12 +16,13 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 12] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 13] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
     ("explore", "out", &["exploration"]),
     ("prove", "out", &["claim"]),
+    ("evaluate", "out", &["evaluation-failures"]),
     ("evaluate failures", "out", &["evaluation-failures"]),
     ("evaluate stages", "out", &["evaluation-stages"]),
     ("evaluate attacks", "out", &["evaluation-attacks"]),

@@ -1,7 +1,8 @@
 //! A station whose results come in time and are current in no cycle is left (`spec/5-interfaces.md#monitor.9`,
 //! finding F-43); one that any cycle can use is kept.
 
-use mufasa::monitor::{Decision, Inputs, Message, Monitor};
+use mufasa::monitor::{Decision, Inputs, Message, Monitor, Time};
+use mufasa::offloading::requester::{Action, Actions, Group, Groups};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{
@@ -86,7 +87,7 @@ fn drive(habit: impl Fn(i64) -> Habit) -> (i64, Option<i64>, [bool; 2]) {
             assert_eq!(station.released, 2, "both groups, once");
             let end_ns = start_ns + habit.latency_ns;
             let again_ns = end_ns + 9 * (end_ns - last_ns).max(PERIOD_NS);
-            look_around(&mut monitor, again_ns, World::at);
+            look_around(&mut monitor, again_ns - 50 * MS, World::at);
             station.take(&monitor.tick(at(again_ns - 1)));
             assert_eq!(station.asked, [], "{habit:?}: not before {again_ns}");
             // The next session is no worse for it.
@@ -168,5 +169,70 @@ fn results_that_cycles_can_use_keep_their_session() {
         };
         let (_, end_ns, _) = drive(now_and_then);
         assert_eq!(end_ns.is_none(), is_kept, "{late_ns}");
+    }
+}
+
+/// `spec/5-interfaces.md#monitor.10`: the hold that begins when a tick finds silence bars the requests of that
+/// tick, and ends to the nanosecond.
+#[test]
+fn the_tick_that_ends_a_session_asks_nobody() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = Station::default();
+    let _none = monitor.offer(at(0), 1, Groups::from(Group::Mot)).expect("a station");
+    station.take(&monitor.tick(at(0)));
+    let [(group, session)] = std::mem::take(&mut station.asked)[..] else { panic!("MOT alone") };
+    let _none = monitor.confirm(at(0), 1, group, session).expect("a station");
+    let _none = monitor.offer(at(0), 1, Groups::ALL).expect("a station");
+    let silent_ns = settings().requester.dt_max_ns + 1;
+    station.take(&monitor.tick(at(silent_ns)));
+    assert_eq!((station.released, station.asked.len()), (1, 0));
+    // Nothing was current since the confirmation.
+    let again_ns = 10 * silent_ns;
+    look_around(&mut monitor, again_ns - 50 * MS, World::at);
+    for (t_ns, requests) in [(again_ns - 1, 0), (again_ns, 2)] {
+        station.take(&monitor.tick(at(t_ns)));
+        assert_eq!(station.asked.len(), requests, "{t_ns}");
+    }
+}
+
+/// Something that returns groups to local at a time.
+type End = fn(&mut Monitor<'_>, Time) -> Actions;
+
+/// `spec/5-interfaces.md#monitor.10`: withdrawn, lost, out of the area, late: after each no station is asked
+/// for nine periods, as the last cycle had what it needs.
+#[test]
+fn after_every_end_of_a_session_nine_periods_are_waited() {
+    let ends: [(&str, End, usize); 5] = [
+        ("withdrawn", |it, now| it.withdraw(now, 1).expect("a station"), 2),
+        ("lost", |it, now| it.lost(now, 1).expect("a station"), 2),
+        ("area", |it, now| it.area(now, Groups::NONE), 2),
+        (
+            "late",
+            |it, now| {
+                let session = it.requester().session_of(Group::Mot).expect("remote").session;
+                let late = message(session, at(0), World::at(0).tracks);
+                it.tracks(now, late).expect("a station").1
+            },
+            1,
+        ),
+        ("a cycle", |it, now| it.cycle(&Inputs::new(now, World::at(0).ego)).1, 0),
+    ];
+    let cross_sections = road();
+    for (name, end, left) in ends {
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.on(&cross_sections);
+        let mut station = Station::default();
+        let last_ns = begin(&mut monitor, &mut station, 0);
+        let before = monitor.requester().hold_until_ns();
+        let actions = end(&mut monitor, at(last_ns));
+        let activated = actions.iter().filter(|it| matches!(it, Action::Activate(_))).count();
+        assert_eq!(activated, left, "{name}");
+        let hold = monitor.requester().hold_until_ns();
+        match left {
+            0 => assert_eq!(hold, before, "{name}: nothing has ended"),
+            _ => assert_eq!(hold, Some(last_ns + 9 * PERIOD_NS), "{name}"),
+        }
     }
 }
