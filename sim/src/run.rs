@@ -206,8 +206,8 @@ pub fn simulate(
     };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
-    let mut cav = Cav::new(route, *world.body(), frame, noise, settings.areas, guard);
-    let mut station = Station::new(route, frame, settings.offers, noise);
+    let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard);
+    let mut station = Station::new((town, route), frame, settings.offers, noise);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);
     let mut attacker = Attacker::new(settings.attacks.clone(), elsewhere);

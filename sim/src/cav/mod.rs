@@ -14,7 +14,9 @@ use self::guard::{Decided, Guard, Local};
 use self::local::Services;
 use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
+use crate::map::Town;
 use crate::map::route::Route;
+use crate::planner::Road;
 use crate::radio::{Radio, To};
 use crate::services::control::{self, Controller};
 use crate::services::detectors::Errors;
@@ -38,6 +40,7 @@ pub struct Counts {
 /// The CAV on its route.
 #[derive(Debug)]
 pub struct Cav<'a> {
+    town: &'a Town,
     route: &'a Route,
     body: Body,
     frame: Frame,
@@ -60,7 +63,7 @@ pub struct Cav<'a> {
 impl<'a> Cav<'a> {
     /// At the start of its route, with everything local.
     pub fn new(
-        route: &'a Route,
+        (town, route): (&'a Town, &'a Route),
         body: Body,
         frame: Frame,
         (seed, errors): (u64, Errors),
@@ -68,6 +71,7 @@ impl<'a> Cav<'a> {
         guard: Guard<'a>,
     ) -> Self {
         Self {
+            town,
             route,
             body,
             frame,
@@ -186,9 +190,10 @@ impl<'a> Cav<'a> {
         let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
         let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
         let (stamp_ns, items) = remote.or(own).unwrap_or((now_ns, &[]));
-        let stops: Vec<f64> = truth.stops.iter().map(|stop| stop.s).collect();
         let list = TrackList { stamp_ns, items };
-        let points = self.services.plan(now_ns, &ego, truth.ego.s, self.route, &stops, &list);
+        let (near_s, signals) = (Some(truth.ego.s), &*truth.closed_signals());
+        let road = Road { town: self.town, route: self.route, near_s, signals };
+        let points = self.services.plan(now_ns, &ego, &road, &list);
         let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
         let mut decided = self.guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
