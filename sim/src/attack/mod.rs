@@ -3,6 +3,7 @@
 //! The attacker knows everything: the truth, the rules, the sessions. An attack is an item with a start, an
 //! end and a seed; several go on at the same time.
 
+pub mod means;
 mod tracks;
 mod trajectory;
 
@@ -13,6 +14,7 @@ use mufasa_link::message::{self, Frame, Message, Payload};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use self::means::{Lists, Means};
 use crate::ids;
 use crate::map::route::Route;
 use crate::radio::{Radio, To};
@@ -50,6 +52,8 @@ pub enum Kind {
     Backwards,
     /// The trajectory goes on at the present speed, whatever is ahead.
     IntoLead,
+    /// The trajectory swings aside, within what the corridor allows its points (F-09).
+    Swerve,
     /// A standing object 15 m ahead in every list.
     MadeUpLead,
     /// Everything later by 30 ms, which is below `l_max`.
@@ -64,7 +68,7 @@ pub enum Kind {
 
 impl Kind {
     /// All.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::MapReplaced,
         Self::TracksEmpty,
         Self::Ghosts,
@@ -78,6 +82,7 @@ impl Kind {
         Self::StartsLate,
         Self::Backwards,
         Self::IntoLead,
+        Self::Swerve,
         Self::MadeUpLead,
         Self::Delay,
         Self::NotFinite,
@@ -104,6 +109,7 @@ impl Kind {
             Self::StartsLate => "starts-late",
             Self::Backwards => "backwards",
             Self::IntoLead => "into-lead",
+            Self::Swerve => "swerve",
             Self::MadeUpLead => "made-up-lead",
             Self::Delay => "delay",
             Self::NotFinite => "not-finite",
@@ -124,9 +130,16 @@ pub struct Attack {
     pub until: f64,
     /// For what it draws.
     pub seed: u64,
+    /// How much, and to whom.
+    pub means: Means,
 }
 
 impl Attack {
+    /// An attack of the experiments, between two times, s.
+    pub const fn new(kind: Kind, from: f64, until: f64, seed: u64) -> Self {
+        Self { kind, from, until, seed, means: Means::of(kind) }
+    }
+
     /// Whether it goes on.
     pub fn is_on(&self, t_ns: i64) -> bool {
         let t = crate::services::way::seconds(t_ns);
@@ -145,10 +158,9 @@ pub struct Results {
     pub points: Vec<TrajectoryPoint>,
 }
 
-/// How long ago replayed results are, in results.
-const REPLAYED: usize = 30;
-/// What `Delay` adds, ns.
-const DELAY_NS: i64 = 30_000_000;
+/// Results that are kept to be replayed, one in a period, and how many come in a second.
+const KEPT: usize = 100;
+const PER_SECOND: f64 = 10.0;
 /// Messages of a flood in each step of 10 ms.
 const FLOOD: u8 = 10;
 
@@ -189,16 +201,22 @@ impl<'a> Attacker<'a> {
     }
 
     fn does(&self, kind: Kind) -> bool {
-        self.attacks.iter().any(|attack| attack.kind == kind && attack.is_on(self.now_ns))
+        self.means(kind).is_some()
+    }
+
+    /// Those of the first attack of a kind that goes on.
+    fn means(&self, kind: Kind) -> Option<&Means> {
+        let mut going_on = self.attacks.iter().filter(|it| it.kind == kind);
+        going_on.find(|attack| attack.is_on(self.now_ns)).map(|attack| &attack.means)
     }
 
     /// The tracks that the planner of the station believes in.
     pub fn believed(&self, stamp_ns: i64, ego: &Ego, tracks: &[Track]) -> Vec<Track> {
         let mut tracks = tracks.to_vec();
-        if self.does(Kind::TracksEmpty) {
+        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Planner)) {
             tracks.clear();
         }
-        self.lie(stamp_ns, ego, &mut tracks);
+        self.lie(stamp_ns, ego, Lists::Planner, &mut tracks);
         tracks
     }
 
@@ -210,33 +228,34 @@ impl<'a> Attacker<'a> {
     /// What is made of the results before they are sent.
     pub fn results(&mut self, ego: &Ego, results: &mut Results) {
         self.earlier.push_back(results.clone());
-        if self.earlier.len() > REPLAYED {
+        if self.earlier.len() > KEPT {
             self.earlier.pop_front();
         }
         let Results { stamp_ns, tracks, points } = results;
-        self.lie(*stamp_ns, ego, tracks);
-        if self.does(Kind::Replay)
-            && let Some(old) = self.earlier.front()
+        self.lie(*stamp_ns, ego, Lists::Cav, tracks);
+        if let Some(means) = self.means(Kind::Replay)
+            && let Some(old) = self.earlier.get(self.earlier.len().saturating_sub(results_in(means)))
         {
             let later_ns = *stamp_ns - old.stamp_ns;
             tracks.clone_from(&old.tracks);
             *points = old.points.iter().map(|it| later(it, later_ns)).collect();
         }
         for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
-            trajectory::spoil(attack.kind, ego, points);
+            trajectory::spoil(attack, ego, points);
         }
     }
 
-    fn lie(&self, stamp_ns: i64, ego: &Ego, list: &mut Vec<Track>) {
+    fn lie(&self, stamp_ns: i64, ego: &Ego, whose: Lists, list: &mut Vec<Track>) {
         let Some(truth) = &self.truth else { return };
-        for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
+        let going_on = self.attacks.iter().filter(|it| it.is_on(self.now_ns));
+        for attack in going_on.filter(|it| it.means.spoils(whose)) {
             tracks::spoil(attack, truth, stamp_ns, ego, list);
         }
     }
 
     /// How much later everything is sent, ns.
     pub fn delay_ns(&self) -> i64 {
-        if self.does(Kind::Delay) { DELAY_NS } else { 0 }
+        self.means(Kind::Delay).map_or(0, |means| nanoseconds(means.late_s))
     }
 
     /// The sessions of the CAV, which the attacker reads from the link.
@@ -257,7 +276,7 @@ impl<'a> Attacker<'a> {
                 radio.forge(now_ns, To::Vehicle, bytes);
             }
         };
-        if self.does(Kind::TracksEmpty)
+        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Cav))
             && let Some(session) = self.sessions[0]
         {
             send(&message(Payload::Tracks { session, stamp_ns: now_ns, tracks: Vec::new() }));
@@ -296,6 +315,17 @@ impl<'a> Attacker<'a> {
             _ => {}
         }
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "some seconds")]
+fn nanoseconds(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}
+
+/// How many results ago, at least the present one.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to 100")]
+fn results_in(means: &Means) -> usize {
+    ((means.late_s * PER_SECOND).round().max(1.0) as usize).min(KEPT)
 }
 
 fn later(point: &TrajectoryPoint, by_ns: i64) -> TrajectoryPoint {

@@ -18,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::sensing::Sensed;
+use super::without::Rules;
 
 /// What is checked of remote data.
 #[derive(
@@ -74,6 +75,7 @@ enum Kind<'a> {
         tracks: Option<Accepted<Vec<Track>>>,
         points: Option<Accepted<Vec<TrajectoryPoint>>>,
     },
+    Without(Box<Rules<'a>>),
 }
 
 /// What a cycle lets control have.
@@ -140,6 +142,11 @@ impl<'a> Guard<'a> {
         Ok(Self { kind: Kind::Checked { monitor, tracks: None, points: None } })
     }
 
+    /// The hardened rules without one of them.
+    pub fn without(rules: Rules<'a>) -> Self {
+        Self { kind: Kind::Without(Box::new(rules)) }
+    }
+
     /// The stretch of the route that is followed from now on.
     ///
     /// Errors: a route that the monitor cannot keep.
@@ -147,6 +154,10 @@ impl<'a> Guard<'a> {
         match &mut self.kind {
             Kind::Plain { .. } => Ok(()),
             Kind::Checked { monitor, .. } => monitor.set_route(route),
+            Kind::Without(rules) => {
+                rules.set_route(route);
+                Ok(())
+            }
         }
     }
 
@@ -165,6 +176,7 @@ impl<'a> Guard<'a> {
         match &self.kind {
             Kind::Plain { requester, .. } => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),
+            Kind::Without(rules) => &rules.requester,
         }
     }
 
@@ -175,6 +187,7 @@ impl<'a> Guard<'a> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
             Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
+            Kind::Without(rules) => rules.requester.step(&Event { t_ns, kind }),
             Kind::Checked { monitor, .. } => match kind {
                 EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
                 EventKind::Withdraw { station } => monitor.withdraw(now, station),
@@ -209,6 +222,7 @@ impl<'a> Guard<'a> {
             Kind::Checked { monitor, tracks, .. } => {
                 Ok(accept(monitor.tracks(time(t_ns), message)?, tracks))
             }
+            Kind::Without(rules) => rules.tracks(t_ns, message),
         }
     }
 
@@ -227,6 +241,7 @@ impl<'a> Guard<'a> {
             Kind::Checked { monitor, points, .. } => {
                 Ok(accept(monitor.trajectory(time(t_ns), message)?, points))
             }
+            Kind::Without(rules) => rules.trajectory(t_ns, message),
         }
     }
 
@@ -236,6 +251,7 @@ impl<'a> Guard<'a> {
             Kind::Plain { requester, tracks, points } => {
                 unchecked(requester, t_ns, tracks.as_ref(), points.as_ref(), local)
             }
+            Kind::Without(rules) => rules.decide(t_ns, ego, sensed, local),
             Kind::Checked { monitor, tracks, points } => {
                 let inputs = inputs(t_ns, ego, sensed, local);
                 let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);

@@ -3,6 +3,7 @@
 pub mod guard;
 pub mod local;
 pub mod sensing;
+pub mod without;
 
 use mufasa::input::cycle::{TrackList, TrajectoryPoint};
 use mufasa::monitor::{Message as Received, Time};

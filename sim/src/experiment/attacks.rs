@@ -18,7 +18,7 @@ use crate::run::{End, Outcome, RunError};
 
 /// Its name.
 pub const NAME: &str = "attacks";
-/// A few scenarios of each of 171 combinations.
+/// A few scenarios of each of 180 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What the station offers.

@@ -72,7 +72,7 @@ impl<W> Job<W> {
     /// watched from then on.
     pub fn attacked(mut self, kind: Option<Kind>) -> Self {
         let seed = self.settings.seed;
-        let attack = |kind| Attack { kind, from: FROM, until: f64::INFINITY, seed };
+        let attack = |kind| Attack::new(kind, FROM, f64::INFINITY, seed);
         self.settings.attacks.extend(kind.map(attack));
         self.watched_from = FROM;
         self

@@ -165,7 +165,7 @@ fn attacks(seed: u64) -> Vec<Attack> {
     while t < UNTIL {
         let kind = Kind::PAPER[random.random_range(0..Kind::PAPER.len())];
         let until = t + random.random_range(LASTS.0..LASTS.1);
-        attacks.push(Attack { kind, from: t, until, seed });
+        attacks.push(Attack::new(kind, t, until, seed));
         t = until + random.random_range(PAUSE.0..PAUSE.1);
     }
     attacks

@@ -81,7 +81,7 @@ impl Id {
         let Some(route) = town.ego_routes().nth(self.route) else { return Ok(None) };
         let scenario = Scenario::draw(town, route, vehicles, seed);
         let mut settings = Settings::new(self.variant, Groups::ALL, seed);
-        let attack = |kind| Attack { kind, from, until: f64::INFINITY, seed };
+        let attack = |kind| Attack::new(kind, from, f64::INFINITY, seed);
         settings.attacks = self.attack.into_iter().map(attack).collect();
         let mut replay = Replay::default();
         let outcome = simulate(town, &scenario, &settings, &mut replay)?;

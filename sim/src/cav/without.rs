@@ -1,0 +1,260 @@
+//! The hardened rules without one of them, for experiments that ask what the rule is good for.
+//!
+//! The implementation has no switch for a rule, and is given none: a vehicle could be built with it. So this
+//! guard is put together here from the functions beneath the monitor, of the requester and of a cycle, and
+//! overrules the one verdict. With `Without::Nothing` it decides as the monitor does (tested:
+//! `sim/tests/loop/without.rs`).
+
+use std::collections::VecDeque;
+
+use mufasa::input::cycle::{
+    CrossSection, Cycle, Detection, DetectionList, Ego, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
+};
+use mufasa::input::parameters::Parameters as StageParameters;
+use mufasa::input::profile::Profile;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::monitor::Message;
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, Parameters, Requester, RequesterError, Running, Sessions,
+    StationRecord,
+};
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage};
+use mufasa::services::configuration::{Configuration, Group};
+use mufasa::stages::check;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::guard::{Decided, Local};
+use super::sensing::Sensed;
+
+/// A rule that is left out.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+pub enum Without {
+    /// None: the guard below is that of the hardened profile.
+    Nothing,
+    /// H-13: stage iv does not look at detections as moving.
+    #[serde(rename = "H-13")]
+    H13,
+}
+
+impl Without {
+    /// All that can be left out.
+    pub const ALL: [Self; 1] = [Self::H13];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::H13 => "H-13",
+        }
+    }
+}
+
+/// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
+/// that are kept, ns (`spec/3-stages.md#what-the-cav-saw-itself`).
+const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
+const USABLE_NS: (i64, i64) = (200_000_000, 1_000_000_000);
+const SPACING_NS: i64 = 83_333_334;
+
+/// The hardened rules without one.
+#[derive(Debug)]
+pub struct Rules<'a> {
+    without: Without,
+    parameters: StageParameters,
+    /// Which group runs where.
+    pub(super) requester: Requester<'a>,
+    route: (bool, Vec<CrossSection>),
+    /// The CAV's own detections of the last second, the oldest first.
+    seen: VecDeque<(i64, Vec<Detection>)>,
+    rows: Vec<Row>,
+    columns: Vec<Column>,
+    tracks: Option<Message<Vec<Track>>>,
+    points: Option<Message<Vec<TrajectoryPoint>>>,
+}
+
+impl<'a> Rules<'a> {
+    /// Nothing offered, everything local.
+    ///
+    /// Errors: parameters that no requester can keep.
+    pub fn new(
+        without: Without,
+        parameters: StageParameters,
+        requester: Parameters,
+        table: &'a mut [StationRecord],
+    ) -> Result<Self, RequesterError> {
+        Ok(Self {
+            without,
+            parameters,
+            requester: Requester::new(Profile::Hardened, requester, table)?,
+            route: (false, Vec::new()),
+            seen: VecDeque::new(),
+            rows: vec![Row::default(); Sizes::MAX.rows],
+            columns: vec![Column::default(); Sizes::MAX.columns],
+            tracks: None,
+            points: None,
+        })
+    }
+
+    pub(super) fn set_route(&mut self, route: &Route<'_>) {
+        self.route = (route.closed, route.cross_sections.to_vec());
+    }
+
+    pub(super) fn tracks(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<Track>>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        keep(&mut self.requester, t_ns, Group::Mot, message, &mut self.tracks)
+    }
+
+    pub(super) fn trajectory(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<TrajectoryPoint>>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        keep(&mut self.requester, t_ns, Group::Plan, message, &mut self.points)
+    }
+
+    /// Decides a cycle.
+    pub(super) fn decide(
+        &mut self,
+        t_ns: i64,
+        ego: Ego,
+        sensed: &Sensed,
+        local: Local<'_>,
+    ) -> Decided {
+        let [mot, plan] = Group::ALL.map(|group| self.requester.session_of(group));
+        let remote_tracks = mot.as_ref().map(|it| used(it, self.tracks.as_ref()));
+        let remote_points = plan.as_ref().map(|it| used(it, self.points.as_ref()));
+        let tracks = match remote_tracks {
+            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
+            None => local.tracks,
+        };
+        let points = match remote_points {
+            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
+            None => local.points,
+        };
+        let history = history(&self.seen, sensed.stamp_ns);
+        let cycle = Cycle {
+            profile: Profile::Hardened,
+            parameters: self.parameters,
+            now_ns: t_ns,
+            configuration: self.requester.configuration(),
+            ego,
+            trajectory: points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
+            tracks: tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
+            detections: Some(DetectionList { stamp_ns: sensed.stamp_ns, items: &sensed.detections }),
+            lead: sensed.lead.map(|lead| mufasa::input::cycle::Lead {
+                stamp_ns: sensed.stamp_ns,
+                gap: lead.gap,
+                speed: lead.speed,
+            }),
+            route: Route { closed: self.route.0, cross_sections: &self.route.1 },
+            grid: Some(sensed.grid.borrow(true)),
+            detection_history: &history,
+        };
+        let scratch = &mut Scratch::new(&mut self.rows, &mut self.columns);
+        let report = report(self.without, &cycle, scratch);
+        let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
+        let max_age_ns = self.parameters.max_age_ns;
+        let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
+        let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
+        let tracks = tracks.filter(|(stamp_ns, _)| is_safe && mot.is_some() && is_current(stamp_ns));
+        let points = points.filter(|(stamp_ns, _)| is_checked && is_current(stamp_ns));
+        let sessions = Sessions {
+            mot: mot.filter(|_| tracks.is_some()).map(|running| running.session),
+            plan: plan.filter(|_| points.is_some()).map(|running| running.session),
+        };
+        let tracks = tracks.map(|(stamp_ns, items)| (stamp_ns, items.to_vec()));
+        let trajectory = points.map(|(_, points)| points.to_vec());
+        if report.is_ok() {
+            self.see(sensed);
+        }
+        let kind = EventKind::Verdict { safe: is_safe, sessions };
+        let step = self.requester.step(&Event { t_ns, kind });
+        let actions = step.map_or_else(|_| Vec::new(), |it| it.to_vec());
+        Decided { is_safe, report: Some(report), trajectory, tracks, actions }
+    }
+
+    fn see(&mut self, sensed: &Sensed) {
+        let youngest = self.seen.back().map(|(stamp_ns, _)| *stamp_ns);
+        if youngest.is_some_and(|it| sensed.stamp_ns - it < SPACING_NS) {
+            return;
+        }
+        self.seen.push_back((sensed.stamp_ns, sensed.detections.clone()));
+        while self.seen.front().is_some_and(|it| sensed.stamp_ns - it.0 > USABLE_NS.1) {
+            self.seen.pop_front();
+        }
+    }
+}
+
+/// The report of a cycle; what the rule that is left out found is not heard, and stage v, which would have
+/// been next, is asked.
+fn report(
+    without: Without,
+    cycle: &Cycle<'_>,
+    scratch: &mut Scratch<'_>,
+) -> Result<Report, InvalidInput> {
+    let report = check(cycle, scratch)?;
+    let found = report.stages[3];
+    let is_overruled = without == Without::H13
+        && report.failed_stage == Some(FailedStage::Stage(Stage::Iv))
+        && matches!(found, Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving);
+    if !is_overruled {
+        return Ok(report);
+    }
+    // Stage v does not depend on tracks and detections; without both it is what examines the trajectory.
+    let configuration = Configuration::PlanRemote;
+    let alone = Cycle { configuration, tracks: None, detections: None, detection_history: &[], ..*cycle };
+    let rest = check(&alone, scratch)?;
+    let mut stages = report.stages;
+    (stages[3], stages[4]) = (Outcome::Passed, rest.stages[4]);
+    Ok(Report { failed_stage: rest.failed_stage, stages, ..report })
+}
+
+/// The message that the requester used last, if it is the one that is kept.
+fn used<'m, T>(running: &Running, kept: Option<&'m Message<Vec<T>>>) -> Option<&'m Message<Vec<T>>> {
+    kept.filter(|it| {
+        (Some(it.generated.as_nanoseconds()), it.session)
+            == (running.last_used_ns, running.session)
+    })
+}
+
+fn keep<T>(
+    requester: &mut Requester<'_>,
+    t_ns: i64,
+    group: Group,
+    message: Message<Vec<T>>,
+    kept: &mut Option<Message<Vec<T>>>,
+) -> Result<Vec<Action>, RequesterError> {
+    let (station, session) = (message.station, message.session);
+    let generated_ns = message.generated.as_nanoseconds();
+    let kind = EventKind::Data { station, group, session, generated_ns };
+    let actions = requester.step(&Event { t_ns, kind })?.to_vec();
+    if !actions.contains(&Action::Drop(group)) {
+        *kept = Some(message);
+    }
+    Ok(actions)
+}
+
+/// The lists whose ages are nearest to those wanted, the youngest first.
+fn history(seen: &VecDeque<(i64, Vec<Detection>)>, stamp_ns: i64) -> Vec<DetectionList<'_>> {
+    let usable = || {
+        let age = move |it: &&(i64, Vec<Detection>)| stamp_ns - it.0;
+        seen.iter().rev().filter(move |it| (USABLE_NS.0..=USABLE_NS.1).contains(&age(it)))
+    };
+    let mut lists: Vec<DetectionList<'_>> = Vec::new();
+    for wanted in WANTED_NS {
+        // Of two that are as near the younger: the first.
+        let nearest = usable().min_by_key(|it| (stamp_ns - it.0 - wanted).abs());
+        if let Some((stamp_ns, items)) = nearest
+            && lists.iter().all(|list| list.stamp_ns != *stamp_ns)
+        {
+            lists.push(DetectionList { stamp_ns: *stamp_ns, items });
+        }
+    }
+    lists
+}
