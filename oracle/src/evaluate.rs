@@ -13,7 +13,7 @@ use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::{attacks, availability, failures, stages};
+use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
 use serde::Serialize;
@@ -52,6 +52,7 @@ pub fn run(
         Some(Experiment::Stages(size)) => (size, in_threads(size, stages)),
         Some(Experiment::Attacks(size)) => (size, in_threads(size, attacks)),
         Some(Experiment::Availability(size)) => (size, in_threads(size, availability)),
+        Some(Experiment::Cpu(size)) => (size, in_threads(size, cpu)),
     };
     let results = match made {
         Ok(results) => results,
@@ -137,6 +138,15 @@ fn availability(size: &SizeArguments, town: &Town) -> Made {
     bar.finish_and_clear();
     let made = made.map_err(said)?;
     results(availability::NAME, tables::availability(&made), &made, &made.rows, &made.runs)
+}
+
+fn cpu(size: &SizeArguments, town: &Town) -> Made {
+    let options = size.options(cpu::OPTIONS);
+    let bar = bar(cpu::NAME);
+    let made = cpu::experiment(town, options, size.only.as_deref(), |of| step(&bar, of));
+    bar.finish_and_clear();
+    let made = made.map_err(said)?;
+    results(cpu::NAME, tables::cpu(&made), &made, &made.rows, &made.runs)
 }
 
 fn results<A: Serialize, B: Serialize>(

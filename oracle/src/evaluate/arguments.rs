@@ -37,6 +37,9 @@ pub enum Experiment {
     Attacks(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
+    /// this machine.
+    Cpu(SizeArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }
@@ -44,7 +47,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures 10, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,

@@ -9,7 +9,7 @@ use super::watch::Watch;
 use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{Outcome, RunError, Settings, simulate};
+use crate::run::{Outcome, RunError, Settings, Watcher, simulate};
 use crate::scenario::Scenario;
 
 /// When the attack of a run begins that has one, s.
@@ -96,17 +96,31 @@ fn is_chosen<W>(job: &Job<W>, only: Option<&str>) -> bool {
 /// Errors: settings, a route or a town that cannot be.
 pub fn make<W: Sync + Send, R: Send>(
     town: &Town,
-    mut jobs: Vec<Job<W>>,
+    jobs: Vec<Job<W>>,
     only: Option<&str>,
     done: impl Fn(usize) + Sync,
     kept: impl Fn(&Job<W>, &Outcome, &Watch) -> R + Sync,
+) -> Result<Vec<R>, RunError> {
+    watched(town, jobs, only, done, |job| Watch::new(job.watched_from), kept)
+}
+
+/// As [`make`], with a watcher of one's own for each run.
+///
+/// Errors: as for [`make`].
+pub fn watched<W: Sync + Send, V: Watcher, R: Send>(
+    town: &Town,
+    mut jobs: Vec<Job<W>>,
+    only: Option<&str>,
+    done: impl Fn(usize) + Sync,
+    watcher: impl Fn(&Job<W>) -> V + Sync,
+    kept: impl Fn(&Job<W>, &Outcome, &V) -> R + Sync,
 ) -> Result<Vec<R>, RunError> {
     jobs.retain(|job| is_chosen(job, only));
     let routes: Vec<usize> = town.ego_routes().collect();
     let one = |job: &Job<W>| {
         let seed = job.settings.seed;
         let scenario = Scenario::draw(town, routes[job.route], job.vehicles, seed);
-        let mut watch = Watch::new(job.watched_from);
+        let mut watch = watcher(job);
         let outcome = simulate(town, &scenario, &job.settings, &mut watch)?;
         done(jobs.len());
         Ok(kept(job, &outcome, &watch))
