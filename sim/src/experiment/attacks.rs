@@ -7,7 +7,7 @@
 
 use mufasa::services::configuration::{Group, Groups};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::job::{self, Job, Options, kind_name};
 use super::watch::{By, Watch};
@@ -22,7 +22,7 @@ pub const NAME: &str = "attacks";
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What the station offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Offered {
     /// Tracking alone.
@@ -46,7 +46,8 @@ impl Offered {
         }
     }
 
-    fn groups(self) -> Groups {
+    /// As the station has it.
+    pub fn groups(self) -> Groups {
         match self {
             Self::Mot => Groups::of(&[Group::Mot]),
             Self::Plan => Groups::of(&[Group::Plan]),

@@ -7,6 +7,7 @@
 pub mod attacks;
 pub mod availability;
 pub mod failures;
+pub mod falsify;
 pub mod job;
 pub mod stages;
 pub mod watch;
