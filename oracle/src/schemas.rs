@@ -8,6 +8,8 @@ use mufasa_drives::check;
 use mufasa_link::station::StationSummary;
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
+use mufasa_sim::experiment::falsify::Falsified;
+use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::{attacks, availability, failures, stages};
 use serde_json::Value;
 
@@ -29,6 +31,8 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
     schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
+    schemas.push(("evaluation-falsify", schema::written::<Falsified>()));
+    schemas.push(("evaluation-found", schema::written::<Found>()));
     schemas
 }
 

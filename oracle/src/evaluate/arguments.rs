@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, value_parser};
 use mufasa_sim::experiment::job::Options;
 
+use super::falsify::FalsifyArguments;
 use super::replay::ReplayArguments;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -37,6 +38,8 @@ pub enum Experiment {
     Attacks(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Search for collisions: attacks, their times and their sizes, by an attacker who knows every rule.
+    Falsify(FalsifyArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }

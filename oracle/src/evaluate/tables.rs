@@ -6,6 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
+use mufasa_sim::experiment::falsify::{Falsified, Row};
 use mufasa_sim::experiment::{attacks, availability, failures, stages};
 
 /// A table of texts.
@@ -179,6 +180,27 @@ pub fn availability(of: &availability::Availability) -> Rows {
             row.lost.to_string(),
             format!("{:.0} %", row.share_mot * 100.0),
             format!("{:.0} %", row.share_plan * 100.0),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// How near the runs of a search came, by kind of attack.
+pub fn falsified(of: &Falsified) -> Rows {
+    let header = [
+        ("attack", false),
+        ("runs", true),
+        ("collided", true),
+        ("least time left, s", true),
+        ("least distance, m", true),
+    ];
+    let row = |row: &Row| {
+        [
+            kind_name(row.attack).to_owned(),
+            row.runs.to_string(),
+            row.collided.to_string(),
+            format!("{:.1}", row.least_time_left_s),
+            row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())

@@ -51,8 +51,8 @@ pub struct Clean {
     pub seed: u64,
 }
 
-/// What is offered, and the attacks, of a point; coordinates outside of [0, 1] are folded back.
-pub fn decode(genes: &[f64; GENES], clean: &Clean) -> (Offered, Vec<Attack>) {
+/// What is offered, and the attacks of these kinds, of a point; coordinates outside of [0, 1] are folded back.
+pub fn decode(genes: &[f64; GENES], kinds: &[Kind], clean: &Clean) -> (Offered, Vec<Attack>) {
     let genes = genes.map(folded);
     let offered = match genes[0] {
         share if share < 0.6 => Offered::Both,
@@ -61,11 +61,11 @@ pub fn decode(genes: &[f64; GENES], clean: &Clean) -> (Offered, Vec<Attack>) {
     };
     let count = if genes[1] < 0.5 { 1 } else { 2 };
     let parts = genes[2..].chunks_exact(GENES_OF_ATTACK).take(count);
-    (offered, parts.map(|part| attack(part, clean)).collect())
+    (offered, parts.map(|part| attack(part, kinds, clean)).collect())
 }
 
-fn attack(genes: &[f64], clean: &Clean) -> Attack {
-    let kind = KINDS[pick(genes[0], KINDS.len())];
+fn attack(genes: &[f64], kinds: &[Kind], clean: &Clean) -> Attack {
+    let kind = kinds[pick(genes[0], kinds.len())];
     let from = clean.remote.get(pick(genes[1], clean.remote.len())).copied().unwrap_or(1.0);
     let lasts = 0.3 * libm::pow(200.0, genes[2]);
     let chosen = (genes[3] >= 0.5).then(|| 2.0 * (genes[3] - 0.5));

@@ -48,12 +48,14 @@ const NEAR: f64 = 30.0;
 const COLLISION: f64 = -1.0;
 
 /// What is searched.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Options {
     /// What is checked of remote data.
     pub variant: Variant,
     /// A rule that is left out.
     pub without: Option<Without>,
+    /// Kinds of attacks that are tried, at least one.
+    pub kinds: Vec<Kind>,
     /// Most runs with attacks; none: as long as the caller lets it.
     pub runs: Option<u64>,
     /// Other vehicles.
@@ -73,6 +75,8 @@ pub struct Falsified {
     pub runs: u64,
     /// Those that ended in a collision.
     pub collided: u64,
+    /// Of these the random ones: the others were found by going on from what came near.
+    pub collided_at_random: u64,
     /// Runs to shrink what was found.
     pub shrinking_runs: u64,
     /// Runs without an attack that collided: their scenarios were left out.
@@ -177,6 +181,7 @@ impl<'a, C: Caller> Search<'a, C> {
             rounds: 0,
             runs: 0,
             collided: 0,
+            collided_at_random: 0,
             shrinking_runs: 0,
             clean_collided: 0,
             rows: Vec::new(),
@@ -210,6 +215,8 @@ impl<'a, C: Caller> Search<'a, C> {
         let count = u64::try_from(starts.len()).unwrap_or(0) * POINTS;
         let points: Vec<Point> = (0..count).map(random).collect();
         let tried = self.batch(&starts, &points)?;
+        let collided = tried.iter().filter(|it| it.1.is_some()).count();
+        self.result.collided_at_random += u64::try_from(collided).unwrap_or(0);
         let mut best: Vec<usize> = (0..tried.len()).filter(|&it| tried[it].1.is_none()).collect();
         best.sort_by(|&a, &b| tried[a].0.total_cmp(&tried[b].0));
         best.truncate(SEARCHES);
@@ -291,8 +298,9 @@ impl<'a, C: Caller> Search<'a, C> {
     ) -> Result<Vec<(f64, Option<Found>)>, RunError> {
         let count = points.len().min(usize::try_from(self.left()).unwrap_or(usize::MAX));
         let (town, caller) = (self.town, self.caller);
+        let kinds = &self.result.options.kinds;
         let one = |point: &Point| {
-            let tried = try_point(town, &starts[point.start], &point.genes)?;
+            let tried = try_point(town, &starts[point.start], kinds, &point.genes)?;
             caller.tell(Progress::Run);
             Ok(tried)
         };
@@ -364,8 +372,13 @@ fn explains(smaller: &Found, found: &Found) -> bool {
         && a.attacks.iter().all(|it| b.attacks.iter().any(|other| other.kind == it.kind))
 }
 
-fn try_point(town: &Town, start: &Start, genes: &[f64; GENES]) -> Result<Tried, RunError> {
-    let (offered, attacks) = decode(genes, &start.clean);
+fn try_point(
+    town: &Town,
+    start: &Start,
+    kinds: &[Kind],
+    genes: &[f64; GENES],
+) -> Result<Tried, RunError> {
+    let (offered, attacks) = decode(genes, kinds, &start.clean);
     let case = Case { offered, attacks, ..start.case.clone() };
     let mut danger = Danger::default();
     let outcome = case.run(town, &mut danger)?;
