@@ -1,6 +1,7 @@
 //! Experiments in a closed loop (`docs/evaluation.md`): tables, and JSON and CSV of all runs.
 
 pub mod arguments;
+mod falsify;
 mod replay;
 pub mod tables;
 
@@ -47,6 +48,7 @@ pub fn run(
 ) -> io::Result<u8> {
     let (size, made) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, out, err),
+        Some(Experiment::Falsify(it)) => return falsify::run(it, out, err),
         None => (&arguments.size, in_threads(&arguments.size, failures)),
         Some(Experiment::Failures(size)) => (size, in_threads(size, failures)),
         Some(Experiment::Stages(size)) => (size, in_threads(size, stages)),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, value_parser};
 use mufasa_sim::experiment::job::Options;
 
+use super::falsify::FalsifyArguments;
 use super::replay::ReplayArguments;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -40,6 +41,8 @@ pub enum Experiment {
     /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
     /// this machine.
     Cpu(SizeArguments),
+    /// Search for collisions: attacks, their times and their sizes, by an attacker who knows every rule.
+    Falsify(FalsifyArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }

@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
+use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
 
 /// A table of texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -210,6 +210,27 @@ pub fn cpu(of: &cpu::Cpu) -> Rows {
             format!("{:.1}", row.inactive_s),
             active.to_owned(),
             inactive.to_owned(),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// How near the runs of a search came, by kind of attack.
+pub fn falsified(of: &falsify::Falsified) -> Rows {
+    let header = [
+        ("attack", false),
+        ("runs", true),
+        ("collided", true),
+        ("least time left, s", true),
+        ("least distance, m", true),
+    ];
+    let row = |row: &falsify::Row| {
+        [
+            kind_name(row.attack).to_owned(),
+            row.runs.to_string(),
+            row.collided.to_string(),
+            format!("{:.1}", row.least_time_left_s),
+            row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())

@@ -120,7 +120,8 @@ impl Kind {
 }
 
 /// An attack.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Attack {
     /// What it does.
     pub kind: Kind,

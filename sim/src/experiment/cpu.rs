@@ -8,14 +8,15 @@ use std::time::Duration;
 
 use mufasa::services::configuration::Group;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::job::{self, Job, Options};
+use super::job::{self, ExperimentError, Job, Options};
+use super::select::Select;
 use crate::cav::Cav;
 use crate::cav::cost::Part;
 use crate::cav::guard::{Decided, Variant};
 use crate::map::Town;
-use crate::run::{Cycle, Outcome, PERIOD_NS, RunError, Watcher};
+use crate::run::{Cycle, Outcome, PERIOD_NS, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 
@@ -79,7 +80,7 @@ pub struct Row {
 }
 
 /// A run. Times in s.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,
@@ -169,18 +170,18 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
     Variant::ALL.into_iter().flat_map(of).collect()
 }
 
-/// Makes the runs, or those of them that `only` names. `done`: called after each with
+/// Makes the runs, or those of them that are selected. `done`: called after each with
 /// their number.
 ///
-/// Errors: a town that cannot be.
+/// Errors: a town that cannot be; a run that should be kept is not.
 pub fn experiment(
     town: &Town,
     options: Options,
-    only: Option<&str>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
-) -> Result<Cpu, RunError> {
+) -> Result<Cpu, ExperimentError> {
     let jobs = jobs(town, options);
-    let runs = job::watched(town, jobs, only, done, |_| Meter::default(), kept)?;
+    let runs = job::watched(town, jobs, select, done, |_| Meter::default(), kept)?;
     let same = |a: &Run, b: &Run| a.variant == b.variant;
     Ok(Cpu { options, rows: runs.chunk_by(same).flat_map(rows).collect(), runs })
 }
