@@ -156,7 +156,8 @@ fn search(arguments: &FalsifyArguments) -> Result<Falsified, String> {
 
 /// The names of the files, each there completely or not at all.
 fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<PathBuf>, String> {
-    let say = |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
+    let say =
+        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
     let mut names = Vec::new();
     let mut write = |file: PathBuf, text: &str| {
         files::write(&file, text).map_err(|error| say(&file, error))?;
@@ -172,7 +173,8 @@ fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<Pat
         }
     }
     if let Some(file) = &arguments.into {
-        let without = arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
+        let without =
+            arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
         let profile = match arguments.profile {
             Variant::Hardened => String::new(),
             other => format!(" --profile {}", other.name()),

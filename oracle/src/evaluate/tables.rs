@@ -5,8 +5,8 @@ use std::fmt::Write;
 use comfy_table::{CellAlignment, Table, presets};
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::falsify::{Falsified, Row};
+use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{attacks, availability, failures, stages};
 
 /// A table of texts.

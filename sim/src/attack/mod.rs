@@ -235,7 +235,8 @@ impl<'a> Attacker<'a> {
         let Results { stamp_ns, tracks, points } = results;
         self.lie(*stamp_ns, ego, Lists::Cav, tracks);
         if let Some(means) = self.means(Kind::Replay)
-            && let Some(old) = self.earlier.get(self.earlier.len().saturating_sub(results_in(means)))
+            && let Some(old) =
+                self.earlier.get(self.earlier.len().saturating_sub(results_in(means)))
         {
             let later_ns = *stamp_ns - old.stamp_ns;
             tracks.clone_from(&old.tracks);

@@ -146,7 +146,10 @@ impl<'a> Rules<'a> {
             ego,
             trajectory: points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
             tracks: tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
-            detections: Some(DetectionList { stamp_ns: sensed.stamp_ns, items: &sensed.detections }),
+            detections: Some(DetectionList {
+                stamp_ns: sensed.stamp_ns,
+                items: &sensed.detections,
+            }),
             lead: sensed.lead.map(|lead| mufasa::input::cycle::Lead {
                 stamp_ns: sensed.stamp_ns,
                 gap: lead.gap,
@@ -162,7 +165,8 @@ impl<'a> Rules<'a> {
         let max_age_ns = self.parameters.max_age_ns;
         let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
-        let tracks = tracks.filter(|(stamp_ns, _)| is_safe && mot.is_some() && is_current(stamp_ns));
+        let tracks =
+            tracks.filter(|(stamp_ns, _)| is_safe && mot.is_some() && is_current(stamp_ns));
         let points = points.filter(|(stamp_ns, _)| is_checked && is_current(stamp_ns));
         let sessions = Sessions {
             mot: mot.filter(|_| tracks.is_some()).map(|running| running.session),
@@ -208,7 +212,8 @@ fn report(
     }
     // Stage v does not depend on tracks and detections; without both it is what examines the trajectory.
     let configuration = Configuration::PlanRemote;
-    let alone = Cycle { configuration, tracks: None, detections: None, detection_history: &[], ..*cycle };
+    let alone =
+        Cycle { configuration, tracks: None, detections: None, detection_history: &[], ..*cycle };
     let rest = check(&alone, scratch)?;
     let mut stages = report.stages;
     (stages[3], stages[4]) = (Outcome::Passed, rest.stages[4]);
@@ -216,10 +221,12 @@ fn report(
 }
 
 /// The message that the requester used last, if it is the one that is kept.
-fn used<'m, T>(running: &Running, kept: Option<&'m Message<Vec<T>>>) -> Option<&'m Message<Vec<T>>> {
+fn used<'m, T>(
+    running: &Running,
+    kept: Option<&'m Message<Vec<T>>>,
+) -> Option<&'m Message<Vec<T>>> {
     kept.filter(|it| {
-        (Some(it.generated.as_nanoseconds()), it.session)
-            == (running.last_used_ns, running.session)
+        (Some(it.generated.as_nanoseconds()), it.session) == (running.last_used_ns, running.session)
     })
 }
 

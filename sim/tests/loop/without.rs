@@ -28,7 +28,8 @@ fn with_nothing_left_out_it_decides_as_the_monitor() {
     let mut failed = 0;
     for kind in [None, Some(Kind::TracksEmpty), Some(Kind::FalseVelocities), Some(Kind::Replay)] {
         for seed in 0..2 {
-            let (monitor, ours) = (drive(None, kind, seed), drive(Some(Without::Nothing), kind, seed));
+            let (monitor, ours) =
+                (drive(None, kind, seed), drive(Some(Without::Nothing), kind, seed));
             assert_eq!(monitor.0, ours.0, "{kind:?} {seed}");
             assert_eq!(monitor.1.cycles, ours.1.cycles, "{kind:?} {seed}");
             failed += ours.0.stages.iter().map(|it| it[1]).sum::<u64>();

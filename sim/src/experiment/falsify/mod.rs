@@ -273,7 +273,8 @@ impl<'a, C: Caller> Search<'a, C> {
             let case = Case { variant, without, offered, route, scenario, vehicles, attacks };
             let mut danger = Danger::default();
             let outcome = case.run(town, &mut danger)?;
-            let clean = Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
+            let clean =
+                Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
             let time_left = danger.least_time_left(&town.routes[case.ego_route(town)], 0.0);
             Ok((Start { case, clean }, outcome.end, time_left, danger.least_distance(0.0)))
         };

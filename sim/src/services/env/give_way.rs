@@ -81,7 +81,9 @@ pub fn closed_lines(own: &Own<'_>, tracks: &[Track]) -> Vec<f64> {
 fn is_full(own: &Own<'_>, passage: &Passage, tracks: &[Track]) -> bool {
     let reach = passage.to + own.ego.length + FULL.1;
     tracks.iter().any(|track| {
-        let Some((s, along)) = on(own.route, track, passage.from, reach + 6.0) else { return false };
+        let Some((s, along)) = on(own.route, track, passage.from, reach + 6.0) else {
+            return false;
+        };
         let rear = s - track.length / 2.0;
         s > passage.from && rear < reach && along < FULL.0
     })
