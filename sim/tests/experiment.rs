@@ -4,6 +4,7 @@ use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Options};
+use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
 use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
 use mufasa_sim::map::streets::town;
@@ -20,7 +21,7 @@ fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync)
 }
 
 fn small() -> Failures {
-    failures::experiment(&town(), SMALL, None, |_| ()).expect("the town can be")
+    failures::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("the town can be")
 }
 
 fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
@@ -33,13 +34,15 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
     let only = Some("failures/hardened/ghosts");
-    let make = || failures::experiment(&town, size, only, |_| ()).expect("the town can be");
+    let make =
+        || failures::experiment(&town, size, &Select::only(only), |_| ()).expect("the town can be");
     let one = json(1, make);
     assert_eq!(one, json(4, make));
     assert_eq!(make().runs.len(), 4, "{one}");
     let one = Options { scenarios: 2, ..size };
     let only = Some("stages/paper");
-    let make = || stages::experiment(&town, one, only, |_| ()).expect("the town can be");
+    let make =
+        || stages::experiment(&town, one, &Select::only(only), |_| ()).expect("the town can be");
     assert_eq!(json(1, make), json(4, make));
 }
 
@@ -47,8 +50,10 @@ fn any_number_of_threads_gives_the_same_bytes() {
 fn a_run_is_repeated_alone_by_its_id() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
-    let make =
-        |only| failures::experiment(&town, size, Some(only), |_| ()).expect("the town can be");
+    let make = |only| {
+        failures::experiment(&town, size, &Select::only(Some(only)), |_| ())
+            .expect("the town can be")
+    };
     let all = make("failures/sofof/tracks-empty");
     let alone = make("failures/sofof/tracks-empty/1/1");
     assert_eq!(alone.runs, [all.runs[3].clone()]);
@@ -78,7 +83,8 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 #[test]
 fn every_stage_runs_and_the_hardened_profile_arrives() {
     let size = Options { scenarios: 2, vehicles: 30, seed: 0 };
-    let made = stages::experiment(&town(), size, None, |_| ()).expect("the town can be");
+    let made =
+        stages::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
     assert_eq!(vehicles, [15, 30, 15, 30]);
     assert!(made.rows.iter().all(|row| row.executions > 0), "{:?}", made.rows);
@@ -150,7 +156,7 @@ fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
 
 #[test]
 fn processor_time_is_counted_in_the_state_in_which_it_was_spent() {
-    let made = cpu::experiment(&town(), SMALL, None, |_| ()).expect("a town");
+    let made = cpu::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("a town");
     assert_eq!(made.rows.len(), 9);
     for row in &made.rows {
         let all = made.runs.iter().filter(|run| run.variant == row.variant);

@@ -5,13 +5,16 @@
 //! time left to react. Below zero, nothing helps any more: the lower the faster it would be. Whoever comes
 //! from behind does not count, and a CAV that stands has all the time.
 
+use std::collections::BTreeMap;
+
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
 use crate::collision;
 use crate::map::route::Route;
 use crate::pose::{Pose, Rectangle};
 use crate::run::{Cycle, Watcher};
-use crate::snapshot::{EgoState, Snapshot};
+use crate::services::way::seconds;
+use crate::snapshot::{EgoState, Object, Snapshot};
 
 /// Most time that is looked at, in cycles of 0.1 s, and the time left when nothing is in the way, s.
 const LOOKED: usize = 40;
@@ -32,6 +35,8 @@ const FAR: f64 = 80.0;
 #[derive(Clone, Debug, Default)]
 pub struct Danger {
     moments: Vec<Moment>,
+    /// Speed of the CAV in the last cycle, m/s.
+    last_speed: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -45,14 +50,24 @@ struct Moment {
 
 impl Watcher for Danger {
     fn cycle(&mut self, truth: &Snapshot, _: &Cav<'_>, _: &Decided, cycle: &Cycle) {
+        self.last_speed = truth.ego.speed;
+        let moment = Moment::new(truth, cycle.t);
+        let (nearest, is_remote) = (cycle.nearest, cycle.remote != 0);
+        self.moments.push(Moment { nearest, is_remote, ..moment });
+    }
+
+    /// A collision is after the last cycle.
+    fn ended(&mut self, truth: &Snapshot, _: &Cav<'_>) {
+        self.moments.push(Moment::new(truth, seconds(truth.time_ns)));
+    }
+}
+
+impl Moment {
+    fn new(truth: &Snapshot, t: f64) -> Self {
         let ego = truth.ego;
-        let near = truth
-            .objects
-            .iter()
-            .filter(|it| it.rectangle.pose.at.distance(ego.rectangle.pose.at) < FAR);
-        let others = near.map(|it| (it.id, it.rectangle)).collect();
-        let (t, nearest, is_remote) = (cycle.t, cycle.nearest, cycle.remote != 0);
-        self.moments.push(Moment { t, ego, nearest, is_remote, others });
+        let near = |it: &&Object| it.rectangle.pose.at.distance(ego.rectangle.pose.at) < FAR;
+        let others = truth.objects.iter().filter(near).map(|it| (it.id, it.rectangle)).collect();
+        Self { t, ego, nearest: None, is_remote: false, others }
     }
 }
 
@@ -75,13 +90,13 @@ impl Danger {
     }
 
     /// Speed of the CAV in the last cycle, m/s.
-    pub fn last_speed(&self) -> f64 {
-        self.moments.last().map_or(0.0, |it| it.ego.speed)
+    pub const fn last_speed(&self) -> f64 {
+        self.last_speed
     }
 
     /// Who came near, by number, the nearest first.
     pub fn near(&self, within: f64) -> Vec<u32> {
-        let mut least: std::collections::BTreeMap<u32, f64> = std::collections::BTreeMap::new();
+        let mut least: BTreeMap<u32, f64> = BTreeMap::new();
         for moment in &self.moments {
             for (id, rectangle) in &moment.others {
                 let distance = rectangle.pose.at.distance(moment.ego.rectangle.pose.at);
