@@ -187,7 +187,7 @@ impl<'a> Guard<'a> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
             Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
-            Kind::Without(rules) => rules.requester.step(&Event { t_ns, kind }),
+            Kind::Without(rules) => return rules.step(t_ns, kind),
             Kind::Checked { monitor, .. } => match kind {
                 EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
                 EventKind::Withdraw { station } => monitor.withdraw(now, station),

@@ -267,7 +267,7 @@ impl<'a, C: Caller> Search<'a, C> {
         let town = self.town;
         let one = |index: u64| {
             let route = usize::from(index % 2 == 1);
-            let scenario = seed.wrapping_add((round * STARTS + index) / 2);
+            let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
             let attacks = Vec::new();
             let case = Case { variant, without, offered, route, scenario, vehicles, attacks };
