@@ -12,7 +12,7 @@ use crate::digest::Log;
 
 fn drive(without: Option<Without>, kind: Option<Kind>, seed: u64) -> (Outcome, Log) {
     let town = town();
-    let route = town.ego_routes().nth(0).expect("a route");
+    let route = town.ego_routes().next().expect("a route");
     let scenario = Scenario { time_limit: 40.0, ..Scenario::draw(&town, route, 12, seed) };
     let mut settings = Settings::new(Variant::Hardened, Groups::ALL, seed);
     settings.without = without;
