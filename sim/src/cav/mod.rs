@@ -1,5 +1,6 @@
 //! The CAV: sensors, its own services, what guards the link, and control.
 
+pub mod decided;
 pub mod guard;
 pub mod local;
 pub mod sensing;

@@ -25,7 +25,7 @@ use mufasa::stages::check;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::guard::{Decided, Local};
+use super::decided::{Decided, Local};
 use super::sensing::Sensed;
 
 /// A rule that is left out.

@@ -12,7 +12,7 @@ const HALVINGS: u32 = 5;
 /// The smallest that is found by leaving out and halving one thing after the other, and the runs that it took.
 ///
 /// Errors: those of a run.
-pub fn shrink(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
+pub fn shrunk(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
     let mut shrinking = Shrinking { town, best: found.clone(), runs: 0 };
     shrinking.fewer()?;
     for index in 0..shrinking.best.case.attacks.len() {
