@@ -5,8 +5,8 @@ mod falsify;
 mod replay;
 pub mod shards;
 pub mod tables;
+mod text;
 
-use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -24,6 +24,7 @@ use serde::Serialize;
 
 use self::arguments::{EvaluateArguments, Experiment};
 use self::tables::Rows;
+use self::text::{csv, said};
 use crate::document;
 
 /// The hardened profile let something happen.
@@ -219,13 +220,6 @@ fn results<A: Serialize, B: Serialize>(
     })
 }
 
-/// A line of names, and a line of each.
-fn csv<T: Serialize>(lines: &[T]) -> Result<String, String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    lines.iter().try_for_each(|line| writer.serialize(line)).map_err(said)?;
-    String::from_utf8(writer.into_inner().map_err(said)?).map_err(said)
-}
-
 /// The names of the files, each there completely or not at all.
 fn write_files(folder: &Path, results: &Results) -> io::Result<Vec<String>> {
     let name = results.name;
@@ -252,8 +246,4 @@ fn bar(name: &str) -> ProgressBar {
 fn step(bar: &ProgressBar, of: usize) {
     bar.set_length(u64::try_from(of).unwrap_or(u64::MAX));
     bar.inc(1);
-}
-
-fn said(error: impl Display) -> String {
-    error.to_string()
 }

@@ -160,6 +160,26 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
 }
 
 #[test]
+fn a_collision_that_was_found_is_what_its_schema_says_and_is_made_again() {
+    let (validators, folder) = (validators(), folder("falsify"));
+    let arguments = ["evaluate", "falsify", "--profile", "paper", "--attack", "tracks-empty"];
+    let size = ["--runs", "56", "--seed", "1", "--out", "files"];
+    run(&folder, &[&arguments[..], &size[..]].concat());
+    let text = fs::read_to_string(folder.join("files/falsify.json")).expect("it was written");
+    let value = parsed(&text);
+    assert_valid(&validators["evaluation-falsify"], &value);
+    let mut files = fs::read_dir(folder.join("files/found")).expect("a folder");
+    let file = files.next().expect("a collision").expect("an entry").path();
+    let text = fs::read_to_string(&file).expect("it was written");
+    assert_valid(&validators["evaluation-found"], &parsed(&text));
+    let name = file.to_str().expect("a name");
+    let said = run(&folder, &["evaluate", "replay", name, "--out", "page.html"]);
+    assert!(said.contains("Collided"), "{said}");
+    let page = fs::read_to_string(folder.join("page.html")).expect("it was written");
+    assert!(page.contains("Collided with") && page.contains("paper-"));
+}
+
+#[test]
 fn every_schema_gets_a_file() {
     let folder = folder("files");
     run(&folder, &["schemas", "--out", "all"]);

@@ -9,7 +9,7 @@ use mufasa_sim::experiment::falsify::cma::{Cma, anywhere};
 use mufasa_sim::experiment::falsify::danger::{Danger, FREE_S};
 use mufasa_sim::experiment::falsify::found::{Case, Found};
 use mufasa_sim::experiment::falsify::genome::{Clean, GENES, KINDS, decode};
-use mufasa_sim::experiment::falsify::shrink::shrink;
+use mufasa_sim::experiment::falsify::shrink::shrunk;
 use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, experiment};
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::End;
@@ -77,7 +77,7 @@ fn what_is_found_is_shrunk_to_what_matters() {
         attacks,
     };
     let found = case.collision(&town).expect("it can be").expect("a collision");
-    let (small, runs) = shrink(&town, &found).expect("it can be");
+    let (small, runs) = shrunk(&town, &found).expect("it can be");
     assert!(runs > 3);
     let [attack] = &small.case.attacks[..] else { panic!("{small:?}") };
     assert_eq!(attack.kind, Kind::OneRemoved);

@@ -19,9 +19,14 @@ use mufasa_sim::experiment::falsify::{Caller, Falsified, NAME, Options, Progress
 use mufasa_sim::map::streets::town;
 
 use super::replay::{kind, variant};
-use super::{BAD_INPUT, FAILED, csv, said, tables};
+use super::tables;
+use super::text::{csv, said};
 use crate::document;
 
+/// A collision in the hardened profile with all rules.
+const FAILED: u8 = 1;
+/// Bad input, or a file that cannot be written.
+const BAD_INPUT: u8 = 2;
 /// Runs if nothing is said.
 const RUNS: u64 = 400;
 

@@ -12,11 +12,12 @@ use mufasa::offloading::requester::{
     Action, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
     StationRecord,
 };
-use mufasa::report::{FailedStage, InvalidInput, Report};
+use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use super::decided::{Decided, Local};
 use super::sensing::Sensed;
 use super::without::Rules;
 
@@ -76,42 +77,6 @@ enum Kind<'a> {
         points: Option<Accepted<Vec<TrajectoryPoint>>>,
     },
     Without(Box<Rules<'a>>),
-}
-
-/// What a cycle lets control have.
-#[derive(Debug)]
-pub struct Decided {
-    /// Whether data may be used; always, where nothing is checked.
-    pub is_safe: bool,
-    /// The report of the stages, or what was wrong with the input; none where nothing is checked.
-    pub report: Option<Result<Report, InvalidInput>>,
-    /// The trajectory that control may follow. None in `Local` where something is checked: there the
-    /// CAV's own is not.
-    pub trajectory: Option<Vec<TrajectoryPoint>>,
-    /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
-    pub tracks: Option<(i64, Vec<Track>)>,
-    /// What is to be done.
-    pub actions: Vec<Action>,
-}
-
-impl Decided {
-    /// Where a safety issue was found.
-    pub fn failed_stage(&self) -> Option<FailedStage> {
-        match self.report {
-            Some(Ok(report)) => report.failed_stage,
-            Some(Err(_)) => Some(FailedStage::Input),
-            None => None,
-        }
-    }
-}
-
-/// Local results of a cycle, if their services run.
-#[derive(Clone, Copy, Debug)]
-pub struct Local<'c> {
-    /// Tracks, with the time that they are of, ns.
-    pub tracks: Option<(i64, &'c [Track])>,
-    /// A trajectory, with the time when it was planned, ns.
-    pub points: Option<(i64, &'c [TrajectoryPoint])>,
 }
 
 impl<'a> Guard<'a> {
@@ -187,7 +152,7 @@ impl<'a> Guard<'a> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
             Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
-            Kind::Without(rules) => rules.requester.step(&Event { t_ns, kind }),
+            Kind::Without(rules) => return rules.step(t_ns, kind),
             Kind::Checked { monitor, .. } => match kind {
                 EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
                 EventKind::Withdraw { station } => monitor.withdraw(now, station),

@@ -1,6 +1,7 @@
 //! The CAV: sensors, its own services, what guards the link, and control.
 
 pub mod cost;
+pub mod decided;
 pub mod guard;
 pub mod local;
 pub mod sensing;

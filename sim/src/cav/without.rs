@@ -14,7 +14,7 @@ use mufasa::input::cycle::{
 use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::monitor::Message;
+use mufasa::monitor::{Message, Time};
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Parameters, Requester, RequesterError, Running, Sessions,
     StationRecord,
@@ -25,7 +25,7 @@ use mufasa::stages::check;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::guard::{Decided, Local};
+use super::decided::{Decided, Local};
 use super::sensing::Sensed;
 
 /// A rule that is left out.
@@ -59,14 +59,28 @@ const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
 const USABLE_NS: (i64, i64) = (200_000_000, 1_000_000_000);
 const SPACING_NS: i64 = 83_333_334;
 
+#[derive(Clone, Copy, Debug, Default)]
+struct Served {
+    session: Option<i64>,
+    last_ns: i64,
+    is_starved: bool,
+}
+
+/// A session that no message is of.
+const NO_SESSION: i64 = 0;
+
 /// The hardened rules without one.
 #[derive(Debug)]
 pub struct Rules<'a> {
     without: Without,
     parameters: StageParameters,
+    requester_parameters: Parameters,
     /// Which group runs where.
     pub(super) requester: Requester<'a>,
     route: (bool, Vec<CrossSection>),
+    /// For either group: the session that runs, since when no cycle had anything current of it, ns, and
+    /// whether that is too long (F-43).
+    served: [Served; 2],
     /// The CAV's own detections of the last second, the oldest first.
     seen: VecDeque<(i64, Vec<Detection>)>,
     rows: Vec<Row>,
@@ -88,8 +102,10 @@ impl<'a> Rules<'a> {
         Ok(Self {
             without,
             parameters,
+            requester_parameters: requester,
             requester: Requester::new(Profile::Hardened, requester, table)?,
             route: (false, Vec::new()),
+            served: [Served::default(); 2],
             seen: VecDeque::new(),
             rows: vec![Row::default(); Sizes::MAX.rows],
             columns: vec![Column::default(); Sizes::MAX.columns],
@@ -102,12 +118,32 @@ impl<'a> Rules<'a> {
         self.route = (route.closed, route.cross_sections.to_vec());
     }
 
+    /// Something happened.
+    pub(super) fn step(
+        &mut self,
+        t_ns: i64,
+        kind: EventKind,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let actions = self.requester.step(&Event { t_ns, kind })?.to_vec();
+        for (served, group) in self.served.iter_mut().zip(Group::ALL) {
+            let session = self.requester.session_of(group).map(|it| it.session);
+            if served.session != session {
+                *served = Served { session, last_ns: t_ns, is_starved: false };
+            }
+        }
+        Ok(actions)
+    }
+
     pub(super) fn tracks(
         &mut self,
         t_ns: i64,
         message: Message<Vec<Track>>,
     ) -> Result<Vec<Action>, RequesterError> {
-        keep(&mut self.requester, t_ns, Group::Mot, message, &mut self.tracks)
+        let actions = self.arrives(t_ns, Group::Mot, &message)?;
+        if !actions.contains(&Action::Drop(Group::Mot)) {
+            self.tracks = Some(message);
+        }
+        Ok(actions)
     }
 
     pub(super) fn trajectory(
@@ -115,7 +151,28 @@ impl<'a> Rules<'a> {
         t_ns: i64,
         message: Message<Vec<TrajectoryPoint>>,
     ) -> Result<Vec<Action>, RequesterError> {
-        keep(&mut self.requester, t_ns, Group::Plan, message, &mut self.points)
+        let actions = self.arrives(t_ns, Group::Plan, &message)?;
+        if !actions.contains(&Action::Drop(Group::Plan)) {
+            self.points = Some(message);
+        }
+        Ok(actions)
+    }
+
+    /// What is too old for any cycle, or of a group that no cycle gets anything of, is no arrival.
+    fn arrives<T>(
+        &mut self,
+        t_ns: i64,
+        group: Group,
+        message: &Message<T>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let [generated_ns, stamp_ns] = [message.generated, message.stamp].map(Time::as_nanoseconds);
+        let is_in_time = (0..=self.requester_parameters.l_max_ns).contains(&(t_ns - generated_ns));
+        let is_too_old = t_ns - stamp_ns > self.parameters.max_age_ns;
+        let is_starved = self.served[place(group)].is_starved;
+        let is_none = is_in_time && (is_too_old || is_starved);
+        let session = if is_none { NO_SESSION } else { message.session };
+        let station = message.station;
+        self.step(t_ns, EventKind::Data { station, group, session, generated_ns })
     }
 
     /// Decides a cycle.
@@ -164,6 +221,13 @@ impl<'a> Rules<'a> {
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
         let max_age_ns = self.parameters.max_age_ns;
         let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
+        let has_current = [tracks.map(|it| it.0), points.map(|it| it.0)]
+            .map(|stamp_ns| stamp_ns.is_some_and(|it| is_current(&it)));
+        let dt_max_ns = self.requester_parameters.dt_max_ns;
+        for (served, has_current) in self.served.iter_mut().zip(has_current) {
+            served.last_ns = if has_current { t_ns } else { served.last_ns };
+            served.is_starved = t_ns - served.last_ns > dt_max_ns;
+        }
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
         let tracks =
             tracks.filter(|(stamp_ns, _)| is_safe && mot.is_some() && is_current(stamp_ns));
@@ -178,8 +242,7 @@ impl<'a> Rules<'a> {
             self.see(sensed);
         }
         let kind = EventKind::Verdict { safe: is_safe, sessions };
-        let step = self.requester.step(&Event { t_ns, kind });
-        let actions = step.map_or_else(|_| Vec::new(), |it| it.to_vec());
+        let actions = self.step(t_ns, kind).unwrap_or_default();
         Decided { is_safe, report: Some(report), trajectory, tracks, actions }
     }
 
@@ -230,21 +293,11 @@ fn used<'m, T>(
     })
 }
 
-fn keep<T>(
-    requester: &mut Requester<'_>,
-    t_ns: i64,
-    group: Group,
-    message: Message<Vec<T>>,
-    kept: &mut Option<Message<Vec<T>>>,
-) -> Result<Vec<Action>, RequesterError> {
-    let (station, session) = (message.station, message.session);
-    let generated_ns = message.generated.as_nanoseconds();
-    let kind = EventKind::Data { station, group, session, generated_ns };
-    let actions = requester.step(&Event { t_ns, kind })?.to_vec();
-    if !actions.contains(&Action::Drop(group)) {
-        *kept = Some(message);
+const fn place(group: Group) -> usize {
+    match group {
+        Group::Mot => 0,
+        Group::Plan => 1,
     }
-    Ok(actions)
 }
 
 /// The lists whose ages are nearest to those wanted, the youngest first.

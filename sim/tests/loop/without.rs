@@ -12,7 +12,7 @@ use crate::digest::Log;
 
 fn drive(without: Option<Without>, kind: Option<Kind>, seed: u64) -> (Outcome, Log) {
     let town = town();
-    let route = town.ego_routes().nth(0).expect("a route");
+    let route = town.ego_routes().next().expect("a route");
     let scenario = Scenario { time_limit: 40.0, ..Scenario::draw(&town, route, 12, seed) };
     let mut settings = Settings::new(Variant::Hardened, Groups::ALL, seed);
     settings.without = without;
@@ -26,7 +26,8 @@ fn drive(without: Option<Without>, kind: Option<Kind>, seed: u64) -> (Outcome, L
 #[test]
 fn with_nothing_left_out_it_decides_as_the_monitor() {
     let mut failed = 0;
-    for kind in [None, Some(Kind::TracksEmpty), Some(Kind::FalseVelocities), Some(Kind::Replay)] {
+    let kinds = [Kind::TracksEmpty, Kind::FalseVelocities, Kind::Replay, Kind::Delay];
+    for kind in [None].into_iter().chain(kinds.map(Some)) {
         for seed in 0..2 {
             let (monitor, ours) =
                 (drive(None, kind, seed), drive(Some(Without::Nothing), kind, seed));

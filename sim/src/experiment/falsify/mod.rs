@@ -24,7 +24,7 @@ use self::cma::{Cma, anywhere};
 use self::danger::Danger;
 use self::found::{Case, Found};
 use self::genome::{Clean, GENES, decode};
-use self::shrink::shrink;
+use self::shrink::shrunk;
 use super::attacks::Offered;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
@@ -267,7 +267,7 @@ impl<'a, C: Caller> Search<'a, C> {
         let town = self.town;
         let one = |index: u64| {
             let route = usize::from(index % 2 == 1);
-            let scenario = seed.wrapping_add((round * STARTS + index) / 2);
+            let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
             let attacks = Vec::new();
             let case = Case { variant, without, offered, route, scenario, vehicles, attacks };
@@ -334,9 +334,9 @@ impl<'a, C: Caller> Search<'a, C> {
     /// Shrinks collisions, and keeps those that are new then, too.
     fn keep(&mut self, new: &[Found]) -> Result<(), RunError> {
         let town = self.town;
-        let shrunk: Vec<(Found, u64)> =
-            new.par_iter().map(|it| shrink(town, it)).collect::<Result<_, _>>()?;
-        for (found, runs) in shrunk {
+        let small: Vec<(Found, u64)> =
+            new.par_iter().map(|it| shrunk(town, it)).collect::<Result<_, _>>()?;
+        for (found, runs) in small {
             self.result.shrinking_runs += runs;
             if !self.result.found.iter().any(|old| explains(old, &found)) {
                 self.result.found.retain(|old| !explains(&found, old));

@@ -12,7 +12,7 @@ const HALVINGS: u32 = 5;
 /// The smallest that is found by leaving out and halving one thing after the other, and the runs that it took.
 ///
 /// Errors: those of a run.
-pub fn shrink(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
+pub fn shrunk(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
     let mut shrinking = Shrinking { town, best: found.clone(), runs: 0 };
     shrinking.fewer()?;
     for index in 0..shrinking.best.case.attacks.len() {
@@ -31,7 +31,7 @@ struct Shrinking<'a> {
 
 impl Shrinking<'_> {
     /// Takes a smaller one if it collides, too.
-    fn offer(&mut self, case: Case) -> Result<bool, RunError> {
+    fn offer(&mut self, case: &Case) -> Result<bool, RunError> {
         self.runs += 1;
         let found = case.collision(self.town)?;
         let is_taken = found.is_some();
@@ -44,7 +44,7 @@ impl Shrinking<'_> {
     fn with(&mut self, index: usize, change: impl Fn(&mut Attack)) -> Result<bool, RunError> {
         let mut case = self.best.case.clone();
         change(&mut case.attacks[index]);
-        Ok(case != self.best.case && self.offer(case)?)
+        Ok(case != self.best.case && self.offer(&case)?)
     }
 
     fn fewer(&mut self) -> Result<(), RunError> {
@@ -52,7 +52,7 @@ impl Shrinking<'_> {
         while self.best.case.attacks.len() > 1 && index < self.best.case.attacks.len() {
             let mut case = self.best.case.clone();
             case.attacks.remove(index);
-            if !self.offer(case)? {
+            if !self.offer(&case)? {
                 index += 1;
             }
         }
