@@ -28,7 +28,7 @@ use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
 use crate::evaluate;
-use crate::evaluate::arguments::EvaluateArguments;
+use crate::evaluate::arguments::{EvaluateArguments, MergeArguments};
 use crate::explore;
 use crate::parameters_file;
 use crate::prove;
@@ -83,6 +83,8 @@ enum Command {
     Prove(ProveArguments),
     /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
     Evaluate(EvaluateArguments),
+    /// Put the parts of an experiment together that were made by `evaluate --shard`.
+    Merge(MergeArguments),
     /// Drive a drive with requester and monitor, beside a station or over a broker.
     Vehicle(VehicleArguments),
     /// Serve vehicles over a broker, with stand-in services.
@@ -133,6 +135,9 @@ pub fn main() -> ExitCode {
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
         Command::Evaluate(arguments) => evaluate::run(&arguments, &mut out, &mut io::stderr()),
+        Command::Merge(arguments) => {
+            evaluate::shards::merge(&arguments, &mut out, &mut io::stderr())
+        }
         Command::Vehicle(arguments) => {
             Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
         }

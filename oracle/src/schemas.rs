@@ -8,7 +8,8 @@ use mufasa_drives::check;
 use mufasa_link::station::StationSummary;
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
-use mufasa_sim::experiment::{attacks, availability, failures, stages};
+use mufasa_sim::experiment::select::Part;
+use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
 use serde_json::Value;
 
 use crate::explore::report::ExplorationReport;
@@ -48,6 +49,10 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
     schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
+    schemas.push(("evaluation-part", schema::written::<Part>()));
+    schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
+    schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
+    schemas.push(("evaluation-found", schema::written::<falsify::found::Found>()));
     schemas
 }
 

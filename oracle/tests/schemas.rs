@@ -147,6 +147,7 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
         ("stages", "stages/paper/random/1"),
         ("attacks", "attacks/hardened/made-up-lead/mot/0"),
         ("availability", "availability/paper/t-wait-s=60/0"),
+        ("cpu", "cpu/hardened/none/1"),
     ] {
         let size = ["--only", only, "--scenarios", "2", "--vehicles", "3", "--out", "files"];
         run(&folder, &[&["evaluate", name], &size[..]].concat());
@@ -163,6 +164,26 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
         let rows = value["rows"].as_array().expect("rows").len();
         assert_eq!((lines("-runs.csv"), lines(".csv")), (runs, rows), "{name}");
     }
+}
+
+#[test]
+fn a_collision_that_was_found_is_what_its_schema_says_and_is_made_again() {
+    let (validators, folder) = (validators(), folder("falsify"));
+    let arguments = ["evaluate", "falsify", "--profile", "paper", "--attack", "tracks-empty"];
+    let size = ["--runs", "56", "--seed", "1", "--out", "files"];
+    run(&folder, &[&arguments[..], &size[..]].concat());
+    let text = fs::read_to_string(folder.join("files/falsify.json")).expect("it was written");
+    let value = parsed(&text);
+    assert_valid(&validators["evaluation-falsify"], &value);
+    let mut files = fs::read_dir(folder.join("files/found")).expect("a folder");
+    let file = files.next().expect("a collision").expect("an entry").path();
+    let text = fs::read_to_string(&file).expect("it was written");
+    assert_valid(&validators["evaluation-found"], &parsed(&text));
+    let name = file.to_str().expect("a name");
+    let said = run(&folder, &["evaluate", "replay", name, "--out", "page.html"]);
+    assert!(said.contains("Collided"), "{said}");
+    let page = fs::read_to_string(folder.join("page.html")).expect("it was written");
+    assert!(page.contains("Collided with") && page.contains("paper-"));
 }
 
 #[test]

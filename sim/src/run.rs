@@ -1,6 +1,7 @@
 //! One run: a scenario, a variant, attacks, and how it ended.
 
 use mufasa::input::parameters::Parameters as StageParameters;
+use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::{FailedStage, Outcome as StageOutcome, Stage};
 use mufasa::services::configuration::{Configuration, Group, Groups};
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attack::{Attack, Attacker};
 use crate::cav::guard::{Decided, Guard, Variant};
+use crate::cav::without::{Rules, Without};
 use crate::cav::{Areas, Cav};
 use crate::map::Town;
 use crate::radio::{self, Radio, To};
@@ -33,6 +35,8 @@ const MOST: (usize, usize) = (128, 2048);
 pub struct Settings {
     /// What is checked of remote data.
     pub variant: Variant,
+    /// Of the hardened variant: a rule that is left out.
+    pub without: Option<Without>,
     /// What the station offers.
     pub offers: Groups,
     /// Where along the route each group may be offloaded, m.
@@ -59,6 +63,7 @@ impl Settings {
             RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
         Self {
             variant,
+            without: None,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
             attacks: Vec::new(),
@@ -142,7 +147,7 @@ pub struct Outcome {
 #[derive(Debug)]
 pub enum RunError {
     /// Settings that no monitor can keep.
-    Monitor(mufasa::monitor::MonitorError),
+    Monitor(MonitorError),
     /// A route that it cannot keep.
     Route(mufasa::report::InvalidInput),
     /// A town too far from its origin for the messages.
@@ -190,15 +195,15 @@ pub fn simulate(
     let frame = Frame::new(484_000_000, 99_500_000, [at.x, at.y]).map_err(RunError::Frame)?;
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
     let period_ns = PERIOD_NS.unsigned_abs();
-    let mut guard = Guard::new(
-        settings.variant,
-        settings.stages,
-        settings.requester,
-        period_ns,
-        &mut table,
-        lent.memory(),
-    )
-    .map_err(RunError::Monitor)?;
+    let Settings { stages, requester, variant, .. } = *settings;
+    let mut guard = match settings.without {
+        Some(rule) if variant == Variant::Hardened => {
+            let rules = Rules::new(rule, stages, requester, &mut table);
+            Guard::without(rules.map_err(|it| RunError::Monitor(MonitorError::Requester(it)))?)
+        }
+        _ => Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
+            .map_err(RunError::Monitor)?,
+    };
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
     let corridor = mufasa::input::cycle::Route {
         closed: route.path.is_closed(),
@@ -206,8 +211,8 @@ pub fn simulate(
     };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
-    let mut cav = Cav::new(route, *world.body(), frame, noise, settings.areas, guard);
-    let mut station = Station::new(route, frame, settings.offers, noise);
+    let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard);
+    let mut station = Station::new((town, route), frame, settings.offers, noise);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);
     let mut attacker = Attacker::new(settings.attacks.clone(), elsewhere);

@@ -26,6 +26,13 @@ impl Snapshot {
         let seen = |it: &Object| Seen { id: it.id, rectangle: it.rectangle, velocity: it.velocity };
         self.objects.iter().map(seen).collect()
     }
+
+    /// Where a signal asks the ego to stop, arc lengths of its route, m: what a camera would see. Where it
+    /// has to give way it finds out itself.
+    pub fn closed_signals(&self) -> Vec<f64> {
+        let closed = self.stops.iter().filter(|stop| stop.reason == Reason::Signal);
+        closed.map(|stop| stop.s).collect()
+    }
 }
 
 /// The ego at one moment.

@@ -12,8 +12,9 @@ use mufasa_props::bridge;
 
 use crate::attack::{Attacker, Results};
 use crate::ids;
+use crate::map::Town;
 use crate::map::route::Route;
-use crate::planner::plan;
+use crate::planner::{Road, plan};
 use crate::pose::{Point, Pose};
 use crate::radio::{Radio, To};
 use crate::services::detectors::scan::Sweep;
@@ -36,6 +37,7 @@ const SEEN_NS: i64 = 100_000_000;
 /// The station.
 #[derive(Debug)]
 pub struct Station<'a> {
+    town: &'a Town,
     route: &'a Route,
     frame: Frame,
     offers: Groups,
@@ -48,7 +50,7 @@ pub struct Station<'a> {
     seen: Option<(i64, Vec<Detection>)>,
     /// Distance of the farthest detection of the CAV, m.
     reach: f64,
-    stops: Vec<f64>,
+    signals: Vec<f64>,
     near_s: Option<f64>,
     offered_ns: Option<i64>,
     /// How often MOT, and ENV with TPL, ran.
@@ -58,12 +60,13 @@ pub struct Station<'a> {
 impl<'a> Station<'a> {
     /// A station that offers these groups along a route.
     pub fn new(
-        route: &'a Route,
+        (town, route): (&'a Town, &'a Route),
         frame: Frame,
         offers: Groups,
         (seed, errors): (u64, Errors),
     ) -> Self {
         Self {
+            town,
             route,
             frame,
             offers,
@@ -77,7 +80,7 @@ impl<'a> Station<'a> {
             seen_by_cav: BTreeMap::new(),
             seen: None,
             reach: 0.0,
-            stops: Vec::new(),
+            signals: Vec::new(),
             near_s: None,
             offered_ns: None,
             executions: [0; 2],
@@ -91,7 +94,7 @@ impl<'a> Station<'a> {
         let cycle = truth.time_ns.unsigned_abs();
         let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
         self.seen = Some((now_ns, observation.detections));
-        self.stops = truth.stops.iter().map(|stop| stop.s).collect();
+        self.signals = truth.closed_signals();
         self.near_s = Some(truth.ego.s);
         self.happens(now_ns, ProviderEventKind::Tick, radio);
         if self.offered_ns.is_none_or(|last_ns| now_ns - last_ns >= OFFERS_NS) {
@@ -225,8 +228,8 @@ impl<'a> Station<'a> {
         self.executions[1] += 1;
         let list = TrackList { stamp_ns, items: tracks };
         let own = core::ptr::eq(route, self.route);
-        let (near_s, stops) = if own { (self.near_s, &*self.stops) } else { (None, &[][..]) };
-        plan(stamp_ns, ego, near_s, route, stops, &list)
+        let (near_s, signals) = if own { (self.near_s, &*self.signals) } else { (None, &[][..]) };
+        plan(stamp_ns, ego, &Road { town: self.town, route, near_s, signals }, &list)
     }
 
     fn happens(&mut self, t_ns: i64, kind: ProviderEventKind, radio: &mut Radio) {

@@ -4,8 +4,9 @@ use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Options};
+use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
-use mufasa_sim::experiment::{attacks, availability, failures, stages};
+use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
 use serde::Serialize;
@@ -20,7 +21,7 @@ fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync)
 }
 
 fn small() -> Failures {
-    failures::experiment(&town(), SMALL, None, |_| ()).expect("the town can be")
+    failures::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("the town can be")
 }
 
 fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
@@ -33,13 +34,15 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
     let only = Some("failures/hardened/ghosts");
-    let make = || failures::experiment(&town, size, only, |_| ()).expect("the town can be");
+    let make =
+        || failures::experiment(&town, size, &Select::only(only), |_| ()).expect("the town can be");
     let one = json(1, make);
     assert_eq!(one, json(4, make));
     assert_eq!(make().runs.len(), 4, "{one}");
     let one = Options { scenarios: 2, ..size };
     let only = Some("stages/paper");
-    let make = || stages::experiment(&town, one, only, |_| ()).expect("the town can be");
+    let make =
+        || stages::experiment(&town, one, &Select::only(only), |_| ()).expect("the town can be");
     assert_eq!(json(1, make), json(4, make));
 }
 
@@ -47,8 +50,10 @@ fn any_number_of_threads_gives_the_same_bytes() {
 fn a_run_is_repeated_alone_by_its_id() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
-    let make =
-        |only| failures::experiment(&town, size, Some(only), |_| ()).expect("the town can be");
+    let make = |only| {
+        failures::experiment(&town, size, &Select::only(Some(only)), |_| ())
+            .expect("the town can be")
+    };
     let all = make("failures/sofof/tracks-empty");
     let alone = make("failures/sofof/tracks-empty/1/1");
     assert_eq!(alone.runs, [all.runs[3].clone()]);
@@ -78,7 +83,8 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 #[test]
 fn every_stage_runs_and_the_hardened_profile_arrives() {
     let size = Options { scenarios: 2, vehicles: 30, seed: 0 };
-    let made = stages::experiment(&town(), size, None, |_| ()).expect("the town can be");
+    let made =
+        stages::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
     assert_eq!(vehicles, [15, 30, 15, 30]);
     assert!(made.rows.iter().all(|row| row.executions > 0), "{:?}", made.rows);
@@ -98,8 +104,9 @@ fn ids_differ_and_every_combination_is_there() {
     ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(cpu::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
-    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 18 * 2 * 4);
+    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 18 * 2 * 4 + 3 * 4);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
     ids.sort();
     ids.dedup();
@@ -145,4 +152,21 @@ fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
     assert_eq!((first.by, first.cycles), (By::Iii, 4));
     // From 50 to 51 m and from 60 to 61 m; the way between was driven by the CAV alone.
     assert!((first.metres - 2.0).abs() < 1e-9, "{:?}", First { ..first });
+}
+
+#[test]
+fn processor_time_is_counted_in_the_state_in_which_it_was_spent() {
+    let made = cpu::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("a town");
+    assert_eq!(made.rows.len(), 9);
+    for row in &made.rows {
+        let all = made.runs.iter().filter(|run| run.variant == row.variant);
+        let simulated_s: f64 = all.map(|run| run.simulated_s).sum();
+        assert!((row.active_s + row.inactive_s - simulated_s).abs() < 1e-6, "{row:?}");
+        assert!(row.active_cpu_s > 0.0, "{row:?}");
+        if row.who == cpu::Who::Guard {
+            assert!(row.inactive_s == 0.0, "{row:?}");
+            continue;
+        }
+        assert!(row.active_s > 0.0 && row.inactive_s > 0.0, "{row:?}");
+    }
 }

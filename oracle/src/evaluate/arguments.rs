@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, value_parser};
 use mufasa_sim::experiment::job::Options;
+use mufasa_sim::experiment::select::Shard;
 
+use super::falsify::FalsifyArguments;
 use super::replay::ReplayArguments;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -37,6 +39,11 @@ pub enum Experiment {
     Attacks(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
+    /// this machine.
+    Cpu(SizeArguments),
+    /// Search for collisions: attacks, their times and their sizes, by an attacker who knows every rule.
+    Falsify(FalsifyArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }
@@ -44,7 +51,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures 10, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,
@@ -57,6 +64,10 @@ pub struct SizeArguments {
     /// Only runs whose id is this or begins with these parts, such as failures/paper/tracks-empty/0/3.
     #[arg(long, value_name = "ID")]
     pub only: Option<String>,
+    /// Only one of N parts of the runs, such as 2/8, for other machines to make the others; `mufasa merge` puts
+    /// the parts together.
+    #[arg(long, value_name = "I/N", value_parser = shard, requires = "out", conflicts_with_all = ["only", "into"])]
+    pub shard: Option<Shard>,
     /// Threads [default: all processors]. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
@@ -66,6 +77,33 @@ pub struct SizeArguments {
     /// Put the table into a document, between the lines that mark its place.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     pub into: Option<PathBuf>,
+}
+
+/// Part files, and where the results go.
+#[derive(Args, Clone, Debug, PartialEq, Eq)]
+#[command(after_help = "\
+Exit codes: as those of the experiment made in one go; 2 a part is missing, is there twice, or is of something
+else.")]
+pub struct MergeArguments {
+    /// The files that `mufasa evaluate EXPERIMENT --shard I/N --out DIR` wrote: all N of one experiment.
+    #[arg(value_name = "FILE", required = true)]
+    pub parts: Vec<PathBuf>,
+    /// Write the table and all runs as JSON and CSV into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Put the table into a document, between the lines that mark its place.
+    #[arg(long, value_name = "FILE")]
+    pub into: Option<PathBuf>,
+}
+
+/// I/N with I from 1 to N.
+fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text
+        .split_once('/')
+        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
+    parts.filter(|it| (1..=it.of).contains(&it.index)).ok_or_else(|| {
+        String::from("a part is I/N, with I from 1 to N, such as 2/8 for the second of eight")
+    })
 }
 
 impl SizeArguments {

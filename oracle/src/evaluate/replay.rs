@@ -1,7 +1,7 @@
 //! One run as a page (`mufasa_sim::replay`).
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
@@ -9,8 +9,10 @@ use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::replay::Id;
+use mufasa_sim::run::Outcome;
 
 /// Bad input, or a file that cannot be written.
 const BAD_INPUT: u8 = 2;
@@ -20,6 +22,9 @@ const BAD_INPUT: u8 = 2;
 #[command(after_help = "\
 Exit codes: 0 the page is written, however the run ended; 2 bad input or the file cannot be written.")]
 pub struct ReplayArguments {
+    /// A collision that `mufasa evaluate falsify` found; it says which run it is.
+    #[arg(value_name = "FILE", conflicts_with_all = ["attack", "variant", "route", "scenario", "vehicles", "from"])]
+    pub found: Option<PathBuf>,
     /// What the attacker does [default: nothing].
     #[arg(long, value_name = "KIND", value_parser = kind())]
     pub attack: Option<Kind>,
@@ -49,6 +54,9 @@ pub fn run(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
+    if let Some(found) = &arguments.found {
+        return run_found(found, arguments.out.as_deref(), out, err);
+    }
     let &ReplayArguments { attack, variant, route, scenario, vehicles, from, .. } = arguments;
     let id = Id { variant, attack, route: route.into(), scenario };
     let (outcome, page) = match id.page(&town(), vehicles.into(), from.into()) {
@@ -62,23 +70,63 @@ pub fn run(
             return Ok(BAD_INPUT);
         }
     };
-    let name = || PathBuf::from(format!("{}.html", id.to_string().replace('/', "-")));
-    let file = arguments.out.clone().unwrap_or_else(name);
-    if let Err(error) = files::write(&file, &page) {
+    write_page(&id.to_string(), &outcome, &page, arguments.out.as_deref(), out, err)
+}
+
+/// The same of a collision in a file.
+fn run_found(
+    found: &Path,
+    file: Option<&Path>,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let read = std::fs::read_to_string(found).map_err(|error| error.to_string());
+    let read = read.and_then(|text| {
+        serde_json::from_str::<Found>(&text).map_err(|error| format!("no collision: {error}"))
+    });
+    let town = town();
+    let made = read.and_then(|found| {
+        let routes = town.ego_routes().count();
+        if found.case.route >= routes {
+            return Err(format!("route {}: the town has {routes}", found.case.route));
+        }
+        let made = found.case.page(&town).map_err(|error| error.to_string())?;
+        Ok((found.case.name(), made))
+    });
+    match made {
+        Ok((name, (outcome, page))) => write_page(&name, &outcome, &page, file, out, err),
+        Err(message) => {
+            complain(err, &format!("{}: {message}", found.display()));
+            Ok(BAD_INPUT)
+        }
+    }
+}
+
+fn write_page(
+    name: &str,
+    outcome: &Outcome,
+    page: &str,
+    file: Option<&Path>,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let named = || PathBuf::from(format!("{}.html", name.replace('/', "-")));
+    let file = file.map_or_else(named, Path::to_path_buf);
+    if let Err(error) = files::write(&file, page) {
         complain(err, &format!("{}: cannot be written: {error}", file.display()));
         return Ok(BAD_INPUT);
     }
-    writeln!(out, "{id}: {:?} at {:.2} s, {}", outcome.end, outcome.t, file.display())?;
+    writeln!(out, "{name}: {:?} at {:.2} s, {}", outcome.end, outcome.t, file.display())?;
     Ok(0)
 }
 
-fn kind() -> impl TypedValueParser<Value = Kind> {
+pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {
     PossibleValuesParser::new(Kind::ALL.map(Kind::name)).try_map(|given| {
         Kind::ALL.into_iter().find(|kind| kind.name() == given).ok_or("unknown attack")
     })
 }
 
-fn variant() -> impl TypedValueParser<Value = Variant> {
+pub(super) fn variant() -> impl TypedValueParser<Value = Variant> {
     PossibleValuesParser::new(Variant::ALL.map(Variant::name)).try_map(|given| {
         Variant::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown variant")
     })

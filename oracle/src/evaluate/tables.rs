@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::{attacks, availability, failures, stages};
+use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
 
 /// A table of texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -182,6 +182,75 @@ pub fn availability(of: &availability::Availability) -> Rows {
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// Processor time of the CAV's services and of what checks them.
+pub fn cpu(of: &cpu::Cpu) -> Rows {
+    let header = [
+        ("checked by", false),
+        ("what", false),
+        ("active: CPU %", true),
+        ("s", true),
+        ("inactive: CPU %", true),
+        ("s", true),
+        ("active in the paper", false),
+        ("inactive in the paper", false),
+    ];
+    let percent = |cpu_s: f64, of_s: f64| {
+        if of_s > 0.0 { format!("{:.3}", 100.0 * cpu_s / of_s) } else { String::new() }
+    };
+    let row = |row: &cpu::Row| {
+        let [active, inactive] = cpu_in_paper(row.variant, row.who);
+        [
+            row.variant.name().to_owned(),
+            row.who.name().to_owned(),
+            percent(row.active_cpu_s, row.active_s),
+            format!("{:.1}", row.active_s),
+            percent(row.inactive_cpu_s, row.inactive_s),
+            format!("{:.1}", row.inactive_s),
+            active.to_owned(),
+            inactive.to_owned(),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// How near the runs of a search came, by kind of attack.
+pub fn falsified(of: &falsify::Falsified) -> Rows {
+    let header = [
+        ("attack", false),
+        ("runs", true),
+        ("collided", true),
+        ("least time left, s", true),
+        ("least distance, m", true),
+    ];
+    let row = |row: &falsify::Row| {
+        [
+            kind_name(row.attack).to_owned(),
+            row.runs.to_string(),
+            row.collided.to_string(),
+            format!("{:.1}", row.least_time_left_s),
+            row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// CPU usage and time of the paper's table; of ENV and TPL, which are one here, both.
+const fn cpu_in_paper(variant: Variant, who: cpu::Who) -> [&'static str; 2] {
+    match (variant, who) {
+        (Variant::Hardened, _) => ["", ""],
+        (Variant::Paper, cpu::Who::Guard) => ["2.3 % in 594.5 s", ""],
+        (Variant::Paper, cpu::Who::Mot) => ["5.23 % in 551.6 s", "1.3 % in 42.1 s"],
+        (Variant::Paper, cpu::Who::EnvTpl) => {
+            ["18.75 % in 536.3 s, 18.7 % in 537.6 s", "1.2 % in 57.4 s, 0.9 % in 54.9 s"]
+        }
+        (Variant::Sofof, cpu::Who::Guard) => ["2.13 % in 594.5 s", ""],
+        (Variant::Sofof, cpu::Who::Mot) => ["5.36 % in 541.0 s", "1.1 % in 53.3 s"],
+        (Variant::Sofof, cpu::Who::EnvTpl) => {
+            ["18.6 % in 488.4 s, 18.6 % in 488.9 s", "0.7 % in 105.1 s, 0.6 % in 105.1 s"]
+        }
+    }
 }
 
 fn per_thousand(part: u64, of: u64) -> String {

@@ -3,6 +3,8 @@
 //! The attacker knows everything: the truth, the rules, the sessions. An attack is an item with a start, an
 //! end and a seed; several go on at the same time.
 
+pub mod kind;
+pub mod means;
 mod tracks;
 mod trajectory;
 
@@ -13,108 +15,16 @@ use mufasa_link::message::{self, Frame, Message, Payload};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::kind::Kind;
+use self::means::{Lists, Means};
 use crate::ids;
 use crate::map::route::Route;
 use crate::radio::{Radio, To};
 use crate::snapshot::Snapshot;
 
-/// What an attack does.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// The planner of the station drives on another route (paper).
-    MapReplaced,
-    /// Empty track lists at 100 Hz, to the CAV and to the station's planner (paper).
-    TracksEmpty,
-    /// Objects that are not there, ahead of the CAV (paper).
-    Ghosts,
-    /// The object that is in the CAV's way first is left out.
-    OneRemoved,
-    /// Who crosses is said to stand (F-30, F-31).
-    CrossingStands,
-    /// A ghost that the mean over many tracks hides (F-01).
-    GhostInMean,
-    /// Velocities turned around.
-    FalseVelocities,
-    /// Two objects exchange their pasts: each moves as the other (F-32, F-38).
-    ExchangedPasts,
-    /// Results of 3 s ago, with new stamps.
-    Replay,
-    /// All tracks drift aside slowly, by 0.1 m/s.
-    Drift,
-    /// The trajectory begins 1 s from now.
-    StartsLate,
-    /// The trajectory runs backwards.
-    Backwards,
-    /// The trajectory goes on at the present speed, whatever is ahead.
-    IntoLead,
-    /// A standing object 15 m ahead in every list.
-    MadeUpLead,
-    /// Everything later by 30 ms, which is below `l_max`.
-    Delay,
-    /// Numbers that are no numbers.
-    NotFinite,
-    /// A thousand messages each second that cannot be read, or are of no session.
-    Flood,
-    /// Lists as long as the formats allow.
-    Slow,
-}
-
-impl Kind {
-    /// All.
-    pub const ALL: [Self; 18] = [
-        Self::MapReplaced,
-        Self::TracksEmpty,
-        Self::Ghosts,
-        Self::OneRemoved,
-        Self::CrossingStands,
-        Self::GhostInMean,
-        Self::FalseVelocities,
-        Self::ExchangedPasts,
-        Self::Replay,
-        Self::Drift,
-        Self::StartsLate,
-        Self::Backwards,
-        Self::IntoLead,
-        Self::MadeUpLead,
-        Self::Delay,
-        Self::NotFinite,
-        Self::Flood,
-        Self::Slow,
-    ];
-
-    /// Those of the paper.
-    pub const PAPER: [Self; 3] = [Self::MapReplaced, Self::TracksEmpty, Self::Ghosts];
-
-    /// Its name in tables and files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::MapReplaced => "map-replaced",
-            Self::TracksEmpty => "tracks-empty",
-            Self::Ghosts => "ghosts",
-            Self::OneRemoved => "one-removed",
-            Self::CrossingStands => "crossing-stands",
-            Self::GhostInMean => "ghost-in-mean",
-            Self::FalseVelocities => "false-velocities",
-            Self::ExchangedPasts => "exchanged-pasts",
-            Self::Replay => "replay",
-            Self::Drift => "drift",
-            Self::StartsLate => "starts-late",
-            Self::Backwards => "backwards",
-            Self::IntoLead => "into-lead",
-            Self::MadeUpLead => "made-up-lead",
-            Self::Delay => "delay",
-            Self::NotFinite => "not-finite",
-            Self::Flood => "flood",
-            Self::Slow => "slow",
-        }
-    }
-}
-
 /// An attack.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Attack {
     /// What it does.
     pub kind: Kind,
@@ -124,9 +34,16 @@ pub struct Attack {
     pub until: f64,
     /// For what it draws.
     pub seed: u64,
+    /// How much, and to whom.
+    pub means: Means,
 }
 
 impl Attack {
+    /// An attack of the experiments, between two times, s.
+    pub const fn new(kind: Kind, from: f64, until: f64, seed: u64) -> Self {
+        Self { kind, from, until, seed, means: Means::of(kind) }
+    }
+
     /// Whether it goes on.
     pub fn is_on(&self, t_ns: i64) -> bool {
         let t = crate::services::way::seconds(t_ns);
@@ -145,10 +62,9 @@ pub struct Results {
     pub points: Vec<TrajectoryPoint>,
 }
 
-/// How long ago replayed results are, in results.
-const REPLAYED: usize = 30;
-/// What `Delay` adds, ns.
-const DELAY_NS: i64 = 30_000_000;
+/// Results that are kept to be replayed, one in a period, and how many come in a second.
+const KEPT: usize = 100;
+const PER_SECOND: f64 = 10.0;
 /// Messages of a flood in each step of 10 ms.
 const FLOOD: u8 = 10;
 
@@ -189,16 +105,22 @@ impl<'a> Attacker<'a> {
     }
 
     fn does(&self, kind: Kind) -> bool {
-        self.attacks.iter().any(|attack| attack.kind == kind && attack.is_on(self.now_ns))
+        self.means(kind).is_some()
+    }
+
+    /// Those of the first attack of a kind that goes on.
+    fn means(&self, kind: Kind) -> Option<&Means> {
+        let mut going_on = self.attacks.iter().filter(|it| it.kind == kind);
+        going_on.find(|attack| attack.is_on(self.now_ns)).map(|attack| &attack.means)
     }
 
     /// The tracks that the planner of the station believes in.
     pub fn believed(&self, stamp_ns: i64, ego: &Ego, tracks: &[Track]) -> Vec<Track> {
         let mut tracks = tracks.to_vec();
-        if self.does(Kind::TracksEmpty) {
+        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Planner)) {
             tracks.clear();
         }
-        self.lie(stamp_ns, ego, &mut tracks);
+        self.lie(stamp_ns, ego, Lists::Planner, &mut tracks);
         tracks
     }
 
@@ -210,33 +132,35 @@ impl<'a> Attacker<'a> {
     /// What is made of the results before they are sent.
     pub fn results(&mut self, ego: &Ego, results: &mut Results) {
         self.earlier.push_back(results.clone());
-        if self.earlier.len() > REPLAYED {
+        if self.earlier.len() > KEPT {
             self.earlier.pop_front();
         }
         let Results { stamp_ns, tracks, points } = results;
-        self.lie(*stamp_ns, ego, tracks);
-        if self.does(Kind::Replay)
-            && let Some(old) = self.earlier.front()
+        self.lie(*stamp_ns, ego, Lists::Cav, tracks);
+        if let Some(means) = self.means(Kind::Replay)
+            && let Some(old) =
+                self.earlier.get(self.earlier.len().saturating_sub(results_in(means)))
         {
             let later_ns = *stamp_ns - old.stamp_ns;
             tracks.clone_from(&old.tracks);
             *points = old.points.iter().map(|it| later(it, later_ns)).collect();
         }
         for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
-            trajectory::spoil(attack.kind, ego, points);
+            trajectory::spoil(attack, ego, points);
         }
     }
 
-    fn lie(&self, stamp_ns: i64, ego: &Ego, list: &mut Vec<Track>) {
+    fn lie(&self, stamp_ns: i64, ego: &Ego, whose: Lists, list: &mut Vec<Track>) {
         let Some(truth) = &self.truth else { return };
-        for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
+        let going_on = self.attacks.iter().filter(|it| it.is_on(self.now_ns));
+        for attack in going_on.filter(|it| it.means.spoils(whose)) {
             tracks::spoil(attack, truth, stamp_ns, ego, list);
         }
     }
 
     /// How much later everything is sent, ns.
     pub fn delay_ns(&self) -> i64 {
-        if self.does(Kind::Delay) { DELAY_NS } else { 0 }
+        self.means(Kind::Delay).map_or(0, |means| nanoseconds(means.late_s))
     }
 
     /// The sessions of the CAV, which the attacker reads from the link.
@@ -257,7 +181,7 @@ impl<'a> Attacker<'a> {
                 radio.forge(now_ns, To::Vehicle, bytes);
             }
         };
-        if self.does(Kind::TracksEmpty)
+        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Cav))
             && let Some(session) = self.sessions[0]
         {
             send(&message(Payload::Tracks { session, stamp_ns: now_ns, tracks: Vec::new() }));
@@ -296,6 +220,17 @@ impl<'a> Attacker<'a> {
             _ => {}
         }
     }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "some seconds")]
+fn nanoseconds(seconds: f64) -> i64 {
+    (seconds * 1e9).round() as i64
+}
+
+/// How many results ago, at least the present one.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "held to 100")]
+fn results_in(means: &Means) -> usize {
+    ((means.late_s * PER_SECOND).round().max(1.0) as usize).min(KEPT)
 }
 
 fn later(point: &TrajectoryPoint, by_ns: i64) -> TrajectoryPoint {

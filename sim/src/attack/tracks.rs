@@ -2,6 +2,7 @@
 
 use mufasa::input::cycle::{Ego, Track};
 
+use super::means::Means;
 use super::{Attack, Kind};
 use crate::pose::{Point, Pose};
 use crate::services::detectors::random::Draws;
@@ -12,12 +13,8 @@ use crate::snapshot::{Object, Snapshot};
 const MOST_TRACKS: usize = 128;
 /// Who is slower than this stands, m/s.
 const STANDING: f64 = 0.5;
-/// How fast a drift goes, m/s.
-const DRIFT: f64 = 0.1;
 /// How far a ghost is ahead, m: at least, and at most.
 const GHOST_AHEAD: (f64, f64) = (8.0, 25.0);
-/// A made-up leading vehicle, m ahead.
-const LEAD_AHEAD: f64 = 15.0;
 /// From where on ids are those of ghosts.
 const GHOST_ID: i64 = 240;
 
@@ -30,12 +27,16 @@ pub(super) fn spoil(
     list: &mut Vec<Track>,
 ) {
     let mut draws = Draws::new([attack.seed, 7, 0, 0]);
+    let means = &attack.means;
+    let target = means.target.map(|id| truth.objects.iter().find(|it| it.id == id));
+    let is_meant = |track: &Track| target.is_none_or(|it| it.is_some_and(|it| is_of(track, it)));
     match attack.kind {
         Kind::Ghosts => {
             for index in 0..3 {
                 let ahead = draws.between(GHOST_AHEAD.0, GHOST_AHEAD.1) + 8.0 * f64::from(index);
                 let left = draws.between(-1.0, 1.0);
-                list.push(ghost(ego, ahead, left, GHOST_ID + i64::from(index)));
+                let at = (means.ahead_m + ahead, means.left_m + left);
+                list.push(ghost(ego, at, means.speed_mps, GHOST_ID + i64::from(index)));
             }
         }
         Kind::GhostInMean => {
@@ -43,31 +44,32 @@ pub(super) fn spoil(
                 // Beside a true track, so near that the mean over the others hides it.
                 let ahead = list.iter().map(|it| way_ahead(ego, it)).filter(|it| *it > 5.0);
                 let ahead = ahead.fold(30.0, f64::min);
-                list.push(ghost(ego, ahead, 0.0, GHOST_ID));
+                let at = (ahead + means.ahead_m, means.left_m);
+                list.push(ghost(ego, at, means.speed_mps, GHOST_ID));
             }
         }
-        Kind::MadeUpLead => list.push(ghost(ego, LEAD_AHEAD, 0.0, GHOST_ID)),
+        Kind::MadeUpLead => {
+            list.push(ghost(ego, (means.ahead_m, means.left_m), means.speed_mps, GHOST_ID));
+        }
         Kind::OneRemoved => {
-            if let Some(object) = first_in_the_way(truth) {
+            if let Some(object) = target.unwrap_or_else(|| first_in_the_way(truth)) {
                 list.retain(|it| !is_of(it, object));
             }
         }
         Kind::CrossingStands => {
-            for track in list.iter_mut().filter(|it| crosses(ego, it)) {
-                (track.vx, track.vy) = (0.0, 0.0);
-            }
+            let is_meant = |it: &Track| is_meant(it) && (target.is_some() || crosses(ego, it));
+            list.iter_mut().filter(|it| is_meant(it)).for_each(|it| falsify_velocity(it, means));
         }
         Kind::FalseVelocities => {
-            for track in list.iter_mut() {
-                (track.vx, track.vy) = (-track.vx, -track.vy);
-            }
+            list.iter_mut().filter(|it| is_meant(it)).for_each(|it| falsify_velocity(it, means));
         }
         Kind::ExchangedPasts => exchange(list),
         Kind::Drift => {
-            let by = DRIFT * (seconds(stamp_ns) - attack.from);
-            for track in list.iter_mut() {
-                track.x -= by * ego.sin;
-                track.y += by * ego.cos;
+            let by = means.speed_mps * (seconds(stamp_ns) - attack.from);
+            let (sin, cos) = libm::sincos(means.turn_rad);
+            for track in list.iter_mut().filter(|it| is_meant(it)) {
+                track.x -= by * (ego.sin * cos + ego.cos * sin);
+                track.y += by * (ego.cos * cos - ego.sin * sin);
             }
         }
         Kind::Slow => {
@@ -75,7 +77,7 @@ pub(super) fn spoil(
                 #[expect(clippy::cast_precision_loss, reason = "at most 128")]
                 let across = 5.0 + 0.1 * index as f64;
                 let id = (0..256).rev().find(|id| list.iter().all(|it| it.id != *id));
-                list.extend(id.map(|id| ghost(ego, 10.0, across, id)));
+                list.extend(id.map(|id| ghost(ego, (10.0, across), 0.0, id)));
             }
         }
         Kind::MapReplaced
@@ -84,6 +86,7 @@ pub(super) fn spoil(
         | Kind::StartsLate
         | Kind::Backwards
         | Kind::IntoLead
+        | Kind::Swerve
         | Kind::Delay
         | Kind::NotFinite
         | Kind::Flood => {}
@@ -91,11 +94,18 @@ pub(super) fn spoil(
     list.truncate(MOST_TRACKS);
 }
 
-/// A standing car ahead of the CAV.
-fn ghost(ego: &Ego, ahead: f64, left: f64, id: i64) -> Track {
+/// A car ahead of the CAV and to the left, m, that drives as the CAV looks, m/s.
+fn ghost(ego: &Ego, (ahead, left): (f64, f64), speed: f64, id: i64) -> Track {
     let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
     let Point { x, y } = pose.ahead(ego.center_offset + ego.length / 2.0 + ahead, left);
-    Track { id, x, y, cos: ego.cos, sin: ego.sin, vx: 0.0, vy: 0.0, length: 4.5, width: 1.8 }
+    let (vx, vy) = (speed * ego.cos, speed * ego.sin);
+    Track { id, x, y, cos: ego.cos, sin: ego.sin, vx, vy, length: 4.5, width: 1.8 }
+}
+
+fn falsify_velocity(track: &mut Track, means: &Means) {
+    let (sin, cos) = libm::sincos(means.turn_rad);
+    let (vx, vy) = (track.vx * cos - track.vy * sin, track.vy * cos + track.vx * sin);
+    (track.vx, track.vy) = (means.factor * vx, means.factor * vy);
 }
 
 fn way_ahead(ego: &Ego, track: &Track) -> f64 {

@@ -2,28 +2,31 @@
 
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
-use super::{Kind, later};
+use super::{Attack, Kind, later, nanoseconds};
 use crate::services::tpl::STEP_NS;
 use crate::services::way::seconds;
 
-/// By how much a trajectory that starts late does, ns.
-const LATE_NS: i64 = 1_000_000_000;
 /// Most points of a message.
 const MOST_POINTS: usize = 1024;
-/// Speed at which a CAV that stands is driven on, m/s.
-const CREEP: f64 = 5.0;
 
 /// Spoils the points, if this kind of attack does that.
-pub(super) fn spoil(kind: Kind, ego: &Ego, points: &mut Vec<TrajectoryPoint>) {
-    match kind {
-        Kind::StartsLate => points.iter_mut().for_each(|it| *it = later(it, LATE_NS)),
+pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint>) {
+    let means = &attack.means;
+    match attack.kind {
+        Kind::StartsLate => {
+            let late_ns = nanoseconds(means.late_s);
+            points.iter_mut().for_each(|it| *it = later(it, late_ns));
+        }
         Kind::Backwards => {
             let places: Vec<_> = points.iter().rev().copied().collect();
             for (point, place) in points.iter_mut().zip(places) {
                 *point = TrajectoryPoint { t_ns: point.t_ns, ..place };
             }
         }
-        Kind::IntoLead => go_on(ego, points),
+        Kind::IntoLead => {
+            go_on(ego.speed.max(means.speed_mps), means.acceleration_mps2, points);
+        }
+        Kind::Swerve => swerve(means.left_m, means.ahead_m, points),
         Kind::Slow => lengthen(points),
         Kind::MapReplaced
         | Kind::TracksEmpty
@@ -42,13 +45,15 @@ pub(super) fn spoil(kind: Kind, ego: &Ego, points: &mut Vec<TrajectoryPoint>) {
     }
 }
 
-/// The way of the trajectory and straight on from its end, at constant speed.
-fn go_on(ego: &Ego, points: &mut [TrajectoryPoint]) {
-    let speed = ego.speed.max(CREEP);
+/// The way of the trajectory and straight on from its end, from a speed on, m/s, evenly accelerated, m/s^2.
+fn go_on(speed: f64, acceleration: f64, points: &mut [TrajectoryPoint]) {
     let way = points.to_vec();
     let Some(first) = way.first() else { return };
     for point in points.iter_mut() {
-        let mut rest = speed * seconds(point.t_ns - first.t_ns);
+        let t = seconds(point.t_ns - first.t_ns);
+        // Who brakes does not roll back.
+        let t = if acceleration < 0.0 { t.min(-speed / acceleration) } else { t };
+        let mut rest = speed * t + acceleration * t * t / 2.0;
         let mut at = *first;
         for pair in way.windows(2) {
             let (x, y) = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
@@ -68,6 +73,28 @@ fn go_on(ego: &Ego, points: &mut [TrajectoryPoint]) {
         }
         let (x, y) = (at.x + rest * at.cos, at.y + rest * at.sin);
         *point = TrajectoryPoint { t_ns: point.t_ns, x, y, ..at };
+    }
+}
+
+/// Aside by `left`, m, after a way of `over`, m, evenly swung; directions are those of the new way.
+fn swerve(left: f64, over: f64, points: &mut [TrajectoryPoint]) {
+    let (over, mut way) = (over.max(1.0), 0.0);
+    let Some(mut before) = points.first().copied() else { return };
+    for point in points.iter_mut() {
+        let (x, y) = (point.x - before.x, point.y - before.y);
+        before = *point;
+        way += (x * x + y * y).sqrt();
+        let share = (way / over).min(1.0);
+        let aside = left * share * share * (3.0 - 2.0 * share);
+        let slope = 6.0 * left * share * (1.0 - share) / over;
+        let norm = (1.0 + slope * slope).sqrt();
+        *point = TrajectoryPoint {
+            t_ns: point.t_ns,
+            x: before.x - aside * before.sin,
+            y: before.y + aside * before.cos,
+            cos: (before.cos - slope * before.sin) / norm,
+            sin: (before.sin + slope * before.cos) / norm,
+        };
     }
 }
 

@@ -12,12 +12,14 @@ use mufasa::offloading::requester::{
     Action, Actions, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
     StationRecord,
 };
-use mufasa::report::{FailedStage, InvalidInput, Report};
+use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use super::decided::{Decided, Local};
 use super::sensing::Sensed;
+use super::without::Rules;
 
 /// What is checked of remote data.
 #[derive(
@@ -74,42 +76,7 @@ enum Kind<'a> {
         tracks: Option<Accepted<Vec<Track>>>,
         points: Option<Accepted<Vec<TrajectoryPoint>>>,
     },
-}
-
-/// What a cycle lets control have.
-#[derive(Debug)]
-pub struct Decided {
-    /// Whether data may be used; always, where nothing is checked.
-    pub is_safe: bool,
-    /// The report of the stages, or what was wrong with the input; none where nothing is checked.
-    pub report: Option<Result<Report, InvalidInput>>,
-    /// The trajectory that control may follow. None in `Local` where something is checked: there the
-    /// CAV's own is not.
-    pub trajectory: Option<Vec<TrajectoryPoint>>,
-    /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
-    pub tracks: Option<(i64, Vec<Track>)>,
-    /// What is to be done.
-    pub actions: Vec<Action>,
-}
-
-impl Decided {
-    /// Where a safety issue was found.
-    pub fn failed_stage(&self) -> Option<FailedStage> {
-        match self.report {
-            Some(Ok(report)) => report.failed_stage,
-            Some(Err(_)) => Some(FailedStage::Input),
-            None => None,
-        }
-    }
-}
-
-/// Local results of a cycle, if their services run.
-#[derive(Clone, Copy, Debug)]
-pub struct Local<'c> {
-    /// Tracks, with the time that they are of, ns.
-    pub tracks: Option<(i64, &'c [Track])>,
-    /// A trajectory, with the time when it was planned, ns.
-    pub points: Option<(i64, &'c [TrajectoryPoint])>,
+    Without(Box<Rules<'a>>),
 }
 
 impl<'a> Guard<'a> {
@@ -140,6 +107,11 @@ impl<'a> Guard<'a> {
         Ok(Self { kind: Kind::Checked { monitor, tracks: None, points: None } })
     }
 
+    /// The hardened rules without one of them.
+    pub fn without(rules: Rules<'a>) -> Self {
+        Self { kind: Kind::Without(Box::new(rules)) }
+    }
+
     /// The stretch of the route that is followed from now on.
     ///
     /// Errors: a route that the monitor cannot keep.
@@ -147,6 +119,10 @@ impl<'a> Guard<'a> {
         match &mut self.kind {
             Kind::Plain { .. } => Ok(()),
             Kind::Checked { monitor, .. } => monitor.set_route(route),
+            Kind::Without(rules) => {
+                rules.set_route(route);
+                Ok(())
+            }
         }
     }
 
@@ -165,6 +141,7 @@ impl<'a> Guard<'a> {
         match &self.kind {
             Kind::Plain { requester, .. } => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),
+            Kind::Without(rules) => &rules.requester,
         }
     }
 
@@ -175,6 +152,7 @@ impl<'a> Guard<'a> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
             Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
+            Kind::Without(rules) => return rules.step(t_ns, kind),
             Kind::Checked { monitor, .. } => match kind {
                 EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
                 EventKind::Withdraw { station } => monitor.withdraw(now, station),
@@ -209,6 +187,7 @@ impl<'a> Guard<'a> {
             Kind::Checked { monitor, tracks, .. } => {
                 Ok(accept(monitor.tracks(time(t_ns), message)?, tracks))
             }
+            Kind::Without(rules) => rules.tracks(t_ns, message),
         }
     }
 
@@ -227,6 +206,7 @@ impl<'a> Guard<'a> {
             Kind::Checked { monitor, points, .. } => {
                 Ok(accept(monitor.trajectory(time(t_ns), message)?, points))
             }
+            Kind::Without(rules) => rules.trajectory(t_ns, message),
         }
     }
 
@@ -236,6 +216,7 @@ impl<'a> Guard<'a> {
             Kind::Plain { requester, tracks, points } => {
                 unchecked(requester, t_ns, tracks.as_ref(), points.as_ref(), local)
             }
+            Kind::Without(rules) => rules.decide(t_ns, ego, sensed, local),
             Kind::Checked { monitor, tracks, points } => {
                 let inputs = inputs(t_ns, ego, sensed, local);
                 let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);

@@ -5,8 +5,7 @@ use std::collections::VecDeque;
 use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
 use mufasa::services::configuration::Group;
 
-use crate::map::route::Route;
-use crate::planner::plan;
+use crate::planner::{Road, plan};
 use crate::services::mot::{Settings, Tracker};
 
 /// Lists of detections that a tracker that starts again goes through first.
@@ -78,14 +77,12 @@ impl Services {
         &mut self,
         now_ns: i64,
         ego: &Ego,
-        near_s: f64,
-        route: &Route,
-        stops: &[f64],
+        road: &Road<'_>,
         tracks: &TrackList<'_>,
     ) -> Option<Vec<TrajectoryPoint>> {
         self.run(Group::Plan).then(|| {
             self.executions[place(Group::Plan)] += 1;
-            plan(now_ns, ego, Some(near_s), route, stops, tracks)
+            plan(now_ns, ego, road, tracks)
         })
     }
 }

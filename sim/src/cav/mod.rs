@@ -1,8 +1,11 @@
 //! The CAV: sensors, its own services, what guards the link, and control.
 
+pub mod cost;
+pub mod decided;
 pub mod guard;
 pub mod local;
 pub mod sensing;
+pub mod without;
 
 use mufasa::input::cycle::{TrackList, TrajectoryPoint};
 use mufasa::monitor::{Message as Received, Time};
@@ -10,11 +13,14 @@ use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterErro
 use mufasa::services::configuration::{Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
 
+use self::cost::{Cost, Part};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
 use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
+use crate::map::Town;
 use crate::map::route::Route;
+use crate::planner::Road;
 use crate::radio::{Radio, To};
 use crate::services::control::{self, Controller};
 use crate::services::detectors::Errors;
@@ -38,6 +44,7 @@ pub struct Counts {
 /// The CAV on its route.
 #[derive(Debug)]
 pub struct Cav<'a> {
+    town: &'a Town,
     route: &'a Route,
     body: Body,
     frame: Frame,
@@ -53,6 +60,7 @@ pub struct Cav<'a> {
     own: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
     /// What control follows.
     points: Vec<TrajectoryPoint>,
+    cost: Cost,
     /// What the CAV counts.
     pub counts: Counts,
 }
@@ -60,7 +68,7 @@ pub struct Cav<'a> {
 impl<'a> Cav<'a> {
     /// At the start of its route, with everything local.
     pub fn new(
-        route: &'a Route,
+        (town, route): (&'a Town, &'a Route),
         body: Body,
         frame: Frame,
         (seed, errors): (u64, Errors),
@@ -68,6 +76,7 @@ impl<'a> Cav<'a> {
         guard: Guard<'a>,
     ) -> Self {
         Self {
+            town,
             route,
             body,
             frame,
@@ -80,6 +89,7 @@ impl<'a> Cav<'a> {
             tracks: None,
             own: None,
             points: Vec::new(),
+            cost: Cost::default(),
             counts: Counts::default(),
         }
     }
@@ -87,6 +97,11 @@ impl<'a> Cav<'a> {
     /// What guards the link.
     pub fn guard(&self) -> &Guard<'a> {
         &self.guard
+    }
+
+    /// Processor time of its own services and of what guards the link.
+    pub fn cost(&self) -> &Cost {
+        &self.cost
     }
 
     /// Its own services.
@@ -145,35 +160,35 @@ impl<'a> Cav<'a> {
         }
         let time = Time::from_nanoseconds;
         let generated = time(generated_ns);
-        let answer = match payload {
+        let Self { cost, guard, counts, .. } = self;
+        let answer = cost.of(Part::Guard, || match payload {
             Payload::Offer { groups } => {
-                self.guard.happens(now_ns, EventKind::Offer { station, groups })
+                guard.happens(now_ns, EventKind::Offer { station, groups })
             }
-            Payload::Withdraw => self.guard.happens(now_ns, EventKind::Withdraw { station }),
+            Payload::Withdraw => guard.happens(now_ns, EventKind::Withdraw { station }),
             Payload::Confirm { group, session } => {
-                self.guard.happens(now_ns, EventKind::Confirm { station, group, session })
+                guard.happens(now_ns, EventKind::Confirm { station, group, session })
             }
             Payload::Reject { group, session } => {
-                self.guard.happens(now_ns, EventKind::Reject { station, group, session })
+                guard.happens(now_ns, EventKind::Reject { station, group, session })
             }
             Payload::Tracks { session, stamp_ns, tracks: items } => {
                 let stamp = time(stamp_ns);
-                self.guard.tracks(now_ns, Received { station, session, generated, stamp, items })
+                guard.tracks(now_ns, Received { station, session, generated, stamp, items })
             }
             Payload::Trajectory { session, stamp_ns, points: items } => {
                 let stamp = time(stamp_ns);
-                self.guard
-                    .trajectory(now_ns, Received { station, session, generated, stamp, items })
+                guard.trajectory(now_ns, Received { station, session, generated, stamp, items })
             }
             Payload::Request { .. }
             | Payload::Release { .. }
             | Payload::Alive { .. }
             | Payload::State { .. }
             | Payload::Detections { .. } => {
-                self.counts.dropped += 1;
-                return;
+                counts.dropped += 1;
+                Ok(Vec::new())
             }
-        };
+        });
         self.answered(now_ns, answer, radio);
     }
 
@@ -182,15 +197,19 @@ impl<'a> Cav<'a> {
         self.happens(now_ns, EventKind::Tick, radio);
         let sensed = self.sensed.take()?;
         let ego = ego(truth, &self.body);
-        let own = self.services.track(sensed.stamp_ns, &sensed.detections);
+        let services = &mut self.services;
+        let own = self.cost.of(Part::Mot, || services.track(sensed.stamp_ns, &sensed.detections));
         let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
         let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
         let (stamp_ns, items) = remote.or(own).unwrap_or((now_ns, &[]));
-        let stops: Vec<f64> = truth.stops.iter().map(|stop| stop.s).collect();
         let list = TrackList { stamp_ns, items };
-        let points = self.services.plan(now_ns, &ego, truth.ego.s, self.route, &stops, &list);
+        let (near_s, signals) = (Some(truth.ego.s), &*truth.closed_signals());
+        let road = Road { town: self.town, route: self.route, near_s, signals };
+        let services = &mut self.services;
+        let points = self.cost.of(Part::Plan, || services.plan(now_ns, &ego, &road, &list));
         let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
-        let mut decided = self.guard.decide(now_ns, ego, &sensed, local);
+        let guard = &mut self.guard;
+        let mut decided = self.cost.of(Part::Guard, || guard.decide(now_ns, ego, &sensed, local));
         self.tracks = decided.tracks.take();
         self.own = own.map(|(stamp_ns, tracks)| (stamp_ns, tracks.to_vec()));
         self.act(now_ns, &decided.actions, radio);
@@ -215,7 +234,7 @@ impl<'a> Cav<'a> {
     }
 
     fn happens(&mut self, now_ns: i64, kind: EventKind, radio: &mut Radio) {
-        let answer = self.guard.happens(now_ns, kind);
+        let answer = self.cost.of(Part::Guard, || self.guard.happens(now_ns, kind));
         self.answered(now_ns, answer, radio);
     }
 

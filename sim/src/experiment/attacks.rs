@@ -7,22 +7,25 @@
 
 use mufasa::services::configuration::{Group, Groups};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::job::{self, Job, Options, kind_name};
+use super::job::{self, ExperimentError, Job, Options, kind_name};
+use super::select::Select;
 use super::watch::{By, Watch};
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{End, Outcome, RunError};
+use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "attacks";
-/// A few scenarios of each of 171 combinations.
+/// A few scenarios of each of 180 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What the station offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Offered {
     /// Tracking alone.
@@ -46,7 +49,8 @@ impl Offered {
         }
     }
 
-    fn groups(self) -> Groups {
+    /// As the station has it.
+    pub fn groups(self) -> Groups {
         match self {
             Self::Mot => Groups::of(&[Group::Mot]),
             Self::Plan => Groups::of(&[Group::Plan]),
@@ -95,7 +99,7 @@ pub struct Row {
 }
 
 /// A run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,
@@ -147,17 +151,17 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<What>> {
     jobs
 }
 
-/// Makes the runs, or those of them that `only` names. `done`: called after each with
+/// Makes the runs, or those of them that are selected. `done`: called after each with
 /// their number.
 ///
-/// Errors: a town that cannot be.
+/// Errors: a town that cannot be; a run that should be kept is not.
 pub fn experiment(
     town: &Town,
     options: Options,
-    only: Option<&str>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
-) -> Result<Attacks, RunError> {
-    let runs = job::make(town, jobs(town, options), only, done, kept)?;
+) -> Result<Attacks, ExperimentError> {
+    let runs = job::make(town, jobs(town, options), select, done, kept)?;
     let same =
         |a: &Run, b: &Run| (a.attack, a.offered, a.variant) == (b.attack, b.offered, b.variant);
     Ok(Attacks { options, rows: runs.chunk_by(same).map(row).collect(), runs })

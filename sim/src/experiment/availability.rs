@@ -4,13 +4,14 @@
 //! station alike.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::job::{self, Job, Options};
+use super::job::{self, ExperimentError, Job, Options};
+use super::select::Select;
 use super::watch::Watch;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{End, Outcome, PERIOD_NS, RunError, Settings};
+use crate::run::{End, Outcome, PERIOD_NS, Settings};
 use crate::services::way::seconds;
 
 /// Its name.
@@ -19,7 +20,9 @@ pub const NAME: &str = "availability";
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What is set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Factor {
     /// Share of the visible objects that a cycle's detections leave out.
@@ -113,7 +116,7 @@ pub struct Row {
 }
 
 /// A run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,
@@ -162,17 +165,17 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Set>> {
     jobs
 }
 
-/// Makes the runs, or those of them that `only` names. `done`: called after each with
+/// Makes the runs, or those of them that are selected. `done`: called after each with
 /// their number.
 ///
-/// Errors: a town that cannot be.
+/// Errors: a town that cannot be; a run that should be kept is not.
 pub fn experiment(
     town: &Town,
     options: Options,
-    only: Option<&str>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
-) -> Result<Availability, RunError> {
-    let runs = job::make(town, jobs(town, options), only, done, kept)?;
+) -> Result<Availability, ExperimentError> {
+    let runs = job::make(town, jobs(town, options), select, done, kept)?;
     let same = |a: &Run, b: &Run| (a.factor, a.value, a.variant) == (b.factor, b.value, b.variant);
     Ok(Availability { options, rows: runs.chunk_by(same).map(row).collect(), runs })
 }

@@ -4,14 +4,15 @@
 //! It begins 5 s after the start and lasts. A failure is a collision, or a target that is not reached in time.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::job::{self, Job, Options, kind_name};
+use super::job::{self, ExperimentError, Job, Options, kind_name};
+use super::select::Select;
 use super::watch::Watch;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{End, Outcome, RunError};
+use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "failures";
@@ -49,7 +50,7 @@ pub struct Row {
 }
 
 /// A run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,
@@ -97,17 +98,17 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Option<Kind>>> {
     jobs
 }
 
-/// Makes the runs, or those of them that `only` names. `done`: called after each with
+/// Makes the runs, or those of them that are selected. `done`: called after each with
 /// their number.
 ///
-/// Errors: a town that cannot be.
+/// Errors: a town that cannot be; a run that should be kept is not.
 pub fn experiment(
     town: &Town,
     options: Options,
-    only: Option<&str>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
-) -> Result<Failures, RunError> {
-    let runs = job::make(town, jobs(town, options), only, done, kept)?;
+) -> Result<Failures, ExperimentError> {
+    let runs = job::make(town, jobs(town, options), select, done, kept)?;
     Ok(Failures { options, rows: rows(&runs), runs })
 }
 

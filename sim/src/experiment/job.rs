@@ -3,20 +3,22 @@
 use mufasa::services::configuration::Groups;
 use rayon::prelude::*;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
+use super::select::{NotKept, Select};
 use super::watch::Watch;
 use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{Outcome, RunError, Settings, simulate};
+use crate::run::{Outcome, RunError, Settings, Watcher, simulate};
 use crate::scenario::Scenario;
 
 /// When the attack of a run begins that has one, s.
 const FROM: f64 = 5.0;
 
 /// How large an experiment is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Options {
     /// Scenarios of each combination; on each of the two routes, where the experiment uses both.
     pub scenarios: u64,
@@ -25,6 +27,38 @@ pub struct Options {
     /// The first scenario's seed; the others follow.
     pub seed: u64,
 }
+
+/// Why an experiment could not be made.
+#[derive(Debug)]
+pub enum ExperimentError {
+    /// Settings, a route or a town that cannot be.
+    Run(RunError),
+    /// A run that was made before is not there.
+    NotKept(NotKept),
+}
+
+impl From<RunError> for ExperimentError {
+    fn from(error: RunError) -> Self {
+        Self::Run(error)
+    }
+}
+
+impl From<NotKept> for ExperimentError {
+    fn from(error: NotKept) -> Self {
+        Self::NotKept(error)
+    }
+}
+
+impl std::fmt::Display for ExperimentError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Run(error) => error.fmt(f),
+            Self::NotKept(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ExperimentError {}
 
 /// A run of an experiment. `W`: what is special about it.
 #[derive(Clone, Debug)]
@@ -72,7 +106,7 @@ impl<W> Job<W> {
     /// watched from then on.
     pub fn attacked(mut self, kind: Option<Kind>) -> Self {
         let seed = self.settings.seed;
-        let attack = |kind| Attack { kind, from: FROM, until: f64::INFINITY, seed };
+        let attack = |kind| Attack::new(kind, FROM, f64::INFINITY, seed);
         self.settings.attacks.extend(kind.map(attack));
         self.watched_from = FROM;
         self
@@ -84,32 +118,46 @@ pub fn kind_name(kind: Option<Kind>) -> &'static str {
     kind.map_or("none", Kind::name)
 }
 
-/// Whether a run has this id, or an id that begins with these parts; every run, where nothing is named.
-fn is_chosen<W>(job: &Job<W>, only: Option<&str>) -> bool {
-    let rest = only.map_or(Some(""), |only| job.id.strip_prefix(only));
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-}
-
-/// Makes the runs, or those of them that `only` names, on the threads of this pool; what is `kept` of them in
+/// Makes the runs, or those of them that are selected, on the threads of this pool; what is `kept` of them in
 /// their order. `done`: called after each, in any order, with their number.
 ///
 /// Errors: settings, a route or a town that cannot be.
-pub fn make<W: Sync + Send, R: Send>(
+pub fn make<W: Sync + Send, R: Send + Serialize + DeserializeOwned>(
     town: &Town,
-    mut jobs: Vec<Job<W>>,
-    only: Option<&str>,
+    jobs: Vec<Job<W>>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
     kept: impl Fn(&Job<W>, &Outcome, &Watch) -> R + Sync,
-) -> Result<Vec<R>, RunError> {
-    jobs.retain(|job| is_chosen(job, only));
+) -> Result<Vec<R>, ExperimentError> {
+    watched(town, jobs, select, done, |job| Watch::new(job.watched_from), kept)
+}
+
+/// As [`make`], with a watcher of one's own for each run.
+///
+/// Errors: as for [`make`].
+pub fn watched<W: Sync + Send, V: Watcher, R: Send + Serialize + DeserializeOwned>(
+    town: &Town,
+    jobs: Vec<Job<W>>,
+    select: &Select<'_>,
+    done: impl Fn(usize) + Sync,
+    watcher: impl Fn(&Job<W>) -> V + Sync,
+    kept: impl Fn(&Job<W>, &Outcome, &V) -> R + Sync,
+) -> Result<Vec<R>, ExperimentError> {
+    let chosen = jobs.into_iter().enumerate().filter(|(at, job)| select.has(*at, &job.id));
+    let jobs: Vec<Job<W>> = chosen.map(|(_, job)| job).collect();
     let routes: Vec<usize> = town.ego_routes().collect();
     let one = |job: &Job<W>| {
+        if let Some(made) = select.made(&job.id)? {
+            return Ok(made);
+        }
         let seed = job.settings.seed;
         let scenario = Scenario::draw(town, routes[job.route], job.vehicles, seed);
-        let mut watch = Watch::new(job.watched_from);
+        let mut watch = watcher(job);
         let outcome = simulate(town, &scenario, &job.settings, &mut watch)?;
         done(jobs.len());
-        Ok(kept(job, &outcome, &watch))
+        let run = kept(job, &outcome, &watch);
+        select.keep(&job.id, &run)?;
+        Ok(run)
     };
     jobs.par_iter().map(one).collect()
 }

@@ -6,7 +6,10 @@
 
 pub mod attacks;
 pub mod availability;
+pub mod cpu;
 pub mod failures;
+pub mod falsify;
 pub mod job;
+pub mod select;
 pub mod stages;
 pub mod watch;

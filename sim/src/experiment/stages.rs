@@ -8,15 +8,16 @@ use mufasa::services::configuration::Group;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::job::{self, Job, Options};
+use super::job::{self, ExperimentError, Job, Options};
+use super::select::Select;
 use super::watch::{By, Watch};
 use crate::attack::{Attack, Kind};
 use crate::cav::Areas;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{End, Outcome, RunError};
+use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "stages";
@@ -61,7 +62,7 @@ pub struct Row {
 }
 
 /// A run.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Run {
     /// By which it can be repeated.
     pub id: String,
@@ -128,17 +129,17 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
     jobs
 }
 
-/// Makes the runs, or those of them that `only` names. `done`: called after each with
+/// Makes the runs, or those of them that are selected. `done`: called after each with
 /// their number.
 ///
-/// Errors: a town that cannot be.
+/// Errors: a town that cannot be; a run that should be kept is not.
 pub fn experiment(
     town: &Town,
     options: Options,
-    only: Option<&str>,
+    select: &Select<'_>,
     done: impl Fn(usize) + Sync,
-) -> Result<Stages, RunError> {
-    let made = job::make(town, jobs(town, options), only, done, kept)?;
+) -> Result<Stages, ExperimentError> {
+    let made = job::make(town, jobs(town, options), select, done, kept)?;
     let rows = rows(&made);
     let runs = made.into_iter().map(|(run, _)| run).collect();
     Ok(Stages { options, rows, runs })
@@ -165,7 +166,7 @@ fn attacks(seed: u64) -> Vec<Attack> {
     while t < UNTIL {
         let kind = Kind::PAPER[random.random_range(0..Kind::PAPER.len())];
         let until = t + random.random_range(LASTS.0..LASTS.1);
-        attacks.push(Attack { kind, from: t, until, seed });
+        attacks.push(Attack::new(kind, t, until, seed));
         t = until + random.random_range(PAUSE.0..PAUSE.1);
     }
     attacks

@@ -1,7 +1,7 @@
 //! What an experiment sees of a run while it is made.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
@@ -9,7 +9,9 @@ use crate::run::{Cycle, Watcher};
 use crate::snapshot::Snapshot;
 
 /// Where a cycle failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum By {
     /// Track validation.

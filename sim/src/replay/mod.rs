@@ -81,11 +81,11 @@ impl Id {
         let Some(route) = town.ego_routes().nth(self.route) else { return Ok(None) };
         let scenario = Scenario::draw(town, route, vehicles, seed);
         let mut settings = Settings::new(self.variant, Groups::ALL, seed);
-        let attack = |kind| Attack { kind, from, until: f64::INFINITY, seed };
+        let attack = |kind| Attack::new(kind, from, f64::INFINITY, seed);
         settings.attacks = self.attack.into_iter().map(attack).collect();
         let mut replay = Replay::default();
         let outcome = simulate(town, &scenario, &settings, &mut replay)?;
-        let page = replay.page(town, self, &outcome);
+        let page = replay.page(town, &self.to_string(), self.route, &outcome);
         Ok(Some((outcome, page)))
     }
 }
@@ -173,10 +173,10 @@ impl Replay {
         timeline::svg(&self.cycles, event, outcome.t)
     }
 
-    /// The page.
-    pub fn page(&self, town: &Town, id: &Id, outcome: &Outcome) -> String {
+    /// The page of a run with this name, on this of the ego's routes.
+    pub fn page(&self, town: &Town, name: &str, route: usize, outcome: &Outcome) -> String {
         let (event, _) = self.event(outcome);
-        let title = escape(&id.to_string());
+        let title = escape(name);
         let ended = ended(outcome);
         let mut text = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}: {ended}</title>\n\
@@ -191,7 +191,7 @@ impl Replay {
             outcome.cycles,
             event.name()
         );
-        if let Some(route) = town.ego_routes().nth(id.route) {
+        if let Some(route) = town.ego_routes().nth(route) {
             text.push_str(&self.frames(town, route, outcome));
         }
         key(&mut text);

@@ -51,7 +51,7 @@ pub fn drive<W: Watcher + Default>(
     let route = town.ego_routes().nth(route).expect("a route");
     let scenario = Scenario { time_limit: seconds, ..Scenario::draw(&town, route, 12, seed) };
     let mut settings = Settings::new(variant, Groups::ALL, seed);
-    let attack = |kind| Attack { kind, from: FROM, until: 1e9, seed };
+    let attack = |kind| Attack::new(kind, FROM, 1e9, seed);
     settings.attacks = kind.into_iter().map(attack).collect();
     let mut watcher = W::default();
     let outcome = simulate(&town, &scenario, &settings, &mut watcher).expect("settings");

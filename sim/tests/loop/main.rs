@@ -9,3 +9,4 @@ mod replay;
 mod same;
 mod services;
 mod sessions;
+mod without;

@@ -12,7 +12,7 @@ fn page(variant: Variant, kind: Option<Kind>, seed: u64) -> (Outcome, Replay, St
     let town = town();
     let (outcome, replay) = drive::<Replay>(variant, kind, (0, seed), 25.0);
     let id = Id { variant, attack: kind, route: 0, scenario: seed };
-    let text = replay.page(&town, &id, &outcome);
+    let text = replay.page(&town, &id.to_string(), id.route, &outcome);
     let name = id.to_string().replace('/', "-");
     let folder = env!("CARGO_TARGET_TMPDIR");
     std::fs::write(format!("{folder}/{name}.html"), &text).expect("a folder");

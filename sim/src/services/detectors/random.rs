@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// The draws of one detector about one object in one cycle.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Draws(ChaCha8Rng);
 
 impl Draws {

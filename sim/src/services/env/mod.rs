@@ -6,6 +6,7 @@
 //! looks), and one that is about to turn is not seen to.
 
 mod crossing;
+pub mod give_way;
 pub mod model;
 
 use mufasa::input::cycle::{Ego, Track, TrackList};
@@ -27,7 +28,7 @@ pub struct Situation<'a> {
     pub path: &'a Path,
     /// About where it is on it, m, within 30 m; none: wherever the path is nearest.
     pub near_s: Option<f64>,
-    /// Arc lengths at which the map asks it to stop, m: red signals.
+    /// Arc lengths at which it is to stop, m: before signals, and where others come first (`give_way`).
     pub stops: &'a [f64],
 }
 

@@ -1,0 +1,203 @@
+//! The search for collisions (`mufasa_sim::experiment::falsify`).
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, value_parser};
+use indicatif::ProgressBar;
+use mufasa_drives::check::complain;
+use mufasa_drives::progress;
+use mufasa_records::files;
+use mufasa_sim::attack::Kind;
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::cav::without::Without;
+use mufasa_sim::experiment::falsify::found::Found;
+use mufasa_sim::experiment::falsify::genome::KINDS;
+use mufasa_sim::experiment::falsify::{Caller, Falsified, NAME, Options, Progress, experiment};
+use mufasa_sim::map::streets::town;
+
+use super::replay::{kind, variant};
+use super::tables;
+use super::text::{csv, said};
+use crate::document;
+
+/// A collision in the hardened profile with all rules.
+const FAILED: u8 = 1;
+/// Bad input, or a file that cannot be written.
+const BAD_INPUT: u8 = 2;
+/// Runs if nothing is said.
+const RUNS: u64 = 400;
+
+/// What is searched, and for how long.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+An attack is a point of a cube; random points come first, then CMA-ES goes on from the best. What is sought
+is little time left to react. Every collision that the same run does not have without the attacks is shrunk;
+`mufasa evaluate replay FILE` draws it.
+
+Exit codes: 0 done, 1 a collision was found in the hardened profile with all rules, 2 bad input or a file
+cannot be written.")]
+pub struct FalsifyArguments {
+    /// Runs with attacks [default: 400, without --minutes]. The same seed gives the same then.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=100_000_000), allow_negative_numbers = true)]
+    pub runs: Option<u64>,
+    /// Goes on for so long.
+    #[arg(long, value_name = "M", conflicts_with = "runs", value_parser = value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
+    pub minutes: Option<u32>,
+    /// What is checked of remote data.
+    #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
+    pub profile: Variant,
+    /// A rule of the hardened profile that is left out.
+    #[arg(long, value_name = "RULE", value_parser = without())]
+    pub without: Option<Without>,
+    /// Only attacks of this kind; may be given several times [default: all but flood and slow].
+    #[arg(long, value_name = "KIND", value_parser = kind())]
+    pub attack: Vec<Kind>,
+    /// Other vehicles in the town.
+    #[arg(long, value_name = "N", default_value = "15", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    pub vehicles: u16,
+    /// Of the scenarios and of what is drawn.
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    pub seed: u64,
+    /// Threads [default: all processors]. With --runs the results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    pub threads: Option<u16>,
+    /// Write table and collisions as JSON and CSV into this folder, and each collision into its folder found.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Put the table into a document, between the lines that mark its place.
+    #[arg(long, value_name = "FILE")]
+    pub into: Option<PathBuf>,
+}
+
+/// Shows how far it is, and says when the time is over.
+struct Bar {
+    bar: ProgressBar,
+    until: Option<Instant>,
+}
+
+impl Caller for Bar {
+    fn tell(&self, progress: Progress) {
+        match progress {
+            Progress::Run => self.bar.inc(1),
+            Progress::Looked(least, collisions) => {
+                let text = format!("least time left {least:.1} s, {collisions} collisions");
+                self.bar.set_message(text);
+            }
+        }
+    }
+
+    fn goes_on(&self) -> bool {
+        self.until.is_none_or(|until| Instant::now() < until)
+    }
+}
+
+/// Searches, writes the table to `out`, and files. The exit code. Errors: those of writing to `out`.
+pub fn run(
+    arguments: &FalsifyArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    if arguments.without.is_some() && arguments.profile != Variant::Hardened {
+        complain(err, "--without: only the hardened profile has rules that can be left out");
+        return Ok(BAD_INPUT);
+    }
+    let made = search(arguments);
+    let written = made.and_then(|made| {
+        let names = write_files(arguments, &made)?;
+        Ok((made, names))
+    });
+    let (made, names) = match written {
+        Ok(made) => made,
+        Err(message) => {
+            complain(err, &message);
+            return Ok(BAD_INPUT);
+        }
+    };
+    write!(out, "{}", tables::falsified(&made).text())?;
+    writeln!(
+        out,
+        "{} runs in {} rounds, {} collided, {} of them at random; {} runs to shrink {} collisions",
+        made.runs,
+        made.rounds,
+        made.collided,
+        made.collided_at_random,
+        made.shrinking_runs,
+        made.found.len()
+    )?;
+    for found in &made.found {
+        let Found { case, t_s, with, speed_mps } = found;
+        let name = case.name();
+        writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s")?;
+    }
+    names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
+    let is_whole = arguments.profile == Variant::Hardened && arguments.without.is_none();
+    Ok(if is_whole && !made.found.is_empty() { FAILED } else { 0 })
+}
+
+fn search(arguments: &FalsifyArguments) -> Result<Falsified, String> {
+    let &FalsifyArguments { profile, without, vehicles, seed, minutes, .. } = arguments;
+    if let Some(folder) = &arguments.out {
+        let say = |error| format!("{}: cannot be written to: {error}", folder.display());
+        files::prepare(&folder.join("found")).map_err(say)?;
+    }
+    let runs = if minutes.is_some() { None } else { Some(arguments.runs.unwrap_or(RUNS)) };
+    let vehicles = vehicles.into();
+    let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
+    let options = Options { variant: profile, without, kinds, runs, vehicles, seed };
+    let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
+    let bar = progress::bar(runs.unwrap_or(0), template);
+    bar.set_prefix(NAME);
+    let until = minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
+    let caller = Bar { bar, until };
+    let threads = usize::from(arguments.threads.unwrap_or(0));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
+    let made = pool.install(|| experiment(&town(), options, &caller)).map_err(said);
+    caller.bar.finish_and_clear();
+    made
+}
+
+/// The names of the files, each there completely or not at all.
+fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<PathBuf>, String> {
+    let say =
+        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
+    let mut names = Vec::new();
+    let mut write = |file: PathBuf, text: &str| {
+        files::write(&file, text).map_err(|error| say(&file, error))?;
+        names.push(file);
+        Ok::<(), String>(())
+    };
+    if let Some(folder) = &arguments.out {
+        write(folder.join(format!("{NAME}.csv")), &csv(&made.rows)?)?;
+        write(folder.join(format!("{NAME}.json")), &json(made)?)?;
+        for found in &made.found {
+            let file = folder.join("found").join(format!("{}.json", found.case.name()));
+            write(file, &json(found)?)?;
+        }
+    }
+    if let Some(file) = &arguments.into {
+        let without =
+            arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
+        let profile = match arguments.profile {
+            Variant::Hardened => String::new(),
+            other => format!(" --profile {}", other.name()),
+        };
+        let command = format!("mufasa evaluate {NAME}{profile}{without}");
+        let table = tables::falsified(made).markdown();
+        document::write(file, &command, &table).map_err(|error| say(file, error))?;
+        names.push(file.clone());
+    }
+    Ok(names)
+}
+
+fn json(of: &impl serde::Serialize) -> Result<String, String> {
+    Ok(serde_json::to_string_pretty(of).map_err(said)? + "\n")
+}
+
+fn without() -> impl TypedValueParser<Value = Without> {
+    PossibleValuesParser::new(Without::ALL.map(Without::name)).try_map(|given| {
+        Without::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown rule")
+    })
+}

@@ -1,0 +1,17 @@
+//! Lines and errors as text.
+
+use std::fmt::Display;
+
+use serde::Serialize;
+
+/// A line of names, and a line of each.
+pub(super) fn csv<T: Serialize>(lines: &[T]) -> Result<String, String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    lines.iter().try_for_each(|line| writer.serialize(line)).map_err(said)?;
+    String::from_utf8(writer.into_inner().map_err(said)?).map_err(said)
+}
+
+/// An error in words.
+pub(super) fn said(error: impl Display) -> String {
+    error.to_string()
+}

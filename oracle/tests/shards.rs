@@ -1,0 +1,78 @@
+//! Parts of an experiment that are put together are the experiment (`mufasa merge`).
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SIZE: [&str; 4] = ["--scenarios", "1", "--vehicles", "2"];
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shards").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    command.args(arguments).current_dir(folder).output().expect("the program starts")
+}
+
+fn part(folder: &Path, size: &[&str], shard: &str) -> String {
+    let arguments = [&["evaluate", "failures", "--out", "parts", "--shard", shard], size].concat();
+    let done = run(folder, &arguments);
+    assert_eq!(done.status.code(), Some(0), "{done:?}");
+    format!("parts/failures.{}.part.json", shard.replace('/', "-of-"))
+}
+
+fn refused(folder: &Path, arguments: &[&str], why: &str) {
+    let done = run(folder, arguments);
+    let said = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(2), "{said}");
+    assert!(said.contains(why), "{said}");
+}
+
+#[test]
+fn parts_put_together_are_byte_for_byte_the_whole() {
+    let folder = folder("whole");
+    let whole = run(&folder, &[&["evaluate", "failures", "--out", "whole"], &SIZE[..]].concat());
+    let parts = ["2/3", "3/3", "1/3"].map(|shard| part(&folder, &SIZE, shard));
+    let mut merge = vec!["merge", "--out", "merged"];
+    merge.extend(parts.iter().map(String::as_str));
+    let merged = run(&folder, &merge);
+    assert_eq!(merged.status.code(), whole.status.code(), "{merged:?}");
+    for name in ["failures.csv", "failures-runs.csv", "failures.json"] {
+        let [one, other] = ["whole", "merged"].map(|it| fs::read(folder.join(it).join(name)));
+        assert_eq!(one.expect("it is there"), other.expect("it is there"), "{name}");
+    }
+    let table = |output: &Output| {
+        let text = String::from_utf8(output.stdout.clone()).expect("UTF-8");
+        text.split_inclusive('\n')
+            .filter(|line| !line.contains(".csv") && !line.contains(".json"))
+            .collect::<String>()
+    };
+    assert_eq!(table(&whole), table(&merged));
+    assert!(!folder.join("parts/failures.json").exists(), "a part is no whole");
+}
+
+#[test]
+fn what_is_no_whole_is_refused() {
+    let folder = folder("refused");
+    let [one, two] = ["1/2", "2/2"].map(|shard| part(&folder, &SIZE, shard));
+    refused(&folder, &["merge", &one], "part 2 of 2 is missing");
+    refused(&folder, &["merge", &one, &two, &one], "part 1 is there already");
+    let other = part(&folder, &["--scenarios", "1", "--vehicles", "1"], "2/2");
+    refused(&folder, &["merge", &one, &other], "vehicles: 1");
+    let text = fs::read_to_string(folder.join(&one)).expect("it is there");
+    let (name, renamed) = ("\"failures/hardened", "\"failures/harder");
+    fs::write(folder.join(&one), text.replace(name, renamed)).expect("it can be written");
+    let two = part(&folder, &SIZE, "2/2");
+    refused(&folder, &["merge", &one, &two], "is in none of the parts");
+    fs::write(folder.join(&one), "{}").expect("it can be written");
+    refused(&folder, &["merge", &one, &two], "no part of an experiment");
+    for shard in ["0/2", "3/2", "1", "a/b", "1/0"] {
+        let arguments = ["evaluate", "failures", "--out", "parts", "--shard", shard];
+        refused(&folder, &arguments, "a part is I/N");
+    }
+    refused(&folder, &["evaluate", "failures", "--shard", "1/2"], "--out");
+}

@@ -1,0 +1,41 @@
+//! What goes into the decision of a cycle beside measurements, and what comes out.
+
+use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa::offloading::requester::Action;
+use mufasa::report::{FailedStage, InvalidInput, Report};
+
+/// What a cycle lets control have.
+#[derive(Debug)]
+pub struct Decided {
+    /// Whether data may be used; always, where nothing is checked.
+    pub is_safe: bool,
+    /// The report of the stages, or what was wrong with the input; none where nothing is checked.
+    pub report: Option<Result<Report, InvalidInput>>,
+    /// The trajectory that control may follow. None in `Local` where something is checked: there the
+    /// CAV's own is not.
+    pub trajectory: Option<Vec<TrajectoryPoint>>,
+    /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
+    pub tracks: Option<(i64, Vec<Track>)>,
+    /// What is to be done.
+    pub actions: Vec<Action>,
+}
+
+impl Decided {
+    /// Where a safety issue was found.
+    pub fn failed_stage(&self) -> Option<FailedStage> {
+        match self.report {
+            Some(Ok(report)) => report.failed_stage,
+            Some(Err(_)) => Some(FailedStage::Input),
+            None => None,
+        }
+    }
+}
+
+/// Local results of a cycle, if their services run.
+#[derive(Clone, Copy, Debug)]
+pub struct Local<'c> {
+    /// Tracks, with the time that they are of, ns.
+    pub tracks: Option<(i64, &'c [Track])>,
+    /// A trajectory, with the time when it was planned, ns.
+    pub points: Option<(i64, &'c [TrajectoryPoint])>,
+}

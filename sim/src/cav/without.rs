@@ -1,0 +1,320 @@
+//! The hardened rules without one of them, for experiments that ask what the rule is good for.
+//!
+//! The implementation has no switch for a rule, and is given none: a vehicle could be built with it. So this
+//! guard is put together here from the functions beneath the monitor, of the requester and of a cycle, and
+//! overrules the one verdict. With `Without::Nothing` it decides as the monitor does (tested:
+//! `sim/tests/loop/without.rs`).
+
+use std::collections::VecDeque;
+
+use mufasa::input::cycle::{
+    CrossSection, Cycle, Detection, DetectionList, Ego, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
+};
+use mufasa::input::parameters::Parameters as StageParameters;
+use mufasa::input::profile::Profile;
+use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::monitor::{Message, Time};
+use mufasa::offloading::requester::{
+    Action, Event, EventKind, Parameters, Requester, RequesterError, Running, Sessions,
+    StationRecord,
+};
+use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage};
+use mufasa::services::configuration::{Configuration, Group};
+use mufasa::stages::check;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::decided::{Decided, Local};
+use super::sensing::Sensed;
+
+/// A rule that is left out.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+pub enum Without {
+    /// None: the guard below is that of the hardened profile.
+    Nothing,
+    /// H-13: stage iv does not look at detections as moving.
+    #[serde(rename = "H-13")]
+    H13,
+}
+
+impl Without {
+    /// All that can be left out.
+    pub const ALL: [Self; 1] = [Self::H13];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::H13 => "H-13",
+        }
+    }
+}
+
+/// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
+/// that are kept, ns (`spec/3-stages.md#what-the-cav-saw-itself`).
+const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
+const USABLE_NS: (i64, i64) = (200_000_000, 1_000_000_000);
+const SPACING_NS: i64 = 83_333_334;
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Served {
+    session: Option<i64>,
+    last_ns: i64,
+    is_starved: bool,
+}
+
+/// A session that no message is of.
+const NO_SESSION: i64 = 0;
+
+/// The hardened rules without one.
+#[derive(Debug)]
+pub struct Rules<'a> {
+    without: Without,
+    parameters: StageParameters,
+    requester_parameters: Parameters,
+    /// Which group runs where.
+    pub(super) requester: Requester<'a>,
+    route: (bool, Vec<CrossSection>),
+    /// For either group: the session that runs, since when no cycle had anything current of it, ns, and
+    /// whether that is too long (F-43).
+    served: [Served; 2],
+    /// The CAV's own detections of the last second, the oldest first.
+    seen: VecDeque<(i64, Vec<Detection>)>,
+    rows: Vec<Row>,
+    columns: Vec<Column>,
+    tracks: Option<Message<Vec<Track>>>,
+    points: Option<Message<Vec<TrajectoryPoint>>>,
+}
+
+impl<'a> Rules<'a> {
+    /// Nothing offered, everything local.
+    ///
+    /// Errors: parameters that no requester can keep.
+    pub fn new(
+        without: Without,
+        parameters: StageParameters,
+        requester: Parameters,
+        table: &'a mut [StationRecord],
+    ) -> Result<Self, RequesterError> {
+        Ok(Self {
+            without,
+            parameters,
+            requester_parameters: requester,
+            requester: Requester::new(Profile::Hardened, requester, table)?,
+            route: (false, Vec::new()),
+            served: [Served::default(); 2],
+            seen: VecDeque::new(),
+            rows: vec![Row::default(); Sizes::MAX.rows],
+            columns: vec![Column::default(); Sizes::MAX.columns],
+            tracks: None,
+            points: None,
+        })
+    }
+
+    pub(super) fn set_route(&mut self, route: &Route<'_>) {
+        self.route = (route.closed, route.cross_sections.to_vec());
+    }
+
+    /// Something happened.
+    pub(super) fn step(
+        &mut self,
+        t_ns: i64,
+        kind: EventKind,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let actions = self.requester.step(&Event { t_ns, kind })?.to_vec();
+        for (served, group) in self.served.iter_mut().zip(Group::ALL) {
+            let session = self.requester.session_of(group).map(|it| it.session);
+            if served.session != session {
+                *served = Served { session, last_ns: t_ns, is_starved: false };
+            }
+        }
+        Ok(actions)
+    }
+
+    pub(super) fn tracks(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<Track>>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let actions = self.arrives(t_ns, Group::Mot, &message)?;
+        if !actions.contains(&Action::Drop(Group::Mot)) {
+            self.tracks = Some(message);
+        }
+        Ok(actions)
+    }
+
+    pub(super) fn trajectory(
+        &mut self,
+        t_ns: i64,
+        message: Message<Vec<TrajectoryPoint>>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let actions = self.arrives(t_ns, Group::Plan, &message)?;
+        if !actions.contains(&Action::Drop(Group::Plan)) {
+            self.points = Some(message);
+        }
+        Ok(actions)
+    }
+
+    /// What is too old for any cycle, or of a group that no cycle gets anything of, is no arrival.
+    fn arrives<T>(
+        &mut self,
+        t_ns: i64,
+        group: Group,
+        message: &Message<T>,
+    ) -> Result<Vec<Action>, RequesterError> {
+        let [generated_ns, stamp_ns] = [message.generated, message.stamp].map(Time::as_nanoseconds);
+        let is_in_time = (0..=self.requester_parameters.l_max_ns).contains(&(t_ns - generated_ns));
+        let is_too_old = t_ns - stamp_ns > self.parameters.max_age_ns;
+        let is_starved = self.served[place(group)].is_starved;
+        let is_none = is_in_time && (is_too_old || is_starved);
+        let session = if is_none { NO_SESSION } else { message.session };
+        let station = message.station;
+        self.step(t_ns, EventKind::Data { station, group, session, generated_ns })
+    }
+
+    /// Decides a cycle.
+    pub(super) fn decide(
+        &mut self,
+        t_ns: i64,
+        ego: Ego,
+        sensed: &Sensed,
+        local: Local<'_>,
+    ) -> Decided {
+        let [mot, plan] = Group::ALL.map(|group| self.requester.session_of(group));
+        let remote_tracks = mot.as_ref().map(|it| used(it, self.tracks.as_ref()));
+        let remote_points = plan.as_ref().map(|it| used(it, self.points.as_ref()));
+        let tracks = match remote_tracks {
+            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
+            None => local.tracks,
+        };
+        let points = match remote_points {
+            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
+            None => local.points,
+        };
+        let history = history(&self.seen, sensed.stamp_ns);
+        let cycle = Cycle {
+            profile: Profile::Hardened,
+            parameters: self.parameters,
+            now_ns: t_ns,
+            configuration: self.requester.configuration(),
+            ego,
+            trajectory: points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
+            tracks: tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
+            detections: Some(DetectionList {
+                stamp_ns: sensed.stamp_ns,
+                items: &sensed.detections,
+            }),
+            lead: sensed.lead.map(|lead| mufasa::input::cycle::Lead {
+                stamp_ns: sensed.stamp_ns,
+                gap: lead.gap,
+                speed: lead.speed,
+            }),
+            route: Route { closed: self.route.0, cross_sections: &self.route.1 },
+            grid: Some(sensed.grid.borrow(true)),
+            detection_history: &history,
+        };
+        let scratch = &mut Scratch::new(&mut self.rows, &mut self.columns);
+        let report = report(self.without, &cycle, scratch);
+        let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
+        let max_age_ns = self.parameters.max_age_ns;
+        let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
+        let has_current = [tracks.map(|it| it.0), points.map(|it| it.0)]
+            .map(|stamp_ns| stamp_ns.is_some_and(|it| is_current(&it)));
+        let dt_max_ns = self.requester_parameters.dt_max_ns;
+        for (served, has_current) in self.served.iter_mut().zip(has_current) {
+            served.last_ns = if has_current { t_ns } else { served.last_ns };
+            served.is_starved = t_ns - served.last_ns > dt_max_ns;
+        }
+        let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
+        let tracks =
+            tracks.filter(|(stamp_ns, _)| is_safe && mot.is_some() && is_current(stamp_ns));
+        let points = points.filter(|(stamp_ns, _)| is_checked && is_current(stamp_ns));
+        let sessions = Sessions {
+            mot: mot.filter(|_| tracks.is_some()).map(|running| running.session),
+            plan: plan.filter(|_| points.is_some()).map(|running| running.session),
+        };
+        let tracks = tracks.map(|(stamp_ns, items)| (stamp_ns, items.to_vec()));
+        let trajectory = points.map(|(_, points)| points.to_vec());
+        if report.is_ok() {
+            self.see(sensed);
+        }
+        let kind = EventKind::Verdict { safe: is_safe, sessions };
+        let actions = self.step(t_ns, kind).unwrap_or_default();
+        Decided { is_safe, report: Some(report), trajectory, tracks, actions }
+    }
+
+    fn see(&mut self, sensed: &Sensed) {
+        let youngest = self.seen.back().map(|(stamp_ns, _)| *stamp_ns);
+        if youngest.is_some_and(|it| sensed.stamp_ns - it < SPACING_NS) {
+            return;
+        }
+        self.seen.push_back((sensed.stamp_ns, sensed.detections.clone()));
+        while self.seen.front().is_some_and(|it| sensed.stamp_ns - it.0 > USABLE_NS.1) {
+            self.seen.pop_front();
+        }
+    }
+}
+
+/// The report of a cycle; what the rule that is left out found is not heard, and stage v, which would have
+/// been next, is asked.
+fn report(
+    without: Without,
+    cycle: &Cycle<'_>,
+    scratch: &mut Scratch<'_>,
+) -> Result<Report, InvalidInput> {
+    let report = check(cycle, scratch)?;
+    let found = report.stages[3];
+    let is_overruled = without == Without::H13
+        && report.failed_stage == Some(FailedStage::Stage(Stage::Iv))
+        && matches!(found, Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving);
+    if !is_overruled {
+        return Ok(report);
+    }
+    // Stage v does not depend on tracks and detections; without both it is what examines the trajectory.
+    let configuration = Configuration::PlanRemote;
+    let alone =
+        Cycle { configuration, tracks: None, detections: None, detection_history: &[], ..*cycle };
+    let rest = check(&alone, scratch)?;
+    let mut stages = report.stages;
+    (stages[3], stages[4]) = (Outcome::Passed, rest.stages[4]);
+    Ok(Report { failed_stage: rest.failed_stage, stages, ..report })
+}
+
+/// The message that the requester used last, if it is the one that is kept.
+fn used<'m, T>(
+    running: &Running,
+    kept: Option<&'m Message<Vec<T>>>,
+) -> Option<&'m Message<Vec<T>>> {
+    kept.filter(|it| {
+        (Some(it.generated.as_nanoseconds()), it.session) == (running.last_used_ns, running.session)
+    })
+}
+
+const fn place(group: Group) -> usize {
+    match group {
+        Group::Mot => 0,
+        Group::Plan => 1,
+    }
+}
+
+/// The lists whose ages are nearest to those wanted, the youngest first.
+fn history(seen: &VecDeque<(i64, Vec<Detection>)>, stamp_ns: i64) -> Vec<DetectionList<'_>> {
+    let usable = || {
+        let age = move |it: &&(i64, Vec<Detection>)| stamp_ns - it.0;
+        seen.iter().rev().filter(move |it| (USABLE_NS.0..=USABLE_NS.1).contains(&age(it)))
+    };
+    let mut lists: Vec<DetectionList<'_>> = Vec::new();
+    for wanted in WANTED_NS {
+        // Of two that are as near the younger: the first.
+        let nearest = usable().min_by_key(|it| (stamp_ns - it.0 - wanted).abs());
+        if let Some((stamp_ns, items)) = nearest
+            && lists.iter().all(|list| list.stamp_ns != *stamp_ns)
+        {
+            lists.push(DetectionList { stamp_ns: *stamp_ns, items });
+        }
+    }
+    lists
+}

@@ -1,0 +1,159 @@
+//! How near a run came to a collision: the time that was left to react.
+//!
+//! With hindsight: the others are where they were in the run. The CAV goes on along its route at its speed
+//! for a while and then brakes as hard as it can; the longest while after which it touches nobody is the
+//! time left to react. Below zero, nothing helps any more: the lower the faster it would be. Whoever comes
+//! from behind does not count, and a CAV that stands has all the time.
+
+use std::collections::BTreeMap;
+
+use crate::cav::Cav;
+use crate::cav::guard::Decided;
+use crate::collision;
+use crate::map::route::Route;
+use crate::pose::{Pose, Rectangle};
+use crate::run::{Cycle, Watcher};
+use crate::services::way::seconds;
+use crate::snapshot::{EgoState, Object, Snapshot};
+
+/// Most time that is looked at, in cycles of 0.1 s, and the time left when nothing is in the way, s.
+const LOOKED: usize = 40;
+/// The time left where nothing is in the way, s.
+pub const FREE_S: f64 = 4.0;
+/// Cycles of a run in a second.
+const STEP_S: f64 = 0.1;
+/// Hardest braking, m/s^2.
+const A_B: f64 = 8.0;
+/// Slower than this the CAV stands, m/s.
+const STANDING: f64 = 0.5;
+/// A collision when nothing helps is worth so much less than none for each m/s.
+const PER_SPEED: f64 = 0.02;
+/// Farther away nobody is looked at, m.
+const FAR: f64 = 80.0;
+
+/// Keeps where everybody was.
+#[derive(Clone, Debug, Default)]
+pub struct Danger {
+    moments: Vec<Moment>,
+    /// Speed of the CAV in the last cycle, m/s.
+    last_speed: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Moment {
+    t: f64,
+    ego: EgoState,
+    nearest: Option<f64>,
+    is_remote: bool,
+    others: Vec<(u32, Rectangle)>,
+}
+
+impl Watcher for Danger {
+    fn cycle(&mut self, truth: &Snapshot, _: &Cav<'_>, _: &Decided, cycle: &Cycle) {
+        self.last_speed = truth.ego.speed;
+        let moment = Moment::new(truth, cycle.t);
+        let (nearest, is_remote) = (cycle.nearest, cycle.remote != 0);
+        self.moments.push(Moment { nearest, is_remote, ..moment });
+    }
+
+    /// A collision is after the last cycle.
+    fn ended(&mut self, truth: &Snapshot, _: &Cav<'_>) {
+        self.moments.push(Moment::new(truth, seconds(truth.time_ns)));
+    }
+}
+
+impl Moment {
+    fn new(truth: &Snapshot, t: f64) -> Self {
+        let ego = truth.ego;
+        let near = |it: &&Object| it.rectangle.pose.at.distance(ego.rectangle.pose.at) < FAR;
+        let others = truth.objects.iter().filter(near).map(|it| (it.id, it.rectangle)).collect();
+        Self { t, ego, nearest: None, is_remote: false, others }
+    }
+}
+
+impl Danger {
+    /// The least time left to react from a time on, s.
+    pub fn least_time_left(&self, route: &Route, from: f64) -> f64 {
+        let from = self.moments.partition_point(|it| it.t < from);
+        (from..self.moments.len()).map(|at| self.time_left(route, at)).fold(FREE_S, f64::min)
+    }
+
+    /// The least distance to another from a time on, m.
+    pub fn least_distance(&self, from: f64) -> Option<f64> {
+        let of = self.moments.iter().filter(|it| it.t >= from).filter_map(|it| it.nearest);
+        of.min_by(f64::total_cmp)
+    }
+
+    /// Times of the cycles with something remote, s.
+    pub fn remote_times(&self) -> Vec<f64> {
+        self.moments.iter().filter(|it| it.is_remote).map(|it| it.t).collect()
+    }
+
+    /// Speed of the CAV in the last cycle, m/s.
+    pub const fn last_speed(&self) -> f64 {
+        self.last_speed
+    }
+
+    /// Who came near, by number, the nearest first.
+    pub fn near(&self, within: f64) -> Vec<u32> {
+        let mut least: BTreeMap<u32, f64> = BTreeMap::new();
+        for moment in &self.moments {
+            for (id, rectangle) in &moment.others {
+                let distance = rectangle.pose.at.distance(moment.ego.rectangle.pose.at);
+                let entry = least.entry(*id).or_insert(distance);
+                *entry = entry.min(distance);
+            }
+        }
+        let mut near: Vec<(u32, f64)> = least.into_iter().filter(|it| it.1 < within).collect();
+        near.sort_by(|a, b| a.1.total_cmp(&b.1));
+        near.into_iter().map(|(id, _)| id).collect()
+    }
+
+    fn time_left(&self, route: &Route, at: usize) -> f64 {
+        let moment = &self.moments[at];
+        let speed = moment.ego.speed;
+        if speed < STANDING {
+            return FREE_S;
+        }
+        let future: Vec<&Moment> = self.moments[at..].iter().take(LOOKED + 1).collect();
+        let is_behind = |rectangle: &Rectangle| {
+            let own = moment.ego.rectangle;
+            let (ahead, _) = own.pose.local(rectangle.pose.at);
+            let same = own.pose.cos * rectangle.pose.cos + own.pose.sin * rectangle.pose.sin;
+            ahead < 0.0 && same > 0.7
+        };
+        let behind: Vec<u32> =
+            moment.others.iter().filter(|it| is_behind(&it.1)).map(|it| it.0).collect();
+        let touches = |way: &dyn Fn(f64) -> f64| {
+            (0_u32..).zip(&future).find(|(step, then)| {
+                let own = moved(route, &moment.ego, way(STEP_S * f64::from(*step)));
+                let hits = |it: &&(u32, Rectangle)| {
+                    !behind.contains(&it.0) && collision::overlap(&own, &it.1)
+                };
+                then.others.iter().find(hits).is_some()
+            })
+        };
+        let Some((first, _)) = touches(&|t| speed * t) else { return FREE_S };
+        let braking = |while_s: f64| {
+            move |t: f64| {
+                let for_s = (t - while_s).clamp(0.0, speed / A_B);
+                speed * t.min(while_s) + speed * for_s - A_B * for_s * for_s / 2.0
+            }
+        };
+        for step in (0..=first).rev() {
+            let while_s = STEP_S * f64::from(step);
+            if touches(&braking(while_s)).is_none() {
+                return while_s;
+            }
+        }
+        let hit = touches(&braking(0.0)).map_or(0, |it| it.0);
+        -PER_SPEED * (speed - A_B * STEP_S * f64::from(hit)).max(0.0)
+    }
+}
+
+/// The CAV's rectangle a way farther along its route, as far aside as it is now.
+fn moved(route: &Route, ego: &EgoState, way: f64) -> Rectangle {
+    let along = route.path.pose_at(ego.s + way);
+    let at = along.ahead(0.0, ego.left);
+    Rectangle { pose: Pose { at, ..along }, ..ego.rectangle }
+}

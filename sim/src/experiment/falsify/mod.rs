@@ -1,0 +1,391 @@
+//! A search for collisions: an attacker who knows every rule tries what the rules let pass.
+//!
+//! Attacks are points of a unit cube (`genome`). In rounds of new scenarios, random points first; then, from
+//! the best of them that did not collide, searches by CMA-ES side by side (`cma`), each in its scenario. What
+//! is sought is little time left to react (`danger`). A collision in a run that has none without the
+//! attacks is shrunk (`shrink`) and kept so that it can be made again (`found`).
+//!
+//! A number of runs and a seed give the same with any number of threads: points are drawn before their runs
+//! are made, and runs are looked at in their order.
+
+pub mod cma;
+pub mod danger;
+pub mod found;
+pub mod genome;
+pub mod shrink;
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use self::cma::{Cma, anywhere};
+use self::danger::Danger;
+use self::found::{Case, Found};
+use self::genome::{Clean, GENES, decode};
+use self::shrink::shrunk;
+use super::attacks::Offered;
+use crate::attack::Kind;
+use crate::cav::guard::Variant;
+use crate::cav::without::Without;
+use crate::map::Town;
+use crate::run::{End, RunError};
+
+/// Its name.
+pub const NAME: &str = "falsify";
+
+/// Scenarios of a round, and random points in each.
+const STARTS: u64 = 8;
+const POINTS: u64 = 7;
+/// Searches of a round, points of a generation, and generations.
+const SEARCHES: usize = 4;
+const GENERATION: usize = 10;
+const GENERATIONS: usize = 8;
+/// Who came nearer than this in the clean run can be lied about, m.
+const NEAR: f64 = 30.0;
+/// A collision is lower than any time left, s.
+const COLLISION: f64 = -1.0;
+
+/// What is searched.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Options {
+    /// What is checked of remote data.
+    pub variant: Variant,
+    /// A rule that is left out.
+    pub without: Option<Without>,
+    /// Kinds of attacks that are tried, at least one.
+    pub kinds: Vec<Kind>,
+    /// Most runs with attacks; none: as long as the caller lets it.
+    pub runs: Option<u64>,
+    /// Other vehicles.
+    pub vehicles: usize,
+    /// Of the scenarios and of what is drawn.
+    pub seed: u64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Falsified {
+    /// What was searched.
+    pub options: Options,
+    /// Rounds, the last one perhaps in part.
+    pub rounds: u64,
+    /// Runs with attacks.
+    pub runs: u64,
+    /// Those that ended in a collision.
+    pub collided: u64,
+    /// Of these the random ones: the others were found by going on from what came near.
+    pub collided_at_random: u64,
+    /// Runs to shrink what was found.
+    pub shrinking_runs: u64,
+    /// Runs without an attack that collided: their scenarios were left out.
+    pub clean_collided: u64,
+    /// By kind of attack.
+    pub rows: Vec<Row>,
+    /// Collisions that are not made of the kinds of another one, offered the same.
+    pub found: Vec<Found>,
+}
+
+/// Runs with one kind of attack, alone or with another.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Row {
+    /// The kind; none: without attacks.
+    pub attack: Option<Kind>,
+    /// Runs.
+    pub runs: u64,
+    /// Those that ended in a collision.
+    pub collided: u64,
+    /// Least time left to react of those that did not, s (`danger`); 4 where nothing was in the way.
+    pub least_time_left_s: f64,
+    /// Least distance to another of those that did not, m; none in an empty town.
+    pub least_distance_m: Option<f64>,
+}
+
+/// How far it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// A run with attacks was made.
+    Run,
+    /// Runs were looked at: least time left up to now, s, and collisions.
+    Looked(f64, u64),
+}
+
+/// Who is told how far it is, and says whether it is to go on.
+pub trait Caller: Sync {
+    /// How far it is.
+    fn tell(&self, _: Progress) {}
+
+    /// Asked between two batches of runs.
+    fn goes_on(&self) -> bool {
+        true
+    }
+
+    /// What the search takes for the least: the time left, s, and less than any for a collision.
+    fn worth(&self, time_left_s: f64) -> f64 {
+        time_left_s
+    }
+}
+
+/// Nobody is told.
+impl Caller for () {}
+
+/// Searches.
+///
+/// Errors: a town that cannot be.
+pub fn experiment(
+    town: &Town,
+    options: Options,
+    caller: &impl Caller,
+) -> Result<Falsified, RunError> {
+    let mut search = Search::new(town, options, caller);
+    while search.has_budget() {
+        search.round()?;
+    }
+    Ok(search.result())
+}
+
+/// A scenario in which attacks are tried.
+struct Start {
+    case: Case,
+    clean: Clean,
+}
+
+/// A point, in a scenario of the round.
+#[derive(Clone, Copy)]
+struct Point {
+    start: usize,
+    genes: [f64; GENES],
+}
+
+/// What came of a point.
+struct Tried {
+    case: Case,
+    found: Option<Found>,
+    time_left: f64,
+    distance: Option<f64>,
+}
+
+struct Search<'a, C> {
+    town: &'a Town,
+    caller: &'a C,
+    rows: BTreeMap<Option<Kind>, Row>,
+    least: f64,
+    result: Falsified,
+}
+
+impl<'a, C: Caller> Search<'a, C> {
+    fn new(town: &'a Town, options: Options, caller: &'a C) -> Self {
+        let result = Falsified {
+            options,
+            rounds: 0,
+            runs: 0,
+            collided: 0,
+            collided_at_random: 0,
+            shrinking_runs: 0,
+            clean_collided: 0,
+            rows: Vec::new(),
+            found: Vec::new(),
+        };
+        Self { town, caller, rows: BTreeMap::new(), least: danger::FREE_S, result }
+    }
+
+    fn result(self) -> Falsified {
+        Falsified { rows: self.rows.into_values().collect(), ..self.result }
+    }
+
+    fn left(&self) -> u64 {
+        self.result.options.runs.map_or(u64::MAX, |runs| runs.saturating_sub(self.result.runs))
+    }
+
+    fn has_budget(&self) -> bool {
+        self.left() > 0 && self.caller.goes_on()
+    }
+
+    /// New scenarios, random points, and searches from the best of them.
+    fn round(&mut self) -> Result<(), RunError> {
+        let round = self.result.rounds;
+        self.result.rounds += 1;
+        let starts = self.starts(round)?;
+        let seed = self.result.options.seed;
+        let random = |index: u64| Point {
+            start: usize::try_from(index / POINTS).unwrap_or(0),
+            genes: anywhere([seed, round * STARTS * POINTS + index]),
+        };
+        let count = u64::try_from(starts.len()).unwrap_or(0) * POINTS;
+        let points: Vec<Point> = (0..count).map(random).collect();
+        let tried = self.batch(&starts, &points)?;
+        let collided = tried.iter().filter(|it| it.1.is_some()).count();
+        self.result.collided_at_random += u64::try_from(collided).unwrap_or(0);
+        let mut best: Vec<usize> = (0..tried.len()).filter(|&it| tried[it].1.is_none()).collect();
+        best.sort_by(|&a, &b| tried[a].0.total_cmp(&tried[b].0));
+        best.truncate(SEARCHES);
+        let of = |(index, &best): (u64, &usize)| {
+            let Point { start, genes } = points[best];
+            (start, Cma::new(genes, GENERATION, [seed, round * 100 + index]))
+        };
+        let mut searches: Vec<(usize, Cma)> = (0..).zip(&best).map(of).collect();
+        for _ in 0..GENERATIONS {
+            if searches.is_empty() || !self.has_budget() {
+                return Ok(());
+            }
+            self.generation(&starts, &mut searches)?;
+        }
+        Ok(())
+    }
+
+    /// One generation of all searches; those that found a collision end.
+    fn generation(
+        &mut self,
+        starts: &[Start],
+        searches: &mut Vec<(usize, Cma)>,
+    ) -> Result<(), RunError> {
+        let mut points = Vec::new();
+        for (start, cma) in searches.iter_mut() {
+            let start = *start;
+            points.extend(cma.ask(GENERATION).into_iter().map(|genes| Point { start, genes }));
+        }
+        let tried = self.batch(starts, &points)?;
+        let mut kept = Vec::new();
+        let parts = points.chunks(GENERATION).zip(tried.chunks(GENERATION));
+        for ((start, mut cma), (points, tried)) in searches.drain(..).zip(parts) {
+            if tried.len() < points.len() || tried.iter().any(|it| it.1.is_some()) {
+                continue;
+            }
+            let mut order: Vec<usize> = (0..points.len()).collect();
+            order.sort_by(|&a, &b| tried[a].0.total_cmp(&tried[b].0));
+            cma.tell(&order.into_iter().map(|it| points[it].genes).collect::<Vec<_>>());
+            kept.push((start, cma));
+        }
+        *searches = kept;
+        Ok(())
+    }
+
+    /// The scenarios of a round, and what the attacker learns from their runs without an attack.
+    fn starts(&mut self, round: u64) -> Result<Vec<Start>, RunError> {
+        let Options { variant, without, vehicles, seed, .. } = self.result.options;
+        let town = self.town;
+        let one = |index: u64| {
+            let route = usize::from(index % 2 == 1);
+            let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
+            let offered = Offered::Both;
+            let attacks = Vec::new();
+            let case = Case { variant, without, offered, route, scenario, vehicles, attacks };
+            let mut danger = Danger::default();
+            let outcome = case.run(town, &mut danger)?;
+            let clean =
+                Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
+            let time_left = danger.least_time_left(&town.routes[case.ego_route(town)], 0.0);
+            Ok((Start { case, clean }, outcome.end, time_left, danger.least_distance(0.0)))
+        };
+        let made: Vec<_> = (0..STARTS).into_par_iter().map(one).collect::<Result<_, _>>()?;
+        let mut starts = Vec::new();
+        for (start, end, time_left, distance) in made {
+            let has_collided = end == End::Collided;
+            self.count(None, has_collided, time_left, distance);
+            self.result.clean_collided += u64::from(has_collided);
+            if !has_collided {
+                starts.push(start);
+            }
+        }
+        Ok(starts)
+    }
+
+    /// Makes the runs of points, as far as there is budget: what each is worth, and its collision.
+    fn batch(
+        &mut self,
+        starts: &[Start],
+        points: &[Point],
+    ) -> Result<Vec<(f64, Option<Found>)>, RunError> {
+        let count = points.len().min(usize::try_from(self.left()).unwrap_or(usize::MAX));
+        let (town, caller) = (self.town, self.caller);
+        let kinds = &self.result.options.kinds;
+        let one = |point: &Point| {
+            let tried = try_point(town, &starts[point.start], kinds, &point.genes)?;
+            caller.tell(Progress::Run);
+            Ok(tried)
+        };
+        let tried: Vec<Tried> = points[..count].par_iter().map(one).collect::<Result<_, _>>()?;
+        self.result.runs += u64::try_from(count).unwrap_or(0);
+        let mut new: Vec<Found> = Vec::new();
+        for it in &tried {
+            let mut kinds: Vec<Kind> = it.case.attacks.iter().map(|it| it.kind).collect();
+            kinds.sort_unstable();
+            kinds.dedup();
+            for kind in kinds {
+                self.count(Some(kind), it.found.is_some(), it.time_left, it.distance);
+            }
+            self.result.collided += u64::from(it.found.is_some());
+            self.least = self.least.min(if it.found.is_some() { COLLISION } else { it.time_left });
+            let Some(found) = &it.found else { continue };
+            if !self.result.found.iter().chain(&new).any(|old| explains(old, found)) {
+                new.push(found.clone());
+            }
+        }
+        self.keep(&new)?;
+        caller.tell(Progress::Looked(self.least, self.result.collided));
+        let worth = |it: Tried| {
+            let time_left = if it.found.is_some() { COLLISION } else { it.time_left };
+            (caller.worth(time_left), it.found)
+        };
+        Ok(tried.into_iter().map(worth).collect())
+    }
+
+    /// Shrinks collisions, and keeps those that are new then, too.
+    fn keep(&mut self, new: &[Found]) -> Result<(), RunError> {
+        let town = self.town;
+        let small: Vec<(Found, u64)> =
+            new.par_iter().map(|it| shrunk(town, it)).collect::<Result<_, _>>()?;
+        for (found, runs) in small {
+            self.result.shrinking_runs += runs;
+            if !self.result.found.iter().any(|old| explains(old, &found)) {
+                self.result.found.retain(|old| !explains(&found, old));
+                self.result.found.push(found);
+            }
+        }
+        Ok(())
+    }
+
+    fn count(
+        &mut self,
+        attack: Option<Kind>,
+        has_collided: bool,
+        time_left: f64,
+        distance: Option<f64>,
+    ) {
+        let (least_time_left_s, least_distance_m) = (danger::FREE_S, None);
+        let none = Row { attack, runs: 0, collided: 0, least_time_left_s, least_distance_m };
+        let row = self.rows.entry(attack).or_insert(none);
+        row.runs += 1;
+        row.collided += u64::from(has_collided);
+        if !has_collided {
+            row.least_time_left_s = row.least_time_left_s.min(time_left);
+            let nearer = |it: f64| row.least_distance_m.is_none_or(|least| it < least);
+            row.least_distance_m = distance.filter(|it| nearer(*it)).or(row.least_distance_m);
+        }
+    }
+}
+
+/// Whether a collision has all kinds of attacks of another one, with the same offered.
+fn explains(smaller: &Found, found: &Found) -> bool {
+    let (a, b) = (&smaller.case, &found.case);
+    a.offered == b.offered
+        && a.attacks.iter().all(|it| b.attacks.iter().any(|other| other.kind == it.kind))
+}
+
+fn try_point(
+    town: &Town,
+    start: &Start,
+    kinds: &[Kind],
+    genes: &[f64; GENES],
+) -> Result<Tried, RunError> {
+    let (offered, attacks) = decode(genes, kinds, &start.clean);
+    let case = Case { offered, attacks, ..start.case.clone() };
+    let mut danger = Danger::default();
+    let outcome = case.run(town, &mut danger)?;
+    let found = case.found(&outcome, &danger);
+    let route = &town.routes[case.ego_route(town)];
+    let time_left = danger.least_time_left(route, case.begins());
+    let distance = danger.least_distance(case.begins());
+    Ok(Tried { case, found, time_left, distance })
+}

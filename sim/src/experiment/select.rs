@@ -1,0 +1,118 @@
+//! Which runs of an experiment are made here: all, those of an id, one part of many on other machines; or none,
+//! because all were made before.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::job::Options;
+
+/// One of so many parts of an experiment: every `of`-th of its runs, from run `index` - 1 on.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+pub struct Shard {
+    /// Which part, from 1.
+    pub index: u32,
+    /// How many there are.
+    pub of: u32,
+}
+
+impl Shard {
+    fn has(self, run: usize) -> bool {
+        let [index, of] = [self.index, self.of].map(|it| usize::try_from(it).unwrap_or(usize::MAX));
+        run % of.max(1) + 1 == index
+    }
+}
+
+/// The runs of a part, as a file holds them until all are there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Part {
+    /// Of which experiment.
+    pub experiment: String,
+    /// How large it is, with all parts.
+    pub options: Options,
+    /// Which part it is.
+    pub shard: Shard,
+    /// What is kept of each run, by its id.
+    pub runs: BTreeMap<String, Value>,
+}
+
+/// A run is missing in the parts, or is not what this program writes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotKept {
+    /// The run's id.
+    pub id: String,
+    /// Why it cannot be read; none: it is not there.
+    pub why: Option<String>,
+}
+
+impl fmt::Display for NotKept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.why {
+            None => {
+                write!(f, "run {} is in none of the parts; give all of one experiment", self.id)
+            }
+            Some(why) => write!(f, "run {}: {why}; write the part anew", self.id),
+        }
+    }
+}
+
+impl std::error::Error for NotKept {}
+
+/// Which runs are made, and what is kept of them.
+#[derive(Debug, Default)]
+pub struct Select<'s> {
+    /// Only runs whose id is this or begins with these parts.
+    pub only: Option<&'s str>,
+    /// Only runs of this part.
+    pub shard: Option<Shard>,
+    /// What was kept of all runs when they were made: none is made again.
+    pub made: Option<&'s BTreeMap<String, Value>>,
+    /// Of each run of a part, by its id.
+    pub kept: Mutex<BTreeMap<String, Value>>,
+}
+
+impl<'s> Select<'s> {
+    /// Runs whose id is this or begins with these parts; every run, where nothing is named.
+    pub fn only(only: Option<&'s str>) -> Self {
+        Self { only, ..Self::default() }
+    }
+
+    /// Whether a run is chosen. `at`: its place among all.
+    pub(super) fn has(&self, at: usize, id: &str) -> bool {
+        let rest = self.only.map_or(Some(""), |only| id.strip_prefix(only));
+        let is_named = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+        is_named && self.shard.is_none_or(|shard| shard.has(at))
+    }
+
+    /// What was kept of a run; `None`: it has to be made.
+    ///
+    /// Errors: it should be there, and is not.
+    pub(super) fn made<R: DeserializeOwned>(&self, id: &str) -> Result<Option<R>, NotKept> {
+        let Some(made) = self.made else { return Ok(None) };
+        let not_kept = |why| NotKept { id: id.to_owned(), why };
+        let value = made.get(id).ok_or_else(|| not_kept(None))?;
+        R::deserialize(value).map(Some).map_err(|error| not_kept(Some(error.to_string())))
+    }
+
+    /// Keeps what came of a run, if that is asked for.
+    ///
+    /// Errors: what no JSON can hold.
+    pub(super) fn keep<R: Serialize>(&self, id: &str, run: &R) -> Result<(), NotKept> {
+        if self.shard.is_some() {
+            let not_kept = |error: serde_json::Error| NotKept {
+                id: id.to_owned(),
+                why: Some(error.to_string()),
+            };
+            let value = serde_json::to_value(run).map_err(not_kept)?;
+            self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(id.to_owned(), value);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,189 @@
+//! The search for collisions: that it finds what is there, by what it looks for, and the same each time.
+
+use mufasa_sim::attack::means::{Lists, Means};
+use mufasa_sim::attack::{Attack, Kind};
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::cav::without::Without;
+use mufasa_sim::experiment::attacks::Offered;
+use mufasa_sim::experiment::falsify::cma::{Cma, anywhere};
+use mufasa_sim::experiment::falsify::danger::{Danger, FREE_S};
+use mufasa_sim::experiment::falsify::found::{Case, Found};
+use mufasa_sim::experiment::falsify::genome::{Clean, GENES, KINDS, decode};
+use mufasa_sim::experiment::falsify::shrink::shrunk;
+use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, experiment};
+use mufasa_sim::map::streets::town;
+use mufasa_sim::run::End;
+
+/// Looks for much time left instead of little.
+struct Backwards;
+
+impl Caller for Backwards {
+    fn worth(&self, time_left_s: f64) -> f64 {
+        -time_left_s
+    }
+}
+
+/// Empty lists in the paper's profile (F-14): the random points of one round, and one generation.
+fn known_hole() -> Options {
+    let kinds = vec![Kind::TracksEmpty];
+    Options { variant: Variant::Paper, without: None, kinds, runs: Some(96), vehicles: 15, seed: 1 }
+}
+
+fn found(made: &Falsified) -> [u64; 2] {
+    [made.collided_at_random, made.collided - made.collided_at_random]
+}
+
+#[test]
+fn a_known_hole_is_found_and_not_by_a_search_for_the_opposite() {
+    let town = town();
+    let in_threads = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| experiment(&town, known_hole(), &()).expect("the town can be"))
+    };
+    let made = in_threads(4);
+    let [random, guided] = found(&made);
+    assert!(guided >= 3, "{random} {guided}");
+    assert_eq!((made.runs, made.clean_collided), (96, 0));
+    let Some(Found { case, t_s, with, .. }) = made.found.first() else { panic!("none is kept") };
+    assert_eq!(case.attacks.len(), 1, "one is enough: {case:?}");
+    // What is kept is made again, and does not happen without the attack.
+    let again = case.collision(&town).expect("it can be").expect("a collision");
+    assert_eq!((again.t_s, again.with), (*t_s, *with));
+    let clean = Case { attacks: Vec::new(), ..case.clone() };
+    assert_eq!(clean.collision(&town).expect("it can be"), None);
+
+    let other = experiment(&town, known_hole(), &Backwards).expect("the town can be");
+    assert_eq!(found(&other), [random, 0]);
+
+    // The same bytes with another number of threads.
+    let json = |it: &Falsified| serde_json::to_string(it).expect("it is JSON");
+    assert_eq!(json(&in_threads(1)), json(&made));
+}
+
+#[test]
+fn what_is_found_is_shrunk_to_what_matters() {
+    let town = town();
+    let attack = |kind, means| Attack { kind, from: 3.0, until: 100.0, seed: 0, means };
+    let moved = Means { speed_mps: 0.001, ..Means::of(Kind::Drift) };
+    let attacks =
+        vec![attack(Kind::Drift, moved), attack(Kind::OneRemoved, Means::of(Kind::OneRemoved))];
+    let case = Case {
+        variant: Variant::Sofof,
+        without: None,
+        offered: Offered::Both,
+        route: 0,
+        scenario: 0,
+        vehicles: 15,
+        attacks,
+    };
+    let found = case.collision(&town).expect("it can be").expect("a collision");
+    let (small, runs) = shrunk(&town, &found).expect("it can be");
+    assert!(runs > 3);
+    let [attack] = &small.case.attacks[..] else { panic!("{small:?}") };
+    assert_eq!(attack.kind, Kind::OneRemoved);
+    assert!(attack.until - attack.from < 30.0, "{attack:?}");
+    let text = serde_json::to_string(&small).expect("it is JSON");
+    assert_eq!(serde_json::from_str::<Found>(&text).expect("it is one"), small);
+}
+
+#[test]
+fn every_point_is_an_attack_and_every_kind_has_a_point() {
+    let clean = Clean {
+        remote: (0..400).map(|it| 0.1 * f64::from(it)).collect(),
+        near: vec![4, 7],
+        seed: 3,
+    };
+    let mut seen = std::collections::BTreeSet::new();
+    let mut targets = std::collections::BTreeSet::new();
+    for index in 0..400 {
+        // Beyond the cube, too.
+        let genes = anywhere([0, index]).map(|gene| 3.0 * gene - 1.0);
+        let (offered, attacks) = decode(&genes, &KINDS, &clean);
+        assert!((1..=2).contains(&attacks.len()));
+        for Attack { kind, from, until, means, .. } in attacks {
+            assert!((0.0..40.0).contains(&from) && (0.29..60.1).contains(&(until - from)));
+            assert!(means.late_s >= 0.0 && means.factor.abs() <= 1.5);
+            targets.insert(means.target);
+            seen.insert((offered, kind, means.lists));
+        }
+    }
+    assert_eq!(targets.into_iter().collect::<Vec<_>>(), [None, Some(4), Some(7)]);
+    for kind in KINDS {
+        assert!(seen.iter().any(|it| it.1 == kind), "{}", kind.name());
+    }
+    assert!(Offered::ALL.iter().all(|offered| seen.iter().any(|it| it.0 == *offered)));
+    for lists in [Lists::Both, Lists::Cav, Lists::Planner] {
+        assert!(seen.iter().any(|it| it.2 == lists), "{lists:?}");
+    }
+    // A point of the cube and its mirror images are one.
+    let genes = anywhere([0, 1]);
+    let mirrored = genes.map(|gene| 2.0 - gene);
+    assert_eq!(decode(&genes, &KINDS, &clean).0, decode(&mirrored, &KINDS, &clean).0);
+}
+
+#[test]
+fn cma_goes_to_the_least() {
+    // An ellipsoid, a hundred times as steep in one gene as in another.
+    let least = |genes: &[f64; GENES]| -> f64 {
+        let steep = |index: usize| if index.is_multiple_of(2) { 100.0 } else { 1.0 };
+        genes.iter().enumerate().map(|(i, gene)| steep(i) * (gene - 0.3) * (gene - 0.3)).sum()
+    };
+    let mut cma = Cma::new([0.8; GENES], 12, [5, 6]);
+    let start = least(&cma.mean());
+    for _ in 0..400 {
+        let mut points = cma.ask(12);
+        points.sort_by(|a, b| least(a).total_cmp(&least(b)));
+        cma.tell(&points);
+    }
+    let end = least(&cma.mean());
+    assert!(start > 100.0 && end < 1e-4, "{start} {end}");
+}
+
+#[test]
+fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
+    let town = town();
+    let mut case = Case {
+        variant: Variant::Sofof,
+        without: None,
+        offered: Offered::Both,
+        route: 0,
+        scenario: 0,
+        vehicles: 15,
+        attacks: Vec::new(),
+    };
+    let time_left = |case: &Case| {
+        let mut danger = Danger::default();
+        let outcome = case.run(&town, &mut danger).expect("it can be");
+        (outcome.end, danger.least_time_left(&town.routes[case.ego_route(&town)], 0.0))
+    };
+    let (end, clean) = time_left(&case);
+    assert_eq!(end, End::Arrived);
+    assert!((1.0..=FREE_S).contains(&clean), "{clean}");
+    case.attacks.push(Attack::new(Kind::TracksEmpty, 5.0, 1e3, 0));
+    let (end, attacked) = time_left(&case);
+    assert_eq!(end, End::Collided);
+    assert!(attacked < 0.3, "{attacked}");
+}
+
+/// The collisions that are kept with the project.
+#[test]
+fn what_was_found_still_collides_and_only_under_attack() {
+    let town = town();
+    let mut count = 0;
+    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/found")).expect("a folder")
+    {
+        let file = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&file).expect("it can be read");
+        let found: Found = serde_json::from_str(&text).expect("it is a collision");
+        let again = found.case.collision(&town).expect("it can be");
+        assert_eq!(again.as_ref(), Some(&found), "{}", file.display());
+        let clean = Case { attacks: Vec::new(), ..found.case.clone() };
+        assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
+        if found.case.without == Some(Without::H13) {
+            let whole = Case { without: None, ..found.case.clone() };
+            assert_eq!(whole.collision(&town).expect("it can be"), None, "{}", file.display());
+        }
+        count += 1;
+    }
+    assert!(count > 0);
+}
