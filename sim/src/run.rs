@@ -198,7 +198,7 @@ pub fn simulate(
     let Settings { stages, requester, variant, .. } = *settings;
     let mut guard = match settings.without {
         Some(rule) if variant == Variant::Hardened => {
-            let rules = Rules::new(rule, stages, requester, &mut table);
+            let rules = Rules::new(rule, stages, (requester, PERIOD_NS), &mut table);
             Guard::without(rules.map_err(|it| RunError::Monitor(MonitorError::Requester(it)))?)
         }
         _ => Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())

@@ -165,7 +165,8 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     assert!(attacked < 0.3, "{attacked}");
 }
 
-/// The collisions that are kept with the project.
+/// The collisions that are kept with the project. When something about a run changes, `UPDATE_FOUND=1` writes
+/// when they occur now; one that no longer does fails all the same.
 #[test]
 fn what_was_found_still_collides_and_only_under_attack() {
     let town = town();
@@ -176,6 +177,11 @@ fn what_was_found_still_collides_and_only_under_attack() {
         let text = std::fs::read_to_string(&file).expect("it can be read");
         let found: Found = serde_json::from_str(&text).expect("it is a collision");
         let again = found.case.collision(&town).expect("it can be");
+        if let (true, Some(again)) = (std::env::var_os("UPDATE_FOUND").is_some(), &again) {
+            let text = serde_json::to_string_pretty(again).expect("it is JSON") + "\n";
+            std::fs::write(&file, text).expect("it can be written");
+            continue;
+        }
         assert_eq!(again.as_ref(), Some(&found), "{}", file.display());
         let clean = Case { attacks: Vec::new(), ..found.case.clone() };
         assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
@@ -185,5 +191,5 @@ fn what_was_found_still_collides_and_only_under_attack() {
         }
         count += 1;
     }
-    assert!(count > 0);
+    assert!(count > 0 || std::env::var_os("UPDATE_FOUND").is_some());
 }

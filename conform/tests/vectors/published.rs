@@ -88,7 +88,7 @@ fn requirements() -> BTreeSet<String> {
         }
     }
     names.extend((1..=13).map(|n| format!("H-{n:02}")));
-    names.extend((1..=43).map(|n| format!("F-{n:02}")));
+    names.extend((1..=44).map(|n| format!("F-{n:02}")));
     names
 }
 

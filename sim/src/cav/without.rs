@@ -6,6 +6,7 @@
 //! `sim/tests/loop/without.rs`).
 
 use std::collections::VecDeque;
+use std::ops::RangeInclusive;
 
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Route, Track, TrackList, Trajectory,
@@ -58,6 +59,8 @@ impl Without {
 const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
 const USABLE_NS: (i64, i64) = (200_000_000, 1_000_000_000);
 const SPACING_NS: i64 = 83_333_334;
+/// Ages of a list with which stations are asked, ns (`spec/5-interfaces.md#monitor`).
+const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Served {
@@ -75,6 +78,8 @@ pub struct Rules<'a> {
     without: Without,
     parameters: StageParameters,
     requester_parameters: Parameters,
+    /// Nominal, of the results.
+    period_ns: i64,
     /// Which group runs where.
     pub(super) requester: Requester<'a>,
     route: (bool, Vec<CrossSection>),
@@ -96,13 +101,14 @@ impl<'a> Rules<'a> {
     pub fn new(
         without: Without,
         parameters: StageParameters,
-        requester: Parameters,
+        (requester, period_ns): (Parameters, i64),
         table: &'a mut [StationRecord],
     ) -> Result<Self, RequesterError> {
         Ok(Self {
             without,
             parameters,
             requester_parameters: requester,
+            period_ns,
             requester: Requester::new(Profile::Hardened, requester, table)?,
             route: (false, Vec::new()),
             served: [Served::default(); 2],
@@ -124,7 +130,17 @@ impl<'a> Rules<'a> {
         t_ns: i64,
         kind: EventKind,
     ) -> Result<Vec<Action>, RequesterError> {
-        let actions = self.requester.step(&Event { t_ns, kind })?.to_vec();
+        let event = Event { t_ns, kind };
+        if kind == EventKind::Tick && !self.has_seen_enough(t_ns) {
+            self.requester.hold(t_ns + 1);
+        }
+        for (served, group) in self.served.into_iter().zip(Group::ALL) {
+            if self.ends(group, &event)? {
+                let unused_ns = (t_ns - served.last_ns).max(self.period_ns);
+                self.requester.hold(t_ns + 9 * unused_ns);
+            }
+        }
+        let actions = self.requester.step(&event)?.to_vec();
         for (served, group) in self.served.iter_mut().zip(Group::ALL) {
             let session = self.requester.session_of(group).map(|it| it.session);
             if served.session != session {
@@ -132,6 +148,21 @@ impl<'a> Rules<'a> {
             }
         }
         Ok(actions)
+    }
+
+    /// Whether a group that is remote is not so after the event.
+    fn ends(&self, group: Group, event: &Event) -> Result<bool, RequesterError> {
+        let Some(before) = self.requester.session_of(group) else { return Ok(false) };
+        let mut table = self.requester.stations().to_vec();
+        table.push(StationRecord::FREE);
+        let mut after = Requester::resume(self.requester.suspend(), &mut table);
+        let _actions = after.step(event)?;
+        Ok(after.session_of(group).is_none_or(|it| it.session != before.session))
+    }
+
+    /// Whether detections reach back half a second.
+    fn has_seen_enough(&self, t_ns: i64) -> bool {
+        self.seen.iter().any(|(stamp_ns, _)| ENOUGH_NS.contains(&(t_ns - stamp_ns)))
     }
 
     pub(super) fn tracks(
