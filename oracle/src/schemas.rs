@@ -17,7 +17,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 13] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 16] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -28,6 +28,9 @@ pub const WRITTEN: [(&str, &str, &[&str]); 13] = [
     ("evaluate stages", "out", &["evaluation-stages"]),
     ("evaluate attacks", "out", &["evaluation-attacks"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
+    ("evaluate cpu", "out", &["evaluation-cpu"]),
+    ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
+    ("merge", "out", &["evaluation-part", "evaluation-failures"]),
     ("vehicle", "json", &["vehicle-summary"]),
     ("vehicle", "log", &["vehicle-log"]),
     ("station", "json", &["station-summary"]),

@@ -129,7 +129,10 @@ impl Monitor<'_> {
             None => inputs.local_trajectory,
         };
         let has_route = self.route.is_set();
-        let report = self.check(inputs, tracks, trajectory).map_err(|it| named(it, has_route));
+        let mut report = self.check(inputs, tracks, trajectory);
+        if let Err(problem) = &mut report {
+            *problem = named(*problem, has_route);
+        }
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
 
         let max_age_ns = self.settings.stages.max_age_ns;
@@ -152,16 +155,15 @@ impl Monitor<'_> {
         };
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
-        let decision = match report {
+        match report {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);
                 let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot));
                 let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan));
-                Decision::Safe { tracks, trajectory, report }
+                (Decision::Safe { tracks, trajectory, report }, actions)
             }
-            report => Decision::Unsafe { report },
-        };
-        (decision, actions)
+            report => (Decision::Unsafe { report }, actions),
+        }
     }
 
     /// Checks the cycle, and keeps its detections when they are valid and current.

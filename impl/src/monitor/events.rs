@@ -3,10 +3,13 @@
 
 use super::Monitor;
 use super::element::{Accepted, Arrival, DropReason, Message};
+use super::served::Served;
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
 use crate::input::profile::Profile;
-use crate::offloading::requester::{Action, Actions, Event, EventKind, Groups, RequesterError};
+use crate::offloading::requester::{
+    Action, Actions, Event, EventKind, GroupState, Groups, RequesterError,
+};
 use crate::services::configuration::Group;
 use crate::stages::given::is_current;
 
@@ -157,7 +160,7 @@ impl Monitor<'_> {
 
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
-        if kind == EventKind::Tick {
+        if matches!(kind, EventKind::Tick) {
             let is_hardened = self.settings.profile == Profile::Hardened;
             if is_hardened && !self.history.reaches_back(t_ns) {
                 // Nothing would be examined as moving (H-13).
@@ -172,11 +175,18 @@ impl Monitor<'_> {
         }
         let actions = self.requester.step(&Event { t_ns, kind })?;
         for group in Group::ALL {
-            let running = self.requester.session_of(group);
-            if self.served.get(group).has_ended(running) {
+            let session = match self.requester.state(group) {
+                GroupState::Local | GroupState::Requested { .. } => None,
+                GroupState::Remote { session, .. } => Some(session),
+            };
+            let before = self.served.get(group).session();
+            if session == before {
+                continue;
+            }
+            if before.is_some() {
                 self.hold_after(group, t_ns);
             }
-            self.served.get_mut(group).runs(t_ns, running);
+            *self.served.get_mut(group) = Served::since(t_ns, session);
         }
         Ok(actions)
     }

@@ -1,7 +1,5 @@
 //! Whether control gets anything of a remote group (`spec/5-interfaces.md#monitor`).
 
-use crate::offloading::requester::Running;
-
 /// What the cycles of the running session of a group could use.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Served {
@@ -12,17 +10,14 @@ pub(super) struct Served {
 }
 
 impl Served {
-    /// What runs after an event at this time.
-    pub(super) fn runs(&mut self, now_ns: i64, running: Option<Running>) {
-        let session = running.map(|it| it.session);
-        if self.session != session {
-            *self = Self { session, last_ns: now_ns, is_starved: false };
-        }
+    /// A session that runs since this time, or none.
+    pub(super) const fn since(now_ns: i64, session: Option<i64>) -> Self {
+        Self { session, last_ns: now_ns, is_starved: false }
     }
 
-    /// Whether a session ran that does not any more.
-    pub(super) fn has_ended(&self, running: Option<Running>) -> bool {
-        self.session.is_some() && self.session != running.map(|it| it.session)
+    /// The session that runs.
+    pub(super) const fn session(&self) -> Option<i64> {
+        self.session
     }
 
     /// When a station may be asked again if the session ends now: 9 times as long after it as nothing of

@@ -84,6 +84,9 @@ pub struct Vehicle<'a, T> {
     trajectory: Option<Accepted<Vec<TrajectoryPoint>>>,
     /// When each station that offers something was heard last, ns.
     heard: BTreeMap<i64, i64>,
+    /// A message that was made after the time of the step in which it came: it came while the step ran, and
+    /// is taken in the next one. What is still ahead then is taken for what it is.
+    ahead: Option<Message>,
 }
 
 impl<'a, T: Transport> Vehicle<'a, T> {
@@ -118,6 +121,7 @@ impl<'a, T: Transport> Vehicle<'a, T> {
             tracks: None,
             trajectory: None,
             heard: BTreeMap::new(),
+            ahead: None,
         })
     }
 
@@ -126,9 +130,25 @@ impl<'a, T: Transport> Vehicle<'a, T> {
     ///
     /// Errors: a route that the monitor cannot keep.
     pub fn step(&mut self, now_ns: i64) -> Result<Option<i64>, VehicleError> {
+        let due_ns = self.advance(now_ns)?;
+        let ahead_ns = self.ahead.as_ref().map(|message| message.generated_ns);
+        Ok(due_ns.map(|due_ns| ahead_ns.map_or(due_ns, |ahead_ns| due_ns.min(ahead_ns))))
+    }
+
+    fn advance(&mut self, now_ns: i64) -> Result<Option<i64>, VehicleError> {
+        if let Some(message) = self.ahead.take() {
+            self.take(now_ns, message);
+        }
         for _ in 0..AT_ONCE {
             let Some(bytes) = self.transport.receive(now_ns) else { break };
-            self.take(now_ns, &bytes);
+            match message::decode(&bytes, &self.frame) {
+                Err(error) => self.tally.traffic().malformed(&error),
+                Ok(message) if message.generated_ns > now_ns => {
+                    self.ahead = Some(message);
+                    break;
+                }
+                Ok(message) => self.take(now_ns, message),
+            }
         }
         let played = self.played;
         let Some(cycle) = played.cycle(self.next) else { return Ok(None) };

@@ -6,16 +6,12 @@ use mufasa::services::configuration::Group;
 
 use super::log::{What, digest};
 use super::{Vehicle, time, word};
-use crate::message::{self, Message, Payload};
+use crate::message::{Message, Payload};
 use crate::transport::Transport;
 
 impl<T: Transport> Vehicle<'_, T> {
     /// Takes a message; whatever it is, nothing worse happens than that it is counted.
-    pub(super) fn take(&mut self, now_ns: i64, bytes: &[u8]) {
-        let message = match message::decode(bytes, &self.frame) {
-            Ok(message) => message,
-            Err(error) => return self.tally.traffic().malformed(&error),
-        };
+    pub(super) fn take(&mut self, now_ns: i64, message: Message) {
         let Message { sender: station, receiver, generated_ns, payload } = message;
         if receiver != self.id && receiver != 0 {
             return self.tally.traffic().dropped("for another");

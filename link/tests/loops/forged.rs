@@ -55,19 +55,33 @@ fn sessions_that_nobody_asked_for_change_nothing() {
 /// Whoever can send as the station ends its session with a result from the future; it is not called late.
 #[test]
 fn a_result_from_the_future_ends_its_session_and_is_said_to() {
-    let seen = while_somebody(|ms, by| {
-        if ms == 4_005 {
-            // The numbers that the first sessions have.
-            for session in (1..=4).map(|number| START_NS + number) {
-                let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
-                let ahead = Message { generated_ns: by.now_ns + MS, ..message(by, 1, 1, tracks) };
-                by.say(VEHICLE, &ahead);
-            }
-        }
-    });
+    let seen = somebody_sends_tracks_ahead(10 * MS);
     assert_eq!(seen.vehicle.left.get("from the future"), Some(&1), "{:?}", seen.vehicle.left);
     assert_eq!(seen.vehicle.left.get("late"), None, "{:?}", seen.vehicle.left);
     assert_eq!(seen.vehicle.traffic.dropped["tracks: generated after it arrived"], 1);
+}
+
+/// What was made after the time that a step was told, and came while it ran, is taken in the next step.
+#[test]
+fn a_result_that_is_made_while_the_vehicle_takes_others_is_none_from_the_future() {
+    let seen = somebody_sends_tracks_ahead(MS);
+    assert_eq!(seen.vehicle.left.get("from the future"), None, "{:?}", seen.vehicle.left);
+    let dropped = &seen.vehicle.traffic.dropped;
+    assert_eq!(dropped.get("tracks: generated after it arrived"), None, "{dropped:?}");
+}
+
+/// At 4.005 s, for each number that the first sessions have.
+fn somebody_sends_tracks_ahead(ahead_ns: i64) -> Seen {
+    while_somebody(|ms, by| {
+        if ms == 4_005 {
+            for session in (1..=4).map(|number| START_NS + number) {
+                let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };
+                let ahead =
+                    Message { generated_ns: by.now_ns + ahead_ns, ..message(by, 1, 1, tracks) };
+                by.say(VEHICLE, &ahead);
+            }
+        }
+    })
 }
 
 #[test]
