@@ -72,7 +72,7 @@ fn a_result_that_is_made_while_the_vehicle_takes_others_is_none_from_the_future(
 
 /// At 4.005 s, for each number that the first sessions have.
 fn somebody_sends_tracks_ahead(ahead_ns: i64) -> Seen {
-    while_somebody(|ms, by| {
+    while_somebody(move |ms, by| {
         if ms == 4_005 {
             for session in (1..=4).map(|number| START_NS + number) {
                 let tracks = Payload::Tracks { session, stamp_ns: by.now_ns, tracks: vec![] };

@@ -2,10 +2,10 @@
 
 use mufasa::services::configuration::Groups;
 use rayon::prelude::*;
-use schemars::JsonSchema;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 
+pub use super::select::Options;
 use super::select::{NotKept, Select};
 use super::watch::Watch;
 use crate::attack::{Attack, Kind};
@@ -16,17 +16,6 @@ use crate::scenario::Scenario;
 
 /// When the attack of a run begins that has one, s.
 const FROM: f64 = 5.0;
-
-/// How large an experiment is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub struct Options {
-    /// Scenarios of each combination; on each of the two routes, where the experiment uses both.
-    pub scenarios: u64,
-    /// Other vehicles of a scenario, or the most of them.
-    pub vehicles: usize,
-    /// The first scenario's seed; the others follow.
-    pub seed: u64,
-}
 
 /// Why an experiment could not be made.
 #[derive(Debug)]

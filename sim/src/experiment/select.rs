@@ -10,7 +10,16 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::job::Options;
+/// How large an experiment is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Options {
+    /// Scenarios of each combination; on each of the two routes, where the experiment uses both.
+    pub scenarios: u64,
+    /// Other vehicles of a scenario, or the most of them.
+    pub vehicles: usize,
+    /// The first scenario's seed; the others follow.
+    pub seed: u64,
+}
 
 /// One of so many parts of an experiment: every `of`-th of its runs, from run `index` - 1 on.
 #[derive(
