@@ -8,6 +8,7 @@ pub mod sources;
 pub mod tables;
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use indicatif::ProgressBar;
 
@@ -20,6 +21,9 @@ pub use settings::Settings;
 
 /// Name of the table in a document.
 pub const TABLE_NAME: &str = "mufasa prove";
+
+/// What stands before the number of the sources (`sources::hash_of_all`) below the table in a document.
+pub const SOURCES: &str = "Number of the sources: `";
 
 /// How it ended; the worst that applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,7 +68,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     let table = if settings.markdown { tables::markdown(&lines) } else { tables::text(&lines) };
     write!(out, "{table}")?;
     if let Some(path) = &settings.into
-        && let Err(error) = document::write(path, TABLE_NAME, &tables::markdown(&lines))
+        && let Err(error) = write_document(path, settings, &lines)
     {
         complain(err, &format!("{}: cannot be written: {error}", path.display()));
         end = End::BadInput;
@@ -81,6 +85,13 @@ pub fn claims() -> io::Result<Vec<Claim>> {
     let claims: io::Result<Vec<_>> =
         ClaimSource::ALL.into_iter().map(ClaimSource::claims).collect();
     Ok(claims?.into_iter().flatten().collect())
+}
+
+/// The table, and of which sources it is.
+fn write_document(path: &Path, settings: &Settings, lines: &[Claim]) -> io::Result<()> {
+    let sources = sources::hash_of_all(&settings.sources)?;
+    let table = format!("{}\n{}{sources}`.\n", tables::markdown(lines), SOURCES);
+    document::write(path, TABLE_NAME, &table)
 }
 
 fn write_lines(settings: &Settings, lines: &[Claim]) -> io::Result<()> {

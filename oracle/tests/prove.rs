@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 
 use mufasa_mutants::Engine;
 use mufasa_oracle::document;
-use mufasa_oracle::prove::{TABLE_NAME, sources, tables};
+use mufasa_oracle::prove::{SOURCES, TABLE_NAME, sources, tables};
 use mufasa_theorems::{gappa, theorem};
 
 fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
@@ -101,7 +101,7 @@ fn the_document_has_a_row_for_every_claim() {
     let counts = table.lines().find(|line| line.contains(" proved, ")).expect("the counts");
     let number = |of: &str| {
         let before = counts.split(of).next().unwrap_or_default();
-        before.rsplit(", ").next().unwrap_or_default().trim().to_owned()
+        before.rsplit([',', ':']).next().unwrap_or_default().trim().to_owned()
     };
     let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
     for said in [
@@ -112,6 +112,17 @@ fn the_document_has_a_row_for_every_claim() {
     }
     for line in &claims {
         assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);
+    }
+}
+
+#[test]
+fn the_document_is_of_these_sources_or_that_is_said() {
+    let table = document::read(&root().join("docs/proofs.md"), TABLE_NAME).expect("the table");
+    let number = table.split_once(SOURCES).and_then(|(_, rest)| rest.get(..16));
+    let number = number.expect("the number of the sources below the table");
+    assert!(number.chars().all(|digit| digit.is_ascii_hexdigit()), "{number}");
+    if number != sources::hash_of_all(root()).expect("the sources are here") {
+        println!("NOT RUN: docs/proofs.md: of other sources: mufasa prove --into docs/proofs.md");
     }
 }
 

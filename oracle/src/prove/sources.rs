@@ -1,4 +1,4 @@
-//! Which sources a proof on compiled code was about.
+//! Which sources a proof was about.
 
 use std::fs;
 use std::io;
@@ -15,11 +15,30 @@ const PARTS: [&str; 7] = [
     "proofs/z3/src",
 ];
 
-/// A number of the paths and contents of the sources in this checkout: FNV-1a of 64 bits, in hex.
-/// Errors are those of reading them.
+/// What else decides about the answers of the other engines.
+const OTHERS: [&str; 5] = [
+    "model/src",
+    "proofs/exploration/src",
+    "proofs/laws.toml",
+    "proofs/theorems/src",
+    "oracle/src/prove/engines",
+];
+
+/// A number of the sources in this checkout that proofs on compiled code are about. Errors are
+/// those of reading them.
 pub fn hash(checkout: &Path) -> io::Result<String> {
+    hash_of(checkout, &PARTS)
+}
+
+/// The same of those of all claims.
+pub fn hash_of_all(checkout: &Path) -> io::Result<String> {
+    hash_of(checkout, &[PARTS.as_slice(), &OTHERS].concat())
+}
+
+/// FNV-1a of 64 bits of the paths and contents, in hex.
+fn hash_of(checkout: &Path, parts: &[&str]) -> io::Result<String> {
     let mut files = Vec::new();
-    for part in PARTS {
+    for part in parts {
         list(&checkout.join(part), &mut files)?;
     }
     let mut named = Vec::new();

@@ -36,7 +36,11 @@ pub fn text(lines: &[Claim]) -> String {
 
 /// For documents: the number of verdicts of each engine, then every line.
 pub fn markdown(lines: &[Claim]) -> String {
-    let mut text = format!("{}\n{}.\n", engines(lines), counts(lines));
+    let mut text = format!(
+        "{}\nClaims, each by the answer that counts: {}.\n",
+        engines(lines),
+        counts(lines)
+    );
     text.push_str("\n<details><summary>Every line</summary>\n\n");
     text.push_str("| id | statement | engine | domain | verdict | s | fails when |\n");
     text.push_str("|---|---|---|---|---|--:|---|\n");
@@ -80,7 +84,7 @@ fn engines(lines: &[Claim]) -> String {
             names.push(answer.engine);
         }
     }
-    let mut text = String::from("| engine |");
+    let mut text = String::from("| answers of |");
     let _ = writeln!(text, " {} |", Status::ALL.map(Status::name).join(" | "));
     let _ = writeln!(text, "|---|{}", "--:|".repeat(Status::ALL.len()));
     for name in names {
