@@ -194,7 +194,8 @@ impl Monitor<'_> {
     /// The group returns to local now: its session may have been of no use for long, and the next one
     /// may be no better.
     fn hold_after(&mut self, group: Group, now_ns: i64) {
-        let again_ns = self.served.get(group).again_ns(now_ns, self.settings.period_ns());
-        self.requester.hold(again_ns);
+        if let Some(again_ns) = self.served.get(group).again_ns(now_ns, self.settings.period_ns()) {
+            self.requester.hold(again_ns);
+        }
     }
 }
