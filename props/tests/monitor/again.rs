@@ -37,7 +37,7 @@ fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
             for end in ENDS {
                 for share in drive(profile, &first_good(good, end), PERIODS) {
                     let case = format!("{profile:?}, {good} good, {end:?}: {share:?}");
-                    assert!(10 * share.without() <= PERIODS, "{case}");
+                    assert!(10 * share.without_ns() <= PERIODS * PERIOD_NS, "{case}");
                     assert!(share.sessions > 50, "{case}");
                     assert!((share.with > 0) == (good > 0), "{case}");
                     // Not before nine periods, less the time from the first good result to the last one.
@@ -57,7 +57,7 @@ fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
 fn a_station_of_use_is_kept() {
     for profile in [Profile::Paper, Profile::Hardened] {
         for share in drive(profile, &Habit::of(vec![Deed::Good]), PERIODS) {
-            assert_eq!((share.sessions, share.without()), (1, 0), "{profile:?}: {share:?}");
+            assert_eq!((share.sessions, share.without_ns()), (1, 0), "{profile:?}: {share:?}");
             assert!(share.with > PERIODS - 10, "{profile:?}: {share:?}");
         }
     }

@@ -62,48 +62,50 @@ impl Habit {
     }
 }
 
-/// What came of it for a group, in cycles.
+/// What came of it for a group.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Share {
+    /// Cycles with something of the station.
     pub with: i64,
-    /// It is the station's to give, and nothing comes out: until the session's end; in a gap that ended
-    /// before it was longer than dt_max; in a longer one that ended.
-    pub at_end: i64,
-    pub in_short_gaps: i64,
-    pub in_long_gaps: i64,
+    /// For how long it was the station's to give and nothing came, from the last cycle with something, or the
+    /// confirmation: to the session's end; in gaps that ended before they were longer than dt_max; in longer ones.
+    pub at_end_ns: i64,
+    pub in_short_gaps_ns: i64,
+    pub in_long_gaps_ns: i64,
+    /// The longest of the gaps.
+    pub longest_gap_ns: i64,
     pub sessions: i64,
     /// Least time from the end of a session to the next request.
     pub pause_ns: Option<i64>,
-    /// Since the last cycle with something: where that was, and cycles without.
     last_ns: i64,
-    pending: i64,
+    /// Of the time since then: whether some cycle had nothing, and one more than dt_max later.
+    is_gap: bool,
     is_long: bool,
     running: Option<i64>,
     ended_ns: Option<i64>,
 }
 
 impl Share {
-    /// Nothing comes out, however that ends.
-    pub const fn without(&self) -> i64 {
-        self.at_end + self.in_short_gaps + self.in_long_gaps
+    /// However that ends.
+    pub const fn without_ns(&self) -> i64 {
+        self.at_end_ns + self.in_short_gaps_ns + self.in_long_gaps_ns
     }
 
-    fn ends(&mut self) {
-        self.at_end += self.pending;
-        (self.pending, self.is_long) = (0, false);
+    fn ends(&mut self, now_ns: i64) {
+        if self.running.is_some() {
+            self.at_end_ns += now_ns - self.last_ns;
+            self.ended_ns = Some(now_ns);
+        }
+        (self.is_gap, self.is_long) = (false, false);
     }
 
     /// The session that runs at a time.
     fn session(&mut self, now_ns: i64, running: Option<i64>) {
-        if self.running == running {
-            return;
+        if self.running != running {
+            self.ends(now_ns);
+            self.running = running;
+            self.last_ns = now_ns;
         }
-        if self.running.is_some() {
-            self.ends();
-            self.ended_ns = Some(now_ns);
-        }
-        self.running = running;
-        self.last_ns = now_ns;
     }
 
     fn requested(&mut self, now_ns: i64) {
@@ -112,15 +114,23 @@ impl Share {
         self.pause_ns = self.pause_ns.into_iter().chain(pause_ns).min();
     }
 
-    fn cycle(&mut self, now_ns: i64, is_remote: bool, is_out: bool) {
+    fn cycle(&mut self, now_ns: i64, is_out: bool) {
+        let since_ns = now_ns - self.last_ns;
         if is_out {
-            let gap = if self.is_long { &mut self.in_long_gaps } else { &mut self.in_short_gaps };
-            *gap += self.pending;
-            (self.pending, self.is_long, self.last_ns) = (0, false, now_ns);
+            if self.is_gap {
+                let gaps_ns = if self.is_long {
+                    &mut self.in_long_gaps_ns
+                } else {
+                    &mut self.in_short_gaps_ns
+                };
+                *gaps_ns += since_ns;
+                self.longest_gap_ns = self.longest_gap_ns.max(since_ns);
+            }
+            (self.is_gap, self.is_long, self.last_ns) = (false, false, now_ns);
             self.with += 1;
-        } else if is_remote {
-            self.pending += 1;
-            self.is_long |= now_ns - self.last_ns > settings().requester.dt_max_ns;
+        } else if self.running.is_some() {
+            self.is_gap = true;
+            self.is_long |= since_ns > settings().requester.dt_max_ns;
         }
     }
 }
@@ -166,11 +176,14 @@ pub fn drive(profile: Profile, habit: &Habit, periods: i64) -> [Share; 2] {
         let oldest_ns = if habit.is_after { now_ns - PERIOD_NS } else { now_ns };
         let deeds = habit.now(sent);
         events(&mut monitor, &mut station, now_ns, deeds, &mut shares);
-        let mut is_out = [false; 2];
         for is_cycle in [habit.is_after, !habit.is_after] {
             if is_cycle {
                 let (tracks, points) = (&held.0.element, &held.1.element);
-                is_out = cycle(&mut monitor, &mut station, &still(now_ns), tracks, points);
+                let world = still(now_ns);
+                let is_out = cycle(&mut monitor, &mut station, &world, tracks, points);
+                for group in Group::ALL {
+                    shares[place(group)].cycle(now_ns, is_out[place(group)]);
+                }
             } else {
                 let new = data(&mut monitor, &mut station, now_ns, deeds, &mut sent);
                 held = (held.0.or(new.0, oldest_ns), held.1.or(new.1, oldest_ns));
@@ -178,16 +191,12 @@ pub fn drive(profile: Profile, habit: &Habit, periods: i64) -> [Share; 2] {
             }
         }
         for group in Group::ALL {
-            let share = &mut shares[place(group)];
-            // In the hardened profile the CAV's own service goes on until a result was used.
-            let is_remote = monitor.source(group) != Source::Local;
-            share.cycle(now_ns, is_remote, is_out[place(group)]);
             if monitor.requester().session_of(group).is_none() {
                 sent[place(group)] = 0;
             }
         }
     }
-    shares.iter_mut().for_each(Share::ends);
+    shares.iter_mut().for_each(|it| it.ends((periods - 1) * PERIOD_NS));
     shares
 }
 
