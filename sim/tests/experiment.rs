@@ -106,7 +106,7 @@ fn ids_differ_and_every_combination_is_there() {
     ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(cpu::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
-    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 18 * 2 * 4 + 3 * 4);
+    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4 + 3 * 4);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
     ids.sort();
     ids.dedup();

@@ -141,18 +141,29 @@ fn a_trajectory_in_the_running_session_that_leaves_the_road_is_caught_and_starts
     );
 }
 
-/// The next offer comes within half a second; the station is asked nine periods after its session ended.
+/// The next offer comes within half a second. Then the station is asked if its session was of use for nine
+/// periods; if not, when what was missing has passed, too.
 #[test]
-fn a_withdrawal_that_is_forged_lasts_for_nine_periods() {
-    let seen = while_somebody(|ms, by| {
-        if ms == 4_000 {
-            let forged = message(by, 1, 1, Payload::Withdraw);
-            by.say(VEHICLE, &forged);
-        }
-    });
-    assert_eq!(seen.vehicle.left["withdrawn"], 2);
-    let again = seen.offloaded_after(4_000);
-    assert!(again.is_some_and(|ms| (4_900..5_040).contains(&ms)), "{:?}", seen.changes);
+fn a_withdrawal_that_is_forged_lasts_until_the_next_offer_or_for_nine_periods_less_the_use() {
+    let clean = World::default().drive();
+    let began = clean.offloaded_after(0).expect("offloaded");
+    let ended = |at: i64| {
+        let seen = while_somebody(move |ms, by| {
+            if ms == at {
+                let forged = message(by, 1, 1, Payload::Withdraw);
+                by.say(VEHICLE, &forged);
+            }
+        });
+        assert_eq!(seen.vehicle.left["withdrawn"], 2);
+        let again = seen.offloaded_after(at).expect("offloaded again");
+        println!("began {began}, withdrawn {at}, again {again}, {:?}", seen.holds);
+        again
+    };
+    let again = ended(4_000);
+    assert!((4_000..4_640).contains(&again), "{again}");
+    let again = ended(began + 350);
+    let of_use = 300;
+    assert!((began + 350 + 900 - of_use..began + 350 + 1_040).contains(&again), "{again}");
 }
 
 #[test]

@@ -1,189 +1,54 @@
 //! A station that is of no use again and again takes the plan away for a tenth of the time at most
-//! (`spec/5-interfaces.md#monitor.10`, finding F-43).
+//! (`spec/5-interfaces.md#monitor.10`, finding F-43), and one whose session was of use for long is asked
+//! again at once.
 
-use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Accepted, Decision, Inputs, Message, Monitor, Settings};
-use mufasa::offloading::requester::{Groups, Source};
-use mufasa::services::configuration::Group;
+use mufasa::monitor::{Inputs, Monitor};
 
-use super::kit::{
-    Buffers, MS, Points, Station, Tracks, World, at, message, road, route, seconds, settings,
-};
+use super::habits::{Deed, Habit, PERIOD_NS, drive};
+use super::kit::{Buffers, MS, Station, World, at, look_around, road};
 
-const PERIOD_NS: i64 = 100 * MS;
 /// Ten minutes.
 const PERIODS: i64 = 6_000;
 
-/// What a station does in its sessions; each begins with so many results that are good.
-#[derive(Clone, Copy, Debug)]
-enum Habit {
-    Silent { good: usize },
-    Late { good: usize },
-    Ahead { good: usize },
-    Old { good: usize },
-    Withdraws { good: usize },
-    Useful,
+/// All that a station may do when it stops being of use.
+const ENDS: [&[Deed]; 8] = [
+    &[Deed::Silent],
+    &[Deed::Late],
+    &[Deed::Ahead(10)],
+    &[Deed::Old],
+    &[Deed::Withdraws],
+    &[Deed::Silent, Deed::Withdraws],
+    &[Deed::Lost],
+    &[Deed::Silent, Deed::Lost],
+];
+
+fn first_good(good: usize, end: &[Deed]) -> Habit {
+    Habit::of([&vec![Deed::Good; good], end].concat())
 }
 
-impl Habit {
-    fn good(self) -> usize {
-        match self {
-            Self::Silent { good }
-            | Self::Late { good }
-            | Self::Ahead { good }
-            | Self::Old { good }
-            | Self::Withdraws { good } => good,
-            Self::Useful => usize::MAX,
-        }
-    }
-}
-
-/// What came of it.
-#[derive(Debug, Default)]
-struct Share {
-    /// Periods in which the trajectory is the station's to give, and none comes out.
-    without: i64,
-    with: i64,
-    sessions: i64,
-    /// Least time from the end of a session to the next request.
-    pause_ns: Option<i64>,
-}
-
-/// What stands in a message of a habit, after its good results: ns by which it was made and stamped
-/// before its arrival; `None`: there is none.
-fn ages(habit: Habit, sent: usize) -> Option<(i64, i64)> {
-    match habit {
-        _ if sent < habit.good() => Some((0, 0)),
-        Habit::Silent { .. } | Habit::Withdraws { .. } => None,
-        Habit::Late { .. } => Some((51 * MS, 51 * MS)),
-        Habit::Ahead { .. } => Some((0, -1_000 * MS)),
-        Habit::Old { .. } => Some((0, 101 * MS)),
-        Habit::Useful => Some((0, 0)),
-    }
-}
-
-fn drive(profile: Profile, habit: Habit) -> Share {
-    let cross_sections = road();
-    let mut buffers = Buffers::new(16, 40);
-    let mut monitor = buffers.monitor(Settings { profile, ..settings() }).expect("a monitor");
-    monitor.set_route(&route(&cross_sections)).expect("a route");
-    let (mut station, mut share, mut sent) = (Station::default(), Share::default(), 0);
-    let mut ended_ns = None;
-    for i in 0..PERIODS {
-        let world = World { now_ns: i * PERIOD_NS, ..World::at(i % 20 * PERIOD_NS) };
-        let released = station.released;
-        let (tracks, points) =
-            events(&mut monitor, &mut station, &world, (profile, habit, &mut sent));
-        let is_out = cycle(&mut monitor, &mut station, &world, tracks.as_ref(), points.as_ref());
-        if station.released > released {
-            ended_ns = Some(world.now_ns);
-            sent = 0;
-        }
-        if !station.asked.is_empty() {
-            share.sessions += 1;
-            let pause_ns = ended_ns.map(|ended_ns| world.now_ns - ended_ns);
-            share.pause_ns = share.pause_ns.into_iter().chain(pause_ns).min();
-        }
-        share.with += i64::from(is_out);
-        // In the hardened profile the CAV's own planner goes on until a result was used.
-        share.without += i64::from(monitor.source(Group::Plan) != Source::Local && !is_out);
-    }
-    share
-}
-
-/// Offers, confirmations, the tick, and results.
-fn events(
-    monitor: &mut Monitor<'_>,
-    station: &mut Station,
-    world: &World,
-    (profile, habit, sent): (Profile, Habit, &mut usize),
-) -> (Tracks, Points) {
-    let now = at(world.now_ns);
-    if matches!(habit, Habit::Withdraws { good } if *sent > good) {
-        station.take(&monitor.withdraw(now, 1).expect("a station"));
-    }
-    station.take(&monitor.offer(now, 1, Groups::ALL).expect("a station"));
-    for (group, session) in std::mem::take(&mut station.asked) {
-        station.take(&monitor.confirm(now, 1, group, session).expect("a station"));
-    }
-    station.take(&monitor.tick(now));
-    let ages = ages(habit, *sent);
-    let [mot, plan] = station.sessions;
-    if mot.is_some() && plan.is_some() && station.asked.is_empty() {
-        *sent += 1;
-    }
-    let Some((made_ns, stamped_ns)) = ages.filter(|_| station.asked.is_empty()) else {
-        return (None, None);
-    };
-    let (generated, stamp) = (at(world.now_ns - made_ns), at(world.now_ns - stamped_ns));
-    let tracks = mot.and_then(|session| {
-        let mut items = world.tracks.clone();
-        // Tracks far from their detections are a failure. Only the hardened profile predicts them.
-        if profile == Profile::Hardened {
-            items.iter_mut().for_each(|it| it.x -= it.vx * seconds(stamped_ns));
-        }
-        let new = Message { stamp, ..message(session, generated, items) };
-        station.accepted(monitor.tracks(now, new).expect("a station"))
-    });
-    let points = plan.and_then(|session| {
-        let mut points = world.points.clone();
-        points.iter_mut().enumerate().for_each(|(i, it)| {
-            it.t_ns = world.now_ns + i64::try_from(i).expect("a few") * 100 * MS;
-        });
-        let new = Message { stamp, ..message(session, generated, points) };
-        station.accepted(monitor.trajectory(now, new).expect("a station"))
-    });
-    (tracks, points)
-}
-
-/// Whether a trajectory of the station comes out.
-fn cycle(
-    monitor: &mut Monitor<'_>,
-    station: &mut Station,
-    world: &World,
-    tracks: Option<&Accepted<Vec<Track>>>,
-    points: Option<&Accepted<Vec<TrajectoryPoint>>>,
-) -> bool {
-    let now = at(world.now_ns);
-    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-    if let Some(tracks) = tracks {
-        inputs = inputs.remote_tracks(tracks);
-    }
-    if let Some(points) = points {
-        inputs = inputs.remote_trajectory(points);
-    }
-    let (decision, actions) = monitor.cycle(&inputs);
-    let Decision::Safe { trajectory, .. } = decision else {
-        panic!("an unsafe cycle at {}", world.now_ns);
-    };
-    let is_out = trajectory.is_some_and(|it| it.source() != Source::Local);
-    station.take(&actions);
-    is_out
-}
-
-/// The bound of the rule, and that sessions begin again at all.
+/// The bound of the rule, and that sessions begin again at all. Some are of use for less than nine times
+/// as long as they are not then, some for as long, some for longer.
 #[test]
 fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
     for profile in [Profile::Paper, Profile::Hardened] {
-        for good in [0, 1, 2] {
-            for habit in [
-                Habit::Silent { good },
-                Habit::Late { good },
-                Habit::Ahead { good },
-                Habit::Old { good },
-                Habit::Withdraws { good },
-            ] {
-                let share = drive(profile, habit);
-                let least_ns = 9 * PERIOD_NS;
-                assert!(10 * share.without <= PERIODS, "{profile:?}, {habit:?}: {share:?}");
-                assert!(share.sessions > 50, "{profile:?}, {habit:?}: {share:?}");
-                let pause_ns = share.pause_ns.expect("more than one session");
-                assert!(pause_ns >= least_ns, "{profile:?}, {habit:?}: {share:?}");
-                assert!((share.with > 0) == (good > 0), "{profile:?}, {habit:?}: {share:?}");
-                println!("{profile:?}, {habit:?}: {share:?}");
+        let mut at_once = 0;
+        for good in [0, 1, 2, 5, 9, 10, 11, 19, 20, 37, 50, 100] {
+            for end in ENDS {
+                for share in drive(profile, &first_good(good, end), PERIODS) {
+                    let case = format!("{profile:?}, {good} good, {end:?}: {share:?}");
+                    assert!(10 * share.without_ns() <= PERIODS * PERIOD_NS, "{case}");
+                    assert!(share.sessions > 50, "{case}");
+                    assert!((share.with > 0) == (good > 0), "{case}");
+                    // Not before nine periods, less the time from the first good result to the last one.
+                    let used = i64::try_from(good).expect("a few").max(1) - 1;
+                    let pause_ns = share.pause_ns.expect("more than one session");
+                    assert!(pause_ns >= (9 - used) * PERIOD_NS, "{case}");
+                    at_once += u64::from(pause_ns == 0);
+                }
             }
         }
+        assert!(at_once > 20, "{profile:?}: {at_once} are asked in the period of their end");
     }
 }
 
@@ -191,8 +56,107 @@ fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
 #[test]
 fn a_station_of_use_is_kept() {
     for profile in [Profile::Paper, Profile::Hardened] {
-        let share = drive(profile, Habit::Useful);
-        assert_eq!((share.sessions, share.without), (1, 0), "{profile:?}: {share:?}");
-        assert!(share.with > PERIODS - 10, "{profile:?}: {share:?}");
+        for share in drive(profile, &Habit::of(vec![Deed::Good]), PERIODS) {
+            assert_eq!((share.sessions, share.without_ns()), (1, 0), "{profile:?}: {share:?}");
+            assert!(share.with > PERIODS - 10, "{profile:?}: {share:?}");
+        }
+    }
+}
+
+/// Good results in each period from the first to the last, which may be any time after the one before it;
+/// then none.
+fn of_use(monitor: &mut Monitor<'_>, station: &mut Station, first_ns: i64, last_ns: i64) {
+    let periods = (first_ns - PERIOD_NS..last_ns).step_by(100 * 1_000_000);
+    for now_ns in periods.chain([last_ns]) {
+        let world = World::at(now_ns);
+        let (tracks, points) = station.period(monitor, &world);
+        let now = at(now_ns);
+        let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+        if let (Some(tracks), Some(points)) = (&tracks, &points) {
+            inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
+        }
+        let is_used = tracks.is_some() && points.is_some();
+        assert_eq!(is_used, now_ns >= first_ns, "{now_ns}");
+        station.take(&monitor.cycle(&inputs).1);
+    }
+}
+
+/// What is left of the wait after a session that was of use and then not, ns, when it is withdrawn.
+fn left(used_ns: i64, unused_ns: i64) -> Option<i64> {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = Station::default();
+    let (first_ns, last_ns) = (PERIOD_NS, PERIOD_NS + used_ns);
+    of_use(&mut monitor, &mut station, first_ns, last_ns);
+    let before = monitor.requester().hold_until_ns();
+    let end_ns = last_ns + unused_ns;
+    station.take(&monitor.withdraw(at(end_ns), 1).expect("a station"));
+    assert_eq!(station.released, 2);
+    let until_ns = monitor.requester().hold_until_ns();
+    if until_ns == before {
+        // Nothing is left: the next tick asks.
+        ask(&mut monitor, &mut station, end_ns, 2);
+        return None;
+    }
+    let until_ns = until_ns.expect("a hold");
+    look_around(&mut monitor, until_ns - 1, World::at);
+    ask(&mut monitor, &mut station, until_ns - 1, 0);
+    ask(&mut monitor, &mut station, until_ns, 2);
+    Some(until_ns - end_ns)
+}
+
+/// An offer and a tick, and how many groups it asks for.
+fn ask(monitor: &mut Monitor<'_>, station: &mut Station, now_ns: i64, requests: usize) {
+    use mufasa::offloading::requester::Groups;
+
+    station.take(&monitor.offer(at(now_ns), 1, Groups::ALL).expect("a station"));
+    station.take(&monitor.tick(at(now_ns)));
+    assert_eq!(station.asked.len(), requests, "{now_ns}");
+}
+
+/// Of use for 1 s, and then 100 ms without: no wait; for exactly nine times as long: none; 1 ns less: 1 ns.
+/// Less than a period without counts as a period.
+#[test]
+fn the_time_of_use_is_taken_from_the_wait_to_the_nanosecond() {
+    for (used_ns, unused_ns, left_ns) in [
+        (1_000 * MS, 100 * MS, None),
+        (900 * MS, 100 * MS, None),
+        (900 * MS - 1, 100 * MS, Some(1)),
+        (900 * MS, 100 * MS + 1, Some(9)),
+        (900 * MS, 0, None),
+        (900 * MS, 100 * MS - 1, None),
+        (900 * MS - 1, 0, Some(1)),
+        (1_080 * MS, 120 * MS, None),
+        (1_080 * MS - 1, 120 * MS, Some(1)),
+        (500 * MS, 100 * MS, Some(400 * MS)),
+        (0, 100 * MS, Some(900 * MS)),
+        (0, 0, Some(900 * MS)),
+    ] {
+        assert_eq!(left(used_ns, unused_ns), left_ns, "{used_ns} ns of use, {unused_ns} without");
+    }
+}
+
+/// A clock set back by seconds leaves the time of use as it was, and that without counts from there.
+#[test]
+fn a_clock_set_back_leaves_the_time_of_use() {
+    for (used_ns, wait_ns) in [(900 * MS, 0), (900 * MS - 1, 1), (0, 900 * MS)] {
+        let cross_sections = road();
+        let mut buffers = Buffers::new(16, 40);
+        let mut monitor = buffers.on(&cross_sections);
+        let mut station = Station::default();
+        let (first_ns, last_ns) = (PERIOD_NS, PERIOD_NS + used_ns);
+        of_use(&mut monitor, &mut station, first_ns, last_ns);
+        let back_ns = last_ns - 3_000 * MS;
+        let world = World::at(back_ns);
+        let inputs = Inputs::new(at(back_ns), world.ego);
+        assert!(monitor.cycle(&inputs.detections(at(back_ns), &world.detections)).1.is_empty());
+        let before = monitor.requester().hold_until_ns();
+        let end_ns = back_ns + 100 * MS;
+        station.take(&monitor.withdraw(at(end_ns), 1).expect("a station"));
+        assert_eq!(station.released, 2);
+        let until = monitor.requester().hold_until_ns();
+        let expected = if wait_ns > 0 { Some(end_ns + wait_ns) } else { before };
+        assert_eq!(until, expected, "{used_ns} ns of use");
     }
 }

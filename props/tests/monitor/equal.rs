@@ -10,15 +10,13 @@ use mufasa::offloading::requester::{
     Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
 };
 use mufasa::services::configuration::Configuration;
-use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
-use mufasa_props::strategy::whole;
 
 use super::held::{Held, choose};
-use super::kit::{Buffers, MS, at, place, road, settings};
+use super::kit::{Buffers, MS, at, place, settings};
 use super::plain::{Own, Plain, Received};
-use super::scene::{Base, inputs, same};
+use super::scene::{Base, Start, inputs, same, start};
 use super::seen::{Seen, starved};
 
 /// Both sides, and what came to the monitor.
@@ -34,6 +32,8 @@ struct Pair<'a, 'd, 't> {
     fallbacks: u32,
     /// For how many periods still stamps are so far ahead, and cycles so late.
     habit: (usize, i64, i64),
+    /// How much rarer what is odd about messages and cycles is: long sessions are of use for long.
+    calm: usize,
 }
 
 /// Stamps ahead of the cycle that comes with them, of the next one too, of every one; or too old by a
@@ -80,17 +80,17 @@ impl Pair<'_, '_, '_> {
             | GroupState::Requested { station, session, .. } => (station, session),
             GroupState::Local => (1, self.plain.requester.sessions()),
         };
-        if self.draw.one_in(12) {
+        if self.draw.one_in(12 * self.calm) {
             session = self.draw.pick(&[session - 1, session + 1, 1]);
         }
-        let age_ns = if self.draw.one_in(20) {
+        let age_ns = if self.draw.one_in(20 * self.calm) {
             self.draw.pick(&[10 * MS, 50 * MS, 51 * MS, -1, 120 * MS])
         } else {
             0
         };
         let generated_ns = self.now_ns.saturating_sub(age_ns);
         let scene = self.base.scene(self.now_ns);
-        let stale_ns = if self.draw.one_in(20) {
+        let stale_ns = if self.draw.one_in(20 * self.calm) {
             self.draw.pick(&[-1, 0, 100 * MS, 100 * MS + 1, 1_000 * MS])
         } else {
             0
@@ -101,7 +101,7 @@ impl Pair<'_, '_, '_> {
         match group {
             Group::Mot => {
                 let (stamp_ns, mut items) = scene.tracks.unwrap_or((self.now_ns, Vec::new()));
-                if self.draw.one_in(12) {
+                if self.draw.one_in(12 * self.calm) {
                     let off = self.draw.pick(&[3.0, 0.3, f64::NAN]);
                     items.iter_mut().for_each(|track| track.x += off);
                 }
@@ -111,7 +111,7 @@ impl Pair<'_, '_, '_> {
             }
             Group::Plan => {
                 let (stamp_ns, mut items) = scene.points.unwrap_or((self.now_ns, Vec::new()));
-                if self.draw.one_in(12) {
+                if self.draw.one_in(12 * self.calm) {
                     items.truncate(self.draw.below(3));
                 }
                 let stamp_ns = stamp(stamp_ns);
@@ -153,13 +153,13 @@ impl Pair<'_, '_, '_> {
     fn cycle(&mut self, seen: &mut Seen) {
         let draw = &mut self.draw;
         let mut scene = self.base.scene(self.now_ns);
-        if draw.one_in(40) {
+        if draw.one_in(40 * self.calm) {
             scene.ego.speed = draw.pick(&[f64::NAN, -1.0]);
         }
-        if draw.one_in(10) {
+        if draw.one_in(10 * self.calm) {
             scene.detections = None;
         }
-        if draw.one_in(10) {
+        if draw.one_in(10 * self.calm) {
             scene.points = None;
         }
         let (tracks, points) = (choose(draw, &self.tracks), choose(draw, &self.points));
@@ -246,7 +246,11 @@ impl Pair<'_, '_, '_> {
         if self.habit.0 == 0 {
             let (ahead_ns, late_ns) = self.draw.pick(&HABITS);
             let periods = 2 + self.draw.below(5);
-            self.habit = if self.draw.one_in(8) { (periods, ahead_ns, late_ns) } else { (0, 0, 0) };
+            self.habit = if self.draw.one_in(8 * self.calm) {
+                (periods, ahead_ns, late_ns)
+            } else {
+                (0, 0, 0)
+            };
         } else {
             self.habit.0 -= 1;
         }
@@ -309,21 +313,7 @@ fn as_the_plain_calls(profile: Profile) {
     let seen = RefCell::new(Seen::default());
     let result = runner().run(&(tape(), long_tape()), |(scene, steps)| {
         let draw = &mut Draw::new(&scene);
-        let (base, closed, cross_sections, start_ns, stages) = if draw.one_in(2) {
-            (Base::Road, false, road(), 0, settings().stages)
-        } else {
-            let model_profile = match profile {
-                Profile::Paper => mufasa_model::input::cycle::Profile::Paper,
-                Profile::Hardened => mufasa_model::input::cycle::Profile::Hardened,
-            };
-            let mut cycle = whole::cycle(draw, model_profile);
-            cycle.detection_history.clear();
-            let owned = to_impl(&cycle);
-            let it = owned.borrow(&[]);
-            let (closed, sections) = (it.route.closed, it.route.cross_sections.to_vec());
-            let (now_ns, stages) = (it.now_ns, it.parameters);
-            (Base::Still(Box::new(owned)), closed, sections, now_ns, stages)
-        };
+        let Start { base, closed, cross_sections, now_ns, stages } = start(draw, profile);
         let mut buffers = Buffers::new(600, cross_sections.len());
         let mut settings = Settings { profile, stages, ..settings() };
         settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
@@ -336,10 +326,21 @@ fn as_the_plain_calls(profile: Profile) {
         let mut table = vec![StationRecord::FREE; 8];
         let plain = Plain::new(settings, &mut table);
         let (tracks, points) = (Vec::new(), Vec::new());
-        let (draw, fallbacks, habit) = (Draw::new(&steps), 0, (0, 0, 0));
-        let (now_ns, base) = (start_ns, &base);
-        let mut pair =
-            Pair { monitor, plain, base, route, draw, now_ns, tracks, points, fallbacks, habit };
+        let calm = if draw.one_in(3) { 20 } else { 1 };
+        let (base, draw, fallbacks, habit) = (&base, Draw::new(&steps), 0, (0, 0, 0));
+        let mut pair = Pair {
+            monitor,
+            plain,
+            base,
+            route,
+            draw,
+            now_ns,
+            tracks,
+            points,
+            fallbacks,
+            habit,
+            calm,
+        };
         let seen = &mut *seen.borrow_mut();
         pair.event(EventKind::Offer { station: 1, groups: Groups::ALL }, seen);
         for _ in 0..40 {
@@ -372,6 +373,7 @@ fn as_the_plain_calls(profile: Profile) {
                 _ => pair.period(seen),
             }
         }
+        seen.add(pair.plain.waits);
         Ok(())
     });
     let seen = seen.into_inner();

@@ -6,6 +6,8 @@ mod again;
 mod dropped;
 mod early;
 mod equal;
+mod game;
+mod habits;
 mod held;
 mod kit;
 mod limits;

@@ -60,6 +60,18 @@ pub struct Plain<'a> {
     /// Of the running sessions.
     pub service: [Option<Service>; 2],
     kept: Vec<(i64, Vec<Detection>)>,
+    pub waits: Waits,
+}
+
+/// How many sessions ended with which wait, none behind a longer hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Waits {
+    /// Nothing to take from it.
+    pub whole: u64,
+    /// Less the time of use.
+    pub shortened: u64,
+    /// Nothing left.
+    pub none: u64,
 }
 
 /// What a session has been good for.
@@ -68,6 +80,8 @@ pub struct Service {
     pub session: i64,
     /// The last cycle with a current element; before the first one the confirmation.
     since_ns: i64,
+    /// The first cycle with a current element, by the clock of the last one.
+    first_ns: Option<i128>,
     /// As the last cycle left it.
     pub starved: bool,
 }
@@ -78,7 +92,8 @@ impl<'a> Plain<'a> {
         let mut parts = fresh.expect("a requester").suspend().parts();
         parts.sessions = settings.sessions_before;
         let requester = Requester::resume(Suspended::from_parts(&parts), table);
-        Self { settings, requester, last: [None; 2], service: [None; 2], kept: Vec::new() }
+        let (last, service, kept) = ([None; 2], [None; 2], Vec::new());
+        Self { settings, requester, last, service, kept, waits: Waits::default() }
     }
 
     /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
@@ -117,8 +132,9 @@ impl<'a> Plain<'a> {
             let service = &mut self.service[place(group)];
             let running = self.requester.session_of(group).map(|it| it.session);
             if service.map(|it| it.session) != running {
-                *service =
-                    running.map(|session| Service { session, since_ns: t_ns, starved: false });
+                let fresh =
+                    |session| Service { session, since_ns: t_ns, first_ns: None, starved: false };
+                *service = running.map(fresh);
             }
         }
         actions
@@ -145,13 +161,24 @@ impl<'a> Plain<'a> {
         Group::ALL.into_iter().filter(ends).collect()
     }
 
-    /// After a session: nine times as long as it was of no use, and at least nine periods.
+    /// After a session: nine times as long as it was of no use, of which a period is the least, less the
+    /// time that it was of use.
     fn hold(&mut self, t_ns: i64, group: Group) {
-        let since_ns = self.service[place(group)].expect("a running session").since_ns;
-        let unused_ns = i128::from(t_ns) - i128::from(since_ns);
+        let service = self.service[place(group)].expect("a running session");
+        let [t_ns, last_ns] = [t_ns, service.since_ns].map(i128::from);
         let least_ns = i128::try_from(self.settings.period.as_nanos()).expect("a period");
-        let until_ns = i128::from(t_ns) + 9 * unused_ns.max(least_ns);
-        self.requester.hold(i64::try_from(until_ns).unwrap_or(i64::MAX));
+        let unused_ns = (t_ns - last_ns).max(least_ns);
+        let used_ns = service.first_ns.map_or(0, |first_ns| last_ns - first_ns);
+        let wait_ns = 9 * unused_ns - used_ns;
+        let before_ns = self.requester.hold_until_ns().map(i128::from);
+        if wait_ns > 0 {
+            let until_ns = i64::try_from(t_ns + wait_ns).unwrap_or(i64::MAX);
+            self.requester.hold(until_ns);
+        }
+        let counts = before_ns.is_none_or(|before_ns| before_ns < t_ns + wait_ns.max(1));
+        self.waits.whole += u64::from(counts && used_ns == 0);
+        self.waits.shortened += u64::from(counts && used_ns > 0 && wait_ns > 0);
+        self.waits.none += u64::from(counts && wait_ns <= 0);
     }
 
     /// A cycle looked at its groups, and this is what was current of the remote ones.
@@ -159,7 +186,14 @@ impl<'a> Plain<'a> {
         let dt_max_ns = i128::from(self.settings.requester.dt_max_ns);
         for (service, is_current) in self.service.iter_mut().zip(is_current) {
             let Some(service) = service else { continue };
-            if is_current || now_ns < service.since_ns {
+            if now_ns < service.since_ns {
+                // The clock was set back, and with it what it has shown.
+                let back_ns = i128::from(service.since_ns) - i128::from(now_ns);
+                service.first_ns = service.first_ns.map(|first_ns| first_ns - back_ns);
+                service.since_ns = now_ns;
+            }
+            if is_current {
+                service.first_ns.get_or_insert(i128::from(now_ns));
                 service.since_ns = now_ns;
             }
             let since_ns = i128::from(now_ns) - i128::from(service.since_ns);

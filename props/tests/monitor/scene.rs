@@ -1,11 +1,15 @@
 //! What the CAV has of its own in a sequence of cycles, for both sides.
 
-use mufasa::input::cycle::{Detection, Ego, Grid, Lead, Track, TrajectoryPoint};
+use mufasa::input::cycle::{CrossSection, Detection, Ego, Grid, Lead, Track, TrajectoryPoint};
+use mufasa::input::parameters::Parameters;
+use mufasa::input::profile::Profile;
 use mufasa::monitor::{Gap, GridMap, Inputs};
 use mufasa::report::{InvalidInput, Outcome, Report, Witness};
-use mufasa_props::bridge::Owned;
+use mufasa_props::bridge::{Owned, to_impl};
+use mufasa_props::strategy::draw::Draw;
+use mufasa_props::strategy::whole;
 
-use super::kit::{World, at};
+use super::kit::{World, at, road, settings};
 use super::plain::Own;
 
 /// What is around at a time.
@@ -22,6 +26,34 @@ pub struct Scene<'c> {
 pub enum Base {
     Still(Box<Owned>),
     Road,
+}
+
+/// Where a sequence begins.
+pub struct Start {
+    pub base: Base,
+    pub closed: bool,
+    pub cross_sections: Vec<CrossSection>,
+    pub now_ns: i64,
+    pub stages: Parameters,
+}
+
+/// On the road, or in a cycle of the generators.
+pub fn start(draw: &mut Draw<'_>, profile: Profile) -> Start {
+    if draw.one_in(2) {
+        let (cross_sections, stages) = (road(), settings().stages);
+        return Start { base: Base::Road, closed: false, cross_sections, now_ns: 0, stages };
+    }
+    let model_profile = match profile {
+        Profile::Paper => mufasa_model::input::cycle::Profile::Paper,
+        Profile::Hardened => mufasa_model::input::cycle::Profile::Hardened,
+    };
+    let mut cycle = whole::cycle(draw, model_profile);
+    cycle.detection_history.clear();
+    let owned = to_impl(&cycle);
+    let it = owned.borrow(&[]);
+    let (closed, cross_sections) = (it.route.closed, it.route.cross_sections.to_vec());
+    let (now_ns, stages) = (it.now_ns, it.parameters);
+    Start { base: Base::Still(Box::new(owned)), closed, cross_sections, now_ns, stages }
 }
 
 impl Base {

@@ -5,7 +5,7 @@ use mufasa::offloading::requester::{Group, Sessions};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::place;
-use super::plain::{Ended, Plain};
+use super::plain::{Ended, Plain, Waits};
 
 /// What the sequences reached.
 #[derive(Debug, Default)]
@@ -31,6 +31,8 @@ pub struct Seen {
     pub recovered: u64,
     /// Starved until a clock was set back.
     pub set_back: u64,
+    /// Sessions by the wait after them.
+    pub waits: Waits,
 }
 
 /// The sessions that are starved.
@@ -69,6 +71,13 @@ impl Seen {
         }
     }
 
+    /// What one sequence ended in.
+    pub const fn add(&mut self, waits: Waits) {
+        self.waits.whole += waits.whole;
+        self.waits.shortened += waits.shortened;
+        self.waits.none += waits.none;
+    }
+
     /// Every case was reached often enough.
     pub fn is_enough(&self, profile: Profile) {
         let &Self { cycles, safe, errors, unsafe_while_remote, tracks, .. } = self;
@@ -85,6 +94,10 @@ impl Seen {
         let starved = [starved_ahead, starved_old, starved_and_dropped, starved_and_left];
         for count in starved.into_iter().chain([starved_and_late, recovered, set_back]) {
             assert!(2_000 * count >= cycles && count >= 5, "starved groups: {self:?}");
+        }
+        let Waits { whole, shortened, none } = self.waits;
+        for count in [whole, shortened, none] {
+            assert!(2_000 * count >= cycles && count >= 5, "waits: {self:?}");
         }
     }
 }

@@ -65,6 +65,7 @@ const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
 #[derive(Clone, Copy, Debug, Default)]
 struct Served {
     session: Option<i64>,
+    first_ns: Option<i64>,
     last_ns: i64,
     is_starved: bool,
 }
@@ -83,8 +84,8 @@ pub struct Rules<'a> {
     /// Which group runs where.
     pub(super) requester: Requester<'a>,
     route: (bool, Vec<CrossSection>),
-    /// For either group: the session that runs, since when no cycle had anything current of it, ns, and
-    /// whether that is too long (F-43).
+    /// For either group: the session that runs, its first cycle with anything current, since when no cycle
+    /// had any, ns, and whether that is too long (F-43).
     served: [Served; 2],
     /// The CAV's own detections of the last second, the oldest first.
     seen: VecDeque<(i64, Vec<Detection>)>,
@@ -137,14 +138,17 @@ impl<'a> Rules<'a> {
         for (served, group) in self.served.into_iter().zip(Group::ALL) {
             if self.ends(group, &event)? {
                 let unused_ns = (t_ns - served.last_ns).max(self.period_ns);
-                self.requester.hold(t_ns + 9 * unused_ns);
+                let used_ns = served.first_ns.map_or(0, |first_ns| served.last_ns - first_ns);
+                if 9 * unused_ns > used_ns {
+                    self.requester.hold(t_ns + 9 * unused_ns - used_ns);
+                }
             }
         }
         let actions = self.requester.step(&event)?.to_vec();
         for (served, group) in self.served.iter_mut().zip(Group::ALL) {
             let session = self.requester.session_of(group).map(|it| it.session);
             if served.session != session {
-                *served = Served { session, last_ns: t_ns, is_starved: false };
+                *served = Served { session, first_ns: None, last_ns: t_ns, is_starved: false };
             }
         }
         Ok(actions)
@@ -256,7 +260,10 @@ impl<'a> Rules<'a> {
             .map(|stamp_ns| stamp_ns.is_some_and(|it| is_current(&it)));
         let dt_max_ns = self.requester_parameters.dt_max_ns;
         for (served, has_current) in self.served.iter_mut().zip(has_current) {
-            served.last_ns = if has_current { t_ns } else { served.last_ns };
+            if has_current {
+                served.first_ns.get_or_insert(t_ns);
+                served.last_ns = t_ns;
+            }
             served.is_starved = t_ns - served.last_ns > dt_max_ns;
         }
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;

@@ -16,7 +16,7 @@ use crate::services::way::seconds;
 
 /// Its name.
 pub const NAME: &str = "availability";
-/// A few scenarios of each of 36 combinations.
+/// A few scenarios of each of 46 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
 
 /// What is set.
@@ -33,14 +33,16 @@ pub enum Factor {
     PositionM,
     /// Mean of what comes on top of a message's least latency, ms.
     JitterMs,
+    /// Share of the messages that never arrive, in both directions.
+    Loss,
     /// The wait after a failure, s.
     TWaitS,
 }
 
 impl Factor {
     /// All.
-    pub const ALL: [Self; 5] =
-        [Self::Missed, Self::Clutter, Self::PositionM, Self::JitterMs, Self::TWaitS];
+    pub const ALL: [Self; 6] =
+        [Self::Missed, Self::Clutter, Self::PositionM, Self::JitterMs, Self::Loss, Self::TWaitS];
 
     /// Its name in tables and files.
     pub const fn name(self) -> &'static str {
@@ -49,6 +51,7 @@ impl Factor {
             Self::Clutter => "clutter",
             Self::PositionM => "position-m",
             Self::JitterMs => "jitter-ms",
+            Self::Loss => "loss",
             Self::TWaitS => "t-wait-s",
         }
     }
@@ -60,6 +63,7 @@ impl Factor {
             Self::Clutter => &[0.0, 0.1, 1.0],
             Self::PositionM => &[0.02, 0.05, 0.1, 0.2],
             Self::JitterMs => &[0.0, 2.0, 5.0, 10.0],
+            Self::Loss => &[0.0, 0.001, 0.01, 0.05, 0.1],
             Self::TWaitS => &[1.0, 10.0, 60.0],
         }
     }
@@ -72,6 +76,7 @@ impl Factor {
             Self::Clutter => settings.errors.clutter = value,
             Self::PositionM => settings.errors.position = value,
             Self::JitterMs => settings.radio.jitter_ns = ns(value / 1e3),
+            Self::Loss => settings.radio.loss = value,
             Self::TWaitS => settings.requester.t_wait_ns = ns(value),
         }
     }

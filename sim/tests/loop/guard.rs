@@ -99,7 +99,7 @@ fn nothing_of_an_ended_session_is_used() {
         let decided = decide(&mut guard, from);
         assert!(decided.trajectory.is_some(), "{variant:?}: of the running session: {decided:?}");
 
-        // And again nine periods after a session.
+        // And again nine periods after a session that was of use in one cycle.
         guard.happens(7 * PERIOD, EventKind::Lost { station: STATION }).expect("a loss");
         for at in 7..16 {
             assert!(decide(&mut guard, at * PERIOD).is_safe, "{variant:?}");
@@ -111,5 +111,14 @@ fn nothing_of_an_ended_session_is_used() {
         assert!(actions.contains(&Action::Drop(Group::Plan)), "{variant:?}: {actions:?}");
         let decided = decide(&mut guard, from);
         assert_eq!(decided.trajectory, None, "{variant:?}: of an ended session");
+
+        // And at once after one that was of use for nine periods.
+        for at in (17..=26).map(|i| i * PERIOD) {
+            guard.trajectory(at, trajectory(second, at)).expect("a station");
+            assert!(decide(&mut guard, at).trajectory.is_some(), "{variant:?}: at {at}");
+        }
+        let from = 27 * PERIOD;
+        guard.happens(from, EventKind::Lost { station: STATION }).expect("a loss");
+        assert_ne!(begin(&mut guard, from), second);
     }
 }
