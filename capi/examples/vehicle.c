@@ -1,4 +1,4 @@
-/* A vehicle loop at 10 Hz around the monitor, with a stand-in for the road and for a station. From 4 s to 5 s
+/* A vehicle loop at 20 Hz around the monitor, with a stand-in for the road and for a station. From 4 s to 5 s
  * the station's tracks are 3 m aside: the monitor falls back to the local services, waits t_wait, and
  * offloads again. Compiles as C and as C++. */
 #include <stdio.h>
@@ -8,6 +8,11 @@
 #include "mufasa.h"
 
 #define MS INT64_C(1000000)
+/* As docs/configuration.md advises: 100 ms would be all of tau, with nothing left for the check and the brake (A-07),
+ * and would need a larger dt_max, which has to be above the period. */
+#define PERIOD_MS 50
+#define SECOND (1000 / PERIOD_MS) /* cycles */
+#define CYCLES (20 * SECOND)
 #define CARS 2
 #define POINTS 30
 #define CROSS_SECTIONS 31
@@ -44,8 +49,7 @@ static void step(struct MufasaMonitor *monitor, struct MufasaEvent event) {
 }
 
 static struct MufasaMonitor *make_monitor(void) {
-  struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(100 * MS);
-  settings.requester.dt_max_ns = 150 * MS; /* above the period: 100 ms, the default, is refused */
+  struct MufasaMonitorSettings settings = mufasa_monitor_settings_default(PERIOD_MS * MS);
   settings.most_detections = 16;
   struct MufasaMonitor *monitor;
   const size_t bytes = mufasa_monitor_bytes(&settings);
@@ -128,8 +132,8 @@ int main(void) {
   if (mufasa_version() != version) return 2; /* another header than that of the library */
   struct MufasaMonitor *monitor = make_monitor();
   size_t offloaded = 0;
-  for (int cycle = 0; cycle < 200; ++cycle) {
-    const struct MufasaTime now = mufasa_time_from_milliseconds(100 * cycle);
+  for (int cycle = 0; cycle < CYCLES; ++cycle) {
+    const struct MufasaTime now = mufasa_time_from_milliseconds(PERIOD_MS * cycle);
     struct MufasaEvent event;
     memset(&event, 0, sizeof event);
     event.t = now, event.station = 1;
@@ -150,14 +154,14 @@ int main(void) {
     step(monitor, event);
 
     struct world w;
-    look(&w, now, cycle >= 40 && cycle < 50 ? 3.0 : 0.0);
+    look(&w, now, cycle >= 4 * SECOND && cycle < 5 * SECOND ? 3.0 : 0.0);
     receive(monitor, now, &w);
 
     /* The one way to what the station sent. */
     struct MufasaDecision decision;
     check(mufasa_monitor_cycle(monitor, now, &w.inputs, &decision), "a cycle");
     if (decision.report.verdict != MUFASA_VERDICT_SAFE) {
-      printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.1 * cycle,
+      printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.001 * PERIOD_MS * cycle,
              (int)decision.report.failed_stage);
       ++fallbacks;
     }
@@ -166,7 +170,7 @@ int main(void) {
     if (decision.trajectory != NULL) ++offloaded;
     take(&decision.actions);
   }
-  printf("%zu of 200 cycles offloaded, %zu fallback\n", offloaded, fallbacks);
+  printf("%zu of %d cycles offloaded, %zu fallback\n", offloaded, CYCLES, fallbacks);
   free(monitor);
-  return fallbacks == 1 && offloaded > 80 ? 0 : 1;
+  return fallbacks == 1 && offloaded > 160 ? 0 : 1;
 }

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use mufasa_model::input::cycle::Cycle;
 
+use crate::readers::error::ReadError;
+
 /// A sequence of cycles with its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
@@ -45,8 +47,10 @@ pub struct Stream {
     /// As of a [`Drive`].
     pub notes: Vec<String>,
     count: usize,
-    make: Arc<dyn Fn(usize) -> DriveCycle + Send + Sync>,
+    make: Arc<Make>,
 }
+
+type Make = dyn Fn(usize) -> Result<DriveCycle, ReadError> + Send + Sync;
 
 impl Stream {
     /// A drive of `count` cycles. `make` makes that of an index below it, the same every time.
@@ -55,6 +59,16 @@ impl Stream {
         source: String,
         count: usize,
         make: impl Fn(usize) -> DriveCycle + Send + Sync + 'static,
+    ) -> Self {
+        Self::fallible(name, source, count, move |index| Ok(make(index)))
+    }
+
+    /// As [`Self::new`], of cycles that may be lost before they are made, as with the disk that they are on.
+    pub fn fallible(
+        name: String,
+        source: String,
+        count: usize,
+        make: impl Fn(usize) -> Result<DriveCycle, ReadError> + Send + Sync + 'static,
     ) -> Self {
         let make = Arc::new(make);
         Self { name, source, lead_range_m: 0.0, notes: Vec::new(), count, make }
@@ -65,21 +79,21 @@ impl Stream {
         self.count
     }
 
-    /// The cycle of an index below [`Self::count`], made now.
-    pub fn cycle(&self, index: usize) -> DriveCycle {
+    /// The cycle of an index below [`Self::count`], made now. Errors: what it is made of cannot be read again.
+    pub fn cycle(&self, index: usize) -> Result<DriveCycle, ReadError> {
         (self.make)(index)
     }
 
-    /// The cycles in their order, each made when it is asked for.
-    pub fn cycles(&self) -> impl Iterator<Item = DriveCycle> + '_ {
+    /// The cycles in their order, each made when it is asked for. Errors: as of [`Self::cycle`].
+    pub fn cycles(&self) -> impl Iterator<Item = Result<DriveCycle, ReadError>> + '_ {
         (0..self.count).map(|index| self.cycle(index))
     }
 
-    /// The drive with all its cycles at once.
-    pub fn collect(self) -> Drive {
-        let cycles = self.cycles().collect();
+    /// The drive with all its cycles at once. Errors: as of [`Self::cycle`].
+    pub fn collect(self) -> Result<Drive, ReadError> {
+        let cycles = self.cycles().collect::<Result<_, _>>()?;
         let Self { name, source, lead_range_m, notes, .. } = self;
-        Drive { name, source, lead_range_m, cycles, notes }
+        Ok(Drive { name, source, lead_range_m, cycles, notes })
     }
 }
 

@@ -11,6 +11,7 @@ pub mod pictures;
 pub mod progress;
 pub mod readers;
 mod recording;
+mod temporary;
 
 pub use attacks::error::InjectError;
 pub use attacks::inject;

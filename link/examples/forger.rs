@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("give the address of a broker, and for how many seconds".into());
     };
     let rounds = seconds.parse::<u32>()?.saturating_mul(100);
-    let frame = Played::new(demo(&Options::default())?.collect())?.frame()?;
+    let frame = Played::new(demo(&Options::default())?.collect()?)?.frame()?;
     let clock = SharedClock::new()?;
     let mut broker = Amqp::new(url, Address::Vehicle(4_294_967_295))?;
     let (vehicle, station) = (Address::Vehicle(1), Address::Station(1));

@@ -214,7 +214,7 @@ mod tests {
     use super::*;
 
     fn demo() -> Drive {
-        mufasa_drives::demo(&Options::default()).unwrap().collect()
+        mufasa_drives::demo(&Options::default()).unwrap().collect().unwrap()
     }
 
     #[test]

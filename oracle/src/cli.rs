@@ -9,7 +9,7 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -131,7 +131,9 @@ pub fn main() -> ExitCode {
         }
         Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
-        Command::Vectors(arguments) => vectors(&arguments.out, &mut out),
+        Command::Vectors(VectorsArguments { out: folder }) => {
+            vectors(&folder_or(folder, "vectors"), &mut out)
+        }
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
         Command::Evaluate(arguments) => evaluate::run(&arguments, &mut out, &mut io::stderr()),
@@ -148,8 +150,10 @@ pub fn main() -> ExitCode {
             clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
             Ok(0)
         }
-        Command::Man(ManArguments { out: folder }) => man(&folder, &mut out),
-        Command::Schemas(SchemasArguments { out: folder }) => schemas(&folder, &mut out),
+        Command::Man(ManArguments { out: folder }) => man(&folder_or(folder, "man"), &mut out),
+        Command::Schemas(SchemasArguments { out: folder }) => {
+            schemas(&folder_or(folder, "schemas"), &mut out)
+        }
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -180,6 +184,9 @@ fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
         Ok(parameters) => parameters.unwrap_or_default(),
         Err(error) => return Ok(refused(&error.to_string())),
     };
+    if let Some(note) = &parameters.note {
+        complain(&mut io::stderr(), note);
+    }
     if let Some(folder) = &arguments.svg
         && let Err(error) = files::prepare(folder)
     {
@@ -316,6 +323,15 @@ fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
         }
     })?;
     Ok(stop)
+}
+
+/// The folder that is to be written, which is said first where nobody named it.
+fn folder_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
+    named.unwrap_or_else(|| {
+        let note = format!("writes into {usual}/; --out names another folder");
+        complain(&mut io::stderr(), &note);
+        PathBuf::from(usual)
+    })
 }
 
 fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {

@@ -61,8 +61,13 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
             return Ok(2);
         }
     };
-    let mut demo =
-        Demo { folder, findings: Findings::default(), surprises: Vec::new(), problem: None };
+    let mut demo = Demo {
+        folder,
+        findings: Findings::default(),
+        surprises: Vec::new(),
+        pictures: Vec::new(),
+        problem: None,
+    };
     introduction(&drives[0], out)?;
     let [hardened, paper] = &drives;
     writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-13\n")?;
@@ -73,8 +78,8 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     let mut lines = Vec::new();
     let mut sentences = Vec::new();
     for case in &CASES {
-        let checked = demo.check(case.drive(paper)?);
-        lines.push(report::line(&checked));
+        let checked = demo.check(case.drive(paper)?, false)?;
+        lines.push(report::line(&checked.drive));
         sentences.push(format!(
             "{}: {}",
             case.name(),
@@ -140,79 +145,87 @@ struct Demo<'a> {
     findings: Findings,
     /// What is not as it should be.
     surprises: Vec<String>,
+    /// Pictures written.
+    pictures: Vec<PathBuf>,
     /// A picture that could not be written.
     problem: Option<(PathBuf, io::Error)>,
 }
 
+/// A drive, judged.
+struct Driven {
+    drive: Checked,
+    /// Time of the first unsafe cycle, s, and why it is.
+    first: Option<(f64, String)>,
+}
+
 impl Demo<'_> {
     fn case(&mut self, case: &Case, clean: &Stream, out: &mut impl Write) -> io::Result<()> {
-        let checked = self.check(case.drive(clean)?);
-        self.draw(&checked);
-        let [model, implementation] = checked.tallies();
+        let checked = self.check(case.drive(clean)?, true)?;
+        let [model, implementation] = &checked.drive.tallies;
         match case.attack {
             None => writeln!(out, "{}: {}", case.name(), case.story)?,
             Some(_) => {
                 writeln!(out, "{}: from {ATTACKED_FROM_S} s on {}", case.name(), case.story)?;
             }
         }
-        write!(out, "{}", table::by_stage(&model, &implementation))?;
+        write!(out, "{}", table::by_stage(model, implementation))?;
         writeln!(out, "  {}\n", self.outcome(case, &checked, Profile::Hardened))?;
         out.flush()
     }
 
-    /// Draws the cycles that started a fallback.
-    fn draw(&mut self, checked: &Checked) {
-        let started = |index: usize| {
-            let cycles = &checked.requesters[0].unsafe_cycles;
-            let starts = |hold| matches!(hold, Hold::Started { .. });
-            cycles.iter().any(|cycle| cycle.index == index && starts(cycle.hold))
-        };
-        match pictures::write(self.folder, checked, started) {
-            Ok(written) => self.findings.pictures.extend(written),
-            Err(problem) => self.problem = Some(problem),
-        }
-    }
-
-    /// Judges a drive.
-    fn check(&mut self, drive: Stream) -> Checked {
+    /// Judges a drive; with `draws` it draws the cycles that started a fallback.
+    fn check(&mut self, drive: Stream, draws: bool) -> io::Result<Driven> {
         let progress = check::progress(drive.count());
-        let checked = Checked::new(drive, &Parameters::default(), false, || progress.inc(1));
+        let (mut first, name) = (None, drive.name.clone());
+        let checked = Checked::new(drive, &Parameters::default(), false, |seen| {
+            progress.inc(1);
+            if seen.holds[0].is_some() {
+                first.get_or_insert_with(|| (seen.seconds(), words::answer(&seen.judged.model)));
+            }
+            if draws && matches!(seen.holds[0], Some(Hold::Started { .. })) {
+                match pictures::write(self.folder, &name, seen) {
+                    Ok(written) => self.pictures.extend(written),
+                    Err(problem) => self.problem = Some(problem),
+                }
+            }
+            Ok(())
+        });
         progress.finish_and_clear();
-        self.findings.add(&checked);
-        checked
+        let drive = checked.map_err(io::Error::other)?;
+        self.findings.add(&drive);
+        self.findings.pictures = self.pictures.len();
+        Ok(Driven { drive, first })
     }
 
     /// What became of a case in a sentence; notes what is not as it should be.
-    fn outcome(&mut self, case: &Case, checked: &Checked, profile: Profile) -> String {
-        let unsafe_cycles = &checked.requesters[0].unsafe_cycles;
-        let first = unsafe_cycles.first().map(|cycle| cycle.index);
-        let early = first.is_some_and(|index| checked.seconds(index) < ATTACKED_FROM_S);
+    fn outcome(&mut self, case: &Case, judged: &Driven, profile: Profile) -> String {
+        let Driven { drive, first } = judged;
+        let early = first.as_ref().is_some_and(|(at_s, _)| *at_s < ATTACKED_FROM_S);
         if first.is_some() != case.is_to_be_found(profile) || early {
             let profile = names::profile(profile);
             self.surprises.push(format!("{} in the {profile} profile", case.name()));
         }
-        let cycles = checked.judged.len();
+        let cycles = drive.tallies[0].cycles;
+        let run = drive.requesters[0];
         match (first, case.attack) {
             (None, None) => format!("all {cycles} cycles safe, no fallback"),
             (None, Some(_)) => format!(
                 "NOT caught: all {cycles} cycles pass. Stage iii compares the trajectory with an \
                  empty list, which switches stages iv and v off (F-14, closed by H-10)"
             ),
-            (Some(index), _) => format!(
-                "caught at {:.1} s by {}; {}, {} of {cycles} cycles unsafe",
-                checked.seconds(index),
-                words::answer(&checked.judged[index].model),
-                counted(checked.requesters[0].fallbacks(), "fallback"),
-                unsafe_cycles.len()
+            (Some((at_s, why)), _) => format!(
+                "caught at {at_s:.1} s by {why}; {}, {} of {cycles} cycles unsafe",
+                counted(run.fallbacks, "fallback"),
+                run.unsafe_cycles
             ),
         }
     }
 
     fn finish(self, out: &mut impl Write, err: &mut impl Write) -> io::Result<u8> {
-        let Self { folder, findings, surprises, problem } = self;
+        let Self { folder, findings, surprises, pictures, problem } = self;
         let folder = folder.display();
         writeln!(out)?;
-        for picture in &findings.pictures {
+        for picture in &pictures {
             writeln!(out, "picture: {}", picture.display())?;
         }
         let [scenario, solution] = DEMO.map(|(name, _)| name);

@@ -9,6 +9,7 @@ use std::thread;
 use std::time::Duration;
 
 use comfy_table::{Table, presets};
+use mufasa_drives::check::complain;
 use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, read};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
@@ -112,9 +113,12 @@ fn drive(
     let parameters = words(parameters.map(parameters_file::read).transpose())?;
     let stages = parameters.as_ref().map(|it| it.stages.clone()).unwrap_or_default();
     let options = Options { profile: arguments.profile, parameters: stages, ..Options::default() };
+    if let Some(note) = parameters.as_ref().and_then(|it| it.note.as_ref()) {
+        complain(&mut io::stderr(), note);
+    }
     let requester = parameters.map(|it| it.requester);
     if arguments.files.is_empty() {
-        return Ok((words(demo(&options))?.collect(), requester));
+        return Ok((words(words(demo(&options))?.collect())?, requester));
     }
     let mut drives = read(&arguments.files, &options).into_iter();
     match (drives.next(), drives.next()) {
@@ -126,7 +130,7 @@ fn drive(
 fn attacked(drive: Drive, injections: &[Injection]) -> Result<Drive, String> {
     let attacked =
         injections.iter().try_fold(Stream::from(drive), |drive, it| words(inject(&drive, it)));
-    attacked.map(Stream::collect)
+    words(attacked?.collect())
 }
 
 fn words<T>(result: Result<T, impl ToString>) -> Result<T, String> {

@@ -3,6 +3,7 @@
 
 use std::fmt;
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -20,6 +21,8 @@ pub struct Settings {
     pub stages: Parameters,
     /// Of the requester.
     pub requester: requester::Parameters,
+    /// What is odd about the file, to be told.
+    pub note: Option<String>,
 }
 
 /// Why a parameters file cannot be used.
@@ -57,10 +60,18 @@ pub fn read(file: &Path) -> Result<Settings, ParametersError> {
         file: file.to_path_buf(),
         line: None,
         field: String::new(),
-        message: format!("cannot be read: {error}"),
+        message: match error.kind() {
+            ErrorKind::InvalidData => String::from("is no text in UTF-8; write it as such"),
+            _ => format!("cannot be read: {error}"),
+        },
     })?;
-    parse(file, &text)
+    let settings = parse(file, &text)?;
+    let note = settings.note.map(|note| format!("{}: {note}", file.display()));
+    Ok(Settings { note, ..settings })
 }
+
+/// Of a file of blanks and comments.
+const NONE: &str = "no parameter in it; the defaults hold (a line is `name = value`)";
 
 /// A place in the file where something is wrong.
 struct Problem {
@@ -99,11 +110,20 @@ fn settings(text: &str) -> Result<Settings, Problem> {
             Some(known) if message.contains("no field") => {
                 format!("is no parameter; is {known} meant?")
             }
+            _ if is_fraction(&table, &field) && field.ends_with("_ns") => {
+                format!("{message}; it is in nanoseconds: 0.2 s are 200_000_000")
+            }
             _ => message.to_owned(),
         };
         Problem { at: name.map(toml::Spanned::span), message, field }
     })?;
-    Ok(Settings { stages, requester })
+    let note = table.get_ref().is_empty().then(|| String::from(NONE));
+    Ok(Settings { stages, requester, note })
+}
+
+/// Whether the value of that name has a fraction or an exponent.
+fn is_fraction(table: &toml::Spanned<DeTable<'_>>, name: &str) -> bool {
+    table.get_ref().get(name).is_some_and(|it| matches!(it.get_ref(), DeValue::Float(_)))
 }
 
 /// The parameter whose name is nearly this one.
@@ -124,6 +144,9 @@ fn json(value: &DeValue<'_>) -> Result<Value, String> {
         DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix())
             .map(Value::from)
             .map_err(|_| "must be an integer of 64 bits".to_owned()),
+        DeValue::Table(_) => Err(String::from(
+            "parameters stand in no table: strike its head out, and keep its lines",
+        )),
         other => Err(format!("must be a number, true or false, not a {}", other.type_str())),
     }
 }
@@ -149,6 +172,15 @@ mod tests {
         };
         assert_eq!(settings.stages, stages);
         assert!(settings.requester.qos_hold);
+        assert_eq!(settings.note, None);
+    }
+
+    #[test]
+    fn a_file_without_parameters_is_noted() {
+        for text in ["", "\n\n", "# theta_tr = 0.25\n"] {
+            let settings = parse(Path::new("p.toml"), text).unwrap();
+            assert_eq!(settings, Settings { note: Some(NONE.to_owned()), ..Settings::default() });
+        }
     }
 
     #[test]
@@ -161,6 +193,12 @@ mod tests {
         assert!(failure("n = 99999999999999999999").contains("64 bits"));
         assert!(failure("n = \n").starts_with("p.toml:1: is not TOML"));
         assert!(failure("qos_hold = 1").contains("true or false"));
+        assert!(failure("dt_max_ns = 0.2").ends_with("in nanoseconds: 0.2 s are 200_000_000"));
+        assert!(!failure("n = 0.2").contains("nanoseconds"));
+        assert!(
+            failure("[stages]\na_b = 6")
+                .starts_with("p.toml:1: stages: parameters stand in no table")
+        );
     }
 
     #[test]

@@ -105,6 +105,43 @@ fn a_misspelled_parameter_gets_the_near_one() {
     );
 }
 
+/// It was once taken for what somebody wanted.
+#[test]
+fn a_file_without_a_parameter_is_told() {
+    let file = folder("no-parameters").join("p.toml");
+    fs::write(&file, "# a_b = 6\n").expect("it can be written");
+    let [scenario, solution] = small();
+    let file = file.to_str().expect("a plain name");
+    let output = output(&["check", "--summary", &scenario, &solution, "--parameters", file]);
+    let message = text(&output.stderr);
+    assert!(
+        message.ends_with(
+            "p.toml: no parameter in it; the defaults hold (a line is `name = value`)\n"
+        ),
+        "{message}"
+    );
+    assert!(text(&output.stdout).contains("1 drive, "));
+}
+
+#[test]
+fn what_is_written_without_a_named_folder_is_said_first() {
+    for command in ["vectors", "man", "schemas"] {
+        let folder = folder(command);
+        let said = |arguments: &[&str]| {
+            let done = mufasa(arguments).current_dir(&folder).output();
+            let done = done.expect("the program starts");
+            assert_eq!(done.status.code(), Some(0), "{arguments:?}");
+            text(&done.stderr)
+        };
+        assert_eq!(
+            said(&[command]),
+            format!("mufasa: writes into {command}/; --out names another folder\n")
+        );
+        assert!(folder.join(command).is_dir());
+        assert_eq!(said(&[command, "--out", "there"]), "");
+    }
+}
+
 #[test]
 fn shells_complete_and_man_has_a_page_for_every_command() {
     for (shell, word) in [

@@ -58,6 +58,14 @@ fn some_cycles(folder: &Path) {
 }
 
 #[test]
+fn the_answers_that_the_text_shows_are_what_their_schemas_say() {
+    let text = include_str!("../../spec/5-interfaces.md");
+    let (_, behind) = text.split_once("Answer:\n\n").expect("an answer to a cycle");
+    let (example, _) = behind.split_once("\n\n").expect("an end");
+    assert_valid(&validators()["cycle-answer"], &parsed(example));
+}
+
+#[test]
 fn lines_of_check_are_what_their_schemas_say() {
     let (validators, folder) = (validators(), folder("check"));
     some_cycles(&folder);

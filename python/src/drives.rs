@@ -40,15 +40,17 @@ impl Stream {
         self.stream.count()
     }
 
-    /// The record of a cycle as JSON. Errors: `IndexError` behind the last.
+    /// The record of a cycle as JSON. Errors: `IndexError` behind the last; `ReadError`: it cannot be
+    /// read again.
     fn line(&self, py: Python<'_>, index: usize) -> PyResult<String> {
         if index >= self.stream.count() {
             return Err(PyIndexError::new_err("the drive has no such cycle"));
         }
-        Ok(py.detach(|| {
-            let cycle = self.stream.cycle(index);
-            mufasa_records::cycle_to_line(&cycle.id, &cycle.cycle)
-        }))
+        let line = py.detach(|| {
+            let cycle = self.stream.cycle(index)?;
+            Ok(mufasa_records::cycle_to_line(&cycle.id, &cycle.cycle))
+        });
+        line.map_err(refused)
     }
 
     /// The same drive under attack. Errors: `InvalidInput`: no attack, or one that changes nothing.

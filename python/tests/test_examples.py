@@ -11,7 +11,7 @@ from conftest import ROOT
 ENDS = {
     "vehicle.py": [
         " 4.0 s: unsafe: stage i, back to the local services",
-        "200 points driven, one fallback, offloading again",
+        "400 points driven, one fallback, offloading again",
     ],
     "commonroad.py": [
         "as recorded, hardened: 188 safe",

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// Creates the folder and makes sure that a file can be written there.
 pub fn prepare(folder: &Path) -> io::Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::NotADirectory, "it is no folder; name one"));
+    }
     fs::create_dir_all(folder)?;
     let probe = folder.join(".mufasa.svg.tmp");
     fs::write(&probe, [])?;

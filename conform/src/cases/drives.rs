@@ -114,8 +114,9 @@ impl Ride {
                 let injection = Injection { attack, from_s: 0.0, to_s: f64::INFINITY };
                 // Where the attack changes nothing, or ends before this cycle, it is as it was.
                 let attacked = inject(&Stream::from(part), &injection).ok();
-                match attacked.filter(|it| index - from < it.count()) {
-                    Some(it) => (format!("{name}+{}", attack.name()), it.cycle(index - from).cycle),
+                let reached = attacked.filter(|it| index - from < it.count());
+                match reached.and_then(|it| it.cycle(index - from).ok()) {
+                    Some(made) => (format!("{name}+{}", attack.name()), made.cycle),
                     None => (name, clean),
                 }
             }

@@ -7,6 +7,7 @@ use super::objects;
 use super::planner::Planner;
 use super::time::seconds;
 use crate::geometry::Polyline;
+use crate::readers::error::ReadError;
 
 /// The first attacked cycle.
 pub(super) struct Onset {
@@ -22,13 +23,13 @@ pub(super) struct Onset {
 
 impl Onset {
     /// The attack begins with this cycle; an attack that would have the CAV drive what it is sent
-    /// begins when there is something to hide.
+    /// begins when there is something to hide. Errors: of `clean`, the way of the CAV.
     pub(super) fn new(
         cycle: &Cycle,
         attack: Attack,
         lead_range_m: f64,
-        clean: impl FnOnce() -> Polyline,
-    ) -> Option<Self> {
+        clean: impl FnOnce() -> Result<Polyline, ReadError>,
+    ) -> Result<Option<Self>, ReadError> {
         let with = |line: Polyline| Self {
             now_ns: cycle.now_ns,
             scan_ns: cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns),
@@ -39,11 +40,11 @@ impl Onset {
         };
         let onset = with(Polyline::new(Vec::new()));
         if !attack.is_driven() {
-            return Some(onset);
+            return Ok(Some(onset));
         }
         let mut told = cycle.clone();
         change(&mut told, attack, &onset, None);
-        (told != *cycle).then(|| with(clean()))
+        if told == *cycle { Ok(None) } else { clean().map(|line| Some(with(line))) }
     }
 
     /// Whether the CAV has come to the end of its line when it drives what it is sent.

@@ -10,6 +10,7 @@ use super::meeting;
 use super::planner::driven_line;
 use super::time::seconds;
 use crate::drive::Stream;
+use crate::readers::error::ReadError;
 
 /// What an attack does to a drive.
 pub(super) struct Course {
@@ -27,11 +28,11 @@ pub(super) struct Target {
 }
 
 impl Course {
-    /// Goes through the drive. Errors: no cycle is changed.
+    /// Goes through the drive. Errors: no cycle is changed, or one cannot be read again.
     pub(super) fn of(drive: &Stream, injection: Injection) -> Result<(Self, Onset), InjectError> {
         let mut pass = Pass::new(drive, injection);
         for (index, clean) in drive.cycles().enumerate() {
-            if !pass.take(index, &clean.cycle) {
+            if !pass.take(index, &clean?.cycle)? {
                 break;
             }
         }
@@ -82,7 +83,7 @@ impl<'d> Pass<'d> {
     }
 
     /// Takes the next cycle of the clean drive; `false` when the attacked one ends before it.
-    fn take(&mut self, index: usize, clean: &Cycle) -> bool {
+    fn take(&mut self, index: usize, clean: &Cycle) -> Result<bool, ReadError> {
         let Injection { attack, from_s, to_s } = self.injection;
         let start_ns = *self.start_ns.get_or_insert(clean.now_ns);
         let at_s = seconds(clean.now_ns.saturating_sub(start_ns));
@@ -95,20 +96,20 @@ impl<'d> Pass<'d> {
         if !(in_span && attack.reaches(clean)) {
             let ends = attack.is_driven() && self.onset.is_some();
             self.targets.extend((!ends).then_some(None));
-            return !ends;
+            return Ok(!ends);
         }
         if self.onset.is_none() {
-            let rest = || (index..self.drive.count()).map(|at| self.drive.cycle(at).cycle);
+            let rest = || (index..self.drive.count()).map(|at| self.drive.cycle(at));
             let line = || driven_line(rest());
-            self.onset = Onset::new(clean, attack, self.drive.lead_range_m, line);
+            self.onset = Onset::new(clean, attack, self.drive.lead_range_m, line)?;
         }
         let Some(onset) = &self.onset else {
             self.targets.push(None);
-            return true;
+            return Ok(true);
         };
         if attack.is_driven() && onset.is_at_the_end(clean) {
             self.at_the_end = true;
-            return false;
+            return Ok(false);
         }
         self.targets.push(Some(Target { before: self.target }));
         let mut attacked = clean.clone();
@@ -120,7 +121,7 @@ impl<'d> Pass<'d> {
         if attack.is_driven() && self.meeting.is_none() {
             self.meeting = meeting::note(&attacked, clean, at_s);
         }
-        true
+        Ok(true)
     }
 
     fn end(self) -> Result<(Course, Onset), InjectError> {

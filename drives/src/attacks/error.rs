@@ -31,13 +31,26 @@ pub enum InjectError {
         /// The attack and its span.
         injection: Injection,
     },
+    /// A cycle cannot be read again.
+    Unread(Box<ReadError>),
+}
+
+impl From<ReadError> for InjectError {
+    fn from(error: ReadError) -> Self {
+        Self::Unread(Box::new(error))
+    }
 }
 
 impl InjectError {
     /// The same as an error of the files of that drive.
     #[must_use]
     pub fn of(&self, drive: &Stream) -> ReadError {
-        ReadError::file(Path::new(&drive.source), self.to_string())
+        match self {
+            Self::Unread(error) => ReadError::clone(error),
+            Self::Outside { .. } | Self::Local { .. } | Self::Unchanged { .. } => {
+                ReadError::file(Path::new(&drive.source), self.to_string())
+            }
+        }
     }
 }
 
@@ -53,6 +66,7 @@ impl fmt::Display for InjectError {
                  {configuration:?}",
                 injection.attack.data()
             ),
+            Self::Unread(error) => error.fmt(f),
             Self::Unchanged { injection } => write!(
                 f,
                 "attack {injection} s changes no cycle: the received {} are absent, or as it \

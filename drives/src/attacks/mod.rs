@@ -34,18 +34,18 @@ use crate::drive::Stream;
 /// CAV would drive into.
 ///
 /// Errors: no cycle is changed, because none is in the span, or the data of the attack are local,
-/// absent, or as it would make them. An attacked drive that is safe is so in spite of the attack.
+/// absent, or as it would make them; or a cycle cannot be read again. An attacked drive that is safe is so in spite of the attack.
 pub fn inject(drive: &Stream, injection: &Injection) -> Result<Stream, InjectError> {
     let (course, onset) = Course::of(drive, *injection)?;
     let (attack, clean, targets) = (injection.attack, drive.clone(), course.targets);
     let name = format!("{}+{}", drive.name, attack.name());
     let count = targets.len();
-    let mut attacked = Stream::new(name, drive.source.clone(), count, move |index| {
-        let mut made = clean.cycle(index);
+    let mut attacked = Stream::fallible(name, drive.source.clone(), count, move |index| {
+        let mut made = clean.cycle(index)?;
         if let Some(target) = targets[index] {
             apply(&mut made.cycle, attack, &onset, target.before);
         }
-        made
+        Ok(made)
     });
     attacked.lead_range_m = drive.lead_range_m;
     attacked.notes = drive.notes.iter().cloned().chain(course.notes).collect();

@@ -2,8 +2,10 @@
 
 use mufasa_model::input::cycle::{Cycle, Ego, Track, TrajectoryPoint};
 
+use crate::drive::DriveCycle;
 use crate::geometry::Rectangle;
 use crate::geometry::{Point, Polyline, add, direction, distance, scale, sub};
+use crate::readers::error::ReadError;
 use crate::recording::lead::{Cav, leading_vehicle};
 use crate::recording::object::Seen;
 
@@ -162,7 +164,9 @@ fn reference_path(cycle: &Cycle) -> Polyline {
 
 /// The way of a CAV as it was driven and, at its end, planned, and from there on the reference path,
 /// as far aside of it as that end is: a line that keeps to the lane as far as the drive does.
-pub(crate) fn driven_line(cycles: impl Iterator<Item = Cycle>) -> Polyline {
+pub(crate) fn driven_line(
+    cycles: impl Iterator<Item = Result<DriveCycle, ReadError>>,
+) -> Result<Polyline, ReadError> {
     let mut points: Vec<Point> = Vec::new();
     let mut push = |p: Point| {
         if points.last().is_none_or(|last| distance(*last, p) >= APART) {
@@ -170,13 +174,16 @@ pub(crate) fn driven_line(cycles: impl Iterator<Item = Cycle>) -> Polyline {
         }
     };
     let mut last = None;
-    for cycle in cycles {
+    for made in cycles {
+        let cycle = made?.cycle;
         push([cycle.ego.x, cycle.ego.y]);
         last = Some(cycle);
     }
     let planned = last.iter().filter_map(|it| it.trajectory.as_ref()).flat_map(|it| &it.points);
     planned.for_each(|point| push([point.x, point.y]));
-    let Some(path) = last.as_ref().map(reference_path) else { return Polyline::new(points) };
+    let Some(path) = last.as_ref().map(reference_path) else {
+        return Ok(Polyline::new(points));
+    };
     if let Some(foot) = points.last().and_then(|end| path.project(*end)) {
         let from = path.locate(foot.s).0;
         for (i, pair) in path.points.windows(2).enumerate().skip(from) {
@@ -188,7 +195,7 @@ pub(crate) fn driven_line(cycles: impl Iterator<Item = Cycle>) -> Polyline {
             }
         }
     }
-    Polyline::new(points)
+    Ok(Polyline::new(points))
 }
 
 fn seen(track: &Track) -> Seen {

@@ -1,155 +1,198 @@
 //! A drive with all that was found on it.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
-use mufasa_model::offloading::requester::{Parameters, Requester};
-use mufasa_model::report::Stage;
-use mufasa_props::conformance::Answer;
+use mufasa_model::offloading::requester::Parameters;
+use mufasa_model::report::{InvalidInput, Stage};
+use mufasa_props::conformance::{Answer, Disagreement};
 
-use super::fallback::{RequesterRun, follow};
-use super::judge::{Judged, is_safe, judge_drive};
-use super::sides::with_implementation;
-use super::step::Step;
+use super::fallback::{Hold, RequesterRun};
+use super::judge::Judged;
+use super::requesters::Requesters;
+use super::sides::Table;
+use super::steps::Steps;
 use super::tally::Tally;
-use crate::drive::Stream;
+use crate::drive::{DriveCycle, Stream};
+use crate::readers::error::ReadError;
 use mufasa_records::names;
 
-/// A drive, judged.
+/// Errors of single cycles and breaches of conformance that are told one by one.
+pub const TOLD: usize = 10;
+
+/// What was found on a drive: counts and the first of what is rare, whatever the number of cycles.
 pub struct Checked {
-    /// The drive; its cycles are not kept.
+    /// The drive; its cycles are not kept, nor is what was found in each.
     pub drive: Stream,
-    /// What is kept of each cycle.
-    pub steps: Vec<Step>,
-    /// One judgement per cycle.
-    pub judged: Vec<Arc<Judged>>,
+    /// Counts of the model and of the implementation.
+    pub tallies: [Tally; 2],
+    /// For each stage the cycles in which it fails when it is run on its own.
+    pub alone: [usize; 5],
+    /// Cycles that the implementation decides otherwise, within the rules or not.
+    pub otherwise: usize,
+    /// The first cycles with invalid local input: their ids and what is wrong.
+    pub errors: Vec<(String, InvalidInput)>,
+    /// Cycles with a breach of conformance.
+    pub breaches: usize,
+    /// The first of them.
+    pub first_breaches: Vec<Breach>,
     /// The fallbacks by the model's requester and verdicts, and by the implementation's.
     pub requesters: [RequesterRun; 2],
+    /// Whether the two did the same in every cycle.
+    pub alike: bool,
     /// A complaint of a requester, or a difference of the two where the verdicts are the same.
     pub protocol: Option<String>,
+    /// What limits of the quality of service the drive exceeds, and what to do; empty where offloading is not lost.
+    pub notes: Vec<String>,
+    steps: Steps,
+    configurations: BTreeSet<&'static str>,
+    profiles: BTreeSet<&'static str>,
+}
+
+/// A cycle with a breach of conformance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Breach {
+    /// Name of the cycle.
+    pub id: String,
+    /// What is broken.
+    pub disagreement: Disagreement,
+    /// The answers of model and implementation.
+    pub answers: [Answer; 2],
+}
+
+/// A cycle as it was judged, before the next one is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// Its number in the drive, from 0.
+    pub index: usize,
+    /// Time of the first cycle of the drive, ns.
+    pub start_ns: i64,
+    /// The cycle.
+    pub made: &'a DriveCycle,
+    /// What model and implementation say.
+    pub judged: &'a Judged,
+    /// If it is unsafe, what it did to the waiting time: to the model's requester, and to the implementation's.
+    pub holds: [Option<Hold>; 2],
+}
+
+impl Seen<'_> {
+    /// Its time since the first cycle, s.
+    pub fn seconds(&self) -> f64 {
+        self.seconds_of(self.made.cycle.now_ns)
+    }
+
+    /// Another time since the first cycle, s.
+    pub fn seconds_of(&self, time_ns: i64) -> f64 {
+        super::words::seconds(self.start_ns, time_ns)
+    }
+
+    /// The answers of model and implementation.
+    pub fn answers(&self) -> [&Answer; 2] {
+        [&self.judged.model, &self.judged.implementation]
+    }
 }
 
 impl Checked {
+    /// A drive of which nothing is judged yet.
+    pub fn of(drive: impl Into<Stream>) -> Self {
+        Self {
+            drive: drive.into(),
+            tallies: Default::default(),
+            alone: Default::default(),
+            otherwise: 0,
+            errors: Vec::new(),
+            breaches: 0,
+            first_breaches: Vec::new(),
+            requesters: Default::default(),
+            alike: true,
+            protocol: None,
+            notes: Vec::new(),
+            steps: Steps::default(),
+            configurations: BTreeSet::new(),
+            profiles: BTreeSet::new(),
+        }
+    }
+
     /// Judges every cycle in order, with `readings` by the strict and the lax model too, and runs
-    /// both requesters over the verdicts. `done` is called after each cycle.
+    /// both requesters over the verdicts. Each cycle is shown to `each` and dropped.
+    ///
+    /// Errors: a cycle cannot be read again, or those of `each`.
     pub fn new(
         drive: impl Into<Stream>,
-        requester: &Parameters,
+        parameters: &Parameters,
         readings: bool,
-        done: impl Fn(),
-    ) -> Self {
-        let drive = drive.into();
-        let (steps, judged) = judge_drive(&drive, readings, done);
-        let (requesters, protocol) = requesters(&steps, &judged, requester);
-        Self { drive, steps, judged, requesters, protocol }
+        mut each: impl FnMut(&Seen<'_>) -> Result<(), ReadError>,
+    ) -> Result<Self, ReadError> {
+        let mut checked = Self::of(drive);
+        let mut table = Table::default();
+        let drive = checked.drive.clone();
+        let mut cycles = drive.cycles().enumerate().peekable();
+        let first = match cycles.peek() {
+            None => return Ok(checked),
+            Some((_, Ok(first))) => &first.cycle,
+            Some((_, Err(error))) => return Err(error.clone()),
+        };
+        let start_ns = first.now_ns;
+        let mut requesters = Requesters::new(first.profile, parameters, &mut table);
+        for (index, made) in cycles {
+            let made = made?;
+            let judged = Judged::new(&made.cycle, readings);
+            let holds = requesters.follow(&made, &judged);
+            let seen = Seen { index, start_ns, made: &made, judged: &judged, holds };
+            checked.take(&seen);
+            each(&seen)?;
+        }
+        checked.requesters = requesters.runs();
+        checked.alike = requesters.are_alike();
+        if checked.lost() > 0 {
+            checked.notes = checked.steps.notes(parameters);
+        }
+        checked.protocol = requesters.complaint();
+        Ok(checked)
     }
 
-    /// Counts of the model and of the implementation.
-    pub fn tallies(&self) -> [Tally; 2] {
-        let model = Tally::of(self.judged.iter().map(|judged| &judged.model));
-        [model, Tally::of(self.judged.iter().map(|judged| &judged.implementation))]
-    }
-
-    /// For each stage the cycles in which it fails when it is run on its own.
-    pub fn alone(&self) -> [usize; 5] {
-        let fails = |stage| self.judged.iter().filter(|it| it.alone.contains(&stage)).count();
-        Stage::ALL.map(fails)
+    /// Counts a cycle.
+    pub fn take(&mut self, seen: &Seen<'_>) {
+        let Seen { made: DriveCycle { id, cycle }, judged, .. } = *seen;
+        for (tally, answer) in self.tallies.iter_mut().zip(seen.answers()) {
+            tally.add(answer);
+        }
+        for (count, stage) in self.alone.iter_mut().zip(Stage::ALL) {
+            *count += usize::from(judged.alone.contains(&stage));
+        }
+        let place = |answer: &Answer| answer.as_ref().ok().map(|report| report.failed_stage);
+        let [model, implementation] = seen.answers().map(place);
+        self.otherwise += usize::from(model != implementation);
+        if let Err(problem) = &judged.model
+            && self.errors.len() < TOLD
+        {
+            self.errors.push((id.clone(), problem.clone()));
+        }
+        if let Some(disagreement) = &judged.disagreement {
+            self.breaches += 1;
+            if self.first_breaches.len() < TOLD {
+                let answers = seen.answers().map(Answer::clone);
+                let disagreement = disagreement.clone();
+                self.first_breaches.push(Breach { id: id.clone(), disagreement, answers });
+            }
+        }
+        self.steps.take(cycle);
+        self.configurations.insert(names::configuration(cycle.configuration));
+        self.profiles.insert(names::profile(cycle.profile));
     }
 
     /// Cycles with a breach of conformance; a difference of the requesters counts as one.
     pub fn disagreements(&self) -> usize {
-        let cycles = self.judged.iter().filter(|judged| judged.disagreement.is_some()).count();
-        cycles + usize::from(self.protocol.is_some())
+        self.breaches + usize::from(self.protocol.is_some())
     }
 
-    /// Cycles that the implementation decides otherwise, within the rules or not.
-    pub fn otherwise(&self) -> usize {
-        let place = |answer: &Answer| answer.as_ref().ok().map(|report| report.failed_stage);
-        let differ = |judged: &&Arc<Judged>| place(&judged.model) != place(&judged.implementation);
-        self.judged.iter().filter(differ).count()
-    }
-
-    /// Time of a cycle since the first one, s.
-    pub fn seconds(&self, index: usize) -> f64 {
-        let time = |step: &Step| step.now_ns;
-        let first = self.steps.first().map_or(0, time);
-        let now = self.steps.get(index).map_or(first, time);
-        seconds(first, now)
-    }
-
-    /// Time since the first cycle, s.
-    pub fn seconds_of(&self, time_ns: i64) -> f64 {
-        seconds(self.steps.first().map_or(0, |first| first.now_ns), time_ns)
+    /// Elements too late and silences that ended offloading, by the model's requester.
+    pub fn lost(&self) -> usize {
+        self.requesters[0].late + self.requesters[0].silent
     }
 
     /// Configurations and profiles of the cycles, such as `AllRemote, hardened`.
     pub fn setting(&self) -> String {
-        let cycles = || self.steps.iter();
-        let configurations: BTreeSet<_> =
-            cycles().map(|cycle| names::configuration(cycle.configuration)).collect();
-        let profiles: BTreeSet<_> = cycles().map(|cycle| names::profile(cycle.profile)).collect();
-        configurations.into_iter().chain(profiles).collect::<Vec<_>>().join(", ")
-    }
-}
-
-#[expect(clippy::cast_precision_loss)] // to be read by people
-pub(super) fn seconds(from_ns: i64, to_ns: i64) -> f64 {
-    (i128::from(to_ns) - i128::from(from_ns)) as f64 / 1e9
-}
-
-fn requesters(
-    steps: &[Step],
-    judged: &[Arc<Judged>],
-    parameters: &Parameters,
-) -> ([RequesterRun; 2], Option<String>) {
-    let Some(first) = steps.first() else { return Default::default() };
-    let profile = first.profile;
-    let safe = |answer: fn(&Judged) -> &Answer| -> Vec<bool> {
-        judged.iter().map(|judged| is_safe(answer(judged))).collect()
-    };
-    let model_safe = safe(|judged| &judged.model);
-    let implementation_safe = safe(|judged| &judged.implementation);
-    let model = follow(&mut Requester::new(profile, *parameters), steps, &model_safe);
-    let implementation = with_implementation(profile, parameters, |requester| {
-        follow(requester, steps, &implementation_safe)
-    });
-    match (model, implementation) {
-        (Ok(model), Ok(implementation)) => {
-            let same = model_safe != implementation_safe || model == implementation;
-            let protocol = (!same).then(|| difference(&model, &implementation));
-            ([model, implementation], protocol)
-        }
-        (Err(complaint), _) => (Default::default(), Some(format!("model: {complaint}"))),
-        (_, Err(complaint)) => (Default::default(), Some(format!("implementation: {complaint}"))),
-    }
-}
-
-/// The first action in which two requesters differ.
-fn difference(model: &RequesterRun, implementation: &RequesterRun) -> String {
-    let length = model.log.len().max(implementation.log.len());
-    let first = (0..length)
-        .map(|index| (model.log.get(index), implementation.log.get(index)))
-        .find(|(model, implementation)| model != implementation);
-    match first {
-        Some((model, implementation)) => {
-            format!("the requesters differ: model {model:?}, implementation {implementation:?}")
-        }
-        None => "the requesters take the same actions but count differently".to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use mufasa_model::offloading::requester::{Action, Group};
-
-    use super::*;
-
-    #[test]
-    fn the_first_different_action_is_named() {
-        let run =
-            |log: &[(usize, Action)]| RequesterRun { log: log.to_vec(), ..RequesterRun::default() };
-        let (activate, drop) = ((1, Action::Activate(Group::Mot)), (2, Action::Drop(Group::Plan)));
-        let text = difference(&run(&[activate, drop]), &run(&[activate]));
-        assert!(text.contains("Drop(Plan)") && text.ends_with("implementation None"), "{text}");
+        let all: Vec<&str> = self.configurations.iter().chain(&self.profiles).copied().collect();
+        all.join(", ")
     }
 }

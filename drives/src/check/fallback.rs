@@ -5,40 +5,31 @@
 //! Every cycle is judged as if offloaded; the requester learns only of those whose remote data it
 //! used.
 
+use mufasa_model::input::cycle::Cycle;
 use mufasa_model::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Groups, Sessions,
 };
 use mufasa_model::services::configuration::Configuration;
 
 use super::sides::Side;
-use super::step::Step;
 
 /// The only station of a drive.
 const STATION: i64 = 1;
 
 /// What the requester did over a drive.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RequesterRun {
-    /// The unsafe cycles in order.
-    pub unsafe_cycles: Vec<UnsafeCycle>,
+    /// Unsafe cycles.
+    pub unsafe_cycles: usize,
+    /// Waits that were started.
+    pub fallbacks: usize,
     /// Elements that ended offloading by the quality of service: too old or too long after the
-    /// previous one.
+    /// previous one. A cycle has one of each remote group.
     pub late: usize,
-    /// Silences that did so: the next cycle of the drive came later than `dt_max`.
+    /// Silences that did so, of each remote group: the next cycle of the drive came later than `dt_max`.
     pub silent: usize,
     /// Cycles whose remote data the requester used.
     pub offloaded: usize,
-    /// Every action, with the number of the cycle.
-    pub log: Vec<(usize, Action)>,
-}
-
-/// An unsafe cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnsafeCycle {
-    /// Index in the drive.
-    pub index: usize,
-    /// What it did to the waiting time.
-    pub hold: Hold,
 }
 
 /// What an unsafe cycle did to the waiting time.
@@ -55,88 +46,86 @@ pub enum Hold {
     Off,
 }
 
-/// Runs a requester over the cycles; `safe` holds the verdicts, one per cycle. `Err` is a
-/// complaint of the requester, in words.
-pub fn follow<'a>(
-    side: &mut impl Side,
-    cycles: impl IntoIterator<Item = &'a Step>,
-    safe: &[bool],
-) -> Result<RequesterRun, String> {
-    let mut run = RequesterRun::default();
-    let mut offered = None;
-    for (index, (cycle, safe)) in cycles.into_iter().zip(safe).enumerate() {
-        let groups = remote_groups(cycle.configuration);
-        if offered != Some(groups) {
-            let offer = EventKind::Offer { station: STATION, groups };
-            run.step(side, index, cycle, offer)?;
-            offered = Some(groups);
-        }
-        let remote = |side: &_| Group::ALL.map(|group| is_remote(side, group));
-        let before = remote(side);
-        let ticked = run.step(side, index, cycle, EventKind::Tick)?;
-        let after = remote(side);
-        run.silent += before.iter().zip(after).filter(|(was, is)| **was && !is).count();
-        for action in ticked {
-            if let Action::Request { station, group, session } = action {
-                let confirm = EventKind::Confirm { station, group, session };
-                run.step(side, index, cycle, confirm)?;
-            }
-        }
-        let sessions = run.data(side, index, cycle)?;
-        let used = sessions != Sessions::NONE;
-        if used {
-            run.offloaded += 1;
-            run.step(side, index, cycle, EventKind::Verdict { safe: *safe, sessions })?;
-        }
-        if !safe {
-            let hold = match side.hold_until_ns() {
-                Some(until_ns) if used => Hold::Started { until_ns },
-                Some(until_ns) if until_ns > cycle.now_ns => Hold::Running,
-                Some(_) | None => Hold::Off,
-            };
-            run.unsafe_cycles.push(UnsafeCycle { index, hold });
-        }
-    }
-    Ok(run)
+/// What a requester did in one cycle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Followed {
+    /// What the cycle did to the waiting time, if it is unsafe.
+    pub hold: Option<Hold>,
+    /// Every action.
+    pub actions: Vec<Action>,
 }
 
-impl RequesterRun {
-    /// How many waits were started.
-    pub fn fallbacks(&self) -> usize {
-        let started = |cycle: &&UnsafeCycle| matches!(cycle.hold, Hold::Started { .. });
-        self.unsafe_cycles.iter().filter(started).count()
+/// A requester that is led along a drive, a cycle at a time.
+pub struct Follower<S> {
+    side: S,
+    run: RequesterRun,
+    offered: Option<Groups>,
+    /// Of the cycle that is followed.
+    actions: Vec<Action>,
+}
+
+impl<S: Side> Follower<S> {
+    /// Before the first cycle.
+    pub fn new(side: S) -> Self {
+        Self { side, run: RequesterRun::default(), offered: None, actions: Vec::new() }
     }
 
-    fn step(
-        &mut self,
-        side: &mut impl Side,
-        index: usize,
-        cycle: &Step,
-        kind: EventKind,
-    ) -> Result<Vec<Action>, String> {
-        let actions = side.step(&Event { t_ns: cycle.now_ns, kind })?;
-        self.log.extend(actions.iter().map(|action| (index, *action)));
+    /// What it did up to now.
+    pub fn run(&self) -> RequesterRun {
+        self.run
+    }
+
+    /// Takes the next cycle and whether it is safe. `Err` is a complaint of the requester, in words.
+    pub fn follow(&mut self, cycle: &Cycle, safe: bool) -> Result<Followed, String> {
+        self.actions.clear();
+        let groups = remote_groups(cycle.configuration);
+        if self.offered != Some(groups) {
+            self.step(cycle, EventKind::Offer { station: STATION, groups })?;
+            self.offered = Some(groups);
+        }
+        let before = self.remote();
+        let ticked = self.step(cycle, EventKind::Tick)?;
+        let after = self.remote();
+        self.run.silent += before.iter().zip(after).filter(|(was, is)| **was && !is).count();
+        for action in ticked {
+            if let Action::Request { station, group, session } = action {
+                self.step(cycle, EventKind::Confirm { station, group, session })?;
+            }
+        }
+        let sessions = self.data(cycle)?;
+        let used = sessions != Sessions::NONE;
+        if used {
+            self.run.offloaded += 1;
+            self.step(cycle, EventKind::Verdict { safe, sessions })?;
+        }
+        let hold = (!safe).then(|| match self.side.hold_until_ns() {
+            Some(until_ns) if used => Hold::Started { until_ns },
+            Some(until_ns) if until_ns > cycle.now_ns => Hold::Running,
+            Some(_) | None => Hold::Off,
+        });
+        self.run.unsafe_cycles += usize::from(hold.is_some());
+        self.run.fallbacks += usize::from(matches!(hold, Some(Hold::Started { .. })));
+        Ok(Followed { hold, actions: std::mem::take(&mut self.actions) })
+    }
+    fn step(&mut self, cycle: &Cycle, kind: EventKind) -> Result<Vec<Action>, String> {
+        let actions = self.side.step(&Event { t_ns: cycle.now_ns, kind })?;
+        self.actions.extend_from_slice(&actions);
         Ok(actions)
     }
 
     /// Hands the remote data of a cycle to the requester; returns the sessions of the data that are used.
-    fn data(
-        &mut self,
-        side: &mut impl Side,
-        index: usize,
-        cycle: &Step,
-    ) -> Result<Sessions, String> {
+    fn data(&mut self, cycle: &Cycle) -> Result<Sessions, String> {
         let mut used = Sessions::NONE;
         for group in Group::ALL {
             let (Some(generated_ns), GroupState::Remote { station, session }) =
-                (generated(cycle, group), side.state(group))
+                (generated(cycle, group), self.side.state(group))
             else {
                 continue;
             };
             let data = EventKind::Data { station, group, session, generated_ns };
-            let actions = self.step(side, index, cycle, data)?;
-            if side.state(group) == GroupState::Local {
-                self.late += 1;
+            let actions = self.step(cycle, data)?;
+            if self.side.state(group) == GroupState::Local {
+                self.run.late += 1;
             } else if !actions.contains(&Action::Drop(group)) {
                 match group {
                     Group::Mot => used.mot = Some(session),
@@ -146,20 +135,21 @@ impl RequesterRun {
         }
         Ok(used)
     }
-}
 
-fn is_remote(side: &impl Side, group: Group) -> bool {
-    matches!(side.state(group), GroupState::Remote { .. })
+    /// Whether the groups are remote.
+    fn remote(&self) -> [bool; 2] {
+        Group::ALL.map(|group| matches!(self.side.state(group), GroupState::Remote { .. }))
+    }
 }
 
 /// When the remote result of a group in this cycle was generated.
-fn generated(cycle: &Step, group: Group) -> Option<i64> {
+fn generated(cycle: &Cycle, group: Group) -> Option<i64> {
     if !remote_groups(cycle.configuration).contains(group) {
         return None;
     }
     match group {
-        Group::Mot => cycle.tracks_ns,
-        Group::Plan => cycle.trajectory_ns,
+        Group::Mot => cycle.tracks.as_ref().map(|list| list.stamp_ns),
+        Group::Plan => cycle.trajectory.as_ref().map(|it| it.stamp_ns),
     }
 }
 

@@ -1,9 +1,8 @@
 //! Cycles, judged by the exact model and by the implementation.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 use std::thread;
 
 use mufasa_model::input::cycle::Cycle;
@@ -11,9 +10,6 @@ use mufasa_model::report::{Reading, Report, Stage};
 use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
-
-use super::step::Step;
-use crate::drive::Stream;
 
 /// A cycle as model and implementation judge it.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,24 +69,8 @@ pub fn compare(
     }
 }
 
-/// Judges the cycles of a drive in their order, each made when it is judged and dropped after;
-/// `done` is called after each. Equal judgements in succession, as of safe cycles, are kept once.
-pub fn judge_drive(
-    drive: &Stream,
-    readings: bool,
-    done: impl Fn(),
-) -> (Vec<Step>, Vec<Arc<Judged>>) {
-    let mut steps = Vec::with_capacity(drive.count());
-    let mut all: Vec<Arc<Judged>> = Vec::with_capacity(drive.count());
-    for cycle in drive.cycles() {
-        let judged = Judged::new(&cycle.cycle, readings);
-        steps.push(Step::from(cycle));
-        let same = all.last().filter(|last| ***last == judged).map(Arc::clone);
-        all.push(same.unwrap_or_else(|| Arc::new(judged)));
-        done();
-    }
-    (steps, all)
-}
+/// So many results wait at most for one before them, or are being made.
+const AHEAD: usize = 64;
 
 /// Runs `job` for every index below `count` on all processors and hands the results to `take` in
 /// their order, each as soon as those before it are there. The first error of `take` ends the work.
@@ -99,15 +79,16 @@ pub fn in_order<T: Send, E>(
     job: impl Fn(usize) -> T + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    let next = AtomicUsize::new(0);
+    let (next, gate) = (AtomicUsize::new(0), Gate::default());
     let workers = thread::available_parallelism().map_or(1, usize::from).min(count);
     let (sender, results) = mpsc::channel();
     thread::scope(|scope| {
         for _ in 0..workers {
-            let (sender, next, job) = (sender.clone(), &next, &job);
+            let (sender, next, job, gate) = (sender.clone(), &next, &job, &gate);
             scope.spawn(move || {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
+                    gate.wait(index);
                     // The results are dropped when they are no longer wanted.
                     if index >= count || sender.send((index, job(index))).is_err() {
                         return;
@@ -116,6 +97,7 @@ pub fn in_order<T: Send, E>(
             });
         }
         drop(sender);
+        let _open = Opened(&gate);
         let mut early = BTreeMap::new();
         let mut wanted = 0;
         // Moved, so that an error drops it and the workers notice.
@@ -124,10 +106,41 @@ pub fn in_order<T: Send, E>(
             while let Some(result) = early.remove(&wanted) {
                 take(result)?;
                 wanted += 1;
+                gate.open(wanted);
             }
         }
         Ok(())
     })
+}
+
+/// Lets work begin whose results will not wait for too many others.
+#[derive(Default)]
+struct Gate {
+    /// Results that were taken.
+    taken: Mutex<usize>,
+    moved: Condvar,
+}
+
+impl Gate {
+    fn wait(&self, index: usize) {
+        let taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_far = |taken: &mut usize| index.saturating_sub(*taken) >= AHEAD;
+        drop(self.moved.wait_while(taken, is_far));
+    }
+
+    fn open(&self, taken: usize) {
+        *self.taken.lock().unwrap_or_else(PoisonError::into_inner) = taken;
+        self.moved.notify_all();
+    }
+}
+
+/// At its end, in whatever way, nobody has to wait any more.
+struct Opened<'a>(&'a Gate);
+
+impl Drop for Opened<'_> {
+    fn drop(&mut self) {
+        self.0.open(usize::MAX);
+    }
 }
 
 #[cfg(test)]
@@ -197,6 +210,27 @@ mod tests {
         assert_eq!(taken, Ok(()));
         assert_eq!(squares, (0..100).map(|index| index * index).collect::<Vec<_>>());
         assert_eq!(in_order(0, |index| index, |_| Err("nothing to take")), Ok(()));
+    }
+
+    /// What waits for the first result is not more than was said.
+    #[test]
+    fn work_does_not_run_far_ahead_of_what_is_taken() {
+        let (done, farthest) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let job = |index| {
+            if index == 0 {
+                thread::sleep(std::time::Duration::from_millis(200));
+            }
+            done.fetch_add(1, Ordering::SeqCst)
+        };
+        let mut taken = 0;
+        let ended: Result<(), ()> = in_order(1000, job, |_| {
+            farthest.fetch_max(done.load(Ordering::SeqCst) - taken, Ordering::SeqCst);
+            taken += 1;
+            Ok(())
+        });
+        assert_eq!((ended, taken), (Ok(()), 1000));
+        let farthest = farthest.load(Ordering::SeqCst);
+        assert!(farthest <= AHEAD, "{farthest} results wait");
     }
 
     #[test]

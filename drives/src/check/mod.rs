@@ -6,25 +6,26 @@ pub mod judge;
 pub mod pictures;
 pub mod records;
 pub mod report;
+mod requesters;
+mod sheet;
 pub mod sides;
-pub mod step;
+pub mod steps;
 pub mod table;
 pub mod tally;
 pub mod words;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use mufasa_model::offloading::requester::Parameters;
 
-use self::checked::Checked;
+use self::checked::{Checked, Seen};
 use self::judge::in_order;
+use self::records::Records;
+use self::report::Report;
 use self::tally::Tally;
 use crate::{ReadError, Stream, counted};
-
-/// Errors of single cycles that are written out per drive.
-const ERRORS: usize = 10;
 
 /// What a check writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +67,11 @@ pub struct Findings {
     /// Elements too late and silences that ended offloading without an unsafe cycle.
     pub lost: usize,
     /// Pictures written.
-    pub pictures: Vec<PathBuf>,
+    pub pictures: usize,
+    /// What limits of the quality of service the first drive that lost offloading exceeds.
+    pub note: Option<String>,
+    /// How many drives exceed one.
+    pub noted: usize,
 }
 
 impl Findings {
@@ -85,18 +90,31 @@ impl Findings {
     /// Adds what was found on a drive.
     pub fn add(&mut self, checked: &Checked) {
         self.drives += 1;
-        self.tally.merge(&checked.tallies()[0]);
+        self.tally.merge(&checked.tallies[0]);
         self.disagreements += checked.disagreements();
         let run = &checked.requesters[0];
-        self.fallbacks += run.fallbacks();
+        self.fallbacks += run.fallbacks;
         self.offloaded += run.offloaded;
-        self.lost += run.late + run.silent;
+        self.lost += checked.lost();
+        if let Some(note) = checked.notes.first() {
+            self.noted += 1;
+            self.note.get_or_insert_with(|| format!("{}: {note}", checked.drive.name));
+        }
     }
 
     /// One sentence over the run.
     pub fn summary(&self) -> String {
-        let Self { drives, unreadable, tally, disagreements, fallbacks, offloaded, lost, pictures } =
-            self;
+        let Self {
+            drives,
+            unreadable,
+            tally,
+            disagreements,
+            fallbacks,
+            offloaded,
+            lost,
+            pictures,
+            ..
+        } = self;
         let agreement = match disagreements {
             // Of nothing there is nothing to agree on.
             0 if tally.cycles == 0 => String::new(),
@@ -112,10 +130,10 @@ impl Findings {
             counted(*fallbacks, "fallback"),
         );
         for (count, what) in [
-            (*lost, "time back to local for late data or silence"),
+            (*lost, "time tracking or planning went back to local for late data or silence"),
             (tally.errors, "cycle with invalid local input"),
             (*unreadable, "file that could not be read or written"),
-            (pictures.len(), "picture"),
+            (*pictures, "picture"),
         ] {
             if count > 0 {
                 text.push_str("; ");
@@ -137,18 +155,16 @@ pub fn run(
     let mut findings = Findings::default();
     let mut lines = Vec::new();
     let progress = progress(drives.iter().flatten().map(Stream::count).sum());
-    let readings = settings.format == Format::Json;
     let judge = |index: usize| {
-        let drive = drives[index].as_ref()?;
-        let done = || progress.inc(1);
-        Ok(Checked::new(drive.clone(), &settings.requester, readings, done))
+        let drive = drives[index].as_ref().map_err(Clone::clone)?;
+        Judgement::new(drive.clone(), settings, || progress.inc(1))
     };
-    in_order(drives.len(), judge, |checked: Result<Checked, &ReadError>| {
-        match checked {
-            Ok(checked) => {
-                note(&checked, settings, &mut findings, err);
-                progress.suspend(|| write_drive(out, settings.format, &checked))?;
-                lines.push(report::line(&checked));
+    in_order(drives.len(), judge, |judged: Result<Judgement, ReadError>| {
+        match judged {
+            Ok(judged) => {
+                judged.note(&mut findings, err);
+                lines.push(report::line(&judged.checked));
+                progress.suspend(|| judged.write(out))?;
             }
             Err(error) => {
                 findings.unreadable += 1;
@@ -167,44 +183,86 @@ pub fn run(
             return Ok(findings);
         }
     }
+    if let (Format::Summary, Some(note)) = (settings.format, &findings.note) {
+        let more = match findings.noted - 1 {
+            0 => String::new(),
+            more => format!(" ({} alike)", counted(more, "more drive")),
+        };
+        writeln!(out, "note: {note}{more}")?;
+    }
     writeln!(out, "{}", findings.summary())?;
     Ok(findings)
 }
 
-/// Adds a drive to the findings, names its errors and draws its pictures.
-fn note(checked: &Checked, settings: &Settings, findings: &mut Findings, err: &mut impl Write) {
-    findings.add(checked);
-    let errors = checked.judged.iter().zip(&checked.steps).filter_map(|(judged, cycle)| {
-        judged.model.as_ref().err().map(|problem| (problem, &cycle.id))
-    });
-    for (problem, id) in errors.take(ERRORS) {
-        complain(
-            err,
-            &format!("{}: cycle {id}: {}", checked.drive.source, words::invalid(problem)),
-        );
-    }
-    if let Some(folder) = &settings.pictures {
-        match pictures::write(folder, checked, |_| true) {
-            Ok(written) => findings.pictures.extend(written),
-            Err((file, error)) => {
-                findings.unreadable += 1;
-                complain(err, &format!("{}: cannot be written: {error}", file.display()));
-            }
-        }
-    }
+/// A drive, judged, with what is to be written of it.
+struct Judgement {
+    checked: Checked,
+    written: Written,
+    pictures: usize,
+    /// Which picture could not be written, and why; none is tried after it.
+    refusal: Option<(PathBuf, io::Error)>,
 }
 
-fn write_drive(out: &mut impl Write, format: Format, checked: &Checked) -> io::Result<()> {
-    match format {
-        Format::Text => report::write(out, checked)?,
-        Format::Summary => {}
-        Format::Json => {
-            for line in records::lines(checked)? {
-                writeln!(out, "{line}")?;
+/// What is to be written of a drive, by the format.
+enum Written {
+    Text(Report),
+    Summary,
+    Json(Records),
+}
+
+impl Judgement {
+    /// Judges a drive. Errors: a cycle cannot be read again, or there is no place for what is to be written.
+    fn new(drive: Stream, settings: &Settings, done: impl Fn()) -> Result<Self, ReadError> {
+        let mut written = match settings.format {
+            Format::Text => Written::Text(Report::default()),
+            Format::Summary => Written::Summary,
+            Format::Json => Written::Json(Records::default()),
+        };
+        let (mut pictures, mut refusal) = (0, None);
+        let (name, source) = (drive.name.clone(), drive.source.clone());
+        let each = |seen: &Seen<'_>| {
+            let taken = match &mut written {
+                Written::Text(report) => report.take(seen),
+                Written::Summary => Ok(()),
+                Written::Json(records) => records.take(&name, seen),
+            };
+            taken.map_err(|error| ReadError::file(Path::new(&source), error.to_string()))?;
+            if let (Some(folder), None) = (&settings.pictures, &refusal) {
+                match pictures::write(folder, &name, seen) {
+                    Ok(file) => pictures += usize::from(file.is_some()),
+                    Err(problem) => refusal = Some(problem),
+                }
             }
+            done();
+            Ok(())
+        };
+        let readings = settings.format == Format::Json;
+        let checked = Checked::new(drive, &settings.requester, readings, each)?;
+        Ok(Self { checked, written, pictures, refusal })
+    }
+
+    /// Adds the drive to the findings and names its errors.
+    fn note(&self, findings: &mut Findings, err: &mut impl Write) {
+        findings.add(&self.checked);
+        findings.pictures += self.pictures;
+        let source = &self.checked.drive.source;
+        for (id, problem) in &self.checked.errors {
+            complain(err, &format!("{source}: cycle {id}: {}", words::invalid(problem)));
+        }
+        if let Some((file, error)) = &self.refusal {
+            findings.unreadable += 1;
+            complain(err, &format!("{}: cannot be written: {error}", file.display()));
         }
     }
-    out.flush()
+
+    fn write(self, out: &mut impl Write) -> io::Result<()> {
+        match self.written {
+            Written::Text(report) => report.write(out, &self.checked)?,
+            Written::Summary => {}
+            Written::Json(records) => records.write(out, &self.checked)?,
+        }
+        out.flush()
+    }
 }
 
 /// Says what is wrong. A closed standard error is no reason to stop.

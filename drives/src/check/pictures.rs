@@ -3,40 +3,34 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::checked::Checked;
+use super::checked::Seen;
 use super::words;
+use crate::drive::DriveCycle;
 use crate::pictures::{Content, picture};
 use mufasa_records::files;
 use mufasa_records::names;
 
-/// Writes the pictures of the cycles that are wanted, by their index in the drive, into a folder
-/// that exists; returns their paths. An error names the file.
+/// Writes the picture of a cycle of that drive, if the model finds it unsafe, into a folder that
+/// exists; returns its path. An error names the file.
 pub fn write(
     folder: &Path,
-    checked: &Checked,
-    wanted: impl Fn(usize) -> bool,
-) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
-    let mut written = Vec::new();
-    for (index, judged) in checked.judged.iter().enumerate().filter(|(index, _)| wanted(*index)) {
-        let Some(report) = judged.unsafe_report() else { continue };
-        let cycle = &checked.drive.cycle(index).cycle;
-        let setting = format!(
-            "{}, {}",
-            names::configuration(cycle.configuration),
-            names::profile(cycle.profile)
-        );
-        let at = checked.seconds(index);
-        let content = Content {
-            title: format!("{} at {at:.2} s ({setting})", checked.drive.name),
-            subtitle: words::answer(&judged.model),
-            cycle,
-            report,
-        };
-        let stage = report.failed_stage.map_or("", names::failed_stage);
-        let name = files::name(&checked.drive.name);
-        let file = folder.join(format!("{name}-{index:04}-{stage}.svg"));
-        files::write(&file, &picture(&content)).map_err(|error| (file.clone(), error))?;
-        written.push(file);
+    drive: &str,
+    seen: &Seen<'_>,
+) -> Result<Option<PathBuf>, (PathBuf, io::Error)> {
+    let Some(report) = seen.judged.unsafe_report() else { return Ok(None) };
+    let DriveCycle { cycle, .. } = seen.made;
+    let setting =
+        format!("{}, {}", names::configuration(cycle.configuration), names::profile(cycle.profile));
+    let content = Content {
+        title: format!("{drive} at {:.2} s ({setting})", seen.seconds()),
+        subtitle: words::answer(&seen.judged.model),
+        cycle,
+        report,
+    };
+    let stage = report.failed_stage.map_or("", names::failed_stage);
+    let file = folder.join(format!("{}-{:04}-{stage}.svg", files::name(drive), seen.index));
+    match files::write(&file, &picture(&content)) {
+        Ok(()) => Ok(Some(file)),
+        Err(error) => Err((file, error)),
     }
-    Ok(written)
 }

@@ -1,16 +1,23 @@
 //! What was found as JSON Lines: one record per cycle, one per drive, one at the end.
 
+use std::cell::RefCell;
+use std::io::{self, Write};
+
 use mufasa_model::report::{InvalidInput, Report, Stage};
 use mufasa_props::conformance::Answer;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::ser::{Error, SerializeSeq};
+use serde::{Serialize, Serializer};
 use serde_json::Value;
+use serde_json::value::RawValue;
 
-use super::checked::Checked;
+use super::checked::{Checked, Seen};
 use super::fallback::{Hold, RequesterRun};
 use super::judge::Judged;
+use super::sheet::Sheet;
 use super::tally::Tally;
 use super::{Findings, words};
+use crate::drive::DriveCycle;
 use mufasa_records::answer::CycleAnswer;
 use mufasa_records::{names, schema};
 
@@ -65,7 +72,7 @@ struct DriveRecord<'a> {
     drive: &'a str,
     source: &'a str,
     setting: String,
-    notes: &'a [String],
+    notes: Vec<&'a str>,
     model: SideRecord,
     implementation: SideRecord,
     disagreements: usize,
@@ -84,7 +91,8 @@ struct SideRecord {
     offloaded: usize,
     late: usize,
     silent: usize,
-    fallbacks: Vec<FallbackRecord>,
+    #[schemars(with = "Vec<FallbackRecord>")]
+    fallbacks: Kept,
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -130,36 +138,74 @@ pub fn schemas() -> [(&'static str, Value); 3] {
     ]
 }
 
-/// The records of a drive, each on a line: its cycles, then the drive.
-pub fn lines(checked: &Checked) -> serde_json::Result<Vec<String>> {
-    let mut lines = Vec::new();
-    for (index, (judged, cycle)) in checked.judged.iter().zip(&checked.steps).enumerate() {
-        lines.push(serde_json::to_string(&CycleRecord {
+/// The records of a drive, kept while its cycles are judged.
+#[derive(Default)]
+pub struct Records {
+    cycles: Sheet,
+    /// Of the model and of the implementation.
+    fallbacks: [Sheet; 2],
+}
+
+impl Records {
+    /// Keeps the record of a cycle. Errors: there is no place for it.
+    pub fn take(&mut self, drive: &str, seen: &Seen<'_>) -> io::Result<()> {
+        let Seen { made: DriveCycle { id, .. }, judged, .. } = *seen;
+        let record = CycleRecord {
             kind: "checked_cycle",
-            drive: &checked.drive.name,
-            seconds: checked.seconds(index),
-            answer: model_answer(&cycle.id, judged),
+            drive,
+            seconds: seen.seconds(),
+            answer: model_answer(id, judged),
             implementation: implementation_answer(&judged.implementation),
             alone: judged.alone.iter().copied().map(names::stage).collect(),
             disagreement: judged.disagreement.as_ref().map(ToString::to_string),
-        })?);
+        };
+        self.cycles.line(&serde_json::to_string(&record)?)?;
+        for (sheet, (hold, answer)) in
+            self.fallbacks.iter_mut().zip(seen.holds.into_iter().zip(seen.answers()))
+        {
+            if let Some(hold) = hold {
+                sheet.line(&serde_json::to_string(&fallback(seen, hold, answer))?)?;
+            }
+        }
+        Ok(())
     }
-    let [model, implementation] = checked.tallies();
-    let [model_course, implementation_course] = &checked.requesters;
-    lines.push(serde_json::to_string(&DriveRecord {
-        kind: "checked_drive",
-        drive: &checked.drive.name,
-        source: &checked.drive.source,
-        setting: checked.setting(),
-        notes: &checked.drive.notes,
-        model: side(checked, &model, model_course, |judged| &judged.model),
-        implementation: side(checked, &implementation, implementation_course, |judged| {
-            &judged.implementation
-        }),
-        disagreements: checked.disagreements(),
-        protocol: checked.protocol.as_deref(),
-    })?);
-    Ok(lines)
+
+    /// Writes the records, each on a line: the cycles, then the drive. Errors: of writing, or what was
+    /// kept cannot be read again.
+    pub fn write(mut self, out: &mut impl Write, checked: &Checked) -> io::Result<()> {
+        self.cycles.copy(out)?;
+        let Checked { drive, tallies, requesters, .. } = checked;
+        let [model, implementation] = self.fallbacks;
+        let notes: Vec<_> = drive.notes.iter().chain(&checked.notes).map(String::as_str).collect();
+        let record = DriveRecord {
+            kind: "checked_drive",
+            drive: &drive.name,
+            source: &drive.source,
+            setting: checked.setting(),
+            notes,
+            model: side(&tallies[0], &requesters[0], model),
+            implementation: side(&tallies[1], &requesters[1], implementation),
+            disagreements: checked.disagreements(),
+            protocol: checked.protocol.as_deref(),
+        };
+        serde_json::to_writer(&mut *out, &record)?;
+        writeln!(out)
+    }
+}
+
+/// Records that were kept as they are written.
+struct Kept(RefCell<Sheet>);
+
+impl Serialize for Kept {
+    fn serialize<S: Serializer>(&self, json: S) -> Result<S::Ok, S::Error> {
+        let mut sheet = self.0.borrow_mut();
+        let mut list = json.serialize_seq(None)?;
+        for line in sheet.lines().map_err(S::Error::custom)? {
+            let record = line.map_err(S::Error::custom).map(RawValue::from_string)?;
+            list.serialize_element(&record.map_err(S::Error::custom)?)?;
+        }
+        list.end()
+    }
 }
 
 /// The record at the end of a run.
@@ -206,12 +252,17 @@ fn implementation_answer(answer: &Answer) -> ImplementationAnswer {
     }
 }
 
-fn side(
-    checked: &Checked,
-    tally: &Tally,
-    run: &RequesterRun,
-    answer: impl Fn(&Judged) -> &Answer,
-) -> SideRecord {
+fn fallback(seen: &Seen<'_>, hold: Hold, answer: &Answer) -> FallbackRecord {
+    let (hold, hold_until_ns) = match hold {
+        Hold::Started { until_ns } => ("started", Some(until_ns)),
+        Hold::Running => ("running", None),
+        Hold::Off => ("off", None),
+    };
+    let (id, seconds) = (seen.made.id.clone(), seen.seconds());
+    FallbackRecord { id, seconds, hold, hold_until_ns, why: words::answer(answer) }
+}
+
+fn side(tally: &Tally, run: &RequesterRun, fallbacks: Sheet) -> SideRecord {
     let stages = Stage::ALL.into_iter().zip(&tally.stages).map(|(stage, count)| StageRecord {
         stage: names::stage(stage),
         passed: count.passed,
@@ -219,20 +270,6 @@ fn side(
         skipped: count.skipped,
         not_applicable: count.not_applicable,
         not_scheduled: count.not_scheduled,
-    });
-    let fallbacks = run.unsafe_cycles.iter().map(|cycle| {
-        let (hold, hold_until_ns) = match cycle.hold {
-            Hold::Started { until_ns } => ("started", Some(until_ns)),
-            Hold::Running => ("running", None),
-            Hold::Off => ("off", None),
-        };
-        FallbackRecord {
-            id: checked.steps[cycle.index].id.clone(),
-            seconds: checked.seconds(cycle.index),
-            hold,
-            hold_until_ns,
-            why: words::answer(answer(&checked.judged[cycle.index])),
-        }
     });
     SideRecord {
         cycles: tally.cycles,
@@ -245,6 +282,6 @@ fn side(
         offloaded: run.offloaded,
         late: run.late,
         silent: run.silent,
-        fallbacks: fallbacks.collect(),
+        fallbacks: Kept(RefCell::new(fallbacks)),
     }
 }

@@ -47,18 +47,20 @@ impl Side for implementation::Requester<'_> {
     }
 }
 
-/// Runs `job` with the implementation's requester; the only station of a drive needs one record.
-pub fn with_implementation<T>(
+/// Memory of the implementation's requester; the only station of a drive needs one record.
+pub type Table = [implementation::StationRecord; 1];
+
+/// The implementation's requester; `Err` is a complaint in words.
+pub fn implementation<'t>(
     profile: Profile,
     parameters: &Parameters,
-    job: impl FnOnce(&mut implementation::Requester<'_>) -> Result<T, String>,
-) -> Result<T, String> {
-    let mut table = [implementation::StationRecord::FREE; 1];
+    table: &'t mut Table,
+) -> Result<implementation::Requester<'t>, String> {
     let profile = match profile {
         Profile::Paper => mufasa::input::profile::Profile::Paper,
         Profile::Hardened => mufasa::input::profile::Profile::Hardened,
     };
     let parameters = bridge::parameters_to_impl(parameters);
-    let requester = implementation::Requester::new(profile, parameters, &mut table);
-    job(&mut requester.map_err(|error| error.to_string())?)
+    let requester = implementation::Requester::new(profile, parameters, table);
+    requester.map_err(|error| error.to_string())
 }

@@ -43,13 +43,6 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// The outcomes of these answers.
-    pub fn of<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Self {
-        let mut tally = Self::default();
-        answers.into_iter().for_each(|answer| tally.add(answer));
-        tally
-    }
-
     /// Cycles that are neither safe nor errors.
     pub fn unsafe_cycles(&self) -> usize {
         self.cycles - self.safe - self.errors
@@ -71,7 +64,8 @@ impl Tally {
         }
     }
 
-    fn add(&mut self, answer: &Answer) {
+    /// Counts an answer.
+    pub fn add(&mut self, answer: &Answer) {
         self.cycles += 1;
         let Ok(report) = answer else {
             self.errors += 1;
@@ -118,7 +112,8 @@ mod tests {
             report(Some(FailedStage::NoObstacleCheck)),
             Err(InvalidInput { field: String::new(), index: None, message: String::new() }),
         ];
-        let mut tally = Tally::of(&answers);
+        let mut tally = Tally::default();
+        answers.iter().for_each(|answer| tally.add(answer));
         tally.merge(&tally.clone());
         assert_eq!((tally.cycles, tally.safe, tally.errors), (10, 2, 2));
         assert_eq!((tally.unsafe_cycles(), tally.input, tally.no_obstacle_check), (6, 2, 2));

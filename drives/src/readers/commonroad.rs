@@ -41,6 +41,9 @@ pub(crate) fn solved(
             quoted(&scenario.version)
         ));
     }
+    if let Some(ego) = options.ego {
+        notes.push(format!("--ego {ego} is not used: the CAV is that of the solution"));
+    }
     let [length, width] = solution.size;
     notes.push(format!(
         "CAV: solution {}, {length} m by {width} m around the position of each state",

@@ -29,8 +29,8 @@ impl Content {
         if let Some(message) = formats::foreign(&bytes) {
             return Err(ReadError::file(path, message));
         }
-        let text = String::from_utf8(bytes).map_err(|e| {
-            let message = format!("no format that is read, and no text ({e}); {}", formats::READ);
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let message = formats::not_utf_8(error.as_bytes(), &error.utf8_error());
             ReadError::file(path, message)
         })?;
         // A byte order mark is no content.

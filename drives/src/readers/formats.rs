@@ -1,5 +1,7 @@
 //! Formats that are not read, by their first bytes, and what to do with a file of each.
 
+use std::str::Utf8Error;
+
 /// First bytes of a gz file, which is read.
 pub(crate) const GZ: &[u8] = b"\x1f\x8b";
 
@@ -56,6 +58,35 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<String> {
         None => return None,
     };
     Some(format!("{name}, which is not read: {advice}"))
+}
+
+/// What is wrong with text that is not UTF-8, and what to do with it. `error` says where it is not.
+pub(crate) fn not_utf_8(bytes: &[u8], error: &Utf8Error) -> String {
+    if !bytes.trim_ascii_start().starts_with(b"<") {
+        return format!("no format that is read, and no text ({error}); {READ}");
+    }
+    let declared = declared_encoding(bytes).filter(|name| !name.eq_ignore_ascii_case("UTF-8"));
+    let (what, from) = match declared {
+        Some(name) => (format!("in {name}, as it declares"), name),
+        None => (String::from("that should be UTF-8 and is not"), "ISO-8859-1"),
+    };
+    let guess = if declared.is_none() { ", if it is ISO-8859-1," } else { "" };
+    format!(
+        "XML {what} ({error}), which is not read: write it as UTF-8, as `iconv -f {from} -t UTF-8 \
+         FILE`{guess} does"
+    )
+}
+
+/// The encoding that an XML declaration names, as far as it is a name.
+fn declared_encoding(bytes: &[u8]) -> Option<&str> {
+    let head = bytes.trim_ascii_start().strip_prefix(b"<?xml")?;
+    let end = head.windows(2).take(256).position(|it| it == b"?>")?;
+    let (_, value) = std::str::from_utf8(&head[..end]).ok()?.split_once("encoding")?;
+    let value = value.trim_start().strip_prefix('=')?.trim_start();
+    let quote = value.chars().next().filter(|it| "\"'".contains(*it))?;
+    let (name, _) = value[1..].split_once(quote)?;
+    let is_name = |c: char| c.is_ascii_alphanumeric() || "._:-".contains(c);
+    (!name.is_empty() && name.chars().all(is_name)).then_some(name)
 }
 
 /// Whether a message begins with another one that holds the version of `CommonRoad`.

@@ -1,5 +1,4 @@
-//! Cycles as JSON Lines, read one at a time: what is in memory does not grow with their number but for
-//! their places.
+//! Cycles as JSON Lines, read one at a time: what is in memory does not grow with their number.
 
 use std::io::{self, BufRead};
 use std::path::Path;
@@ -7,16 +6,20 @@ use std::sync::Arc;
 
 use mufasa_records::lines::{Length, read_line, too_long};
 use mufasa_records::{LineError, cycle_from_line};
+use serde_json::Value;
 
 use crate::counted;
 use crate::drive::{DriveCycle, Stream};
 use crate::options::Sensor;
 use crate::readers::error::ReadError;
 use crate::readers::source::stem;
-use crate::readers::spool::{Place, Spool};
+use crate::readers::spool::Spool;
+use crate::temporary::{lost, unkept};
 
 /// Most bytes of a file without cycles that are looked at for being one document.
 const DOCUMENT: usize = 16 << 20;
+/// Bytes of a line that is no cycle and longer than what is looked at for being something else.
+const KNOWN: usize = 1 << 20;
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The cycles of JSON Lines as one drive, after the error of the lines that are none.
@@ -25,18 +28,19 @@ pub(crate) fn drive(
     text: impl BufRead,
     spool: &Arc<Spool>,
 ) -> Vec<Result<Stream, ReadError>> {
-    let mut lines = Lines { path, spool, places: Vec::new(), wrong: None, start: Vec::new() };
+    let first = spool.count();
+    let mut lines = Lines { path, spool, count: 0, wrong: None, start: Vec::new() };
     if let Err(error) = lines.read(text) {
         return vec![Err(error)];
     }
-    let Lines { places, wrong, start, .. } = lines;
-    if places.is_empty() && is_one_document(&start) {
+    let Lines { count, wrong, start, .. } = lines;
+    if count == 0 && is_one_document(&start) {
         let message = "one JSON document spread over lines; JSON Lines have every record on a \
                        line of its own, as `jq -c . FILE` writes it";
         return vec![Err(ReadError::file(path, message))];
     }
     let wrong = wrong.into_iter().map(Err);
-    let drive = (!places.is_empty()).then(|| Ok(stream(path, places, Arc::clone(spool))));
+    let drive = (count > 0).then(|| Ok(stream(path, first, count, Arc::clone(spool))));
     wrong.chain(drive).collect()
 }
 
@@ -44,8 +48,8 @@ pub(crate) fn drive(
 struct Lines<'a> {
     path: &'a Path,
     spool: &'a Spool,
-    /// Numbers and places of the lines that are cycles.
-    places: Vec<(usize, Place)>,
+    /// Lines that are cycles.
+    count: usize,
     wrong: Option<ReadError>,
     /// The text, while it may be one document.
     start: Vec<u8>,
@@ -69,40 +73,65 @@ impl Lines<'_> {
                 self.is_none(error, &line);
                 continue;
             }
-            let kept = self.spool.keep(&line);
-            let place = kept.map_err(|e| ReadError::file(self.path, Spool::refusal(&e)))?;
-            self.places.push((number, place));
+            let kept = self.spool.keep(number, &line);
+            kept.map_err(|error| ReadError::file(self.path, unkept(&error)))?;
+            self.count += 1;
         }
         Ok(())
     }
 
     /// Notes a line that is no cycle.
     fn is_none(&mut self, error: LineError, line: &[u8]) {
-        if self.places.is_empty() && self.start.len() + line.len() < DOCUMENT {
+        if self.count == 0 && self.start.len() + line.len() < DOCUMENT {
             self.start.extend_from_slice(line);
             self.start.push(b'\n');
         }
         let element = error.id.map_or_else(String::new, |id| format!("cycle {id}"));
         let number = u32::try_from(error.line).unwrap_or(u32::MAX);
-        let mut read = ReadError::file(self.path, error.message).line(number);
+        let message = format!("{}{}", error.message, advice(line));
+        let mut read = ReadError::file(self.path, message).line(number);
         read = read.at(element, error.field);
         read.index = error.index;
         ReadError::join(&mut self.wrong, read);
     }
 }
 
-fn stream(path: &Path, places: Vec<(usize, Place)>, spool: Arc<Spool>) -> Stream {
-    let notes = vec![format!("{} as recorded", counted(places.len(), "cycle"))];
-    let count = places.len();
+/// What to do with a line of another kind of record, or of something else that mufasa writes; empty where it is
+/// neither, or too long to be one.
+fn advice(line: &[u8]) -> &'static str {
+    let short = line.get(..KNOWN).is_none();
+    let Some(Ok(Value::Object(object))) = short.then(|| serde_json::from_slice(line)) else {
+        return "";
+    };
+    match object.get("kind").and_then(Value::as_str) {
+        Some("offloading" | "composition") => {
+            "; `mufasa oracle` answers such records, here cycles are judged"
+        }
+        Some("checked_cycle" | "checked_drive" | "checked") => {
+            "; this is what `mufasa check --json` writes, not what it reads"
+        }
+        None if object.contains_key("input") && object.contains_key("expect") => {
+            "; a vector has its record in `input`: `jq -c .input FILE` writes the records"
+        }
+        Some(_) | None => "",
+    }
+}
+
+/// The drive of the lines of the spool from that one on.
+fn stream(path: &Path, first: u64, count: usize, spool: Arc<Spool>) -> Stream {
+    let cycles = counted(count, "cycle");
+    let own = "each with its own profile, configuration and parameters";
+    let notes = vec![format!("{cycles} as recorded, {own}")];
+    let file = path.to_owned();
     let make = move |index: usize| {
-        let (number, place) = places[index];
-        let line = spool.line(place).unwrap_or_else(|error| panic!("{}", Spool::refusal(&error)));
+        let lost = |error: &io::Error| ReadError::file(&file, lost(error));
+        let (number, line) = spool.line(first + index as u64).map_err(|error| lost(&error))?;
         match cycle_from_line(&line, number) {
-            Ok((id, cycle)) => DriveCycle { id, cycle },
-            Err(error) => unreachable!("line {number} was a cycle: {}", error.message),
+            Ok((id, cycle)) => Ok(DriveCycle { id, cycle }),
+            Err(error) => Err(lost(&io::Error::other(error.message))),
         }
     };
-    let mut drive = Stream::new(stem(path), path.display().to_string(), count, make);
+    let mut drive = Stream::fallible(stem(path), path.display().to_string(), count, make);
     (drive.lead_range_m, drive.notes) = (Sensor::default().lead_range_m, notes);
     drive
 }
@@ -111,4 +140,46 @@ fn stream(path: &Path, places: Vec<(usize, Place)>, spool: Arc<Spool>) -> Stream
 fn is_one_document(text: &[u8]) -> bool {
     let is_json = |text: &[u8]| serde_json::from_slice::<serde::de::IgnoredAny>(text).is_ok();
     text.trim_ascii().contains(&b'\n') && is_json(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_something_else_that_mufasa_writes_are_told_what_they_are() {
+        for (line, said) in [
+            (&br#"{"kind": "offloading", "id": "o"}"#[..], "`mufasa oracle` answers"),
+            (br#"{"kind": "composition", "id": "s"}"#, "`mufasa oracle` answers"),
+            (br#"{"id": "v", "input": {}, "expect": {}}"#, "`jq -c .input FILE`"),
+            (br#"{"kind": "checked", "drives": 1}"#, "what `mufasa check --json` writes"),
+            (br#"{"kind": "other"}"#, "kind must be cycle"),
+            (br#"{"input": {}}"#, "kind is missing"),
+        ] {
+            let mut drives = drive(Path::new("f"), line, &Arc::default());
+            let error = drives.remove(0).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+            assert_eq!(said.contains('`'), error.contains('`'), "{error}");
+        }
+    }
+
+    /// As where the disk fails, or somebody empties the file, between reading and judging.
+    #[test]
+    fn a_line_that_cannot_be_read_again_is_an_error_of_its_file() {
+        let line = b"{\"kind\": \"cycle\", \"id\": \"c\", \"now_ns\": 0, \"configuration\": \"Local\", \
+            \"ego\": {\"x\": 0, \"y\": 0, \"cos\": 1, \"sin\": 0, \"speed\": 0, \"length\": 4, \"width\": 2, \
+            \"center_offset\": 0}, \"route\": {\"closed\": false, \"stations\": []}}\n";
+        let spool = Arc::new(Spool::default());
+        let mut drives = drive(Path::new("c.jsonl"), &line.repeat(2)[..], &spool);
+        let drive = drives.remove(0).unwrap();
+        assert!(drive.cycle(1).is_ok());
+        spool.empty();
+        let error = drive.cycle(1).unwrap_err().to_string();
+        assert!(
+            error.starts_with("c.jsonl: ") && error.contains("cannot be read again"),
+            "{error}"
+        );
+        assert!(error.contains("TMPDIR"), "{error}");
+        assert!(drive.collect().is_err());
+    }
 }

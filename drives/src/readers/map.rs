@@ -85,11 +85,11 @@ pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Stre
         ));
         let Stream { name, source, lead_range_m, notes, .. } = drive.clone();
         let make = move |index| {
-            let DriveCycle { id, mut cycle } = drive.cycle(index);
+            let DriveCycle { id, mut cycle } = drive.cycle(index)?;
             window(&mut cycle);
-            DriveCycle { id, cycle }
+            Ok(DriveCycle { id, cycle })
         };
-        let mut cut = Stream::new(name, source, count, make);
+        let mut cut = Stream::fallible(name, source, count, make);
         (cut.lead_range_m, cut.notes) = (lead_range_m, notes);
         return Ok(cut);
     }

@@ -50,7 +50,7 @@ use spool::Spool;
 /// file, place and value, and does not stop the others. A file gives one error at most: the lines
 /// of JSON that are no cycles are in it together, and come before the drive of those that are.
 pub fn read(paths: &[PathBuf], options: &Options) -> Vec<Result<Drive, ReadError>> {
-    streams(paths, options).into_iter().map(|drive| drive.map(Stream::collect)).collect()
+    streams(paths, options).into_iter().map(|drive| drive.and_then(Stream::collect)).collect()
 }
 
 /// Reads drives from files as [`read`] does, and makes their cycles when they are asked for.

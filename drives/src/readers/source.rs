@@ -158,7 +158,11 @@ impl Read for Broken {
 }
 
 fn unread(error: &io::Error) -> io::Error {
-    io::Error::other(format!("cannot be read: {error}"))
+    let advice = match error.kind() {
+        ErrorKind::IsADirectory => "; name the files in it, such as FOLDER/*.xml",
+        _ => "",
+    };
+    io::Error::other(format!("cannot be read: {error}{advice}"))
 }
 
 fn broken(error: &io::Error) -> io::Error {

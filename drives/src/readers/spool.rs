@@ -1,62 +1,79 @@
 //! Lines that are needed again, kept outside of memory: of a pipe and of a packed file they come once.
 
-use std::env;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// A temporary file of lines, which nobody else sees and which is gone with the process. There is none before the first
-/// line.
+/// Temporary files of lines and of their places, which nobody else sees and which are gone with the process. There
+/// are none before the first line.
 #[derive(Default)]
 pub(crate) struct Spool(Mutex<Option<Kept>>);
 
 struct Kept {
-    file: File,
+    lines: File,
+    /// Bytes of the lines.
     length: u64,
+    /// Of each line number, begin and length, 8 bytes each.
+    places: File,
+    count: u64,
 }
 
-/// Where a line is.
-#[derive(Clone, Copy)]
-pub(crate) struct Place {
-    start: u64,
-    length: usize,
-}
+/// Bytes of a place.
+const PLACE: usize = 24;
 
 impl Spool {
-    /// Keeps a line. Errors: there is no place for it.
-    pub(crate) fn keep(&self, line: &[u8]) -> io::Result<Place> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let Kept { file, length } = match &mut *kept {
-            Some(kept) => kept,
-            none => none.insert(Kept { file: tempfile::tempfile()?, length: 0 }),
-        };
-        let place = Place { start: *length, length: line.len() };
-        file.seek(SeekFrom::Start(place.start))?;
-        file.write_all(line)?;
-        *length += line.len() as u64;
-        Ok(place)
+    /// How many lines are kept.
+    pub(crate) fn count(&self) -> u64 {
+        self.kept().as_ref().map_or(0, |kept| kept.count)
     }
 
-    /// A line that was kept. Errors: the disk fails.
-    pub(crate) fn line(&self, place: Place) -> io::Result<Vec<u8>> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(Kept { file, .. }) = &mut *kept else {
+    /// Keeps a line and its number. Errors: there is no place for it.
+    pub(crate) fn keep(&self, number: usize, line: &[u8]) -> io::Result<()> {
+        let mut kept = self.kept();
+        let Kept { lines, length, places, count } = match &mut *kept {
+            Some(kept) => kept,
+            none => {
+                let [lines, places] = [tempfile::tempfile()?, tempfile::tempfile()?];
+                none.insert(Kept { lines, length: 0, places, count: 0 })
+            }
+        };
+        lines.seek(SeekFrom::Start(*length))?;
+        lines.write_all(line)?;
+        let place = [number as u64, *length, line.len() as u64].map(u64::to_le_bytes);
+        places.seek(SeekFrom::Start(*count * PLACE as u64))?;
+        places.write_all(place.as_flattened())?;
+        *length += line.len() as u64;
+        *count += 1;
+        Ok(())
+    }
+
+    /// The line kept as that one, from 0, and its number. Errors: the disk fails.
+    pub(crate) fn line(&self, index: u64) -> io::Result<(usize, Vec<u8>)> {
+        let mut kept = self.kept();
+        let Some(Kept { lines, places, .. }) = &mut *kept else {
             return Err(io::ErrorKind::NotFound.into());
         };
-        let mut line = vec![0; place.length];
-        file.seek(SeekFrom::Start(place.start))?;
-        file.read_exact(&mut line)?;
-        Ok(line)
+        let mut place = [[0; 8]; PLACE / 8];
+        places.seek(SeekFrom::Start(index * PLACE as u64))?;
+        places.read_exact(place.as_flattened_mut())?;
+        let [number, start, length] = place.map(u64::from_le_bytes);
+        let size = |it| usize::try_from(it).map_err(io::Error::other);
+        let mut line = vec![0; size(length)?];
+        lines.seek(SeekFrom::Start(start))?;
+        lines.read_exact(&mut line)?;
+        Ok((size(number)?, line))
     }
 
-    /// What is said where lines cannot be kept.
-    pub(crate) fn refusal(error: &io::Error) -> String {
-        let folder = env::temp_dir();
-        format!(
-            "its lines cannot be kept in {} while they are needed: {error}; name a folder with more \
-             place by TMPDIR",
-            folder.display()
-        )
+    fn kept(&self) -> MutexGuard<'_, Option<Kept>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Loses what is kept, as a disk may.
+    #[cfg(test)]
+    pub(crate) fn empty(&self) {
+        for kept in self.kept().iter() {
+            kept.lines.set_len(0).unwrap();
+        }
     }
 }
 
@@ -67,10 +84,18 @@ mod tests {
     #[test]
     fn lines_come_back_in_any_order() {
         let spool = Spool::default();
-        let places = ["one", "", "three"].map(|line| spool.keep(line.as_bytes()).unwrap());
-        let again = |i: usize| String::from_utf8(spool.line(places[i]).unwrap()).unwrap();
-        assert_eq!([2, 0, 1, 2].map(again), ["three", "one", "", "three"]);
-        let last = spool.keep(b"four").unwrap();
-        assert_eq!(spool.line(last).unwrap(), b"four");
+        assert!(spool.line(0).is_err());
+        for (number, line) in [(1, "one"), (2, ""), (7, "three")] {
+            spool.keep(number, line.as_bytes()).unwrap();
+        }
+        let again = |index: u64| {
+            let (number, line) = spool.line(index).unwrap();
+            (number, String::from_utf8(line).unwrap())
+        };
+        let expected = [(7, "three"), (1, "one"), (2, ""), (7, "three")];
+        assert_eq!([2, 0, 1, 2].map(again), expected.map(|(n, line)| (n, line.to_owned())));
+        spool.keep(9, b"four").unwrap();
+        assert_eq!((spool.line(3).unwrap(), spool.count()), ((9, b"four".to_vec()), 4));
+        assert!(spool.line(4).is_err());
     }
 }

@@ -2,14 +2,12 @@
 
 use std::fmt::Write as _;
 
-use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Drive, Options, Tail};
 use mufasa_model::input::cycle::{CrossSection, Profile};
-use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::FailedStage;
 use mufasa_model::report::Stage;
 
-use super::files::{Scratch, one, shared};
+use super::files::{Scratch, judged, one, shared};
 
 type Point = [f64; 2];
 
@@ -145,10 +143,9 @@ fn off_the_map(scenario: &str, solution: &str) -> [usize; 2] {
     let folder = Scratch::new();
     let options = Options { profile: Profile::Paper, ..Options::default() };
     let files = [folder.write("scenario.xml", scenario), folder.write("solution.xml", solution)];
-    let checked =
-        Checked::new(one(&files, &options).unwrap(), &Parameters::default(), false, || {});
+    let (checked, all) = judged(one(&files, &options).unwrap());
     assert_eq!(checked.disagreements(), 0);
-    let failed = checked.judged.iter().map(|it| it.model.as_ref().unwrap().failed_stage);
+    let failed = all.iter().map(|it| it.model.as_ref().unwrap().failed_stage);
     let off = failed.clone().filter(|it| *it == Some(FailedStage::Stage(Stage::Ii))).count();
     [off, failed.count()]
 }

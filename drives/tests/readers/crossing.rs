@@ -3,13 +3,11 @@
 
 use std::fmt::Write as _;
 
-use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Attack, Drive, Injection, Options, Tail};
 use mufasa_model::input::cycle::Profile;
-use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{Outcome, Rule};
 
-use super::files::{Scratch, inject, one, own};
+use super::files::{Scratch, inject, judged, one, own};
 
 /// The small scenario with car 50, which comes from the left at 10 m/s and is in the CAV's lane,
 /// 30 m ahead of its first place, after 2 s.
@@ -46,9 +44,9 @@ fn drive(profile: Profile) -> Drive {
 fn found(profile: Profile, attack: Attack) -> Option<(usize, Rule)> {
     let injection = Injection { attack, from_s: 0.6, to_s: f64::INFINITY };
     let attacked = inject(&drive(profile), &injection).unwrap();
-    let checked = Checked::new(attacked, &Parameters::default(), false, || {});
+    let (checked, all) = judged(attacked);
     assert_eq!(checked.disagreements(), 0);
-    checked.judged.iter().enumerate().skip(6).find_map(|(i, judged)| {
+    all.iter().enumerate().skip(6).find_map(|(i, judged)| {
         let stages = &judged.model.as_ref().expect("local input is valid").stages;
         stages.iter().find_map(|it| match it {
             Outcome::Failed(witness) => Some((i, witness.rule)),

@@ -4,8 +4,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use mufasa_drives::check::checked::Checked;
+use mufasa_drives::check::judge::Judged;
 use mufasa_drives::{Drive, InjectError, Injection, Options, ReadError, Stream, read};
 use mufasa_model::input::cycle::Track;
+use mufasa_model::offloading::requester::Parameters;
 
 /// A file of the crate's `data`.
 pub fn own(name: &str) -> PathBuf {
@@ -100,5 +103,15 @@ pub fn crossed(mut drive: Drive) -> Drive {
 
 /// The drive under attack, with all its cycles.
 pub fn inject(drive: &Drive, injection: &Injection) -> Result<Drive, InjectError> {
-    mufasa_drives::inject(&Stream::from(drive.clone()), injection).map(Stream::collect)
+    mufasa_drives::inject(&Stream::from(drive.clone()), injection).map(|it| it.collect().unwrap())
+}
+
+/// A drive, judged, with the judgement of every cycle.
+pub fn judged(drive: impl Into<Stream>) -> (Checked, Vec<Judged>) {
+    let mut judged = Vec::new();
+    let checked = Checked::new(drive, &Parameters::default(), false, |seen| {
+        judged.push(seen.judged.clone());
+        Ok(())
+    });
+    (checked.expect("its cycles are there"), judged)
 }

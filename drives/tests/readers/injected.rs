@@ -2,25 +2,19 @@
 
 use std::str::FromStr;
 
-use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, Sensor};
 use mufasa_model::input::cycle::Profile;
-use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::{FailedStage, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 
-use super::files::{crossed, demo, inject};
+use super::files::{crossed, demo, inject, judged};
 
 /// What failed first, and at which cycle.
 fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
-    checked(drive).judged.iter().enumerate().find_map(|(i, judged)| {
+    judged(drive.clone()).1.iter().enumerate().find_map(|(i, judged)| {
         let report = judged.model.as_ref().expect("local input is valid");
         report.failed_stage.map(|stage| (i, stage))
     })
-}
-
-fn checked(drive: &Drive) -> Checked {
-    Checked::new(drive.clone(), &Parameters::default(), false, || {})
 }
 
 fn options(profile: Profile) -> Options {
@@ -128,8 +122,8 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
     let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
     let (found, _) = first_failure(&attacked).unwrap();
-    let checked = checked(&attacked);
-    let report = checked.judged[found].model.as_ref().unwrap();
+    let (_, all) = judged(attacked.clone());
+    let report = all[found].model.as_ref().unwrap();
     let rules: Vec<Rule> = report
         .stages
         .iter()

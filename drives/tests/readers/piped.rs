@@ -177,3 +177,56 @@ fn other_formats_are_named_with_what_to_do() {
         assert!(!refused(&folder, other).contains("which is not read"));
     }
 }
+
+/// The places of a scenario in another encoding are read as well as anybody's once it is UTF-8, whatever it
+/// declares then.
+#[test]
+fn xml_in_another_encoding_is_told_with_its_name_and_how_to_convert_it() {
+    let folder = Scratch::new();
+    let scenario = fs::read_to_string(own("readers/small-2018b.xml")).unwrap();
+    let (declaration, rest) = scenario.split_once("?>").expect("a declaration");
+    assert!(declaration.starts_with("<?xml"));
+    let with = |declaration: &str, author: &[u8]| {
+        [
+            format!("<?xml version=\"1.0\"{declaration}?><!-- ").as_bytes(),
+            author,
+            b" -->",
+            rest.as_bytes(),
+        ]
+        .concat()
+    };
+    for (declaration, said) in [
+        (" encoding=\"ISO-8859-1\"", "XML in ISO-8859-1, as it declares"),
+        (" encoding = 'windows-1252' standalone=\"yes\"", "XML in windows-1252, as it declares"),
+    ] {
+        let message = refused(&folder, &with(declaration, b"J\xfcrgen"));
+        let name = said.split([' ', ',']).nth(2).unwrap();
+        let advice = format!("`iconv -f {name} -t UTF-8 FILE` does");
+        assert!(message.starts_with(said) && message.ends_with(&advice), "{message}");
+        let path = folder.write("converted", with(declaration, "J\u{fc}rgen".as_bytes()));
+        assert!(one(&[path], &Options::default()).is_ok());
+    }
+    for declaration in ["", " encoding=\"utf-8\"", " encoding=\"$(reboot)\""] {
+        let message = refused(&folder, &with(declaration, b"J\xfcrgen"));
+        assert!(message.starts_with("XML that should be UTF-8 and is not"), "{message}");
+        assert!(
+            message.contains("`iconv -f ISO-8859-1 -t UTF-8 FILE`, if it is ISO-8859-1"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_folder_is_refused_with_what_to_name() {
+    let message = one(&[own("readers")], &Options::default()).unwrap_err().message;
+    assert!(message.ends_with("name the files in it, such as FOLDER/*.xml"), "{message}");
+}
+
+#[test]
+fn a_vehicle_that_is_named_beside_a_solution_is_noted() {
+    let ego = |ego| {
+        let notes = small("2018b", Some("KS2"), &Options { ego, ..Options::default() }).notes;
+        notes.iter().filter(|note| note.contains("--ego 7 is not used")).count()
+    };
+    assert_eq!([ego(None), ego(Some(7))], [0, 1]);
+}

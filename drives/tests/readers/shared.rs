@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use mufasa_drives::check::checked::Checked;
 use mufasa_drives::{Drive, DriveCycle, Options, read};
 use mufasa_model::input::cycle::{Cycle, Profile};
-use mufasa_model::offloading::requester::Parameters;
 use mufasa_model::report::FailedStage;
 
-use super::files::shared;
+use super::files::{judged, shared};
 
 /// Scenarios of a folder, each with its solutions, in the order of their names.
 fn scenarios(folder: &Path) -> Vec<(PathBuf, Vec<PathBuf>)> {
@@ -83,9 +81,9 @@ fn judge(drive: &Drive, every: usize) -> BTreeMap<String, usize> {
             cycle: Cycle { profile, ..it.cycle.clone() },
         });
         let thinned = Drive { cycles: cycles.collect(), ..drive.clone() };
-        let checked = Checked::new(thinned, &Parameters::default(), false, || {});
+        let (checked, all) = judged(thinned);
         assert_eq!(checked.disagreements(), 0, "{}", drive.name);
-        for judged in &checked.judged {
+        for judged in &all {
             let report = judged.model.as_ref();
             let report = report.unwrap_or_else(|e| panic!("{}: {e:?}", drive.name));
             assert_ne!(report.failed_stage, Some(FailedStage::Input), "{}", drive.name);

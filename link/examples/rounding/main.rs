@@ -90,6 +90,7 @@ fn judge(drive: &Stream) -> Result<[Vec<Change>; Way::ALL.len()], EncodeError> {
     let mut changes = Way::ALL.map(|_| Vec::new());
     let mut frame = None;
     for made in drive.cycles() {
+        let made = made.unwrap_or_else(|error| stop(&error.to_string()));
         let ego = &made.cycle.ego;
         let here = Frame::new(REFERENCE[0], REFERENCE[1], [ego.x, ego.y])?;
         let frame = frame.get_or_insert(here);

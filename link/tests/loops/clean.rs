@@ -38,7 +38,7 @@ fn a_clean_drive_is_offloaded_from_its_first_second_to_its_end() {
 
 #[test]
 fn a_drive_waits_for_a_computer_that_is_late() {
-    let played = Played::new(demo(&Options::default()).unwrap().collect()).unwrap();
+    let played = Played::new(demo(&Options::default()).unwrap().collect().unwrap()).unwrap();
     let mut of_vehicle = Hub::default().join(Address::Vehicle(1));
     let (mut lent, mut tally) = (lent(&played), Tally::default());
     let settings = settings(&played, &World::default().requester);

@@ -234,7 +234,7 @@ fn a_second_vehicle_is_served_beside_the_first() {
 fn results_are_sent_in_running_sessions_alone() {
     let answers = Rc::new(RefCell::new((None, BTreeMap::new())));
     let heard = Rc::clone(&answers);
-    let place = demo(&Options::default()).unwrap().cycle(0).cycle.ego;
+    let place = demo(&Options::default()).unwrap().cycle(0).unwrap().cycle.ego;
     while_somebody(move |ms, by| {
         let (ear, answers) = &mut *heard.borrow_mut();
         let ear = ear.get_or_insert_with(|| by.hub.join(Address::Vehicle(2)));

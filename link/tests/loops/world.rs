@@ -3,7 +3,7 @@
 
 use mufasa::monitor::Settings;
 use mufasa::services::configuration::Configuration;
-use mufasa_drives::{Injection, Options, inject};
+use mufasa_drives::{Injection, Options, Stream, inject};
 use mufasa_link::message::{Frame, Message, encode};
 use mufasa_link::play::Played;
 use mufasa_link::run::settings;
@@ -106,12 +106,12 @@ impl World {
     /// Drives until the end.
     pub fn drive(mut self) -> Seen {
         let options = Options { profile: self.profile, ..Options::default() };
-        let clean = mufasa_drives::demo(&options).expect("the demo").collect();
+        let clean = mufasa_drives::demo(&options).and_then(Stream::collect).expect("the demo");
         let mut attacked = clean.clone();
         for attack in &self.inject {
             let injection: Injection = attack.parse().expect("an injection");
-            attacked =
-                inject(&attacked.into(), &injection).expect("it changes the drive").collect();
+            let stream = inject(&attacked.into(), &injection).expect("it changes the drive");
+            attacked = stream.collect().expect("it is in memory");
         }
         let played = Played::new(clean).expect("a drive to be played");
         let offered = Played::new(attacked).expect("a drive to be played");

@@ -265,9 +265,9 @@ pub(super) struct ProveArguments {
 /// Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.
 #[derive(Args)]
 pub(super) struct VectorsArguments {
-    /// Folder; files of other names there stay.
-    #[arg(long, value_name = "DIR", default_value = "vectors")]
-    pub(super) out: PathBuf,
+    /// Folder; files of other names there stay [default: vectors].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -279,17 +279,17 @@ pub(super) struct CompletionsArguments {
 /// Exit codes: 0 written, 2 the folder cannot be written.
 #[derive(Args)]
 pub(super) struct ManArguments {
-    /// Folder of the pages, one for each command.
-    #[arg(long, value_name = "DIR", default_value = "man")]
-    pub(super) out: PathBuf,
+    /// Folder of the pages, one for each command [default: man].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
 }
 
 /// Exit codes: 0 written, 2 the folder cannot be written.
 #[derive(Args)]
 pub(super) struct SchemasArguments {
-    /// Folder of the schemas.
-    #[arg(long, value_name = "DIR", default_value = "schemas")]
-    pub(super) out: PathBuf,
+    /// Folder of the schemas [default: schemas].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
 }
 
 impl CheckArguments {

@@ -5,6 +5,7 @@
 mod circles;
 mod length;
 mod links;
+mod loops;
 mod names;
 mod packages;
 mod style;
@@ -121,6 +122,13 @@ fn every_heading_that_is_named_exists() {
 #[test]
 fn the_readme_has_at_most_8_kb() {
     judge(&length::readme(&Tree::here(), 8_000), &[]);
+}
+
+/// Who copies a loop gets what the documents advise.
+#[test]
+fn loops_to_be_copied_are_as_advised() {
+    judge(&loops::periods(&Tree::here()), &[]);
+    judge(&loops::left_out(&Tree::here()), &[]);
 }
 
 /// See there, each with its reason.

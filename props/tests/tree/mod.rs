@@ -9,7 +9,7 @@ use std::path::Path;
 pub struct Tree(pub BTreeMap<String, String>);
 
 /// What is read; other files are known by name alone.
-const TEXT: [&str; 6] = ["rs", "md", "toml", "jsonl", "gitignore", "svg"];
+const TEXT: [&str; 8] = ["rs", "md", "toml", "jsonl", "gitignore", "svg", "c", "py"];
 
 impl Tree {
     /// The repository, without what is built, downloaded or hidden.

@@ -26,7 +26,7 @@ macro_rules! written {
 }
 
 /// Parameters of a record: those of a type of the model, and more that mean nothing here. Those at
-/// their default are left out when they are written, numbers that may have a fraction come first.
+/// their default are left out when they are written; their order is that of the list.
 macro_rules! overrides {
     (
         $(#[$meta:meta])*
@@ -60,7 +60,6 @@ macro_rules! overrides {
                     $((stringify!($field), json!(self.$field), json!(usual.$field)),)*
                 ];
                 fields.retain(|(_, value, usual)| self.whole || differ(value, usual));
-                fields.sort_by_key(|(_, value, _)| value.is_i64() || value.is_boolean());
                 json.collect_map(fields.into_iter().map(|(name, value, _)| (name, value)))
             }
         }
@@ -175,4 +174,33 @@ pub fn names() -> Vec<String> {
     let protocol = json!(ProtocolParameters { whole: true, ..ProtocolParameters::default() });
     let fields = [stages, protocol].into_iter().filter_map(|it| it.as_object().cloned());
     fields.flat_map(|fields| fields.into_iter().map(|(name, _)| name)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The names of an object in the order in which they are written, without their unit.
+    fn written(parameters: &impl Serialize) -> Vec<String> {
+        let text = serde_json::to_string(parameters).unwrap();
+        let names = text.split('"').skip(1).step_by(2);
+        names.map(|name| name.strip_suffix("_ns").unwrap_or(name).to_owned()).collect()
+    }
+
+    #[test]
+    fn parameters_are_written_in_the_order_of_the_text() {
+        let text = include_str!("../../../spec/3-stages.md");
+        let list = text.lines().find(|line| line.starts_with("Parameters (")).unwrap();
+        let pieces: Vec<_> = list.split(" = ").collect();
+        let named = pieces.iter().take(pieces.len() - 1).filter_map(|it| it.split(' ').next_back());
+        let whole = StageParameters { whole: true, ..StageParameters::default() };
+        assert_eq!(written(&whole), named.chain(["delta"]).collect::<Vec<_>>());
+
+        let text = include_str!("../../../spec/2-offloading.md");
+        let (_, list) = text.split_once("Defaults: ").unwrap();
+        let (list, _) = list.split_once(", lease").unwrap();
+        let named = list.split(", ").filter_map(|it| it.split(' ').next());
+        let whole = ProtocolParameters { whole: true, ..ProtocolParameters::default() };
+        assert_eq!(written(&whole), named.chain(["qos_hold"]).collect::<Vec<_>>());
+    }
 }
