@@ -5,6 +5,7 @@ mod attacks;
 mod digest;
 mod guard;
 mod radio;
+mod records;
 mod replay;
 mod same;
 mod services;
