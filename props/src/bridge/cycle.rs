@@ -238,6 +238,8 @@ fn grid_from_impl(grid: &twin::Grid<'_>) -> Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::strategy::draw::Draw;
+    use crate::strategy::whole;
 
     #[test]
     fn the_defaults_of_both_crates_are_the_same_doubles() {
@@ -246,5 +248,32 @@ mod tests {
         assert_eq!(model, implementation);
         // `==` would let -0.0 pass for 0.0; the text of a double does not.
         assert_eq!(format!("{model:?}"), format!("{implementation:?}"));
+    }
+
+    #[test]
+    fn a_cycle_comes_back_as_it_was() {
+        let (mut parts, mut tape) = ([false; 6], Vec::new());
+        for seed in 0..400_u32 {
+            tape.clear();
+            tape.extend((0..600_u32).map(|at| (seed * 600 + at).wrapping_mul(2_654_435_761)));
+            for profile in [Profile::Paper, Profile::Hardened] {
+                let cycle = whole::cycle(&mut Draw::new(&tape), profile);
+                let owned = to_impl(&cycle);
+                let history = owned.history();
+                // The text of a NaN is that of another.
+                let back = from_impl(&owned.borrow(&history));
+                assert_eq!(format!("{back:?}"), format!("{cycle:?}"));
+                let of_cycle = [
+                    cycle.trajectory.is_some(),
+                    cycle.tracks.is_some(),
+                    cycle.detections.is_some(),
+                    cycle.lead.is_some(),
+                    cycle.grid.is_some_and(|grid| grid.unknown.is_some()),
+                    !cycle.detection_history.is_empty(),
+                ];
+                parts = std::array::from_fn(|at| parts[at] || of_cycle[at]);
+            }
+        }
+        assert_eq!(parts, [true; 6], "every part is in some cycle");
     }
 }
