@@ -1,36 +1,50 @@
 //! Experiments in a closed loop (`docs/evaluation.md`): tables, and JSON and CSV of all runs.
 
 pub mod arguments;
+mod codes;
 mod falsify;
+mod log;
+mod plots;
+mod published;
 mod replay;
+mod report;
 pub mod shards;
+mod shown;
 pub mod tables;
 mod text;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
 
 use indicatif::ProgressBar;
 use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::job::Options;
+use mufasa_sim::experiment::attacks::Attacks;
+use mufasa_sim::experiment::availability::Availability;
+use mufasa_sim::experiment::checks::Checks;
+use mufasa_sim::experiment::cpu::{self, Cpu};
+use mufasa_sim::experiment::failures::{self, Failures};
+use mufasa_sim::experiment::job::{Job, Options};
 use mufasa_sim::experiment::select::Select;
-use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
+use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
-use serde::Serialize;
 
 use self::arguments::{EvaluateArguments, Experiment};
+use self::codes::{BAD_INPUT, DISAGREES, FAILED};
+use self::plots::figures::Figure;
+use self::report::{FailedRun, REPLAYS, Section};
+use self::shown::{Failed, Shown};
 use self::tables::Rows;
-use self::text::{csv, said};
+use self::text::{csv, json, said};
 use crate::document;
 
-/// The hardened profile let something happen.
-const FAILED: u8 = 1;
-/// Bad input, or a file that cannot be written.
-const BAD_INPUT: u8 = 2;
+/// One cycle of so many is checked by the model if not all are.
+const CHECKED_EVERY: u64 = 100;
 
 /// What an experiment leaves.
 struct Results {
@@ -41,7 +55,8 @@ struct Results {
     json: String,
     /// The rows of the table, and the runs, as CSV.
     csv: [String; 2],
-    code: u8,
+    figures: Vec<Figure>,
+    failed: Vec<Failed>,
 }
 
 /// Makes an experiment, writes its table to `out` and its files into the folder, if one is given. Its exit
@@ -54,43 +69,77 @@ pub fn run(
     let (size, make) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, out, err),
         Some(Experiment::Falsify(it)) => return falsify::run(it, out, err),
-        None => (&arguments.size, failures as Make),
-        Some(Experiment::Failures(size)) => (size, failures as Make),
-        Some(Experiment::Stages(size)) => (size, stages as Make),
-        Some(Experiment::Attacks(size)) => (size, attacks as Make),
-        Some(Experiment::Availability(size)) => (size, availability as Make),
-        Some(Experiment::Cpu(size)) => (size, cpu as Make),
+        None => (&arguments.size, made::<Failures> as Make),
+        Some(Experiment::Failures(size)) => (size, made::<Failures> as Make),
+        Some(Experiment::Stages(size)) => (size, made::<Stages> as Make),
+        Some(Experiment::Attacks(size)) => (size, made::<Attacks> as Make),
+        Some(Experiment::Availability(size)) => (size, made::<Availability> as Make),
+        Some(Experiment::Cpu(size)) => (size, made::<Cpu> as Make),
     };
-    let select = Select { shard: size.shard, ..Select::only(size.only.as_deref()) };
+    let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
+    if is_timed && size.check_all {
+        complain(
+            err,
+            "--check-all: not for cpu, whose figures are times that a check would change",
+        );
+        return Ok(BAD_INPUT);
+    }
+    let select = Select {
+        shard: size.shard,
+        checked_every: match (is_timed, size.check_all) {
+            (true, _) => 0,
+            (false, true) => 1,
+            (false, false) => CHECKED_EVERY,
+        },
+        draws: size.out.is_some(),
+        ..Select::only(size.only.as_deref())
+    };
     let task = Task { sized: &|defaults| size.options(defaults), select: &select };
     let made = prepared(size.out.as_deref()).and_then(|()| in_threads(size.threads, &task, make));
     match (made, size.shard, &size.out) {
         (Ok(results), Some(shard), Some(folder)) => {
             shards::write(folder, shard, &results, select, out, err)
         }
-        (made, ..) => ended(made, size.out.as_deref(), size.into.as_deref(), out, err),
+        (made, ..) => {
+            let made = made.map(|results| (results, select));
+            ended(made, size.out.as_deref(), size.into.as_deref(), out, err)
+        }
     }
 }
 
 /// Writes what was made: the table, and files and a document where they are asked for.
 fn ended(
-    made: Made,
+    made: Result<(Results, Select<'_>), String>,
     folder: Option<&Path>,
     document: Option<&Path>,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let results = match made {
-        Ok(results) => results,
+    let (results, select) = match made {
+        Ok(made) => made,
         Err(message) => {
             complain(err, &message);
             return Ok(BAD_INPUT);
         }
     };
+    let checks = select.checks.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
     write!(out, "{}", results.table.text())?;
-    let into = document.map(|file| (file, put(file, &results).map(|()| Vec::new())));
-    let written = folder.map(|folder| (folder, write_files(folder, &results)));
-    for (place, done) in written.into_iter().chain(into) {
+    tell(&checks, out, err)?;
+    let mut written = Vec::new();
+    if let Some(folder) = folder {
+        let names = draw(folder, &drawn).and_then(|pages| {
+            let mut names = write_files(folder, &results)?;
+            names.push(write_report(folder, &results, &checks)?);
+            names.extend(pages);
+            Ok(names)
+        });
+        written.push((folder, names));
+    }
+    if let Some(file) = document {
+        written.push((file, put(file, &results).map(|()| Vec::new())));
+    }
+    for (place, done) in written {
         match done {
             Ok(names) => {
                 let mut names = names.iter();
@@ -102,7 +151,26 @@ fn ended(
             }
         }
     }
-    Ok(results.code)
+    Ok(code(&results, &checks))
+}
+
+/// Says what the model was asked, and names where it disagrees.
+fn tell(checks: &Checks, out: &mut impl Write, err: &mut impl Write) -> io::Result<()> {
+    for it in &checks.disagreements {
+        complain(err, &format!("{} at {} ns: {}", it.id, it.t_ns, it.why));
+    }
+    if checks.checked == 0 {
+        return Ok(());
+    }
+    writeln!(out, "{}", report::checked(checks))
+}
+
+fn code(results: &Results, checks: &Checks) -> u8 {
+    if !checks.disagreements.is_empty() {
+        return DISAGREES;
+    }
+    let is_hit = results.failed.iter().any(|run| run.variant == Variant::Hardened);
+    if results.name == failures::NAME && is_hit { FAILED } else { 0 }
 }
 
 type Made = Result<Results, String>;
@@ -115,13 +183,25 @@ struct Task<'t> {
 
 type Make = fn(&Task<'_>, &Town) -> Made;
 
-/// The experiments by their names.
-const EXPERIMENTS: [(&str, Make); 5] = [
-    (failures::NAME, failures),
-    (stages::NAME, stages),
-    (attacks::NAME, attacks),
-    (availability::NAME, availability),
-    (cpu::NAME, cpu),
+/// An experiment by its name, how it is made, its size, and its runs.
+struct Named {
+    name: &'static str,
+    make: Make,
+    options: Options,
+    jobs: fn(&Town, Options) -> Vec<Job<()>>,
+}
+
+const fn named<E: Shown>() -> Named {
+    Named { name: E::NAME, make: made::<E>, options: E::OPTIONS, jobs: E::jobs }
+}
+
+/// The experiments.
+const EXPERIMENTS: [Named; 5] = [
+    named::<Failures>(),
+    named::<Stages>(),
+    named::<Attacks>(),
+    named::<Availability>(),
+    named::<Cpu>(),
 ];
 
 /// Whether files can be written into the folder.
@@ -146,82 +226,26 @@ fn in_threads(threads: Option<u16>, task: &Task<'_>, make: Make) -> Made {
     Ok(results)
 }
 
-fn failures(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(failures::OPTIONS);
-    let bar = bar(failures::NAME);
-    let made = failures::experiment(town, options, task.select, |of| step(&bar, of));
+fn made<E: Shown>(task: &Task<'_>, town: &Town) -> Made {
+    let options = (task.sized)(E::OPTIONS);
+    let bar = bar(E::NAME);
+    let made = E::make(town, options, task.select, |of| step(&bar, of));
     bar.finish_and_clear();
     let made = made.map_err(said)?;
-    let is_hit = |row: &failures::Row| row.variant == Variant::Hardened && row.failures > 0;
-    let code = if made.rows.iter().any(is_hit) { FAILED } else { 0 };
-    let results =
-        results((failures::NAME, options), tables::failures(&made), &made, &made.rows, &made.runs)?;
-    Ok(Results { code, ..results })
-}
-
-fn stages(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(stages::OPTIONS);
-    let bar = bar(stages::NAME);
-    let made = stages::experiment(town, options, task.select, |of| step(&bar, of));
-    bar.finish_and_clear();
-    let made = made.map_err(said)?;
-    results((stages::NAME, options), tables::stages(&made), &made, &made.rows, &made.runs)
-}
-
-fn attacks(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(attacks::OPTIONS);
-    let bar = bar(attacks::NAME);
-    let made = attacks::experiment(town, options, task.select, |of| step(&bar, of));
-    bar.finish_and_clear();
-    let made = made.map_err(said)?;
-    results((attacks::NAME, options), tables::attacks(&made), &made, &made.rows, &made.runs)
-}
-
-fn availability(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(availability::OPTIONS);
-    let bar = bar(availability::NAME);
-    let made = availability::experiment(town, options, task.select, |of| step(&bar, of));
-    bar.finish_and_clear();
-    let made = made.map_err(said)?;
-    results(
-        (availability::NAME, options),
-        tables::availability(&made),
-        &made,
-        &made.rows,
-        &made.runs,
-    )
-}
-
-fn cpu(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(cpu::OPTIONS);
-    let bar = bar(cpu::NAME);
-    let made = cpu::experiment(town, options, task.select, |of| step(&bar, of));
-    bar.finish_and_clear();
-    let made = made.map_err(said)?;
-    results((cpu::NAME, options), tables::cpu(&made), &made, &made.rows, &made.runs)
-}
-
-fn results<A: Serialize, B: Serialize>(
-    (name, options): (&'static str, Options),
-    table: Rows,
-    all: &impl Serialize,
-    rows: &[A],
-    runs: &[B],
-) -> Made {
-    let json = serde_json::to_string_pretty(all).map_err(said)? + "\n";
     Ok(Results {
-        name,
-        table,
+        name: E::NAME,
+        table: made.table(),
         options,
-        runs: runs.len(),
-        json,
-        csv: [csv(rows)?, csv(runs)?],
-        code: 0,
+        runs: made.runs().len(),
+        json: json(&made)?,
+        csv: [csv(made.rows())?, csv(made.runs())?],
+        figures: made.figures(),
+        failed: made.failed(),
     })
 }
 
 /// The names of the files, each there completely or not at all.
-fn write_files(folder: &Path, results: &Results) -> io::Result<Vec<String>> {
+fn write_files(folder: &Path, results: &Results) -> io::Result<Vec<PathBuf>> {
     let name = results.name;
     let [rows, runs] = &results.csv;
     let files = [
@@ -229,8 +253,59 @@ fn write_files(folder: &Path, results: &Results) -> io::Result<Vec<String>> {
         (format!("{name}-runs.csv"), runs),
         (format!("{name}.json"), &results.json),
     ];
-    files.iter().try_for_each(|(name, text)| files::write(&folder.join(name), text))?;
-    Ok(files.map(|(name, _)| name).to_vec())
+    let figures = results.figures.iter().map(|it| (it.file.clone(), &it.svg));
+    let write = |(name, text): (String, &String)| {
+        files::write(&folder.join(&name), text)?;
+        Ok(PathBuf::from(name))
+    };
+    files.into_iter().chain(figures).map(write).collect()
+}
+
+/// The names of the pages of runs that failed.
+fn draw(folder: &Path, drawn: &BTreeMap<String, String>) -> io::Result<Vec<PathBuf>> {
+    if !drawn.is_empty() {
+        files::prepare(&folder.join(REPLAYS))?;
+    }
+    let write = |(id, page): (&String, &String)| {
+        let name = page_of(id);
+        files::write(&folder.join(&name), page)?;
+        Ok(name)
+    };
+    drawn.iter().map(write).collect()
+}
+
+/// The file of a run's page in the folder of its experiment.
+fn page_of(id: &str) -> PathBuf {
+    Path::new(REPLAYS).join(format!("{}.html", id.replace('/', "-")))
+}
+
+/// The name of the report. Runs are linked whose pages are there.
+fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result<PathBuf> {
+    let Options { scenarios, vehicles, seed } = results.options;
+    let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}");
+    let failed = |run: &Failed| {
+        let page = page_of(&run.id);
+        let page = folder.join(&page).exists().then(|| page.display().to_string());
+        let command = format!("mufasa evaluate replay --run {} {size}", run.id);
+        FailedRun { id: run.id.clone(), end: run.end, page, command }
+    };
+    let section = Section {
+        name: results.name,
+        command: format!("mufasa evaluate {} {size}", results.name),
+        settings: vec![
+            ("Scenarios", scenarios.to_string()),
+            ("other vehicles", vehicles.to_string()),
+            ("seed", seed.to_string()),
+            ("runs", results.runs.to_string()),
+            ("mufasa", env!("CARGO_PKG_VERSION").to_owned()),
+        ],
+        table: &results.table,
+        figures: &results.figures,
+        failed: results.failed.iter().map(failed).collect(),
+        checks: (results.name != cpu::NAME).then_some(checks),
+    };
+    report::write(folder, &section)?;
+    Ok(PathBuf::from(report::FILE))
 }
 
 fn put(file: &Path, results: &Results) -> io::Result<()> {

@@ -46,7 +46,7 @@ mod cycle;
 mod requester;
 mod verdict;
 
-pub use self::cycle::{Owned, cycle_parameters, profile_to_impl, to_impl};
+pub use self::cycle::{Owned, cycle_parameters, from_impl, profile_to_impl, to_impl};
 pub use self::requester::{
     action_from_impl, configuration_from_impl, event_to_impl, group_from_impl, group_to_impl,
     groups_to_impl, parameters_to_impl, source_from_impl, state_from_impl,

@@ -19,8 +19,13 @@ pub fn prepare(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file at once.
+/// Writes a file of text at once.
 pub fn write(file: &Path, content: &str) -> io::Result<()> {
+    write_bytes(file, content.as_bytes())
+}
+
+/// Writes a file at once.
+pub fn write_bytes(file: &Path, content: &[u8]) -> io::Result<()> {
     let mut name = file.as_os_str().to_owned();
     name.push(".tmp");
     let temporary = PathBuf::from(name);

@@ -15,6 +15,8 @@ const SCALE: f64 = 4.0;
 pub const REMOTE: &str = "#c2185b";
 /// See `REMOTE`.
 pub const LOCAL: &str = "#00838f";
+/// Colour of what came over the link and was rejected.
+pub const REJECTED: &str = "#d62828";
 /// Colour of detections.
 pub const DETECTION: &str = "#e67e00";
 /// Colour of the trajectory.
@@ -31,6 +33,10 @@ pub struct Overlay {
     pub tracks: Vec<Rectangle>,
     /// Whether they came over the link: drawn in another colour then.
     pub is_remote: bool,
+    /// Places of a trajectory that came over the link and was rejected, m.
+    pub rejected: Vec<Point>,
+    /// Tracks that came over the link and were rejected.
+    pub rejected_tracks: Vec<Rectangle>,
     /// Middles of detections, m.
     pub detections: Vec<Point>,
     /// Middles of occupied cells, m.
@@ -150,6 +156,14 @@ fn one(
     if overlay.trajectory.len() > 1 {
         polyline(text, &overlay.trajectory, TRAJECTORY, 0.5, 0.9);
     }
+    text.push_str("<g stroke-dasharray=\"1.4 0.7\">\n");
+    if overlay.rejected.len() > 1 {
+        polyline(text, &overlay.rejected, REJECTED, 0.5, 0.9);
+    }
+    for track in &overlay.rejected_tracks {
+        polygon(text, &corners(track), "none", REJECTED);
+    }
+    text.push_str("</g>\n");
     for track in &overlay.tracks {
         polygon(text, &corners(track), "none", if overlay.is_remote { REMOTE } else { LOCAL });
     }

@@ -1,6 +1,7 @@
 //! One run: a scenario, a variant, attacks, and how it ended.
 
 use mufasa::input::parameters::Parameters as StageParameters;
+use mufasa::input::profile::Profile;
 use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::{FailedStage, Outcome as StageOutcome, Stage};
@@ -12,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attack::{Attack, Attacker};
 use crate::cav::guard::{Decided, Guard, Variant};
+use crate::cav::recorder::{Recorder, Share};
 use crate::cav::without::{Rules, Without};
 use crate::cav::{Areas, Cav};
 use crate::map::Town;
@@ -53,6 +55,8 @@ pub struct Settings {
     pub errors: Errors,
     /// Seed of noise and link.
     pub seed: u64,
+    /// Which of the cycles that the monitor decides are recorded.
+    pub recorded: Share,
 }
 
 impl Settings {
@@ -72,6 +76,16 @@ impl Settings {
             radio: radio::Settings::default(),
             errors: Errors::default(),
             seed,
+            recorded: Share::default(),
+        }
+    }
+
+    /// What keeps the cycles that are recorded.
+    fn recorder(&self) -> Recorder {
+        match self.variant {
+            Variant::Sofof => Recorder::default(),
+            Variant::Paper => Recorder::new(self.recorded, Profile::Paper, self.stages),
+            Variant::Hardened => Recorder::new(self.recorded, Profile::Hardened, self.stages),
         }
     }
 }
@@ -202,7 +216,8 @@ pub fn simulate(
             Guard::without(rules.map_err(|it| RunError::Monitor(MonitorError::Requester(it)))?)
         }
         _ => Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
-            .map_err(RunError::Monitor)?,
+            .map_err(RunError::Monitor)?
+            .recording(settings.recorder()),
     };
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
     let corridor = mufasa::input::cycle::Route {

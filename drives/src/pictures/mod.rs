@@ -1,6 +1,6 @@
 //! Pictures of cycles from above, as SVG: for people, not for verdicts (plain `f64`).
 
-mod canvas;
+pub mod canvas;
 mod frame;
 mod layers;
 mod legend;

@@ -1,12 +1,12 @@
 //! What a file holds, by its bytes and not by its name.
 
-use std::io::BufRead;
+use std::io::{BufRead, Cursor};
 use std::path::Path;
 
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::source::Unpacked;
 use crate::readers::xml_parts::Parts;
-use crate::readers::{formats, npy};
+use crate::readers::{formats, mcap, npy};
 
 /// A file by what it holds.
 pub(crate) enum Content {
@@ -25,6 +25,9 @@ impl Content {
         let bytes = file.bytes().map_err(|error| ReadError::file(path, error.to_string()))?;
         if bytes.starts_with(npy::MAGIC) {
             return Ok(Self::Map(bytes));
+        }
+        if bytes.starts_with(mcap::MAGIC) {
+            return Ok(Self::Lines(Box::new(Cursor::new(mcap::lines(path, &bytes)?))));
         }
         if let Some(message) = formats::foreign(&bytes) {
             return Err(ReadError::file(path, message));

@@ -13,14 +13,13 @@ const UTF_32: &str = "write it as UTF-8, as `iconv -f UTF-32 -t UTF-8 FILE` does
 const XML: &str = "write it as XML, as CommonRoadFileWriter of commonroad-io does";
 
 /// First bytes, what they are of, and what to do; the longer ones of two that start alike come first.
-const KNOWN: [(&[u8], &str, &str); 23] = [
+const KNOWN: [(&[u8], &str, &str); 22] = [
     (GZ, "a gz file within a gz file", UNPACK),
     (b"PK\x03\x04", "a zip archive", UNPACK),
     (b"PK\x05\x06", "an empty zip archive", UNPACK),
     (b"\x28\xb5\x2f\xfd", "a zstd file", UNPACK),
     (b"\xfd7zXZ\x00", "an xz file", UNPACK),
     (b"BZh", "a bzip2 file", UNPACK),
-    (b"\x89MCAP0", "an MCAP recording", RECORDS),
     (b"#ROSBAG", "a rosbag of ROS 1", RECORDS),
     (b"SQLite format 3\x00", "an SQLite database, such as a rosbag of ROS 2", RECORDS),
     (b"\x89HDF\r\n", "an HDF5 file", RECORDS),
@@ -39,8 +38,8 @@ const KNOWN: [(&[u8], &str, &str); 23] = [
     (b"\x00{", "text in UTF-16", UTF_16),
 ];
 /// What `check` reads, for a file that is nothing known.
-pub(crate) const READ: &str = "CommonRoad XML, JSON Lines of cycles and maps as .npy are read, \
-                               each also as .gz";
+pub(crate) const READ: &str = "CommonRoad XML, cycles as JSON Lines or in MCAP logs and maps as .npy \
+                               are read, each also as .gz";
 
 /// What a file of a format that is not read is, and what to do with it; `None` where its bytes are
 /// of no such format.

@@ -10,6 +10,7 @@ mod lanes;
 mod left_out;
 mod lines;
 mod map;
+pub mod mcap;
 mod npy;
 mod order;
 pub mod route;
@@ -40,8 +41,8 @@ use source::Source;
 use spool::Spool;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
-/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines
-/// (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, up to
+/// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines or in an MCAP
+/// log (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, up to
 /// 1 GiB unpacked, and may be a pipe. Cycles are read line by line and kept in a temporary file.
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone

@@ -148,7 +148,7 @@ fn other_formats_are_named_with_what_to_do() {
         (b"PK\x03\x04\x14\x00", "zip", "unpack it"),
         (b"\x28\xb5\x2f\xfd\x04", "zstd", "unpack it"),
         (&packed(&packed(b"<a/>")), "gz file within", "unpack it"),
-        (b"\x89MCAP0\r\n\x01", "MCAP", "JSON Lines"),
+        (b"\x89MCAP0\r\n\x01", "MCAP", "cut off or broken"),
         (b"#ROSBAG V2.0\n\x45", "rosbag of ROS 1", "JSON Lines"),
         (b"SQLite format 3\x00\x10", "rosbag of ROS 2", "JSON Lines"),
         (&utf_16, "UTF-16", "iconv"),

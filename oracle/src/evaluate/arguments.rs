@@ -16,8 +16,10 @@ use super::replay::ReplayArguments;
 #[command(
     args_conflicts_with_subcommands = true,
     after_help = "\
+Of the cycles that the stages decide one in a hundred is checked by the exact model, too (not of `cpu`).
+
 Exit codes: 0 done, 1 a run of `failures` that was checked by the hardened profile failed, 2 bad input or a
-file cannot be written."
+file cannot be written, 3 model and implementation disagree."
 )]
 pub struct EvaluateArguments {
     /// The experiment.
@@ -68,10 +70,15 @@ pub struct SizeArguments {
     /// the parts together.
     #[arg(long, value_name = "I/N", value_parser = shard, requires = "out", conflicts_with_all = ["only", "into"])]
     pub shard: Option<Shard>,
+    /// Check every cycle that the stages decide by the exact model, not one in a hundred.
+    #[arg(long)]
+    pub check_all: bool,
     /// Threads [default: all processors]. The results do not depend on it.
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Write the table and all runs as JSON and CSV into this folder.
+    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, replays of runs that failed (each
+    /// of the hardened profile, of others those of the first three scenarios on a route), and all of it in
+    /// report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Put the table into a document, between the lines that mark its place.
@@ -88,7 +95,7 @@ pub struct MergeArguments {
     /// The files that `mufasa evaluate EXPERIMENT --shard I/N --out DIR` wrote: all N of one experiment.
     #[arg(value_name = "FILE", required = true)]
     pub parts: Vec<PathBuf>,
-    /// Write the table and all runs as JSON and CSV into this folder.
+    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, and all of it in report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Put the table into a document, between the lines that mark its place.

@@ -17,16 +17,17 @@ use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::falsify::genome::KINDS;
 use mufasa_sim::experiment::falsify::{Caller, Falsified, NAME, Options, Progress, experiment};
 use mufasa_sim::map::streets::town;
+use mufasa_sim::replay::Replay;
+use mufasa_sim::run::End;
 
+use super::codes::{BAD_INPUT, FAILED};
+use super::plots::figures::{self, Figure};
 use super::replay::{kind, variant};
-use super::tables;
-use super::text::{csv, said};
+use super::report::{self, FailedRun, Section};
+use super::tables::{self, Rows};
+use super::text::{csv, json, said};
 use crate::document;
 
-/// A collision in the hardened profile with all rules.
-const FAILED: u8 = 1;
-/// Bad input, or a file that cannot be written.
-const BAD_INPUT: u8 = 2;
 /// Runs if nothing is said.
 const RUNS: u64 = 400;
 
@@ -64,7 +65,8 @@ pub struct FalsifyArguments {
     /// Threads [default: all processors]. With --runs the results do not depend on it.
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Write table and collisions as JSON and CSV into this folder, and each collision into its folder found.
+    /// Write table and collisions as JSON and CSV into this folder, a chart as SVG, all of it into report.html, and
+    /// each collision into its folder found.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Put the table into a document, between the lines that mark its place.
@@ -172,28 +174,78 @@ fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<Pat
     if let Some(folder) = &arguments.out {
         write(folder.join(format!("{NAME}.csv")), &csv(&made.rows)?)?;
         write(folder.join(format!("{NAME}.json")), &json(made)?)?;
+        let town = town();
         for found in &made.found {
-            let file = folder.join("found").join(format!("{}.json", found.case.name()));
-            write(file, &json(found)?)?;
+            write(folder.join(file_of(found, "json")), &json(found)?)?;
+            let (job, mut replay) = (found.case.job(), Replay::default());
+            let outcome = job.run(&town, &mut replay).map_err(said)?;
+            let page = replay.page(&town, &job.id, job.route, &outcome);
+            write(folder.join(file_of(found, "html")), &page)?;
         }
+        let figures = figures::falsified(made);
+        for figure in &figures {
+            write(folder.join(&figure.file), &figure.svg)?;
+        }
+        let (file, table) = (folder.join(report::FILE), tables::falsified(made));
+        let section = section(arguments, made, &table, &figures);
+        report::write(folder, &section).map_err(|error| say(&file, error))?;
+        names.push(file);
     }
     if let Some(file) = &arguments.into {
-        let without =
-            arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
-        let profile = match arguments.profile {
-            Variant::Hardened => String::new(),
-            other => format!(" --profile {}", other.name()),
-        };
-        let command = format!("mufasa evaluate {NAME}{profile}{without}");
         let table = tables::falsified(made).markdown();
-        document::write(file, &command, &table).map_err(|error| say(file, error))?;
+        document::write(file, &command(arguments), &table).map_err(|error| say(file, error))?;
         names.push(file.clone());
     }
     Ok(names)
 }
 
-fn json(of: &impl serde::Serialize) -> Result<String, String> {
-    Ok(serde_json::to_string_pretty(of).map_err(said)? + "\n")
+/// The file of a collision in the folder of the search: all about it, or its page.
+fn file_of(found: &Found, ending: &str) -> PathBuf {
+    Path::new("found").join(format!("{}.{ending}", found.case.name()))
+}
+
+/// The command, but for how long and from which seed.
+fn command(arguments: &FalsifyArguments) -> String {
+    let without =
+        arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
+    let profile = match arguments.profile {
+        Variant::Hardened => String::new(),
+        other => format!(" --profile {}", other.name()),
+    };
+    format!("mufasa evaluate {NAME}{profile}{without}")
+}
+
+fn section<'s>(
+    arguments: &FalsifyArguments,
+    made: &Falsified,
+    table: &'s Rows,
+    figures: &'s [Figure],
+) -> Section<'s> {
+    let Options { vehicles, seed, .. } = made.options;
+    let kinds = arguments.attack.iter().map(|kind| format!(" --attack {}", kind.name()));
+    let kinds: String = kinds.collect();
+    let size = format!("--runs {} --vehicles {vehicles} --seed {seed}", made.runs);
+    let failed = |found: &Found| {
+        let [json, page] = ["json", "html"].map(|it| file_of(found, it).display().to_string());
+        let command = format!("mufasa evaluate replay {json}");
+        FailedRun { id: found.case.name(), end: End::Collided, page: Some(page), command }
+    };
+    Section {
+        name: NAME,
+        command: format!("{}{kinds} {size}", command(arguments)),
+        settings: vec![
+            ("Other vehicles", vehicles.to_string()),
+            ("seed", seed.to_string()),
+            ("runs with attacks", made.runs.to_string()),
+            ("of them collided", made.collided.to_string()),
+            ("collided at random", made.collided_at_random.to_string()),
+            ("mufasa", env!("CARGO_PKG_VERSION").to_owned()),
+        ],
+        table,
+        figures,
+        failed: made.found.iter().map(failed).collect(),
+        checks: None,
+    }
 }
 
 fn without() -> impl TypedValueParser<Value = Without> {

@@ -7,24 +7,44 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, value_parser};
 use mufasa_drives::check::complain;
 use mufasa_records::files;
-use mufasa_sim::attack::Kind;
-use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::attack::{Attack, Kind};
+use mufasa_sim::cav::Cav;
+use mufasa_sim::cav::guard::{Decided, Variant};
+use mufasa_sim::cav::recorder::Share;
 use mufasa_sim::experiment::falsify::found::Found;
+use mufasa_sim::experiment::job::{Job, Options, kind_name};
+use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
-use mufasa_sim::replay::Id;
-use mufasa_sim::run::Outcome;
+use mufasa_sim::replay::Replay;
+use mufasa_sim::run::{Cycle, Outcome, Watcher};
+use mufasa_sim::snapshot::Snapshot;
 
-/// Bad input, or a file that cannot be written.
-const BAD_INPUT: u8 = 2;
+use super::EXPERIMENTS;
+use super::codes::BAD_INPUT;
+use super::log::Log;
+use super::text::said;
+
+/// Other vehicles if nothing is said.
+const VEHICLES: usize = 15;
 
 /// Which run, and where its page goes.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Exit codes: 0 the page is written, however the run ended; 2 bad input or the file cannot be written.")]
+Exit codes: 0 page and log are written, however the run ended; 2 bad input or a file cannot be written.")]
 pub struct ReplayArguments {
     /// A collision that `mufasa evaluate falsify` found; it says which run it is.
-    #[arg(value_name = "FILE", conflicts_with_all = ["attack", "variant", "route", "scenario", "vehicles", "from"])]
+    #[arg(value_name = "FILE", conflicts_with_all = ["run", "attack", "variant", "route", "scenario", "vehicles", "from"])]
     pub found: Option<PathBuf>,
+    /// A run of an experiment by its id, such as failures/paper/tracks-empty/0/3. With `--scenarios`,
+    /// `--vehicles` and `--seed` as they were given to the experiment.
+    #[arg(long, value_name = "ID", conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
+    pub run: Option<String>,
+    /// Scenarios of the experiment [default: that of the experiment].
+    #[arg(long, value_name = "N", requires = "run", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
+    pub scenarios: Option<u64>,
+    /// Seed of the experiment's first scenario.
+    #[arg(long, value_name = "SEED", requires = "run", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    pub seed: u64,
     /// What the attacker does [default: nothing].
     #[arg(long, value_name = "KIND", value_parser = kind())]
     pub attack: Option<Kind>,
@@ -37,87 +57,141 @@ pub struct ReplayArguments {
     /// Seed of the scenario, of noise and of the link.
     #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
     pub scenario: u64,
-    /// Other vehicles in the town.
-    #[arg(long, value_name = "N", default_value = "15", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
-    pub vehicles: u16,
+    /// Other vehicles in the town [default: 15, or that of the experiment].
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    pub vehicles: Option<u16>,
     /// Start of the attack, s; it goes on to the end.
     #[arg(long, value_name = "S", default_value = "5", value_parser = value_parser!(u16), allow_negative_numbers = true)]
     pub from: u16,
     /// The page; by default its name says which run it is.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Write the run as an MCAP log, too, which Foxglove shows; `mufasa check FILE` reads its cycles.
+    #[arg(long, value_name = "FILE")]
+    pub mcap: Option<PathBuf>,
 }
 
-/// Makes the run and writes its page. Returns the exit code. Errors: those of writing to `out`.
+/// Makes the run and writes its page, and its log. Returns the exit code. Errors: those of writing to `out`.
 pub fn run(
     arguments: &ReplayArguments,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    if let Some(found) = &arguments.found {
-        return run_found(found, arguments.out.as_deref(), out, err);
-    }
-    let &ReplayArguments { attack, variant, route, scenario, vehicles, from, .. } = arguments;
-    let id = Id { variant, attack, route: route.into(), scenario };
-    let (outcome, page) = match id.page(&town(), vehicles.into(), from.into()) {
-        Ok(Some(made)) => made,
-        Ok(None) => {
-            complain(err, &format!("route {route}: the town has fewer"));
-            return Ok(BAD_INPUT);
-        }
-        Err(error) => {
-            complain(err, &error.to_string());
-            return Ok(BAD_INPUT);
-        }
-    };
-    write_page(&id.to_string(), &outcome, &page, arguments.out.as_deref(), out, err)
-}
-
-/// The same of a collision in a file.
-fn run_found(
-    found: &Path,
-    file: Option<&Path>,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let read = std::fs::read_to_string(found).map_err(|error| error.to_string());
-    let read = read.and_then(|text| {
-        serde_json::from_str::<Found>(&text).map_err(|error| format!("no collision: {error}"))
-    });
     let town = town();
-    let made = read.and_then(|found| {
-        let routes = town.ego_routes().count();
-        if found.case.route >= routes {
-            return Err(format!("route {}: the town has {routes}", found.case.route));
+    let written = job(arguments, &town).and_then(|job| write(arguments, &town, &job));
+    match written {
+        Ok((name, outcome, files)) => {
+            let files: Vec<String> = files.iter().map(|it| it.display().to_string()).collect();
+            let files = files.join(", ");
+            writeln!(out, "{name}: {:?} at {:.2} s, {files}", outcome.end, outcome.t)?;
+            Ok(0)
         }
-        let made = found.case.page(&town).map_err(|error| error.to_string())?;
-        Ok((found.case.name(), made))
-    });
-    match made {
-        Ok((name, (outcome, page))) => write_page(&name, &outcome, &page, file, out, err),
         Err(message) => {
-            complain(err, &format!("{}: {message}", found.display()));
+            complain(err, &message);
             Ok(BAD_INPUT)
         }
     }
 }
 
-fn write_page(
-    name: &str,
-    outcome: &Outcome,
-    page: &str,
-    file: Option<&Path>,
-    out: &mut impl Write,
-    err: &mut impl Write,
-) -> io::Result<u8> {
-    let named = || PathBuf::from(format!("{}.html", name.replace('/', "-")));
-    let file = file.map_or_else(named, Path::to_path_buf);
-    if let Err(error) = files::write(&file, page) {
-        complain(err, &format!("{}: cannot be written: {error}", file.display()));
-        return Ok(BAD_INPUT);
+/// The run that is meant. Errors: there is none.
+fn job(arguments: &ReplayArguments, town: &Town) -> Result<Job<()>, String> {
+    let &ReplayArguments { attack: attack_of, variant, route, scenario, vehicles, from, .. } =
+        arguments;
+    let job = match (&arguments.found, &arguments.run) {
+        (Some(file), _) => found(file)?,
+        (None, Some(id)) => of_experiment(id, arguments, town)?,
+        (None, None) => {
+            let place = (variant, usize::from(route), scenario);
+            let vehicles = vehicles.map_or(VEHICLES, usize::from);
+            let of = Options { scenarios: 1, vehicles, seed: 0 };
+            let mut job = Job::new("replay", (kind_name(attack_of), ()), place, of);
+            let attack = |kind| Attack::new(kind, from.into(), f64::INFINITY, scenario);
+            job.settings.attacks = attack_of.into_iter().map(attack).collect();
+            job
+        }
+    };
+    let routes = town.ego_routes().count();
+    if job.route >= routes {
+        return Err(format!("route {}: the town has {routes}", job.route));
     }
-    writeln!(out, "{name}: {:?} at {:.2} s, {}", outcome.end, outcome.t, file.display())?;
-    Ok(0)
+    Ok(job)
+}
+
+/// A collision in a file.
+fn found(file: &Path) -> Result<Job<()>, String> {
+    let said = |error: String| format!("{}: {error}", file.display());
+    let text = std::fs::read_to_string(file).map_err(|error| said(error.to_string()))?;
+    let found = serde_json::from_str::<Found>(&text);
+    let found = found.map_err(|error| said(format!("no collision: {error}")))?;
+    Ok(found.case.job())
+}
+
+/// A run of an experiment.
+fn of_experiment(id: &str, arguments: &ReplayArguments, town: &Town) -> Result<Job<()>, String> {
+    let name = id.split('/').next().unwrap_or_default();
+    let named = EXPERIMENTS.iter().find(|it| it.name == name);
+    let mut jobs = named.map_or_else(Vec::new, |it| {
+        let options = Options {
+            scenarios: arguments.scenarios.unwrap_or(it.options.scenarios),
+            vehicles: arguments.vehicles.map_or(it.options.vehicles, usize::from),
+            seed: arguments.seed,
+        };
+        (it.jobs)(town, options)
+    });
+    let at = jobs.iter().position(|job| job.id == id);
+    at.map(|at| jobs.swap_remove(at)).ok_or_else(|| {
+        format!(
+            "--run {id}: no run of an experiment has such an id; one is its experiment, variant, what is \
+             special, route and scenario, such as failures/paper/tracks-empty/0/3"
+        )
+    })
+}
+
+/// The name of the run, how it ended, and the files.
+fn write(
+    arguments: &ReplayArguments,
+    town: &Town,
+    job: &Job<()>,
+) -> Result<(String, Outcome, Vec<PathBuf>), String> {
+    let name = job.id.clone();
+    let file = arguments.out.clone();
+    let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.html", name.replace('/', "-"))));
+    let mut both = Both { replay: Replay::default(), log: None };
+    let mut job = job.clone();
+    if arguments.mcap.is_some() {
+        job.settings.recorded = Share::ALL;
+        both.log = Some(Log::new(&name)?);
+    }
+    let outcome = job.run(town, &mut both).map_err(said)?;
+    let page = both.replay.page(town, &name, job.route, &outcome);
+    let say =
+        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
+    files::write(&file, &page).map_err(|error| say(&file, error))?;
+    let mut written = vec![file];
+    if let (Some(file), Some(log)) = (&arguments.mcap, both.log) {
+        files::write_bytes(file, &log.finish()?).map_err(|error| say(file, error))?;
+        written.push(file.clone());
+    }
+    Ok((name, outcome, written))
+}
+
+/// What is made of a run.
+struct Both {
+    replay: Replay,
+    log: Option<Log>,
+}
+
+impl Watcher for Both {
+    fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle) {
+        self.replay.cycle(truth, cav, decided, cycle);
+        if let Some(log) = &mut self.log {
+            log.cycle(truth, cav, decided, cycle);
+        }
+    }
+
+    fn ended(&mut self, truth: &Snapshot, cav: &Cav<'_>) {
+        self.replay.ended(truth, cav);
+    }
 }
 
 pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {

@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::PoisonError;
+use std::sync::{Mutex, PoisonError};
 
 use mufasa_drives::check::complain;
 use mufasa_records::files;
+use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::select::{Part, Select, Shard};
 
 use super::arguments::MergeArguments;
-use super::{BAD_INPUT, EXPERIMENTS, Results, Task, ended, in_threads, prepared};
+use super::codes::{BAD_INPUT, DISAGREES};
+use super::{EXPERIMENTS, Results, Task, draw, ended, in_threads, prepared, tell};
 
 /// Writes what was kept of the runs of a part, as a file that cannot be taken for the whole.
 pub(super) fn write(
@@ -23,16 +25,19 @@ pub(super) fn write(
 ) -> io::Result<u8> {
     let (experiment, options) = (results.name.to_owned(), results.options);
     let runs = select.kept.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let many = runs.len();
-    let part = Part { experiment, options, shard, runs };
+    let checks = select.checks.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let drawn = select.drawn.into_inner().unwrap_or_else(PoisonError::into_inner);
+    tell(&checks, out, err)?;
+    let (many, has_disagreed) = (runs.len(), !checks.disagreements.is_empty());
+    let part = Part { experiment, options, shard, runs, checks };
     let file = folder.join(format!("{}.{}-of-{}.part.json", results.name, shard.index, shard.of));
     let text = serde_json::to_string_pretty(&part).map_err(io::Error::other)? + "\n";
-    if let Err(error) = files::write(&file, &text) {
+    if let Err(error) = files::write(&file, &text).and_then(|()| draw(folder, &drawn)) {
         complain(err, &format!("{}: cannot be written: {error}", file.display()));
         return Ok(BAD_INPUT);
     }
     writeln!(out, "{}: {many} runs, part {} of {}", file.display(), shard.index, shard.of)?;
-    Ok(0)
+    Ok(if has_disagreed { DISAGREES } else { 0 })
 }
 
 /// Puts parts together: what comes out is, byte for byte, what one run of the whole would write. Its exit code.
@@ -43,16 +48,24 @@ pub fn merge(
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let folder = arguments.out.as_deref();
-    let made = prepared(folder).and_then(|()| read(&arguments.parts)).and_then(|whole| {
-        let named = EXPERIMENTS.iter().find(|(name, _)| *name == whole.experiment);
-        let (_, make) = named.ok_or_else(|| {
-            let names = EXPERIMENTS.map(|(name, _)| name).join(", ");
-            format!("{}: no such experiment; there are {names}", whole.experiment)
-        })?;
-        let select = Select { made: Some(&whole.runs), ..Select::default() };
-        let task = Task { sized: &|_| whole.options, select: &select };
-        in_threads(None, &task, *make)
+    let whole = match prepared(folder).and_then(|()| read(&arguments.parts)) {
+        Ok(whole) => whole,
+        Err(message) => {
+            complain(err, &message);
+            return Ok(BAD_INPUT);
+        }
+    };
+    let checks = Mutex::new(whole.checks.clone());
+    let select = Select { made: Some(&whole.runs), checks, ..Select::default() };
+    let named = EXPERIMENTS.iter().find(|it| it.name == whole.experiment).ok_or_else(|| {
+        let names = EXPERIMENTS.map(|it| it.name).join(", ");
+        format!("{}: no such experiment; there are {names}", whole.experiment)
     });
+    let made = named.and_then(|named| {
+        let task = Task { sized: &|_| whole.options, select: &select };
+        in_threads(None, &task, named.make)
+    });
+    let made = made.map(|results| (results, select));
     ended(made, folder, arguments.into.as_deref(), out, err)
 }
 
@@ -62,7 +75,11 @@ fn read(files: &[PathBuf]) -> Result<Part, String> {
     let mut from: BTreeMap<u32, &Path> = BTreeMap::new();
     for file in files {
         let part = part(file).map_err(|why| format!("{}: {why}", file.display()))?;
-        let first = whole.get_or_insert_with(|| Part { runs: BTreeMap::new(), ..part.clone() });
+        let first = whole.get_or_insert_with(|| Part {
+            runs: BTreeMap::new(),
+            checks: Checks::default(),
+            ..part.clone()
+        });
         let is_same = first.experiment == part.experiment && first.options == part.options;
         if !is_same || first.shard.of != part.shard.of {
             return Err(format!(
@@ -82,6 +99,7 @@ fn read(files: &[PathBuf]) -> Result<Part, String> {
             return Err(format!("{two}: part {} is there already: {one}", part.shard.index));
         }
         first.runs.extend(part.runs);
+        first.checks.add(part.checks);
     }
     let whole = whole.ok_or("no part")?;
     let missing = (1..=whole.shard.of).filter(|index| !from.contains_key(index));

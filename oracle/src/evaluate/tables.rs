@@ -3,10 +3,11 @@
 use std::fmt::Write;
 
 use comfy_table::{CellAlignment, Table, presets};
-use mufasa_sim::attack::Kind;
-use mufasa_sim::cav::guard::Variant;
+use mufasa_drives::pictures::escape;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
+
+use super::published;
 
 /// A table of texts.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,26 @@ impl Rows {
             }
         }
         format!("{table}\n")
+    }
+
+    /// For a page.
+    pub fn html(&self) -> String {
+        let mut out = String::from("<table>\n<tr>");
+        for (name, _) in &self.header {
+            // A string takes whatever is written.
+            let _ = write!(out, "<th>{}</th>", escape(name));
+        }
+        out.push_str("</tr>\n");
+        for row in &self.rows {
+            out.push_str("<tr>");
+            for (cell, (_, is_number)) in row.iter().zip(&self.header) {
+                let class = if *is_number { " class=\"number\"" } else { "" };
+                let _ = write!(out, "<td{class}>{}</td>", escape(cell));
+            }
+            out.push_str("</tr>\n");
+        }
+        out.push_str("</table>\n");
+        out
     }
 
     /// For a document.
@@ -74,21 +95,10 @@ pub fn failures(of: &failures::Failures) -> Rows {
             row.collided.to_string(),
             row.late.to_string(),
             row.off_road.to_string(),
-            in_paper(row).to_owned(),
+            published::failures(row.attack, row.variant).words.to_owned(),
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())
-}
-
-/// What the paper says in words; its numbers are in a figure.
-fn in_paper(row: &failures::Row) -> &'static str {
-    match (row.attack, row.variant) {
-        (None, _) => "not said",
-        (Some(_), Variant::Paper) => "0",
-        (Some(Kind::MapReplaced | Kind::TracksEmpty), Variant::Sofof) => "several",
-        (Some(_), Variant::Sofof) => "in its figure",
-        (Some(_), Variant::Hardened) => "",
-    }
 }
 
 /// Executions and detections by variant and stage.
@@ -200,7 +210,7 @@ pub fn cpu(of: &cpu::Cpu) -> Rows {
         if of_s > 0.0 { format!("{:.3}", 100.0 * cpu_s / of_s) } else { String::new() }
     };
     let row = |row: &cpu::Row| {
-        let [active, inactive] = cpu_in_paper(row.variant, row.who);
+        let [active, inactive] = published::cpu(row.variant, row.who).map(usage);
         [
             row.variant.name().to_owned(),
             row.who.name().to_owned(),
@@ -208,8 +218,8 @@ pub fn cpu(of: &cpu::Cpu) -> Rows {
             format!("{:.1}", row.active_s),
             percent(row.inactive_cpu_s, row.inactive_s),
             format!("{:.1}", row.inactive_s),
-            active.to_owned(),
-            inactive.to_owned(),
+            active,
+            inactive,
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())
@@ -236,21 +246,9 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
     Rows::new(header, of.rows.iter().map(row).collect())
 }
 
-/// CPU usage and time of the paper's table; of ENV and TPL, which are one here, both.
-const fn cpu_in_paper(variant: Variant, who: cpu::Who) -> [&'static str; 2] {
-    match (variant, who) {
-        (Variant::Hardened, _) => ["", ""],
-        (Variant::Paper, cpu::Who::Guard) => ["2.3 % in 594.5 s", ""],
-        (Variant::Paper, cpu::Who::Mot) => ["5.23 % in 551.6 s", "1.3 % in 42.1 s"],
-        (Variant::Paper, cpu::Who::EnvTpl) => {
-            ["18.75 % in 536.3 s, 18.7 % in 537.6 s", "1.2 % in 57.4 s, 0.9 % in 54.9 s"]
-        }
-        (Variant::Sofof, cpu::Who::Guard) => ["2.13 % in 594.5 s", ""],
-        (Variant::Sofof, cpu::Who::Mot) => ["5.36 % in 541.0 s", "1.1 % in 53.3 s"],
-        (Variant::Sofof, cpu::Who::EnvTpl) => {
-            ["18.6 % in 488.4 s, 18.6 % in 488.9 s", "0.7 % in 105.1 s, 0.6 % in 105.1 s"]
-        }
-    }
+fn usage(of: &[published::Usage]) -> String {
+    let one = |(percent, in_s): &published::Usage| format!("{percent} % in {in_s:.1} s");
+    of.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 fn per_thousand(part: u64, of: u64) -> String {

@@ -11,6 +11,11 @@ pub(super) fn csv<T: Serialize>(lines: &[T]) -> Result<String, String> {
     String::from_utf8(writer.into_inner().map_err(said)?).map_err(said)
 }
 
+/// Spread over lines, with one at its end.
+pub(super) fn json(of: &impl Serialize) -> Result<String, String> {
+    Ok(serde_json::to_string_pretty(of).map_err(said)? + "\n")
+}
+
 /// An error in words.
 pub(super) fn said(error: impl Display) -> String {
     error.to_string()

@@ -8,6 +8,8 @@ use mufasa_model::input::cycle::{
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
 
+use super::requester::configuration_from_impl;
+
 /// The lists of a cycle in the implementation's types; `borrow` makes the cycle of them.
 #[derive(Clone, Debug)]
 pub struct Owned {
@@ -62,6 +64,48 @@ pub fn to_impl(cycle: &Cycle) -> Owned {
     }
 }
 
+/// A cycle of the implementation in the model's types.
+pub fn from_impl(cycle: &twin::Cycle<'_>) -> Cycle {
+    let twin::Cycle {
+        profile,
+        parameters,
+        now_ns,
+        configuration,
+        ego,
+        trajectory,
+        tracks,
+        detections,
+        lead,
+        route,
+        grid,
+        detection_history,
+    } = cycle;
+    let twin::Route { closed, cross_sections } = route;
+    Cycle {
+        profile: profile_from_impl(*profile),
+        parameters: parameters_from_impl(parameters),
+        now_ns: *now_ns,
+        configuration: configuration_from_impl(*configuration),
+        ego: ego_from_impl(ego),
+        trajectory: trajectory.map(|twin::Trajectory { stamp_ns, points }| Trajectory {
+            stamp_ns,
+            points: points.iter().map(point_from_impl).collect(),
+        }),
+        tracks: tracks.map(|twin::TrackList { stamp_ns, items }| TrackList {
+            stamp_ns,
+            items: items.iter().map(track_from_impl).collect(),
+        }),
+        detections: detections.as_ref().map(detections_from_impl),
+        lead: lead.as_ref().map(lead_from_impl),
+        route: Route {
+            closed: *closed,
+            cross_sections: cross_sections.iter().map(cross_section_from_impl).collect(),
+        },
+        grid: grid.as_ref().map(grid_from_impl),
+        detection_history: detection_history.iter().map(detections_from_impl).collect(),
+    }
+}
+
 impl Owned {
     /// The detection history that the cycle borrows.
     pub fn history(&self) -> Vec<twin::DetectionList<'_>> {
@@ -98,6 +142,11 @@ macro_rules! same_names {
             let Parameters { $($name),* } = *parameters;
             mufasa::input::parameters::Parameters { $($name),* }
         }
+
+        fn parameters_from_impl(parameters: &mufasa::input::parameters::Parameters) -> Parameters {
+            let mufasa::input::parameters::Parameters { $($name),* } = *parameters;
+            Parameters { $($name),* }
+        }
     };
 }
 
@@ -106,6 +155,8 @@ mufasa::parameters!(same_names);
 same_variants! {
     /// The profile in the implementation's type.
     pub fn profile_to_impl(Profile) -> mufasa::input::profile::Profile { Paper, Hardened, }
+
+    fn profile_from_impl(mufasa::input::profile::Profile) -> Profile { Paper, Hardened, }
 
     fn configuration_to_impl(Configuration) -> mufasa::services::configuration::Configuration {
         Local, MotRemote, AllRemote, PlanRemote,
@@ -124,6 +175,18 @@ same_fields! {
     fn lead_to_impl(Lead) -> twin::Lead { stamp_ns, gap, speed }
 
     fn cross_section_to_impl(CrossSection) -> twin::CrossSection { x, y, left, right }
+
+    fn ego_from_impl(twin::Ego) -> Ego { x, y, cos, sin, speed, length, width, center_offset }
+
+    fn point_from_impl(twin::TrajectoryPoint) -> TrajectoryPoint { t_ns, x, y, cos, sin }
+
+    fn track_from_impl(twin::Track) -> Track { id, x, y, cos, sin, vx, vy, length, width }
+
+    fn detection_from_impl(twin::Detection) -> Detection { x, y, cos, sin, length, width }
+
+    fn lead_from_impl(twin::Lead) -> Lead { stamp_ns, gap, speed }
+
+    fn cross_section_from_impl(twin::CrossSection) -> CrossSection { x, y, left, right }
 }
 
 fn tracks_to_impl(list: &TrackList) -> (i64, Vec<twin::Track>) {
@@ -160,9 +223,23 @@ fn borrow_grid(grid: &Grid) -> twin::Grid<'_> {
     }
 }
 
+fn detections_from_impl(list: &twin::DetectionList<'_>) -> DetectionList {
+    let twin::DetectionList { stamp_ns, items } = *list;
+    DetectionList { stamp_ns, items: items.iter().map(detection_from_impl).collect() }
+}
+
+fn grid_from_impl(grid: &twin::Grid<'_>) -> Grid {
+    let twin::Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown } =
+        *grid;
+    let (occupied, unknown) = (occupied.to_vec(), unknown.map(<[u8]>::to_vec));
+    Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::strategy::draw::Draw;
+    use crate::strategy::whole;
 
     #[test]
     fn the_defaults_of_both_crates_are_the_same_doubles() {
@@ -171,5 +248,32 @@ mod tests {
         assert_eq!(model, implementation);
         // `==` would let -0.0 pass for 0.0; the text of a double does not.
         assert_eq!(format!("{model:?}"), format!("{implementation:?}"));
+    }
+
+    #[test]
+    fn a_cycle_comes_back_as_it_was() {
+        let (mut parts, mut tape) = ([false; 6], Vec::new());
+        for seed in 0..400_u32 {
+            tape.clear();
+            tape.extend((0..600_u32).map(|at| (seed * 600 + at).wrapping_mul(2_654_435_761)));
+            for profile in [Profile::Paper, Profile::Hardened] {
+                let cycle = whole::cycle(&mut Draw::new(&tape), profile);
+                let owned = to_impl(&cycle);
+                let history = owned.history();
+                // The text of a NaN is that of another.
+                let back = from_impl(&owned.borrow(&history));
+                assert_eq!(format!("{back:?}"), format!("{cycle:?}"));
+                let of_cycle = [
+                    cycle.trajectory.is_some(),
+                    cycle.tracks.is_some(),
+                    cycle.detections.is_some(),
+                    cycle.lead.is_some(),
+                    cycle.grid.is_some_and(|grid| grid.unknown.is_some()),
+                    !cycle.detection_history.is_empty(),
+                ];
+                parts = std::array::from_fn(|at| parts[at] || of_cycle[at]);
+            }
+        }
+        assert_eq!(parts, [true; 6], "every part is in some cycle");
     }
 }

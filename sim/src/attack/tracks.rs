@@ -41,7 +41,7 @@ pub(super) fn spoil(
         }
         Kind::GhostInMean => {
             if list.len() >= 4 {
-                // Beside a true track, so near that the mean over the others hides it.
+                // By the nearest track ahead, as far from it as the CAV's front is from its reference point.
                 let ahead = list.iter().map(|it| way_ahead(ego, it)).filter(|it| *it > 5.0);
                 let ahead = ahead.fold(30.0, f64::min);
                 let at = (ahead + means.ahead_m, means.left_m);
@@ -140,7 +140,7 @@ fn crosses(ego: &Ego, track: &Track) -> bool {
     across.abs() > STANDING && across.abs() > along.abs()
 }
 
-/// The two fastest of unlike velocity exchange their velocities.
+/// The fastest and the slowest exchange their velocities.
 fn exchange(list: &mut [Track]) {
     let speed = |it: &Track| (it.vx * it.vx + it.vy * it.vy).sqrt();
     list.sort_by(|a, b| speed(b).total_cmp(&speed(a)).then(a.id.cmp(&b.id)));

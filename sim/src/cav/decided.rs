@@ -3,6 +3,7 @@
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::offloading::requester::Action;
 use mufasa::report::{FailedStage, InvalidInput, Report};
+use mufasa_model::input::cycle::Cycle;
 
 /// What a cycle lets control have.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub struct Decided {
     pub tracks: Option<(i64, Vec<Track>)>,
     /// What is to be done.
     pub actions: Vec<Action>,
+    /// The cycle that the monitor was asked about, as the model has it, where it is recorded.
+    pub record: Option<Box<Cycle>>,
 }
 
 impl Decided {

@@ -3,6 +3,7 @@
 use core::time::Duration;
 
 use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
+use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{
     Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings,
@@ -17,7 +18,9 @@ use mufasa::services::configuration::{Configuration, Group};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::assembled::{Chosen, Last};
 pub use super::decided::{Decided, Local};
+use super::recorder::Recorder;
 use super::sensing::Sensed;
 use super::without::Rules;
 
@@ -49,28 +52,19 @@ impl Variant {
     }
 }
 
-/// The results of a remote group that the CAV has, of the newest message that was used.
-#[derive(Debug)]
-struct Plain<T> {
-    session: i64,
-    stamp_ns: i64,
-    items: Vec<T>,
-}
-
 /// One of the variants.
 #[derive(Debug)]
 pub struct Guard<'a> {
     kind: Kind<'a>,
+    /// A copy of what was accepted: the monitor lets nobody look at it.
+    last: Last,
+    recorder: Recorder,
 }
 
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one in a run")]
 enum Kind<'a> {
-    Plain {
-        requester: Requester<'a>,
-        tracks: Option<Plain<Track>>,
-        points: Option<Plain<TrajectoryPoint>>,
-    },
+    Plain(Requester<'a>),
     Checked {
         monitor: Monitor<'a>,
         tracks: Option<Accepted<Vec<Track>>>,
@@ -85,7 +79,7 @@ impl<'a> Guard<'a> {
     /// Errors: settings that no monitor can keep.
     pub fn new(
         variant: Variant,
-        stages: mufasa::input::parameters::Parameters,
+        stages: StageParameters,
         requester: Parameters,
         period_ns: u64,
         table: &'a mut [StationRecord],
@@ -95,8 +89,7 @@ impl<'a> Guard<'a> {
             Variant::Sofof => {
                 let requester = Requester::new(Profile::Paper, requester, table)
                     .map_err(MonitorError::Requester)?;
-                let kind = Kind::Plain { requester, tracks: None, points: None };
-                return Ok(Self { kind });
+                return Ok(Self::of(Kind::Plain(requester)));
             }
             Variant::Paper => Profile::Paper,
             Variant::Hardened => Profile::Hardened,
@@ -104,20 +97,31 @@ impl<'a> Guard<'a> {
         let period = Duration::from_nanos(period_ns);
         let settings = Settings { profile, stages, requester, ..Settings::new(period) };
         let monitor = Monitor::new(settings, memory)?;
-        Ok(Self { kind: Kind::Checked { monitor, tracks: None, points: None } })
+        Ok(Self::of(Kind::Checked { monitor, tracks: None, points: None }))
+    }
+
+    fn of(kind: Kind<'a>) -> Self {
+        Self { kind, last: Last::default(), recorder: Recorder::default() }
     }
 
     /// The hardened rules without one of them.
     pub fn without(rules: Rules<'a>) -> Self {
-        Self { kind: Kind::Without(Box::new(rules)) }
+        Self::of(Kind::Without(Box::new(rules)))
+    }
+
+    /// The same; of what the monitor decides this is recorded.
+    pub fn recording(mut self, recorder: Recorder) -> Self {
+        self.recorder = recorder;
+        self
     }
 
     /// The stretch of the route that is followed from now on.
     ///
     /// Errors: a route that the monitor cannot keep.
     pub fn set_route(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
+        self.recorder.set_route(route);
         match &mut self.kind {
-            Kind::Plain { .. } => Ok(()),
+            Kind::Plain(_) => Ok(()),
             Kind::Checked { monitor, .. } => monitor.set_route(route),
             Kind::Without(rules) => {
                 rules.set_route(route);
@@ -139,10 +143,20 @@ impl<'a> Guard<'a> {
     /// The requester, to look at.
     pub fn requester(&self) -> &Requester<'a> {
         match &self.kind {
-            Kind::Plain { requester, .. } => requester,
+            Kind::Plain(requester) => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),
             Kind::Without(rules) => &rules.requester,
         }
+    }
+
+    /// The last results of stations that were accepted, whatever became of them: for who looks on.
+    pub fn accepted(&self) -> (Option<&[Track]>, Option<&[TrajectoryPoint]>) {
+        let Last { tracks, points } = match &self.kind {
+            Kind::Without(rules) => &rules.last,
+            Kind::Plain(_) | Kind::Checked { .. } => &self.last,
+        };
+        let tracks = tracks.as_ref().map(|it| it.items.as_slice());
+        (tracks, points.as_ref().map(|it| it.items.as_slice()))
     }
 
     /// Something happened that is no data.
@@ -151,7 +165,7 @@ impl<'a> Guard<'a> {
     pub fn happens(&mut self, t_ns: i64, kind: EventKind) -> Result<Vec<Action>, RequesterError> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
-            Kind::Plain { requester, .. } => requester.step(&Event { t_ns, kind }),
+            Kind::Plain(requester) => requester.step(&Event { t_ns, kind }),
             Kind::Without(rules) => return rules.step(t_ns, kind),
             Kind::Checked { monitor, .. } => match kind {
                 EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
@@ -180,12 +194,12 @@ impl<'a> Guard<'a> {
         t_ns: i64,
         message: Message<Vec<Track>>,
     ) -> Result<Vec<Action>, RequesterError> {
+        let last = &mut self.last.tracks;
         match &mut self.kind {
-            Kind::Plain { requester, tracks, .. } => {
-                keep(requester, t_ns, Group::Mot, message, tracks)
-            }
+            Kind::Plain(requester) => keep(requester, t_ns, Group::Mot, message, last),
             Kind::Checked { monitor, tracks, .. } => {
-                Ok(accept(monitor.tracks(time(t_ns), message)?, tracks))
+                let copy = message.clone();
+                Ok(accept(monitor.tracks(time(t_ns), message)?, tracks, copy, last))
             }
             Kind::Without(rules) => rules.tracks(t_ns, message),
         }
@@ -199,12 +213,12 @@ impl<'a> Guard<'a> {
         t_ns: i64,
         message: Message<Vec<TrajectoryPoint>>,
     ) -> Result<Vec<Action>, RequesterError> {
+        let last = &mut self.last.points;
         match &mut self.kind {
-            Kind::Plain { requester, points, .. } => {
-                keep(requester, t_ns, Group::Plan, message, points)
-            }
+            Kind::Plain(requester) => keep(requester, t_ns, Group::Plan, message, last),
             Kind::Checked { monitor, points, .. } => {
-                Ok(accept(monitor.trajectory(time(t_ns), message)?, points))
+                let copy = message.clone();
+                Ok(accept(monitor.trajectory(time(t_ns), message)?, points, copy, last))
             }
             Kind::Without(rules) => rules.trajectory(t_ns, message),
         }
@@ -212,23 +226,25 @@ impl<'a> Guard<'a> {
 
     /// Decides a cycle.
     pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Local<'_>) -> Decided {
+        let (last, recorder) = (&self.last, &mut self.recorder);
         match &mut self.kind {
-            Kind::Plain { requester, tracks, points } => {
-                unchecked(requester, t_ns, tracks.as_ref(), points.as_ref(), local)
-            }
+            Kind::Plain(requester) => unchecked(requester, t_ns, last, local),
             Kind::Without(rules) => rules.decide(t_ns, ego, sensed, local),
             Kind::Checked { monitor, tracks, points } => {
+                let chosen = Chosen::new(monitor.requester(), last, local);
+                let record = recorder.cycle(monitor.requester(), (t_ns, ego), sensed, chosen);
                 let inputs = inputs(t_ns, ego, sensed, local);
                 let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);
                 let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
                 let (decision, actions) = monitor.cycle(&inputs);
-                match decision {
+                let decided = match decision {
                     Decision::Safe { tracks, trajectory, report } => Decided {
                         is_safe: true,
                         report: Some(Ok(report)),
                         trajectory: trajectory.map(|it| it.points.to_vec()),
                         tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
                         actions: actions.to_vec(),
+                        record,
                     },
                     Decision::Unsafe { report } => Decided {
                         is_safe: false,
@@ -236,8 +252,13 @@ impl<'a> Guard<'a> {
                         trajectory: None,
                         tracks: None,
                         actions: actions.to_vec(),
+                        record,
                     },
+                };
+                if matches!(decided.report, Some(Ok(_))) {
+                    recorder.see(sensed);
                 }
+                decided
             }
         }
     }
@@ -247,28 +268,27 @@ impl<'a> Guard<'a> {
 fn unchecked(
     requester: &mut Requester<'_>,
     t_ns: i64,
-    tracks: Option<&Plain<Track>>,
-    points: Option<&Plain<TrajectoryPoint>>,
+    Last { tracks, points }: &Last,
     local: Local<'_>,
 ) -> Decided {
     let session = |group| requester.session_of(group).map(|it| it.session);
     let [mot, plan] = Group::ALL.map(session);
     let used = |of: Option<i64>, by: Option<i64>| of.filter(|_| of == by);
     let sessions = Sessions {
-        mot: used(mot, tracks.map(|it| it.session)),
-        plan: used(plan, points.map(|it| it.session)),
+        mot: used(mot, tracks.as_ref().map(|it| it.session)),
+        plan: used(plan, points.as_ref().map(|it| it.session)),
     };
     let trajectory = match (plan, sessions.plan) {
-        (Some(_), Some(_)) => points.map(|it| it.items.clone()),
+        (Some(_), Some(_)) => points.as_ref().map(|it| it.items.clone()),
         (Some(_), None) => None,
         (None, _) => local.points.map(|(_, points)| points.to_vec()),
     };
     let kind = EventKind::Verdict { safe: true, sessions };
-    let tracks = tracks.filter(|_| sessions.mot.is_some());
-    let tracks = tracks.map(|it| (it.stamp_ns, it.items.clone()));
+    let tracks = tracks.as_ref().filter(|_| sessions.mot.is_some());
+    let tracks = tracks.map(|it| (it.stamp.as_nanoseconds(), it.items.clone()));
     let actions =
         requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
-    Decided { is_safe: true, report: None, trajectory, tracks, actions }
+    Decided { is_safe: true, report: None, trajectory, tracks, actions, record: None }
 }
 
 fn keep<T>(
@@ -276,14 +296,14 @@ fn keep<T>(
     t_ns: i64,
     group: Group,
     message: Message<Vec<T>>,
-    kept: &mut Option<Plain<T>>,
+    kept: &mut Option<Message<Vec<T>>>,
 ) -> Result<Vec<Action>, RequesterError> {
-    let Message { station, session, generated, stamp, items } = message;
+    let Message { station, session, generated, .. } = message;
     let generated_ns = generated.as_nanoseconds();
     let kind = EventKind::Data { station, group, session, generated_ns };
     let actions = requester.step(&Event { t_ns, kind })?.to_vec();
     if !actions.contains(&Action::Drop(group)) {
-        *kept = Some(Plain { session, stamp_ns: stamp.as_nanoseconds(), items });
+        *kept = Some(message);
     }
     Ok(actions)
 }
@@ -291,9 +311,12 @@ fn keep<T>(
 fn accept<T>(
     (arrival, actions): (Arrival<Vec<T>>, Actions),
     kept: &mut Option<Accepted<Vec<T>>>,
+    copy: Message<Vec<T>>,
+    last: &mut Option<Message<Vec<T>>>,
 ) -> Vec<Action> {
     if let Arrival::Accepted(element) = arrival {
         *kept = Some(element);
+        *last = Some(copy);
     }
     actions.to_vec()
 }

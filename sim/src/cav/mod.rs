@@ -1,9 +1,12 @@
 //! The CAV: sensors, its own services, what guards the link, and control.
 
+mod assembled;
 pub mod cost;
 pub mod decided;
 pub mod guard;
 pub mod local;
+pub mod recorder;
+mod seen;
 pub mod sensing;
 pub mod without;
 

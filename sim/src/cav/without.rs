@@ -5,20 +5,13 @@
 //! overrules the one verdict. With `Without::Nothing` it decides as the monitor does (tested:
 //! `sim/tests/loop/without.rs`).
 
-use std::collections::VecDeque;
-use std::ops::RangeInclusive;
-
-use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Route, Track, TrackList, Trajectory,
-    TrajectoryPoint,
-};
+use mufasa::input::cycle::{Cycle, Ego, Route, Track, TrajectoryPoint};
 use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::monitor::{Message, Time};
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, Parameters, Requester, RequesterError, Running, Sessions,
-    StationRecord,
+    Action, Event, EventKind, Parameters, Requester, RequesterError, Sessions, StationRecord,
 };
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage};
 use mufasa::services::configuration::{Configuration, Group};
@@ -26,7 +19,9 @@ use mufasa::stages::check;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::assembled::{self, Chosen, Fixed, Last};
 use super::decided::{Decided, Local};
+use super::seen::Seen;
 use super::sensing::Sensed;
 
 /// A rule that is left out.
@@ -54,14 +49,6 @@ impl Without {
     }
 }
 
-/// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
-/// that are kept, ns (`spec/3-stages.md#what-the-cav-saw-itself`).
-const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
-const USABLE_NS: (i64, i64) = (200_000_000, 1_000_000_000);
-const SPACING_NS: i64 = 83_333_334;
-/// Ages of a list with which stations are asked, ns (`spec/5-interfaces.md#monitor`).
-const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
-
 #[derive(Clone, Copy, Debug, Default)]
 struct Served {
     session: Option<i64>,
@@ -77,22 +64,19 @@ const NO_SESSION: i64 = 0;
 #[derive(Debug)]
 pub struct Rules<'a> {
     without: Without,
-    parameters: StageParameters,
+    fixed: Fixed,
     requester_parameters: Parameters,
     /// Nominal, of the results.
     period_ns: i64,
     /// Which group runs where.
     pub(super) requester: Requester<'a>,
-    route: (bool, Vec<CrossSection>),
     /// For either group: the session that runs, its first cycle with anything current, since when no cycle
     /// had any, ns, and whether that is too long (F-43).
     served: [Served; 2],
-    /// The CAV's own detections of the last second, the oldest first.
-    seen: VecDeque<(i64, Vec<Detection>)>,
+    seen: Seen,
     rows: Vec<Row>,
     columns: Vec<Column>,
-    tracks: Option<Message<Vec<Track>>>,
-    points: Option<Message<Vec<TrajectoryPoint>>>,
+    pub(super) last: Last,
 }
 
 impl<'a> Rules<'a> {
@@ -107,22 +91,20 @@ impl<'a> Rules<'a> {
     ) -> Result<Self, RequesterError> {
         Ok(Self {
             without,
-            parameters,
+            fixed: Fixed { profile: Profile::Hardened, parameters, route: (false, Vec::new()) },
             requester_parameters: requester,
             period_ns,
             requester: Requester::new(Profile::Hardened, requester, table)?,
-            route: (false, Vec::new()),
             served: [Served::default(); 2],
-            seen: VecDeque::new(),
+            seen: Seen::default(),
             rows: vec![Row::default(); Sizes::MAX.rows],
             columns: vec![Column::default(); Sizes::MAX.columns],
-            tracks: None,
-            points: None,
+            last: Last::default(),
         })
     }
 
     pub(super) fn set_route(&mut self, route: &Route<'_>) {
-        self.route = (route.closed, route.cross_sections.to_vec());
+        self.fixed.route = (route.closed, route.cross_sections.to_vec());
     }
 
     /// Something happened.
@@ -132,7 +114,7 @@ impl<'a> Rules<'a> {
         kind: EventKind,
     ) -> Result<Vec<Action>, RequesterError> {
         let event = Event { t_ns, kind };
-        if kind == EventKind::Tick && !self.has_seen_enough(t_ns) {
+        if kind == EventKind::Tick && !self.seen.reaches_back(t_ns) {
             self.requester.hold(t_ns + 1);
         }
         for (served, group) in self.served.into_iter().zip(Group::ALL) {
@@ -164,11 +146,6 @@ impl<'a> Rules<'a> {
         Ok(after.session_of(group).is_none_or(|it| it.session != before.session))
     }
 
-    /// Whether detections reach back half a second.
-    fn has_seen_enough(&self, t_ns: i64) -> bool {
-        self.seen.iter().any(|(stamp_ns, _)| ENOUGH_NS.contains(&(t_ns - stamp_ns)))
-    }
-
     pub(super) fn tracks(
         &mut self,
         t_ns: i64,
@@ -176,7 +153,7 @@ impl<'a> Rules<'a> {
     ) -> Result<Vec<Action>, RequesterError> {
         let actions = self.arrives(t_ns, Group::Mot, &message)?;
         if !actions.contains(&Action::Drop(Group::Mot)) {
-            self.tracks = Some(message);
+            self.last.tracks = Some(message);
         }
         Ok(actions)
     }
@@ -188,7 +165,7 @@ impl<'a> Rules<'a> {
     ) -> Result<Vec<Action>, RequesterError> {
         let actions = self.arrives(t_ns, Group::Plan, &message)?;
         if !actions.contains(&Action::Drop(Group::Plan)) {
-            self.points = Some(message);
+            self.last.points = Some(message);
         }
         Ok(actions)
     }
@@ -202,7 +179,7 @@ impl<'a> Rules<'a> {
     ) -> Result<Vec<Action>, RequesterError> {
         let [generated_ns, stamp_ns] = [message.generated, message.stamp].map(Time::as_nanoseconds);
         let is_in_time = (0..=self.requester_parameters.l_max_ns).contains(&(t_ns - generated_ns));
-        let is_too_old = t_ns - stamp_ns > self.parameters.max_age_ns;
+        let is_too_old = t_ns - stamp_ns > self.fixed.parameters.max_age_ns;
         let is_starved = self.served[place(group)].is_starved;
         let is_none = is_in_time && (is_too_old || is_starved);
         let session = if is_none { NO_SESSION } else { message.session };
@@ -219,42 +196,16 @@ impl<'a> Rules<'a> {
         local: Local<'_>,
     ) -> Decided {
         let [mot, plan] = Group::ALL.map(|group| self.requester.session_of(group));
-        let remote_tracks = mot.as_ref().map(|it| used(it, self.tracks.as_ref()));
-        let remote_points = plan.as_ref().map(|it| used(it, self.points.as_ref()));
-        let tracks = match remote_tracks {
-            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
-            None => local.tracks,
-        };
-        let points = match remote_points {
-            Some(message) => message.map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice())),
-            None => local.points,
-        };
-        let history = history(&self.seen, sensed.stamp_ns);
-        let cycle = Cycle {
-            profile: Profile::Hardened,
-            parameters: self.parameters,
-            now_ns: t_ns,
-            configuration: self.requester.configuration(),
-            ego,
-            trajectory: points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
-            tracks: tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
-            detections: Some(DetectionList {
-                stamp_ns: sensed.stamp_ns,
-                items: &sensed.detections,
-            }),
-            lead: sensed.lead.map(|lead| mufasa::input::cycle::Lead {
-                stamp_ns: sensed.stamp_ns,
-                gap: lead.gap,
-                speed: lead.speed,
-            }),
-            route: Route { closed: self.route.0, cross_sections: &self.route.1 },
-            grid: Some(sensed.grid.borrow(true)),
-            detection_history: &history,
-        };
+        let chosen = Chosen::new(&self.requester, &self.last, local);
+        let Chosen { tracks, points } = chosen;
+        let history = self.seen.history(sensed.stamp_ns);
+        let moment = (t_ns, ego);
+        let cycle =
+            assembled::cycle(&self.fixed, &self.requester, moment, sensed, chosen, &history);
         let scratch = &mut Scratch::new(&mut self.rows, &mut self.columns);
         let report = report(self.without, &cycle, scratch);
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
-        let max_age_ns = self.parameters.max_age_ns;
+        let max_age_ns = self.fixed.parameters.max_age_ns;
         let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
         let has_current = [tracks.map(|it| it.0), points.map(|it| it.0)]
             .map(|stamp_ns| stamp_ns.is_some_and(|it| is_current(&it)));
@@ -277,22 +228,11 @@ impl<'a> Rules<'a> {
         let tracks = tracks.map(|(stamp_ns, items)| (stamp_ns, items.to_vec()));
         let trajectory = points.map(|(_, points)| points.to_vec());
         if report.is_ok() {
-            self.see(sensed);
+            self.seen.see(sensed);
         }
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(t_ns, kind).unwrap_or_default();
-        Decided { is_safe, report: Some(report), trajectory, tracks, actions }
-    }
-
-    fn see(&mut self, sensed: &Sensed) {
-        let youngest = self.seen.back().map(|(stamp_ns, _)| *stamp_ns);
-        if youngest.is_some_and(|it| sensed.stamp_ns - it < SPACING_NS) {
-            return;
-        }
-        self.seen.push_back((sensed.stamp_ns, sensed.detections.clone()));
-        while self.seen.front().is_some_and(|it| sensed.stamp_ns - it.0 > USABLE_NS.1) {
-            self.seen.pop_front();
-        }
+        Decided { is_safe, report: Some(report), trajectory, tracks, actions, record: None }
     }
 }
 
@@ -321,38 +261,9 @@ fn report(
     Ok(Report { failed_stage: rest.failed_stage, stages, ..report })
 }
 
-/// The message that the requester used last, if it is the one that is kept.
-fn used<'m, T>(
-    running: &Running,
-    kept: Option<&'m Message<Vec<T>>>,
-) -> Option<&'m Message<Vec<T>>> {
-    kept.filter(|it| {
-        (Some(it.generated.as_nanoseconds()), it.session) == (running.last_used_ns, running.session)
-    })
-}
-
 const fn place(group: Group) -> usize {
     match group {
         Group::Mot => 0,
         Group::Plan => 1,
     }
-}
-
-/// The lists whose ages are nearest to those wanted, the youngest first.
-fn history(seen: &VecDeque<(i64, Vec<Detection>)>, stamp_ns: i64) -> Vec<DetectionList<'_>> {
-    let usable = || {
-        let age = move |it: &&(i64, Vec<Detection>)| stamp_ns - it.0;
-        seen.iter().rev().filter(move |it| (USABLE_NS.0..=USABLE_NS.1).contains(&age(it)))
-    };
-    let mut lists: Vec<DetectionList<'_>> = Vec::new();
-    for wanted in WANTED_NS {
-        // Of two that are as near the younger: the first.
-        let nearest = usable().min_by_key(|it| (stamp_ns - it.0 - wanted).abs());
-        if let Some((stamp_ns, items)) = nearest
-            && lists.iter().all(|list| list.stamp_ns != *stamp_ns)
-        {
-            lists.push(DetectionList { stamp_ns: *stamp_ns, items });
-        }
-    }
-    lists
 }

@@ -5,17 +5,24 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::checks::Checks;
 pub use super::select::Options;
 use super::select::{NotKept, Select};
 use super::watch::Watch;
 use crate::attack::{Attack, Kind};
-use crate::cav::guard::Variant;
+use crate::cav::Cav;
+use crate::cav::guard::{Decided, Variant};
+use crate::cav::recorder::Share;
 use crate::map::Town;
-use crate::run::{Outcome, RunError, Settings, Watcher, simulate};
+use crate::replay::Replay;
+use crate::run::{Cycle, Outcome, RunError, Settings, Watcher, simulate};
 use crate::scenario::Scenario;
+use crate::snapshot::Snapshot;
 
 /// When the attack of a run begins that has one, s.
 const FROM: f64 = 5.0;
+/// Scenarios of a route of which every run that fails is drawn; of the hardened profile each is.
+const DRAWN: u64 = 3;
 
 /// Why an experiment could not be made.
 #[derive(Debug)]
@@ -100,6 +107,49 @@ impl<W> Job<W> {
         self.watched_from = FROM;
         self
     }
+
+    /// The same without what is special about it.
+    pub fn plain(self) -> Job<()> {
+        let Self { what: _, id, route, scenario, vehicles, watched_from, settings } = self;
+        Job { what: (), id, route, scenario, vehicles, watched_from, settings }
+    }
+
+    /// Makes the run. Errors: settings, a route or a town that cannot be.
+    pub fn run(&self, town: &Town, watcher: &mut impl Watcher) -> Result<Outcome, RunError> {
+        // A job is made of the town's routes.
+        let route = town.ego_routes().nth(self.route).unwrap_or(0);
+        let scenario = Scenario::draw(town, route, self.vehicles, self.settings.seed);
+        simulate(town, &scenario, &self.settings, watcher)
+    }
+
+    fn is_drawn(&self) -> bool {
+        self.settings.variant == Variant::Hardened || self.scenario < DRAWN
+    }
+}
+
+/// A watcher, and those who look at every run.
+struct Beside<'w, V> {
+    watch: &'w mut V,
+    id: &'w str,
+    checks: Checks,
+    replay: Option<Replay>,
+}
+
+impl<V: Watcher> Watcher for Beside<'_, V> {
+    fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle) {
+        self.watch.cycle(truth, cav, decided, cycle);
+        self.checks.see(self.id, decided);
+        if let Some(replay) = &mut self.replay {
+            replay.cycle(truth, cav, decided, cycle);
+        }
+    }
+
+    fn ended(&mut self, truth: &Snapshot, cav: &Cav<'_>) {
+        self.watch.ended(truth, cav);
+        if let Some(replay) = &mut self.replay {
+            replay.ended(truth, cav);
+        }
+    }
 }
 
 /// The name of an attack, or `none`.
@@ -133,22 +183,32 @@ pub fn watched<W: Sync + Send, V: Watcher, R: Send + Serialize + DeserializeOwne
     kept: impl Fn(&Job<W>, &Outcome, &V) -> R + Sync,
 ) -> Result<Vec<R>, ExperimentError> {
     let chosen = jobs.into_iter().enumerate().filter(|(at, job)| select.has(*at, &job.id));
-    let jobs: Vec<Job<W>> = chosen.map(|(_, job)| job).collect();
-    let routes: Vec<usize> = town.ego_routes().collect();
+    let jobs: Vec<Job<W>> = chosen.map(|(_, job)| recorded(job, select)).collect();
     let one = |job: &Job<W>| {
         if let Some(made) = select.made(&job.id)? {
             return Ok(made);
         }
-        let seed = job.settings.seed;
-        let scenario = Scenario::draw(town, routes[job.route], job.vehicles, seed);
         let mut watch = watcher(job);
-        let outcome = simulate(town, &scenario, &job.settings, &mut watch)?;
+        let replay = (select.draws && job.is_drawn()).then(Replay::default);
+        let mut beside =
+            Beside { watch: &mut watch, id: &job.id, checks: Checks::default(), replay };
+        let outcome = job.run(town, &mut beside)?;
         done(jobs.len());
+        let Beside { checks, replay, .. } = beside;
+        let replay = replay.filter(|_| outcome.end.is_failure());
+        let page = replay.map(|it| it.page(town, &job.id, job.route, &outcome));
+        select.looked(&job.id, checks, page);
         let run = kept(job, &outcome, &watch);
         select.keep(&job.id, &run)?;
         Ok(run)
     };
     jobs.par_iter().map(one).collect()
+}
+
+/// With the share of cycles that is to be checked, other ones in each scenario.
+fn recorded<W>(mut job: Job<W>, select: &Select<'_>) -> Job<W> {
+    job.settings.recorded = Share { every: select.checked_every, first: job.settings.seed };
+    job
 }
 
 /// Each of the ego's routes with each scenario on it.

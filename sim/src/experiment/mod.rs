@@ -6,6 +6,7 @@
 
 pub mod attacks;
 pub mod availability;
+pub mod checks;
 pub mod cpu;
 pub mod failures;
 pub mod falsify;

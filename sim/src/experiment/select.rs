@@ -10,6 +10,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::checks::Checks;
+
 /// How large an experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Options {
@@ -50,6 +52,8 @@ pub struct Part {
     pub shard: Shard,
     /// What is kept of each run, by its id.
     pub runs: BTreeMap<String, Value>,
+    /// What was checked of its cycles.
+    pub checks: Checks,
 }
 
 /// A run is missing in the parts, or is not what this program writes.
@@ -74,7 +78,7 @@ impl fmt::Display for NotKept {
 
 impl std::error::Error for NotKept {}
 
-/// Which runs are made, and what is kept of them.
+/// Which runs are made, what is looked at in them, and what is kept of them.
 #[derive(Debug, Default)]
 pub struct Select<'s> {
     /// Only runs whose id is this or begins with these parts.
@@ -83,8 +87,17 @@ pub struct Select<'s> {
     pub shard: Option<Shard>,
     /// What was kept of all runs when they were made: none is made again.
     pub made: Option<&'s BTreeMap<String, Value>>,
+    /// Each so many cycles are checked by the model; 0: none.
+    pub checked_every: u64,
+    /// Whether runs that fail are drawn: of the hardened profile each, of the others those of the first
+    /// `DRAWN` scenarios of a route.
+    pub draws: bool,
     /// Of each run of a part, by its id.
     pub kept: Mutex<BTreeMap<String, Value>>,
+    /// What was checked.
+    pub checks: Mutex<Checks>,
+    /// Pages of runs that failed, by their ids.
+    pub drawn: Mutex<BTreeMap<String, String>>,
 }
 
 impl<'s> Select<'s> {
@@ -123,5 +136,14 @@ impl<'s> Select<'s> {
             self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(id.to_owned(), value);
         }
         Ok(())
+    }
+
+    /// Keeps what was seen beside a run.
+    pub(super) fn looked(&self, id: &str, checks: Checks, page: Option<String>) {
+        self.checks.lock().unwrap_or_else(PoisonError::into_inner).add(checks);
+        if let Some(page) = page {
+            let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
+            drawn.insert(id.to_owned(), page);
+        }
     }
 }

@@ -5,17 +5,16 @@ mod timeline;
 
 use core::fmt::Write;
 
-use mufasa::input::cycle::Track;
-use mufasa::services::configuration::Groups;
+use mufasa::input::cycle::{Track, TrajectoryPoint};
 
-use crate::attack::{Attack, Kind};
 use crate::cav::Cav;
-use crate::cav::guard::{Decided, Variant};
+use crate::cav::guard::Decided;
 use crate::map::Town;
-use crate::pictures::{DETECTION, LOCAL, Overlay, REMOTE, Shot, TRAJECTORY, View, escape, sheet};
+use crate::pictures::{
+    DETECTION, LOCAL, Overlay, REJECTED, REMOTE, Shot, TRAJECTORY, View, escape, sheet,
+};
 use crate::pose::{Point, Pose, Rectangle};
-use crate::run::{Cycle, End, Outcome, RunError, Settings, Watcher, simulate};
-use crate::scenario::Scenario;
+use crate::run::{Cycle, End, Outcome, Watcher};
 use crate::snapshot::Snapshot;
 
 /// Frames of a page, and of a row.
@@ -53,51 +52,6 @@ impl Event {
     }
 }
 
-/// Which run it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Id {
-    /// What is checked.
-    pub variant: Variant,
-    /// What the attacker does; none: nothing.
-    pub attack: Option<Kind>,
-    /// Which of the ego's routes, from 0.
-    pub route: usize,
-    /// Seed of the scenario.
-    pub scenario: u64,
-}
-
-impl Id {
-    /// Makes the run among so many other vehicles, with everything offered and the attack from a time, s,
-    /// to the end; its outcome and its page. None: the town has no such route.
-    ///
-    /// Errors: those of `run`.
-    pub fn page(
-        &self,
-        town: &Town,
-        vehicles: usize,
-        from: f64,
-    ) -> Result<Option<(Outcome, String)>, RunError> {
-        let seed = self.scenario;
-        let Some(route) = town.ego_routes().nth(self.route) else { return Ok(None) };
-        let scenario = Scenario::draw(town, route, vehicles, seed);
-        let mut settings = Settings::new(self.variant, Groups::ALL, seed);
-        let attack = |kind| Attack::new(kind, from, f64::INFINITY, seed);
-        settings.attacks = self.attack.into_iter().map(attack).collect();
-        let mut replay = Replay::default();
-        let outcome = simulate(town, &scenario, &settings, &mut replay)?;
-        let page = replay.page(town, &self.to_string(), self.route, &outcome);
-        Ok(Some((outcome, page)))
-    }
-}
-
-impl core::fmt::Display for Id {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { variant, attack, route, scenario } = self;
-        let attack = attack.map_or("none", Kind::name);
-        write!(f, "replay/{}/{attack}/{route}/{scenario}", variant.name())
-    }
-}
-
 /// Keeps a run: it has some hundreds of cycles, and what is the event is known at its end.
 #[derive(Clone, Debug, Default)]
 pub struct Replay {
@@ -108,7 +62,15 @@ pub struct Replay {
 
 impl Watcher for Replay {
     fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, _: &Decided, cycle: &Cycle) {
-        self.moments.push((truth.clone(), overlay(cav)));
+        let mut overlay = overlay(cav);
+        if cycle.failed > 0 {
+            let (tracks, points) = cav.guard().accepted();
+            let [mot, plan] = [1, 2].map(|group| cycle.remote & group != 0);
+            overlay.rejected = places(points.filter(|_| plan).unwrap_or(&[]));
+            let tracks = tracks.filter(|_| mot).unwrap_or(&[]);
+            overlay.rejected_tracks = tracks.iter().map(rectangle).collect();
+        }
+        self.moments.push((truth.clone(), overlay));
         self.cycles.push(*cycle);
     }
 
@@ -210,6 +172,7 @@ fn key(text: &mut String) {
         ("#b5541c", "person on foot or bicycle"),
         (TRAJECTORY, "trajectory that control follows"),
         (REMOTE, "remote track"),
+        (REJECTED, "dashed: remote trajectory and tracks that were rejected"),
         (LOCAL, "local track"),
         (DETECTION, "detection of the CAV"),
     ];
@@ -255,12 +218,18 @@ fn overlay(cav: &Cav<'_>) -> Overlay {
     let (is_remote, tracks) = cav.tracks().unwrap_or((false, &[]));
     let detections = cav.sensed().map_or(&[][..], |sensed| &sensed.detections);
     Overlay {
-        trajectory: cav.points().iter().map(|it| Point::new(it.x, it.y)).collect(),
+        trajectory: places(cav.points()),
         tracks: tracks.iter().map(rectangle).collect(),
         is_remote,
         detections: detections.iter().map(|it| Point::new(it.x, it.y)).collect(),
         ..Overlay::default()
     }
+}
+
+/// Places that are numbers: an attacker may send others.
+fn places(points: &[TrajectoryPoint]) -> Vec<Point> {
+    let places = points.iter().map(|it| Point::new(it.x, it.y));
+    places.filter(|it| it.x.is_finite() && it.y.is_finite()).collect()
 }
 
 fn rectangle(track: &Track) -> Rectangle {

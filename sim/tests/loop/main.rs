@@ -4,7 +4,9 @@
 mod attacks;
 mod digest;
 mod guard;
+mod lies;
 mod radio;
+mod records;
 mod replay;
 mod same;
 mod services;

@@ -2,8 +2,10 @@
 
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::map::streets::town;
-use mufasa_sim::replay::{Event, Id, Replay};
+use mufasa_sim::pictures::REJECTED;
+use mufasa_sim::replay::{Event, Replay};
 use mufasa_sim::run::{End, Outcome};
 
 use crate::digest::{FROM, drive};
@@ -11,9 +13,9 @@ use crate::digest::{FROM, drive};
 fn page(variant: Variant, kind: Option<Kind>, seed: u64) -> (Outcome, Replay, String) {
     let town = town();
     let (outcome, replay) = drive::<Replay>(variant, kind, (0, seed), 25.0);
-    let id = Id { variant, attack: kind, route: 0, scenario: seed };
-    let text = replay.page(&town, &id.to_string(), id.route, &outcome);
-    let name = id.to_string().replace('/', "-");
+    let id = format!("replay/{}/{}/0/{seed}", variant.name(), kind_name(kind));
+    let text = replay.page(&town, &id, 0, &outcome);
+    let name = id.replace('/', "-");
     let folder = env!("CARGO_TARGET_TMPDIR");
     std::fs::write(format!("{folder}/{name}.html"), &text).expect("a folder");
     (outcome, replay, text)
@@ -51,9 +53,13 @@ fn a_page_is_about_what_happened() {
     assert!(cycle.failed > 0 && cycle.t >= FROM);
     assert!(text.contains(&format!("t = {:.2} s", cycle.t)), "a frame of the event");
     assert!(text.contains("failed: stage"));
+    // What was rejected is in the frame of the failure alone, dashed.
+    let dashed = format!("stroke=\"{REJECTED}\" stroke-width=\"0.50\"");
+    assert_eq!(text.matches(&dashed).count(), 1, "the remote trajectory that was rejected");
 
     let (outcome, replay, text) = page(Variant::Sofof, None, 0);
     assert_eq!(replay.event(&outcome).0, Event::End);
+    assert!(!text.contains(&format!("stroke=\"{REJECTED}\" stroke-width=\"0.50\"")));
     assert!(text.contains("replay/sofof/none/0/0"));
 }
 

@@ -12,6 +12,8 @@ mod control;
 mod detectors;
 mod drive;
 mod env;
+mod give_way;
+mod give_way;
 mod grid;
 mod mot;
 mod scene;

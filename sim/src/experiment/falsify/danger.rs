@@ -16,17 +16,17 @@ use crate::run::{Cycle, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::{EgoState, Object, Snapshot};
 
-/// Most time that is looked at, in cycles of 0.1 s, and the time left when nothing is in the way, s.
-const LOOKED: usize = 40;
-/// The time left where nothing is in the way, s.
-pub const FREE_S: f64 = 4.0;
-/// Cycles of a run in a second.
+/// Cycles that are looked ahead.
+const LOOKED: u8 = 40;
+/// Time between two cycles, s.
 const STEP_S: f64 = 0.1;
+/// The time left where nothing is in the way, s: all that is looked at.
+pub const FREE_S: f64 = LOOKED as f64 * STEP_S;
 /// Hardest braking, m/s^2.
 const A_B: f64 = 8.0;
 /// Slower than this the CAV stands, m/s.
 const STANDING: f64 = 0.5;
-/// A collision when nothing helps is worth so much less than none for each m/s.
+/// Where nothing helps any more, the time left is so much below zero for each m/s of the impact, s.
 const PER_SPEED: f64 = 0.02;
 /// Farther away nobody is looked at, m.
 const FAR: f64 = 80.0;
@@ -115,7 +115,8 @@ impl Danger {
         if speed < STANDING {
             return FREE_S;
         }
-        let future: Vec<&Moment> = self.moments[at..].iter().take(LOOKED + 1).collect();
+        let future: Vec<&Moment> =
+            self.moments[at..].iter().take(usize::from(LOOKED) + 1).collect();
         let is_behind = |rectangle: &Rectangle| {
             let own = moment.ego.rectangle;
             let (ahead, _) = own.pose.local(rectangle.pose.at);

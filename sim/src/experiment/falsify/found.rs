@@ -4,14 +4,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::attacks::Offered;
+use super::super::job::Job;
 use super::danger::Danger;
 use crate::attack::Attack;
 use crate::cav::guard::Variant;
 use crate::cav::without::Without;
 use crate::map::Town;
-use crate::replay::Replay;
-use crate::run::{End, Outcome, RunError, Settings, Watcher, simulate};
-use crate::scenario::Scenario;
+use crate::run::{End, Outcome, RunError, Settings, Watcher};
 
 /// The wait after a failure, ns, and the noise of detections, m: both less than in the other experiments, so
 /// that false alarms end fewer of the attacks. No rule of the stages is changed by that.
@@ -57,14 +56,19 @@ impl Case {
     ///
     /// Errors: those of `run`; a route that the town does not have is a route of no vehicle there: the first.
     pub fn run(&self, town: &Town, watcher: &mut impl Watcher) -> Result<Outcome, RunError> {
-        let route = self.ego_route(town);
-        let scenario = Scenario::draw(town, route, self.vehicles, self.scenario);
-        let mut settings = Settings::new(self.variant, self.offered.groups(), self.scenario);
+        self.job().run(town, watcher)
+    }
+
+    /// As a run of an experiment.
+    pub fn job(&self) -> Job<()> {
+        let &Self { route, scenario, vehicles, .. } = self;
+        let mut settings = Settings::new(self.variant, self.offered.groups(), scenario);
         settings.attacks.clone_from(&self.attacks);
         settings.without = self.without;
         settings.requester.t_wait_ns = T_WAIT_NS;
         settings.errors.position = POSITION_M;
-        simulate(town, &scenario, &settings, watcher)
+        let (what, id, watched_from) = ((), self.name(), 0.0);
+        Job { what, id, route, scenario, vehicles, watched_from, settings }
     }
 
     /// Index of its route in the town.
@@ -105,13 +109,5 @@ impl Case {
         let kinds = self.kinds().replace(" + ", "-and-");
         let (variant, offered) = (self.variant.name(), self.offered.name());
         format!("{variant}{without}-{offered}-{kinds}-{}-{}", self.route, self.scenario)
-    }
-
-    /// Makes the run and its page. Errors: those of `run`.
-    pub fn page(&self, town: &Town) -> Result<(Outcome, String), RunError> {
-        let mut replay = Replay::default();
-        let outcome = self.run(town, &mut replay)?;
-        let page = replay.page(town, &self.name(), self.route, &outcome);
-        Ok((outcome, page))
     }
 }

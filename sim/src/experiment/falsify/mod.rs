@@ -83,6 +83,8 @@ pub struct Falsified {
     pub clean_collided: u64,
     /// By kind of attack.
     pub rows: Vec<Row>,
+    /// Every run with attacks, in order.
+    pub tries: Vec<Try>,
     /// Collisions that are not made of the kinds of another one, offered the same.
     pub found: Vec<Found>,
 }
@@ -96,10 +98,21 @@ pub struct Row {
     pub runs: u64,
     /// Those that ended in a collision.
     pub collided: u64,
-    /// Least time left to react of those that did not, s (`danger`); 4 where nothing was in the way.
+    /// Least time left to react of those that did not, s (`danger`); `FREE_S` where nothing was in the way.
     pub least_time_left_s: f64,
     /// Least distance to another of those that did not, m; none in an empty town.
     pub least_distance_m: Option<f64>,
+}
+
+/// A run with attacks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Try {
+    /// Its round, from 0.
+    pub round: u64,
+    /// Whether it is a random point; if not, a search goes on from the best of these.
+    pub is_random: bool,
+    /// Least time left to react, s; none where it ended in a collision.
+    pub time_left_s: Option<f64>,
 }
 
 /// How far it is.
@@ -185,6 +198,7 @@ impl<'a, C: Caller> Search<'a, C> {
             shrinking_runs: 0,
             clean_collided: 0,
             rows: Vec::new(),
+            tries: Vec::new(),
             found: Vec::new(),
         };
         Self { town, caller, rows: BTreeMap::new(), least: danger::FREE_S, result }
@@ -214,7 +228,7 @@ impl<'a, C: Caller> Search<'a, C> {
         };
         let count = u64::try_from(starts.len()).unwrap_or(0) * POINTS;
         let points: Vec<Point> = (0..count).map(random).collect();
-        let tried = self.batch(&starts, &points)?;
+        let tried = self.batch(&starts, &points, true)?;
         let collided = tried.iter().filter(|it| it.1.is_some()).count();
         self.result.collided_at_random += u64::try_from(collided).unwrap_or(0);
         let mut best: Vec<usize> = (0..tried.len()).filter(|&it| tried[it].1.is_none()).collect();
@@ -245,7 +259,7 @@ impl<'a, C: Caller> Search<'a, C> {
             let start = *start;
             points.extend(cma.ask(GENERATION).into_iter().map(|genes| Point { start, genes }));
         }
-        let tried = self.batch(starts, &points)?;
+        let tried = self.batch(starts, &points, false)?;
         let mut kept = Vec::new();
         let parts = points.chunks(GENERATION).zip(tried.chunks(GENERATION));
         for ((start, mut cma), (points, tried)) in searches.drain(..).zip(parts) {
@@ -296,6 +310,7 @@ impl<'a, C: Caller> Search<'a, C> {
         &mut self,
         starts: &[Start],
         points: &[Point],
+        is_random: bool,
     ) -> Result<Vec<(f64, Option<Found>)>, RunError> {
         let count = points.len().min(usize::try_from(self.left()).unwrap_or(usize::MAX));
         let (town, caller) = (self.town, self.caller);
@@ -316,6 +331,9 @@ impl<'a, C: Caller> Search<'a, C> {
                 self.count(Some(kind), it.found.is_some(), it.time_left, it.distance);
             }
             self.result.collided += u64::from(it.found.is_some());
+            let time_left_s = Some(it.time_left).filter(|_| it.found.is_none());
+            let round = self.result.rounds - 1;
+            self.result.tries.push(Try { round, is_random, time_left_s });
             self.least = self.least.min(if it.found.is_some() { COLLISION } else { it.time_left });
             let Some(found) = &it.found else { continue };
             if !self.result.found.iter().chain(&new).any(|old| explains(old, found)) {

@@ -1,0 +1,357 @@
+//! Which charts each experiment has.
+
+use mufasa_sim::attack::Kind;
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::attacks::{self, Attacks, Offered};
+use mufasa_sim::experiment::availability::{self, Availability, Factor};
+use mufasa_sim::experiment::cpu::{self, Cpu, Who};
+use mufasa_sim::experiment::failures::{self, Failures};
+use mufasa_sim::experiment::falsify::Falsified;
+use mufasa_sim::experiment::falsify::danger::FREE_S;
+use mufasa_sim::experiment::job::kind_name;
+use mufasa_sim::experiment::stages::{self, Stages};
+
+use super::bars::{self, Bar, Bars, Group};
+use super::dots::{self, Dot, Dots, Panel};
+use super::lines::{self, COLLIDED, Row, Small, Tried};
+use super::page::{Mark, Series};
+use crate::evaluate::published;
+
+/// A chart and the name of its file.
+pub struct Figure {
+    pub file: String,
+    pub svg: String,
+}
+
+fn figure(file: &str, svg: String) -> Figure {
+    Figure { file: format!("{file}.svg"), svg }
+}
+
+const fn series(variant: Variant) -> Series {
+    match variant {
+        Variant::Sofof => Series::SOFOF,
+        Variant::Paper => Series::PAPER,
+        Variant::Hardened => Series::HARDENED,
+    }
+}
+
+const VARIANTS: [Series; 4] = [Series::SOFOF, Series::PAPER, Series::HARDENED, Series::PUBLISHED];
+
+/// Failures by attack and variant.
+pub fn failures(of: &Failures) -> Vec<Figure> {
+    let group = |rows: &[failures::Row]| Group {
+        name: kind_name(rows[0].attack).to_owned(),
+        bars: rows.iter().map(failure).collect(),
+        note: words(rows),
+    };
+    let same = |a: &failures::Row, b: &failures::Row| a.attack == b.attack;
+    let svg = bars::draw(&Bars {
+        title: "Failures by attack and by what is checked",
+        about: &[
+            "In full: collisions; paler: target not reached in time. Above: failures of runs.",
+            "The paper gives numbers in words alone: no failure with its stages, \"several\" without (Sec. V-B).",
+        ],
+        key: &VARIANTS,
+        unit: "runs that failed, %",
+        most: 100.0,
+        step: 25.0,
+        groups: of.rows.chunk_by(same).map(group).collect(),
+    });
+    vec![figure(failures::NAME, svg)]
+}
+
+fn failure(row: &failures::Row) -> Bar {
+    let share = |part: usize| 100.0 * ratio(part, row.runs);
+    let published = published::failures(row.attack, row.variant).number;
+    Bar {
+        series: series(row.variant),
+        value: share(row.collided),
+        paler: share(row.late),
+        label: format!("{}/{}", row.failures, row.runs),
+        published: published.into_iter().collect(),
+    }
+}
+
+/// What the paper says of this attack without its stages.
+fn words(rows: &[failures::Row]) -> String {
+    let sofof = rows.iter().find(|row| row.variant == Variant::Sofof);
+    let words = sofof.map_or("", |row| published::failures(row.attack, row.variant).words);
+    if words.is_empty() { String::new() } else { format!("paper, sofof: {words}") }
+}
+
+/// What the paper published, as a bar.
+const PUBLISHED: Series = Series { class: "sofof", mark: Mark::Square, ..Series::PUBLISHED };
+
+/// Detections of each stage.
+pub fn stages(of: &Stages) -> Vec<Figure> {
+    let per_1000 =
+        |part: u64, of: u64| if of == 0 { 0.0 } else { 1000.0 * float(part) / float(of) };
+    let bar = |series: Series, detections: u64, executions: u64| Bar {
+        series,
+        value: per_1000(detections, executions),
+        paler: 0.0,
+        label: format!("{detections}\nof {executions}"),
+        published: Vec::new(),
+    };
+    let groups = stages::PAPER.into_iter().enumerate().map(|(index, (executions, detections))| {
+        let rows = of.rows.iter().filter(|row| row.stage as usize == index);
+        let mut bars: Vec<Bar> = rows
+            .clone()
+            .map(|row| bar(series(row.variant), row.detections, row.executions))
+            .collect();
+        bars.push(bar(PUBLISHED, detections, executions));
+        let name = rows.map(|row| format!("stage {}", row.stage.name())).next();
+        Group { name: name.unwrap_or_default(), bars, note: String::new() }
+    });
+    let groups: Vec<Group> = groups.collect();
+    let most = groups.iter().flat_map(|it| &it.bars).map(|it| it.value).fold(10.0, f64::max);
+    let svg = bars::draw(&Bars {
+        title: "Detections of each stage under random attacks",
+        about: &["Above each bar: detections of executions. Town, services and areas are ours."],
+        key: &[Series::PAPER, Series::HARDENED, PUBLISHED],
+        unit: "detections in 1000 executions",
+        most: 20.0 * (most / 20.0).ceil(),
+        step: 20.0,
+        groups,
+    });
+    vec![figure(stages::NAME, svg)]
+}
+
+/// Cycles until each attack is detected.
+pub fn attacks(of: &Attacks) -> Vec<Figure> {
+    let kinds: Vec<Kind> = Kind::ALL.into_iter().collect();
+    let variants = [(Variant::Paper, -4.0), (Variant::Hardened, 4.0)];
+    let panel = |offered: Offered| {
+        let rows = || of.rows.iter().filter(|row| row.offered == offered);
+        let mut panel =
+            Panel { name: format!("{} offered", offered.name()), dots: vec![], lines: vec![] };
+        for (variant, shift) in variants {
+            let line = format_class(variant);
+            let control = rows().find(|row| (row.attack, row.variant) == (None, variant));
+            let control = control.and_then(|row| row.median_cycles);
+            panel.lines.extend(control.map(|cycles| (float(cycles), line)));
+            for row in rows().filter(|row| row.variant == variant) {
+                let Some(at) = kinds.iter().position(|kind| Some(*kind) == row.attack) else {
+                    continue;
+                };
+                panel.dots.push(latency(row, at, shift));
+                let collided = Dot { value: None, series: COLLIDED, ..latency(row, at, shift) };
+                panel.dots.extend((row.collided > 0).then_some(collided));
+            }
+        }
+        panel
+    };
+    let svg = dots::draw(&Dots {
+        title: "How soon attacks are detected",
+        about: &[
+            "Median of the cycles (of 0.1 s) with something remote from the attack's start to the first detection.",
+            "Open: not in every run; \"missed\": in none. Dashed: the first false alarm of as many runs without an attack;",
+            "a mark at or behind the line of its colour shows nothing.",
+        ],
+        key: &[Series::PAPER, Series::HARDENED, COLLIDED],
+        rows: kinds.iter().map(|kind| kind.name().to_owned()).collect(),
+        left: 132.0,
+        powers: [0, 3],
+        unit: "cycles until it is detected",
+        off: Some("missed"),
+        panels: Offered::ALL.map(panel).into(),
+    });
+    vec![figure(attacks::NAME, svg)]
+}
+
+fn latency(row: &attacks::Row, at: usize, shift: f64) -> Dot {
+    Dot {
+        row: at,
+        value: row.median_cycles.map(float),
+        series: series(row.variant),
+        is_open: row.detected < row.runs,
+        shift,
+    }
+}
+
+const fn format_class(variant: Variant) -> &'static str {
+    match variant {
+        Variant::Sofof => "sofof-line",
+        Variant::Paper => "paper-line",
+        Variant::Hardened => "hardened-line",
+    }
+}
+
+/// Availability by each factor.
+pub fn availability(of: &Availability) -> Vec<Figure> {
+    let chart = |factor: Factor, value: fn(&availability::Row) -> f64| {
+        let rows = || of.rows.iter().filter(|row| row.factor == factor);
+        let line = |variant| {
+            let of = rows().filter(|row| row.variant == variant).map(value).collect();
+            (series(variant), of)
+        };
+        let names = rows().filter(|row| row.variant == Variant::Paper);
+        Small {
+            name: words_of(factor).to_owned(),
+            names: names.map(|row| row.value.to_string()).collect(),
+            lines: [Variant::Paper, Variant::Hardened].map(line).into(),
+        }
+    };
+    let charts = |value: fn(&availability::Row) -> f64| {
+        Factor::ALL.map(|factor| chart(factor, value)).into()
+    };
+    let most = of.rows.iter().map(|row| row.fallbacks_per_hour).fold(100.0, f64::max);
+    let rows = [
+        Row {
+            unit: "share of the time with remote tracks, %",
+            most: 100.0,
+            step: 25.0,
+            charts: charts(|row| 100.0 * row.share_mot),
+        },
+        Row {
+            unit: "share of the time with a remote trajectory, %",
+            most: 100.0,
+            step: 25.0,
+            charts: charts(|row| 100.0 * row.share_plan),
+        },
+        Row {
+            unit: "fallbacks in an hour, each a false alarm",
+            most: 200.0 * (most / 200.0).ceil(),
+            step: 200.0,
+            charts: charts(|row| row.fallbacks_per_hour),
+        },
+    ];
+    let about = [
+        "No attack. One setting at a time differs from the defaults: 0.01 missed, no clutter, 0.05 m, 2 ms, 10 s.",
+        "The paper gives no such figures.",
+    ];
+    let key = [Series::PAPER, Series::HARDENED];
+    let svg = lines::draw("What the checks cost without an attack", &about, &key, &rows);
+    vec![figure(availability::NAME, svg)]
+}
+
+const fn words_of(factor: Factor) -> &'static str {
+    match factor {
+        Factor::Missed => "objects missed, share",
+        Factor::Clutter => "clutter in a cycle",
+        Factor::PositionM => "noise, m",
+        Factor::JitterMs => "jitter, ms",
+        Factor::TWaitS => "t_wait, s",
+    }
+}
+
+/// The share that is offloaded, and processor time, by service.
+pub fn cpu(of: &Cpu) -> Vec<Figure> {
+    let of_who = |who: Who| of.rows.iter().filter(move |row| row.who == who);
+    let offloaded = |who: Who| Group {
+        name: who.name().to_owned(),
+        bars: of_who(who).map(share).collect(),
+        note: String::new(),
+    };
+    let shares = bars::draw(&Bars {
+        title: "Share of the time in which a service is offloaded",
+        about: &[
+            "No attack here; in the paper there are attacks and other areas. ENV and TPL are two services there.",
+        ],
+        key: &VARIANTS,
+        unit: "time in which the CAV's own is stopped, %",
+        most: 100.0,
+        step: 25.0,
+        groups: [Who::Mot, Who::EnvTpl].map(offloaded).into(),
+    });
+    let mut dots = Vec::new();
+    let mut rows = Vec::new();
+    for who in Who::ALL {
+        for row in of_who(who) {
+            let at = rows.len();
+            rows.push(format!("{}, {}", who.name(), row.variant.name()));
+            dots.extend(processor(row, at));
+        }
+    }
+    let ours = Series { name: "ours", ..Series::HARDENED };
+    let processor = dots::draw(&Dots {
+        title: "Processor time of each service",
+        about: &[
+            "Filled: while it runs on the CAV, open: while it is stopped. Ours are functions called in a loop, on this machine;",
+            "the paper's are ROS 2 nodes with their messages, on its own.",
+        ],
+        key: &[ours, Series::COMPARED],
+        rows,
+        left: 236.0,
+        powers: [-4, 2],
+        unit: "processor time over simulated time, % of one core",
+        off: None,
+        panels: vec![Panel { name: String::new(), dots, lines: vec![] }],
+    });
+    vec![
+        figure(&format!("{}-offloaded", cpu::NAME), shares),
+        figure(&format!("{}-processor", cpu::NAME), processor),
+    ]
+}
+
+fn share(row: &cpu::Row) -> Bar {
+    let all = row.active_s + row.inactive_s;
+    let [active, inactive] = published::cpu(row.variant, row.who);
+    let of = active.iter().zip(inactive).map(|(a, i)| 100.0 * i.1 / (a.1 + i.1));
+    let value = if all > 0.0 { 100.0 * row.inactive_s / all } else { 0.0 };
+    Bar {
+        series: series(row.variant),
+        value,
+        paler: 0.0,
+        label: format!("{value:.0} %"),
+        published: of.collect(),
+    }
+}
+
+fn processor(row: &cpu::Row, at: usize) -> Vec<Dot> {
+    let percent = |cpu_s: f64, of_s: f64| (of_s > 0.0).then(|| 100.0 * cpu_s / of_s);
+    let ours =
+        [percent(row.active_cpu_s, row.active_s), percent(row.inactive_cpu_s, row.inactive_s)];
+    let dot = |value: f64, series: Series, is_open: bool| Dot {
+        row: at,
+        value: Some(value),
+        series,
+        is_open,
+        shift: 0.0,
+    };
+    let mut dots = Vec::new();
+    let published = published::cpu(row.variant, row.who);
+    for ((ours, published), is_open) in ours.into_iter().zip(published).zip([false, true]) {
+        dots.extend(ours.map(|value| dot(value, Series::HARDENED, is_open)));
+        let of = published.iter().map(|(value, _)| dot(*value, Series::COMPARED, is_open));
+        dots.extend(of);
+    }
+    dots
+}
+
+/// The time left to react in every run of a search.
+pub fn falsified(of: &Falsified) -> Vec<Figure> {
+    let (random, guided) = (
+        Series { name: "at random", ..Series::SOFOF },
+        Series { name: "by CMA-ES, from the best of them", mark: Mark::Circle, ..Series::PAPER },
+    );
+    let random = Series { mark: Mark::Circle, ..random };
+    let tried = of.tries.iter().map(|it| Tried {
+        series: if it.is_random { random } else { guided },
+        value: it.time_left_s,
+    });
+    let tried: Vec<Tried> = tried.collect();
+    let rounds = of.tries.windows(2).enumerate();
+    let rounds = rounds.filter(|(_, it)| it[0].round != it[1].round).map(|(at, _)| at + 1);
+    let svg = lines::search(
+        "The search for collisions",
+        &[
+            "Least time left to react of each run: below it nothing helps any more. The line is the least up to then;",
+            "upright lines part the rounds, which have new scenarios.",
+        ],
+        &[random, guided, COLLIDED],
+        ("time left to react, s", FREE_S),
+        (&tried, &rounds.collect::<Vec<_>>()),
+    );
+    vec![figure(mufasa_sim::experiment::falsify::NAME, svg)]
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+fn float(count: u64) -> f64 {
+    count as f64
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+fn ratio(part: usize, of: usize) -> f64 {
+    if of == 0 { 0.0 } else { part as f64 / of as f64 }
+}

@@ -1,0 +1,216 @@
+//! What `mufasa evaluate` leaves for people: charts, the report, replays and logs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use mcap::{MessageStream, Schema};
+use roxmltree::Document;
+use serde_json::Value;
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    command.args(arguments).current_dir(folder).output().expect("the program starts")
+}
+
+fn done(folder: &Path, code: i32, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?} {output:?}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+fn text(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// The links of a page. It is XML but for its doctype and its meta elements: so every tag is closed in its order.
+fn links(page: &str) -> Vec<String> {
+    let page = page.strip_prefix("<!DOCTYPE html>\n").expect("a doctype");
+    let closed = |line: &str| match line.strip_suffix('>') {
+        Some(meta) if line.starts_with("<meta ") => format!("{meta}/>"),
+        _ => line.to_owned(),
+    };
+    let page = page.lines().map(closed).collect::<Vec<_>>().join("\n");
+    let document = Document::parse(&page).unwrap_or_else(|error| panic!("{error}\n{page}"));
+    document.descendants().filter_map(|it| it.attribute("href")).map(str::to_owned).collect()
+}
+
+const SMALL: [&str; 6] = ["--scenarios", "1", "--vehicles", "8", "--out", "results"];
+
+#[test]
+fn a_folder_has_one_page_with_a_section_of_each_experiment() {
+    let folder = folder("page");
+    let evaluate = |experiment: &str| {
+        let said = run(&folder, &[&["evaluate", experiment], &SMALL[..]].concat());
+        assert!(matches!(said.status.code(), Some(0 | 1)), "{said:?}");
+    };
+    evaluate("failures");
+    let one = text(&folder, "results/report.html");
+    evaluate("stages");
+    evaluate("failures");
+    let page = text(&folder, "results/report.html");
+    assert!(page.starts_with(one.strip_suffix("</body>\n</html>\n").expect("an end")));
+    assert_eq!(page.matches("<h2>").count(), 2);
+    assert_eq!(page.matches("<svg").count(), 2);
+    for needed in
+        ["checked by the model; model and implementation agree", "seed: 0.", "<th>attack</th>"]
+    {
+        assert!(page.contains(needed), "{needed}");
+    }
+    // Nothing is fetched; a namespace is a name.
+    let rest = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(!rest.contains("http") && !rest.contains("<script") && !rest.contains("NaN"));
+    // Runs that failed are linked, and their pages are there.
+    let links = parsed(&page);
+    assert!(links.lines().count() >= 3, "{links}");
+    for link in links.lines() {
+        assert!(
+            text(&folder, &format!("results/{link}")).contains("failed: ")
+                || link.contains("sofof")
+        );
+    }
+    for name in ["failures.svg", "stages.svg"] {
+        let chart = text(&folder, &format!("results/{name}"));
+        let chart = Document::parse(&chart).expect("XML");
+        assert!(
+            chart
+                .descendants()
+                .filter(|it| it.has_tag_name(("http://www.w3.org/2000/svg", "rect")))
+                .count()
+                > 5
+        );
+        assert!(page.contains(chart.input_text()), "{name} is in the page");
+    }
+}
+
+#[test]
+fn every_experiment_has_charts_that_are_svg() {
+    let folder = folder("charts");
+    let size = ["--scenarios", "1", "--vehicles", "0", "--out", "results"];
+    let only = |id: &'static str| {
+        [&["evaluate", id.split('/').next().unwrap_or_default(), "--only", id], &size[..]].concat()
+    };
+    for id in ["attacks/hardened/ghosts", "availability/paper", "cpu/hardened"] {
+        done(&folder, 0, &only(id));
+    }
+    let search = [
+        "evaluate",
+        "falsify",
+        "--profile",
+        "paper",
+        "--runs",
+        "12",
+        "--vehicles",
+        "2",
+        "--out",
+        "results",
+    ];
+    done(&folder, 0, &search);
+    let names = ["attacks", "availability", "cpu-offloaded", "cpu-processor", "falsify"];
+    for name in names {
+        let chart = text(&folder, &format!("results/{name}.svg"));
+        let document = Document::parse(&chart).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let marks =
+            ["circle", "polygon", "rect"].map(|it| chart.matches(&format!("<{it} ")).count());
+        assert!(marks.iter().sum::<usize>() > 3, "{name}: {marks:?}");
+        assert!(document.descendants().all(|it| it.attribute("d").is_none()), "{name}");
+    }
+    let search =
+        serde_json::from_str::<Value>(&text(&folder, "results/falsify.json")).expect("JSON");
+    assert_eq!(search["tries"].as_array().map(Vec::len), Some(12));
+    links(&text(&folder, "results/report.html"));
+}
+
+#[test]
+fn all_cycles_are_checked_where_that_is_asked_for() {
+    let folder = folder("checked");
+    let ask = |more: &[&str]| {
+        let only =
+            ["evaluate", "failures", "--only", "failures/hardened/ghosts", "--scenarios", "1"];
+        let said = done(&folder, 0, &[&only[..], more].concat());
+        let line =
+            said.lines().find(|it| it.contains("checked by the model")).expect("a line").to_owned();
+        let numbers = line.split_whitespace().filter_map(|it| it.parse::<u64>().ok());
+        <[u64; 2]>::try_from(numbers.collect::<Vec<_>>()).expect("two numbers")
+    };
+    let [decided, checked] = ask(&[]);
+    assert!((decided / 100 - 2..=decided / 100 + 2).contains(&checked), "{decided} {checked}");
+    assert_eq!(ask(&["--check-all"]), [decided, decided]);
+    let refused = run(&folder, &["evaluate", "cpu", "--check-all"]);
+    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
+}
+
+/// `check` reads the cycles of a log as it reads them as lines, and answers the same.
+#[test]
+fn a_run_as_a_log_is_read_back() {
+    let folder = folder("log");
+    let replay =
+        ["evaluate", "replay", "--attack", "tracks-empty", "--variant", "paper", "--scenario", "1"];
+    done(&folder, 0, &[&replay[..], &["--out", "run.html", "--mcap", "run.mcap"]].concat());
+    let bytes = fs::read(folder.join("run.mcap")).expect("a log");
+    let mut counts = std::collections::BTreeMap::new();
+    let (mut lines, mut verdicts) = (String::new(), Vec::new());
+    for message in MessageStream::new(&bytes).expect("a log") {
+        let message = message.expect("a message");
+        let Schema { name, encoding, data, .. } = &**message.channel.schema.as_ref().expect("one");
+        assert_eq!(
+            (encoding.as_str(), message.channel.message_encoding.as_str()),
+            ("jsonschema", "json")
+        );
+        let value: Value = serde_json::from_slice(&message.data).expect("JSON");
+        // Foxglove follows no references.
+        let schema: Value = serde_json::from_slice(data).expect("JSON");
+        assert!(!schema.to_string().contains("$ref"));
+        jsonschema::validate(&schema, &value).unwrap_or_else(|error| panic!("{name}: {error}"));
+        if name == "mufasa.Cycle" {
+            lines += std::str::from_utf8(&message.data).expect("UTF-8");
+            lines.push('\n');
+        } else if name == "mufasa.Verdict" {
+            let stage = value["failed_stage"].as_str().expect("a text").to_owned();
+            verdicts.push((value["verdict"].as_str().expect("a text").to_owned(), stage));
+        }
+        *counts.entry(message.channel.topic.clone()).or_insert(0) += 1;
+    }
+    let topics = ["/actions", "/believed", "/cycle", "/ego", "/objects", "/verdict"];
+    assert_eq!(counts.keys().map(String::as_str).collect::<Vec<_>>(), topics);
+    assert!(counts.values().all(|count| *count == verdicts.len() && *count > 100), "{counts:?}");
+    fs::write(folder.join("run.jsonl"), lines).expect("lines");
+    let [log, lines] = ["run.mcap", "run.jsonl"].map(|file| {
+        let output = run(&folder, &["check", "--json", file]);
+        (
+            output.status.code(),
+            String::from_utf8(output.stdout).expect("UTF-8").replace(file, "FILE"),
+        )
+    });
+    assert_eq!(log, lines);
+    // And the answers are those of the run.
+    let cycles = log.1.lines().map(|line| serde_json::from_str::<Value>(line).expect("JSON"));
+    let cycles = cycles.filter(|it| it["kind"] == "checked_cycle");
+    let answers = cycles.map(|it| {
+        let of = |name: &str| it["implementation"][name].as_str().unwrap_or_default().to_owned();
+        (of("verdict"), of("failed_stage"))
+    });
+    assert_eq!(answers.collect::<Vec<_>>(), verdicts);
+    assert!(verdicts.iter().any(|it| it.0 == "unsafe") && verdicts.iter().any(|it| it.0 == "safe"));
+}
+
+#[test]
+fn a_run_is_drawn_by_its_id() {
+    let folder = folder("id");
+    let id = "failures/sofof/tracks-empty/0/0";
+    let said = done(&folder, 0, &["evaluate", "replay", "--run", id, "--vehicles", "8"]);
+    assert!(said.starts_with(&format!("{id}: ")), "{said}");
+    assert!(text(&folder, "failures-sofof-tracks-empty-0-0.html").contains(id));
+    for wrong in ["failures/sofof/tracks-empty/0/99", "nothing", "failures/sofof"] {
+        let output = run(&folder, &["evaluate", "replay", "--run", wrong]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && said.contains("no run of"), "{said}");
+    }
+}

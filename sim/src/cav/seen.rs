@@ -1,0 +1,56 @@
+//! The CAV's own detections of the last second, as the monitor keeps them
+//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+
+use std::collections::VecDeque;
+use std::ops::RangeInclusive;
+
+use mufasa::input::cycle::{Detection, DetectionList};
+
+use super::sensing::Sensed;
+
+/// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
+/// that are kept, ns.
+const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
+const USABLE_NS: RangeInclusive<i64> = 200_000_000..=1_000_000_000;
+const SPACING_NS: i64 = 83_333_334;
+/// Ages of a list with which stations are asked, ns (`spec/5-interfaces.md#monitor`).
+const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
+
+/// Lists with their stamps, the oldest first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Seen(VecDeque<(i64, Vec<Detection>)>);
+
+impl Seen {
+    /// Keeps what was measured, if its time has come.
+    pub(super) fn see(&mut self, sensed: &Sensed) {
+        let youngest = self.0.back().map(|(stamp_ns, _)| *stamp_ns);
+        if youngest.is_some_and(|it| sensed.stamp_ns - it < SPACING_NS) {
+            return;
+        }
+        self.0.push_back((sensed.stamp_ns, sensed.detections.clone()));
+        while self.0.front().is_some_and(|it| sensed.stamp_ns - it.0 > *USABLE_NS.end()) {
+            self.0.pop_front();
+        }
+    }
+
+    /// Whether detections reach back half a second.
+    pub(super) fn reaches_back(&self, t_ns: i64) -> bool {
+        self.0.iter().any(|(stamp_ns, _)| ENOUGH_NS.contains(&(t_ns - stamp_ns)))
+    }
+
+    /// The lists whose ages are nearest to those wanted, the youngest first.
+    pub(super) fn history(&self, stamp_ns: i64) -> Vec<DetectionList<'_>> {
+        let usable = || self.0.iter().rev().filter(|it| USABLE_NS.contains(&(stamp_ns - it.0)));
+        let mut lists: Vec<DetectionList<'_>> = Vec::new();
+        for wanted in WANTED_NS {
+            // Of two that are as near the younger: the first.
+            let nearest = usable().min_by_key(|it| (stamp_ns - it.0 - wanted).abs());
+            if let Some((stamp_ns, items)) = nearest
+                && lists.iter().all(|list| list.stamp_ns != *stamp_ns)
+            {
+                lists.push(DetectionList { stamp_ns: *stamp_ns, items });
+            }
+        }
+        lists
+    }
+}
