@@ -149,7 +149,7 @@ class Seen:
                     yield detection, velocity(item, detection, self.reference)
 
     def work(self, points):
-        """What H-13 costs, in steps."""
+        """What H-13 costs, in steps, with so many points and places beyond the end."""
         items = [len(one["items"]) for one in self.lists]
         return len(self.detections) * max(items, default=0) * (sum(items) + points)
 

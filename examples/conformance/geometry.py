@@ -99,17 +99,44 @@ def in_corridor(p, pairs):
     return sum(map(area, rest)) < 0.01 * EPS * EPS
 
 
+def edges(pose, ego, more, item):
+    """The sides of the CAV's rectangle at a pose, longer by more, and of an object: of each pair the
+    direction of its normal and half the distance."""
+    sides = []
+    for turned, box, longer in ((pose, ego, more), (item, item, 0.0)):
+        c, s = turned["cos"], turned["sin"]
+        sides.append((c, s, box["length"] / 2 + longer))
+        sides.append((-s, c, box["width"] / 2 + longer))
+    return sides
+
+
+def from_centre(pose, offset, item, dx, dy):
+    """From the CAV's centre at a pose to that of an object that has moved by (dx, dy)."""
+    return (dx + (item["x"] - pose["x"]) - offset * pose["cos"],
+            dy + (item["y"] - pose["y"]) - offset * pose["sin"])
+
+
+def reach(sides, ux, uy):
+    return sum(h * abs(vx * ux + vy * uy) for vx, vy, h in sides)
+
+
 def rectangles_meet(ego, pose, offset, item, dx, dy, near):
     """The low-level collision check: the CAV at a pose, its rectangle shifted forward by offset,
     and an object that has moved by (dx, dy), examined when the centres are nearer than near."""
-    c, s = pose["cos"], pose["sin"]
-    dx += (item["x"] - pose["x"]) - offset * c
-    dy += (item["y"] - pose["y"]) - offset * s
+    dx, dy = from_centre(pose, offset, item, dx, dy)
     if not math.hypot(dx, dy) < near + EPS:
         return False
-    edges = []
-    for (c, s), box, more in (((c, s), ego, EPS), ((item["cos"], item["sin"]), item, 0.0)):
-        edges.append((c, s, box["length"] / 2 + more))
-        edges.append((-s, c, box["width"] / 2 + more))
-    return all(abs(dx * ux + dy * uy) <= sum(h * abs(vx * ux + vy * uy) for vx, vy, h in edges)
-               for ux, uy, _ in edges)
+    sides = edges(pose, ego, EPS, item)
+    return all(abs(dx * ux + dy * uy) <= reach(sides, ux, uy) for ux, uy, _ in sides)
+
+
+def stays_apart(ego, pose, more, item, dx, dy, velocity):
+    """Whether the CAV, standing at a pose and longer by more, never meets an object that has moved by
+    (dx, dy) and moves on: some side of one of them, or the way of the object, has the CAV on one side
+    and the object on the other, and the object does not come nearer to it."""
+    dx, dy = from_centre(pose, ego["center_offset"], item, dx, dy)
+    sides, (wx, wy) = edges(pose, ego, more, item), velocity
+    speed = math.hypot(wx, wy)
+    normals = [(ux, uy) for ux, uy, _ in sides] + ([(-wy / speed, wx / speed)] if speed else [])
+    return any(sign * (dx * ux + dy * uy) > reach(sides, ux, uy) and sign * (wx * ux + wy * uy) >= 0
+               for ux, uy in normals for sign in (1, -1))

@@ -4,7 +4,7 @@ import math
 
 from closed_cells import stage_v
 from detection_history import S, Seen, gap
-from geometry import EPS, assignment_cost, distance, rectangles_meet
+from geometry import EPS, assignment_cost, distance, rectangles_meet, stays_apart
 from hardened_ii import stage_ii
 from paper import current, gated, s_cav, s_follow, s_valid, too_much_work
 from stopping import places, s_stop
@@ -113,12 +113,33 @@ def stage_iv(cycle, seen, ran_iii):
 def stage_iv_moving(cycle, seen):
     """H-13: the motions that the CAV may have seen itself."""
     horizon = s_stop(cycle) + cycle["parameters"]["tau_motion"] * cycle["ego"]["speed"]
-    examined, stamp_ns = list(places(cycle, horizon, horizon)), cycle["detections"]["stamp_ns"]
-    if seen.work(len(examined)) > cycle["parameters"]["work_limit"]:
+    examined, points = list(places(cycle, horizon, horizon)), cycle["trajectory"]["points"]
+    if seen.work(max(len(examined), len(points))) > cycle["parameters"]["work_limit"]:
         return False
     motions = list(seen.moving())
-    for place in examined:
-        t = (place[0]["t_ns"] - stamp_ns) / S
-        if any(collides(cycle, place, item, wx * t, wy * t) for item, (wx, wy) in motions):
+    if any(meets(cycle, place, motion) for place in examined for motion in motions):
+        return False
+    # (c): farther on what the CAV may not wait for, unless it stands in its way already.
+    motions = [motion for motion in motions if may_wait(cycle, points[0], motion, -EPS)]
+    for before, point in zip(points[len(examined) - 1:], points[len(examined):]):
+        motions = [motion for motion in motions if not may_wait(cycle, before, motion, EPS)]
+        place = point, cycle["ego"]["center_offset"]
+        if any(meets(cycle, place, motion) for motion in motions):
             return False
     return True
+
+
+def moved(cycle, point, motion):
+    """How far an object has moved when the CAV is at a point."""
+    t = (point["t_ns"] - cycle["detections"]["stamp_ns"]) / S
+    return [speed * t for speed in motion[1]]
+
+
+def meets(cycle, place, motion):
+    return collides(cycle, place, motion[0], *moved(cycle, place[0], motion))
+
+
+def may_wait(cycle, point, motion, more):
+    """The CAV may wait at a point for an object that moves."""
+    item, velocity = motion
+    return stays_apart(cycle["ego"], point, more, item, *moved(cycle, point, motion), velocity)

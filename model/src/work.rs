@@ -74,7 +74,8 @@ fn moving(scene: &Scene, trajectory: &[Point]) -> i128 {
         return 0;
     };
     let places = h13_moving::places(scene, trajectory);
-    h13_moving::work(&detection_history::usable(scene), detections, &places).unwrap_or(0)
+    h13_moving::work(&detection_history::usable(scene), detections, trajectory, &places)
+        .unwrap_or(0)
 }
 
 /// The cells near the n disks of a place.

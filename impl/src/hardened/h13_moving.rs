@@ -8,23 +8,25 @@
 
 mod disputed;
 mod lists;
+mod seen_twice;
+mod waiting;
 
+use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
-use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::hardened::h10_explained::Explained;
 use crate::hardened::h13_moving::disputed::Disputes;
 use crate::hardened::h13_moving::lists::{Lists, Past};
+use crate::hardened::h13_moving::seen_twice::SeenTwice;
+use crate::hardened::h13_moving::waiting::Waiting;
 use crate::input::cycle::{Cycle, Detection, DetectionList, TrackList, Trajectory};
 use crate::input::scratch::Scratch;
-use crate::numbers::plane::Vector;
-use crate::numbers::range::larger;
-use crate::numbers::rectangle::Rectangle;
+use crate::numbers::range::{intersection, larger};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
+use crate::stages::llcc::CavMotion;
 use crate::stages::llcc::pursuit::{Passing, Pursuit};
 use crate::stages::llcc::sweep::MovingRectangle;
-use crate::stages::llcc::{CavMotion, Moving};
 
 /// What says how the current detections have moved.
 #[derive(Clone, Copy, Debug)]
@@ -46,13 +48,15 @@ impl MovingDetections<'_, '_> {
         let detections = self.history.detections?;
         let reference = self.history.reference()?;
         let examined = PointsExamined::new(cycle, trajectory.points, Horizon::Motion);
-        let work = self.work(detections.items.len(), examined.count());
+        let places = trajectory.points.len().saturating_add(examined.beyond.count());
+        let work = self.work(detections.items.len(), places);
         let limit = cycle.parameters.work_limit;
         if work > limit {
             let compared = [work, limit].map(|steps| Real::integer(steps).value());
             return Some(Witness::of(Rule::WorkLimit, compared));
         }
-        let motion = CavMotion::with_beyond(&examined, detections.stamp_ns);
+        let stamp_ns = detections.stamp_ns;
+        let motion = CavMotion::with_beyond(&examined, stamp_ns);
         let lists = Lists::new(cycle, &self.history, self.tracks);
         let mut search = Search {
             cycle,
@@ -64,6 +68,7 @@ impl MovingDetections<'_, '_> {
             lists,
             motion: &motion,
             pursuit: &motion.pursuit(),
+            waiting: None,
             disputes: Disputes::new(
                 detections,
                 self.history.index,
@@ -74,6 +79,16 @@ impl MovingDetections<'_, '_> {
             first: None,
         };
         search.all(scratch);
+        let points = examined.points.len();
+        let waiting = Waiting::new(cycle.ego, trajectory.points, points, stamp_ns);
+        if let Some(waiting) = waiting.filter(|_| search.first.is_none()) {
+            let motion = CavMotion::new(cycle, waiting.points(), stamp_ns);
+            let pursuit = motion.pursuit();
+            let mut on =
+                Search { motion: &motion, pursuit: &pursuit, waiting: Some(&waiting), ..search };
+            on.all(scratch);
+            return on.first.map(|found| found.witness(&self.history));
+        }
         search.first.map(|found| found.witness(&self.history))
     }
 
@@ -83,36 +98,6 @@ impl MovingDetections<'_, '_> {
         let longest = items().fold(0, usize::max);
         let each = longest.saturating_mul(items().fold(places, usize::saturating_add));
         i64::try_from(detections.saturating_mul(each)).unwrap_or(i64::MAX)
-    }
-}
-
-/// A detection that has come from an earlier item.
-struct SeenTwice {
-    /// With the mean velocity.
-    now: MovingRectangle,
-    /// The item, m.
-    before: [f64; 2],
-    age_ns: i64,
-}
-
-impl SeenTwice {
-    fn new(now: &Detection, before: [f64; 2], list: &UsableList<'_>) -> Self {
-        let (rate, [x, y]) = (1.0 / list.age, before);
-        let velocity = [(now.x - x) * rate, (now.y - y) * rate];
-        let now = MovingRectangle { velocity, ..MovingRectangle::detection(now) };
-        Self { now, before, age_ns: list.age_ns }
-    }
-}
-
-impl Moving for SeenTwice {
-    fn plainly(&self) -> &MovingRectangle {
-        &self.now
-    }
-
-    fn exactly(&self, dt_ns: i64) -> Rectangle {
-        let moved = Vector::between(self.before, self.now.centre);
-        let times = Real::integer(dt_ns).over(Real::integer(self.age_ns));
-        self.now.displaced(moved.times(times))
     }
 }
 
@@ -155,6 +140,30 @@ struct Pair {
     list: usize,
 }
 
+/// An object as seen by the CAV on its way; and where it stands and would have to wait.
+struct Passes<'m> {
+    moving: Passing<'m>,
+    standing: Option<Passing<'m>>,
+}
+
+impl Passes<'_> {
+    #[inline]
+    fn misses_on_line(&self, velocity: [f64; 2]) -> bool {
+        self.moving.misses_on_line(velocity)
+            || self.standing.as_ref().is_some_and(|standing| standing.misses_on_line(velocity))
+    }
+
+    #[inline]
+    fn misses(&self, velocity: [f64; 2]) -> bool {
+        self.moving.misses(velocity)
+            || self.standing.as_ref().is_some_and(|standing| standing.misses_on_line(velocity))
+    }
+}
+
+fn is_empty(area: [[f64; 2]; 2]) -> bool {
+    area.iter().any(|[least, greatest]| least > greatest)
+}
+
 /// The search for the first collision.
 struct Search<'m, 'c, 'a> {
     cycle: &'m Cycle<'a>,
@@ -168,11 +177,13 @@ struct Search<'m, 'c, 'a> {
     off: f64,
     motion: &'m CavMotion<'m, 'a>,
     pursuit: &'m Pursuit,
+    /// (c): that the CAV may not wait at points before, when these are the points after.
+    waiting: Option<&'m Waiting<'a>>,
     disputes: Disputes<'m, 'c, 'a>,
     first: Option<Found>,
 }
 
-impl Search<'_, '_, '_> {
+impl<'m> Search<'m, '_, '_> {
     /// All detections that may reach the CAV. No other order finds another first collision.
     fn all(&mut self, scratch: &mut Scratch<'_>) {
         let items = self.detections.items;
@@ -189,7 +200,9 @@ impl Search<'_, '_, '_> {
         let speed = libm::sqrt(self.explained.fastest) * (1.0 + 1e-9) + self.off;
         let [across, up] = self.motion.sweep.surroundings(index.reach, speed);
         let is_within = |[least, most]: [f64; 2], at: f64| least <= at && at <= most;
-        let fastest = larger(speed, self.cycle.parameters.v_object + self.more());
+        let from_anywhere = self.cycle.parameters.v_object + self.more();
+        let all_explained = self.explained.count == items.len();
+        let fastest = if all_explained { speed } else { larger(speed, from_anywhere) };
         let near = self.motion.sweep.surroundings(index.reach, fastest);
         index.for_each_in(near, |detection, [x, y]| {
             let Some(now) = items.get(detection) else { return };
@@ -199,6 +212,11 @@ impl Search<'_, '_, '_> {
             }
             self.come_from_anywhere((detection, now), track, scratch);
         });
+    }
+
+    fn passing(&self, object: &MovingRectangle) -> Passes<'m> {
+        let standing = self.waiting.map(|waiting| waiting.standing.passing(object));
+        Passes { moving: self.pursuit.passing(object), standing }
     }
 
     /// By how much what moves at most `CLOSE` more than `v_object` at the age of the reference list is
@@ -228,11 +246,20 @@ impl Search<'_, '_, '_> {
         if off < self.off && self.motion.sweep.misses_all_near(&about, off) {
             return;
         }
-        let passing = self.pursuit.passing(&about);
-        let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
         let (dx, dy) = past.moved(track);
         let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-        let near = [around(track.x + dx), around(track.y + dy)];
+        let mut near = [around(track.x + dx), around(track.y + dy)];
+        if let Some(waiting) = self.waiting {
+            let speed = libm::sqrt(self.explained.fastest) * (1.0 + 1e-9) + off;
+            let from = self.pursuit.comes_from(&about, speed, usable.age);
+            let standing = waiting.standing.comes_from(&about, speed, usable.age);
+            near = intersection(near, intersection(from, standing));
+            if is_empty(near) {
+                return;
+            }
+        }
+        let passing = self.passing(&about);
+        let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
         squares.for_each_in(scratch.columns, near, |item, before| {
             let [before_x, before_y] = before;
             let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
@@ -264,14 +291,17 @@ impl Search<'_, '_, '_> {
         let standing = MovingRectangle::detection(now);
         // Rounded up: what moves as fast as that in an instant more.
         let speed = v_object + self.more();
-        let from = self.pursuit.comes_from(&standing, speed, age);
-        if from.iter().any(|[least, greatest]| least > greatest) {
+        let mut from = self.pursuit.comes_from(&standing, speed, age);
+        if let Some(waiting) = self.waiting.filter(|_| !is_empty(from)) {
+            from = intersection(from, waiting.standing.comes_from(&standing, speed, age));
+        }
+        if is_empty(from) {
             return;
         }
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let tracks = self.moving.tracks.map_or(0, |list| list.items.len());
         let order = tracks.saturating_add(detection);
-        let passing = self.pursuit.passing(&standing);
+        let passing = self.passing(&standing);
         let scratch = &*scratch;
         squares.for_each_in(scratch.columns, from, |item, before| {
             let [before_x, before_y] = before;
@@ -290,7 +320,7 @@ impl Search<'_, '_, '_> {
         before: [f64; 2],
         (now, track): (&Detection, Option<usize>),
         pair: &Pair,
-        passing: &Passing<'_>,
+        passing: &Passes<'_>,
         scratch: &Scratch<'_>,
     ) {
         let Some(list) = self.lists.usable(pair.list) else { return };
@@ -307,11 +337,17 @@ impl Search<'_, '_, '_> {
     }
 
     /// A collision that is earlier than the first so far.
-    fn earlier(&self, pair: &Pair, seen: &SeenTwice, passing: &Passing<'_>) -> Option<Found> {
+    fn earlier(&self, pair: &Pair, seen: &SeenTwice, passing: &Passes<'_>) -> Option<Found> {
         let &Pair { order, detection, item, list } = pair;
-        let window = passing.window(seen.now.velocity);
+        let window = passing.moving.window(seen.now.velocity);
+        let from = self.waiting.map_or(0, |waiting| waiting.from);
         let end = self.first.map_or(usize::MAX, |first| first.point.saturating_add(1));
+        let end = end.saturating_sub(from);
         let (point, compared) = self.motion.collision_within(window, seen, end)?;
+        let point = point.saturating_add(from);
+        if self.waiting.is_some_and(|waiting| !waiting.is_examined_at(point, seen)) {
+            return None;
+        }
         let found = Found { point, order, item, detection, list, compared };
         self.first.is_none_or(|first| found.key() < first.key()).then_some(found)
     }

@@ -20,18 +20,83 @@ pub(crate) struct Rectangle {
 /// Whether the two rectangles may share a point: unless the extents along a side of one of them
 /// certainly leave a gap (separating axes of two convex sets whose sides are orthogonal).
 pub(crate) fn possibly_touch(a: &Rectangle, b: &Rectangle) -> bool {
-    let apart = b.centre - a.centre;
-    let along = a.direction.dot(b.direction).abs();
-    let across = a.direction.cross(b.direction).abs();
-    let half = |length: f64| Real::new(0.5 * length);
+    let (apart, turn) = (b.centre - a.centre, Turn::between(a, b));
     let separated = |one: &Rectangle, other: &Rectangle| {
-        let own = one.direction.dot(one.direction);
-        let sides = [
-            (own * half(one.length), along * half(other.length) + across * half(other.width)),
-            (own * half(one.width), across * half(other.length) + along * half(other.width)),
-        ];
-        let gaps = [apart.dot(one.direction).abs(), one.direction.cross(apart).abs()];
-        sides.iter().zip(gaps).any(|(&(own, other), gap)| (own + other).certainly_below(gap))
+        let gaps = one.components(apart).map(Real::abs);
+        turn.reach(one, other).iter().zip(gaps).any(|(reach, gap)| reach.certainly_below(gap))
     };
     !(separated(a, b) || separated(b, a))
+}
+
+/// Whether the second rectangle, which moves on with a velocity for ever, certainly shares no point
+/// with the first one, now or later.
+pub(crate) fn certainly_passes(a: &Rectangle, b: &Rectangle, velocity: Vector) -> bool {
+    passes(a, b, velocity, [Real::certainly_below, Real::certainly_at_most])
+}
+
+/// Whether it may be so.
+pub(crate) fn possibly_passes(a: &Rectangle, b: &Rectangle, velocity: Vector) -> bool {
+    passes(a, b, velocity, [Real::possibly_below, Real::possibly_at_most])
+}
+
+/// Separating axes of a rectangle and the strip without an end that another one sweeps over: the axis of
+/// a side separates them when there is a gap along it that the velocity does not close; and the one
+/// across the velocity, along which the strip is as wide as what moves, whatever the sign. A velocity
+/// of 0 closes no gap, and has no such axis.
+fn passes(
+    a: &Rectangle,
+    b: &Rectangle,
+    velocity: Vector,
+    [is_below, is_at_most]: [fn(Real, Real) -> bool; 2],
+) -> bool {
+    let (apart, turn) = (b.centre - a.centre, Turn::between(a, b));
+    let stays =
+        |reach: Real, gap: Real, rate: Real| is_below(reach, gap) && is_at_most(Real::ZERO, rate);
+    let separated = |one: &Rectangle, other: &Rectangle| {
+        let sides = turn.reach(one, other).into_iter().zip(one.components(apart));
+        let mut sides = sides.zip(one.components(velocity));
+        sides.any(|((reach, gap), rate)| stays(reach, gap, rate) || stays(reach, -gap, -rate))
+    };
+    let across = |it: &Rectangle| {
+        let [along, across] = it.components(velocity).map(Real::abs);
+        across * half(it.length) + along * half(it.width)
+    };
+    is_below(across(a) + across(b), velocity.cross(apart).abs())
+        || separated(a, b)
+        || separated(b, a)
+}
+
+impl Rectangle {
+    /// The components of a vector along the direction and to the left of it, times its length.
+    fn components(&self, vector: Vector) -> [Real; 2] {
+        [vector.dot(self.direction), self.direction.cross(vector)]
+    }
+}
+
+/// How two rectangles are turned to each other: the components of one direction along the other and
+/// across it, without signs.
+struct Turn {
+    along: Real,
+    across: Real,
+}
+
+impl Turn {
+    fn between(a: &Rectangle, b: &Rectangle) -> Self {
+        let along = a.direction.dot(b.direction).abs();
+        Self { along, across: a.direction.cross(b.direction).abs() }
+    }
+
+    /// Half the extents of both, together, along the sides of one of them.
+    fn reach(&self, one: &Rectangle, other: &Rectangle) -> [Real; 2] {
+        let own = one.direction.dot(one.direction);
+        let (length, width) = (half(other.length), half(other.width));
+        [
+            own * half(one.length) + (self.along * length + self.across * width),
+            own * half(one.width) + (self.across * length + self.along * width),
+        ]
+    }
+}
+
+fn half(length: f64) -> Real {
+    Real::new(0.5 * length)
 }

@@ -114,11 +114,6 @@ impl<'c, 'a> PointsExamined<'c, 'a> {
         Self { cycle, points: points.get(..count).unwrap_or(points), beyond }
     }
 
-    /// How many places that are, those beyond the end too.
-    pub(crate) fn count(&self) -> usize {
-        self.points.len().saturating_add(self.beyond.count())
-    }
-
     /// H-04: the first place beyond the end where `find` finds something.
     pub(crate) fn first_beyond(
         &self,

@@ -1,6 +1,7 @@
 //! The low-level collision check (`spec/3-stages.md#low-level-collision-check-llcc`).
 
 pub(crate) mod pursuit;
+mod strip;
 pub(crate) mod sweep;
 
 use crate::hardened::h03_circumradii::examined_up_to;

@@ -17,3 +17,4 @@ mod slide;
 mod step_turn;
 mod steps;
 mod thresholds;
+mod waiting;

@@ -155,11 +155,12 @@ fn an_explained_detection_comes_from_its_past_alone() {
     assert!(collides(&shared));
 }
 
-/// 2 m/s and a tenth of the speed across the direction of the detection, which is along x.
+/// 2 m/s and a tenth of the speed across the direction of the detection, which is along x: away from
+/// the road.
 #[test]
 fn what_moves_across_its_detection_is_not_confirmed() {
     for (speed, explained) in [(20.0 / 9.0 - 1e-7, true), (20.0 / 9.0 + 1e-7, false)] {
-        let mut scene = confirmed(speed);
+        let mut scene = confirmed(-speed);
         for (age_ns, items) in &mut scene.history {
             items.push(detection(5.0, -4.5 - 8.0 * *age_ns as f64 * 1e-9));
         }
@@ -168,7 +169,7 @@ fn what_moves_across_its_detection_is_not_confirmed() {
         scene.detections.as_mut().expect("detections")[1].length = 1.0;
         assert!(!collides(&scene), "no direction that is known");
     }
-    let mut scene = confirmed(20.0 / 9.0);
+    let mut scene = confirmed(-20.0 / 9.0);
     scene.detections.as_mut().expect("detections")[1].length = 4.0;
     assert_eq!(scene.rule(), Some(Rule::Ambiguous));
 }
@@ -212,8 +213,8 @@ fn its_work_is_limited() {
         scene.failure().map(|(stage, it)| (stage, it.rule)),
         Some((Stage::Iv, Rule::WorkLimit))
     );
-    // Two detections, one item in each of two lists, 9 places: the points up to 3.8 m and the next.
-    scene.parameters.work_limit = 2 * (2 + 9);
+    // Two detections, one item in each of two lists, 30 points.
+    scene.parameters.work_limit = 2 * (2 + 30);
     assert_eq!(scene.rule(), None);
     scene.parameters.work_limit -= 1;
     assert_eq!(scene.rule(), Some(Rule::WorkLimit));
@@ -223,4 +224,96 @@ fn its_work_is_limited() {
     assert_eq!(scene.rule(), None);
     scene.parameters.work_limit = 1;
     assert_eq!(scene.rule(), Some(Rule::WorkLimit));
+}
+
+/// (c): the car from the right, at 8 m/s, is in the CAV's way from 1.01 s on, so that it is met at
+/// the tenth point. In any case the points up to the eighth are examined, at 4 m.
+fn later(x: f64) -> Scene {
+    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let at = |seconds: f64| detection(x, -1.5 + 8.0 * (seconds - 1.01));
+    scene.detections = Some(vec![detection(3.0, 50.1), at(0.0)]);
+    scene.history = [300, 500].map(|ms| (ms * MS, vec![at(ms as f64 * -1e-3)])).to_vec();
+    scene
+}
+
+/// The front is at 7.65 m then; the car is 2 m long to either side of its way.
+#[test]
+fn what_the_cav_may_wait_for_is_not_examined_on() {
+    for (x, met) in [(9.65 - 1e-7, true), (9.65 + 1e-7, false)] {
+        let scene = later(x);
+        assert_eq!(collides(&scene), met, "{x}");
+        let (stage, witness) = later(9.0).failure().expect("it comes into the way");
+        assert_eq!((stage, witness.rule), (Stage::Iv, Rule::CollisionMoving));
+        assert_eq!((witness.point, witness.detection), (Some(10), Some(1)));
+        assert_eq!((witness.item, witness.age_ns), (Some(0), Some(500 * MS)));
+    }
+    // Where the front is when the trajectory ends there.
+    let mut short = later(9.0);
+    short.points.truncate(9);
+    assert_eq!(short.failure_of_iv(), None);
+    short = later(9.0);
+    short.points.truncate(11);
+    assert!(short.failure_of_iv().is_some());
+    // It drives away from where the CAV would wait.
+    let mut away = later(9.0);
+    for (_, items) in &mut away.history {
+        let now = away.detections.as_ref().expect("detections")[1];
+        items.iter_mut().for_each(|item| item.y = 2.0 * now.y - item.y);
+    }
+    assert!(!collides(&away));
+}
+
+/// The front is at 3.65 m now: what comes where the CAV is already is not helped by a refusal.
+#[test]
+fn what_the_cav_may_not_wait_for_at_first_is_not_examined_on() {
+    for (x, met) in [(5.65 + 1e-7, true), (5.65 - 1e-7, false)] {
+        assert_eq!(collides(&later(x)), met, "{x}");
+    }
+    // From behind, faster: it is there at 1.1 s.
+    let mut behind = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let at = |seconds: f64| detection(2.5 + 13.0 * (seconds - 1.11), 0.0);
+    behind.detections = Some(vec![detection(3.0, 50.1), at(0.0)]);
+    behind.history = [300, 500].map(|ms| (ms * MS, vec![at(ms as f64 * -1e-3)])).to_vec();
+    assert!(!collides(&behind));
+}
+
+/// One point after the other, as long as the CAV may not wait at the one before: here at the ninth.
+#[test]
+fn it_is_examined_until_the_cav_may_wait() {
+    // It is met at the tenth point and not at the ninth, 10 m back.
+    let mut back = later(9.0);
+    assert_eq!(back.failure_of_iv().and_then(|witness| witness.point), Some(10));
+    back.points[9].x = -10.0;
+    assert_eq!(back.failure_of_iv(), None);
+    // The ninth is examined in any case.
+    let mut sooner = later(9.0);
+    for item in sooner.detections.iter_mut().chain(sooner.history.iter_mut().map(|(_, it)| it)) {
+        item.last_mut().expect("the car").y += 0.8;
+    }
+    let mut back = sooner.clone();
+    assert_eq!(sooner.failure_of_iv().and_then(|witness| witness.point), Some(9));
+    back.points[10].x = -10.0;
+    back.points[8].y = 1e-3;
+    assert_eq!(back.failure_of_iv().and_then(|witness| witness.point), Some(9));
+}
+
+/// Where something stands, but for less than any rounding, its velocity has a direction.
+#[test]
+fn the_least_velocity_counts() {
+    for least in [f64::from_bits(1), 1e-300, 1e-100] {
+        // Towards the road of the CAV, and away from it where it starts; else it never comes to where
+        // the CAV would wait, or to where it starts, too.
+        for (before, met) in
+            [([1.0, -1.0], true), ([-1.0, -1.0], false), ([1.0, 0.0], false), ([0.0, 0.0], false)]
+        {
+            // At the eighth point the front is 0.35 m before it, at the ninth within.
+            let mut scene = scene(Hardened, MotRemote, [-9.0, 0.0]);
+            let at = |x: f64, y: f64| Detection { length: 2.0, ..detection(x, y) };
+            scene.detections = Some(vec![detection(3.0, 50.1), at(0.0, 0.0)]);
+            let [x, y] = before.map(|it: f64| it * least);
+            scene.history = vec![(500 * MS, vec![at(x, y)])];
+            scene.tracks = Some(vec![]);
+            assert_eq!(collides(&scene), met, "{x:e} {y:e}");
+        }
+    }
 }

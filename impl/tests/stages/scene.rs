@@ -1,5 +1,7 @@
 //! A cycle in which everything is in order, and how to check it.
 
+use std::fmt::Debug;
+
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
     TrajectoryPoint,
@@ -11,7 +13,7 @@ use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages;
+use mufasa::stages::{self, ValidCycle};
 
 /// Now, ns.
 pub const NOW_NS: i64 = 1_000_000_000_000;
@@ -82,6 +84,28 @@ impl Scene {
     /// Checks the scene with scratch of exactly the size asked for, without indexes of the lists of
     /// detections and with them.
     pub fn check(&self) -> Result<Report, InvalidInput> {
+        self.both_ways(|cycle, indexes, scratch| stages::check_with(cycle, indexes, scratch))
+    }
+
+    /// Why stage iv fails on its own, if it does.
+    pub fn failure_of_iv(&self) -> Option<Witness> {
+        let outcome = self.both_ways(|cycle, indexes, scratch| {
+            let valid = ValidCycle::with(cycle, *indexes, scratch).expect("a valid scene");
+            valid.stage(Stage::Iv, scratch)
+        });
+        match outcome {
+            Outcome::Failed(witness) => Some(witness),
+            outcome => {
+                assert_eq!(outcome, Outcome::Passed);
+                None
+            }
+        }
+    }
+
+    fn both_ways<R: PartialEq + Debug>(
+        &self,
+        run: impl Fn(&Cycle<'_>, &Indexes<'_, '_>, &mut Scratch<'_>) -> R,
+    ) -> R {
         let stamp_ns = NOW_NS - 10_000_000;
         let list = |items| TrackList { stamp_ns: stamp_ns - self.track_age_ns, items };
         let earlier = self.history.iter();
@@ -118,7 +142,7 @@ impl Scene {
         let mut rows = vec![Row::default(); sizes.rows];
         let mut columns = vec![Column::default(); sizes.columns];
         let mut scratch = Scratch::new(&mut rows, &mut columns);
-        let report = stages::check(&cycle, &mut scratch);
+        let report = run(&cycle, &Indexes::default(), &mut scratch);
         let lists = || cycle.detections.iter().chain(cycle.detection_history);
         let mut memory: Vec<_> =
             lists().map(|list| vec![Slot::default(); list.items.len()]).collect();
@@ -127,7 +151,7 @@ impl Scene {
             .filter_map(|(list, memory)| DetectionIndex::new(list, memory).ok())
             .collect();
         let indexes = Indexes { route: None, detections: &indexes };
-        assert_eq!(stages::check_with(&cycle, &indexes, &mut scratch), report);
+        assert_eq!(run(&cycle, &indexes, &mut scratch), report);
         report
     }
 

@@ -64,9 +64,18 @@ impl<'a> Places<'a> {
 
     /// How many there are.
     pub fn count(&self) -> i128 {
+        self.points.len() as i128 + self.count_beyond()
+    }
+
+    /// How many of them are behind the end of the trajectory.
+    pub fn count_beyond(&self) -> i128 {
         let beyond = self.beyond.as_ref().map(|beyond| &beyond.multiples);
-        let beyond = beyond.map_or(0, |k| i128::from(*k.end()) - i128::from(*k.start()) + 1);
-        self.points.len() as i128 + beyond
+        beyond.map_or(0, |k| i128::from(*k.end()) - i128::from(*k.start()) + 1)
+    }
+
+    /// How many of them are points of the trajectory: its first ones.
+    pub fn count_points(&self) -> usize {
+        self.points.len()
     }
 
     /// One after the other.

@@ -4,6 +4,7 @@ use crate::hardened::detection_history::{
     Seen, Usable, confirmed, nearest_to_reference, origin_limit, past, usable,
 };
 use crate::hardened::h04_horizon::{Places, places_within, s_stop_along};
+use crate::hardened::h13_waiting::collision_beyond;
 use crate::input::scene::{Detections, Object, Point, Scene, Track};
 use crate::numbers::real::Real;
 use crate::numbers::vector::{Frame, Vector};
@@ -22,6 +23,13 @@ pub struct Pair<'a> {
     pub list: &'a Usable<'a>,
 }
 
+impl Pair<'_> {
+    /// w of its detection, m/s.
+    pub fn velocity(&self, d: &Object) -> Vector {
+        velocity(d, &self.list.items[self.item], &self.list.dt)
+    }
+}
+
 /// The first collision of stage iv with a detection as moving: in the order point, (a) confirmed
 /// tracks before (b) unexplained or disputed detections, items.
 pub fn collision_moving(
@@ -31,23 +39,28 @@ pub fn collision_moving(
 ) -> Option<Witness> {
     let lists = usable(scene);
     let places = places(scene, trajectory);
-    let work = work(&lists, detections, &places)?;
+    let work = work(&lists, detections, trajectory, &places)?;
     if let Some(witness) = over_work_limit(scene, work) {
         return Some(witness);
     }
     let pairs = pairs(scene, &lists, &detections.items);
-    let object = |point: &Point, pair: &Pair| {
-        let t_ns = i128::from(point.t_ns) - i128::from(detections.stamp_ns);
-        let d = &detections.items[pair.detection];
-        let w = velocity(d, &pair.list.items[pair.item], &pair.list.dt);
-        let origin = &d.frame.origin + &w.scaled(&Real::seconds(t_ns));
-        Object { frame: Frame { origin, direction: d.frame.direction.clone() }, ..d.clone() }
+    let object = |point: &Point, pair: &Pair| object_at(detections, pair, point);
+    let within = first_collision(scene, Rule::CollisionMoving, places.iter(), &pairs, object);
+    let (pair, witness) = match within {
+        Some((j, witness)) => (pairs[j], witness),
+        None => collision_beyond(scene, trajectory, detections, &places, &pairs)?,
     };
-    let (j, witness) =
-        first_collision(scene, Rule::CollisionMoving, places.iter(), &pairs, object)?;
-    let Pair { detection, item, list } = pairs[j];
+    let Pair { detection, item, list } = pair;
     let age_ns = i64::try_from(list.age_ns).ok();
     Some(Witness { detection: Some(detection), item: Some(item), age_ns, ..witness })
+}
+
+/// What a pair stands for when the CAV is at a point: d, its centre at d + w (t_point - t_D).
+pub fn object_at(detections: &Detections, pair: &Pair, point: &Point) -> Object {
+    let t_ns = i128::from(point.t_ns) - i128::from(detections.stamp_ns);
+    let d = &detections.items[pair.detection];
+    let origin = &d.frame.origin + &pair.velocity(d).scaled(&Real::seconds(t_ns));
+    Object { frame: Frame { origin, direction: d.frame.direction.clone() }, ..d.clone() }
 }
 
 /// The places with way <= (1 + 1e-6) (s_stop + tau_motion v_now), the next one, and those beyond the
@@ -58,13 +71,19 @@ pub fn places<'a>(scene: &'a Scene, trajectory: &'a [Point]) -> Places<'a> {
     places_within(scene, trajectory, &horizon, &horizon)
 }
 
-/// Detections times items of the longest usable list times (items of all usable lists + places);
-/// none without a usable list.
-pub fn work(lists: &[Usable], detections: &Detections, places: &Places) -> Option<i128> {
+/// Detections times items of the longest usable list times (items of all usable lists + points of the
+/// trajectory + places beyond its end); none without a usable list.
+pub fn work(
+    lists: &[Usable],
+    detections: &Detections,
+    trajectory: &[Point],
+    places: &Places,
+) -> Option<i128> {
     let items = || lists.iter().map(|list| list.items.len());
     let longest = items().max()?;
     let pairs = detections.items.len() as i128 * longest as i128;
-    Some(pairs * (items().sum::<usize>() as i128 + places.count()))
+    let all = items().sum::<usize>() + trajectory.len();
+    Some(pairs * (all as i128 + places.count_beyond()))
 }
 
 /// w = (d - d') / dt, m/s.

@@ -14,3 +14,4 @@ pub mod h10_explained;
 pub mod h11_steps;
 pub mod h12_progress;
 pub mod h13_moving;
+pub mod h13_waiting;

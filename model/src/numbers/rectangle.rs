@@ -23,6 +23,13 @@ impl Rectangle {
         Self { frame, half_length: length / &two, half_width: width / &two }
     }
 
+    /// The rectangle with `of` each of half length and half width, m.
+    #[must_use]
+    pub fn with_halves(&self, of: impl Fn(&Real) -> Real) -> Self {
+        let (half_length, half_width) = (of(&self.half_length), of(&self.half_width));
+        Self { frame: self.frame.clone(), half_length, half_width }
+    }
+
     fn is_empty(&self) -> bool {
         self.half_length < Real::zero() || self.half_width < Real::zero()
     }
@@ -37,12 +44,7 @@ impl Rectangle {
 /// The rectangles share a point, or nearly so: half length and half width of the first are raised by
 /// the margin.
 pub fn may_share_a_point(reads: &Comparisons, a: &Rectangle, b: &Rectangle) -> bool {
-    let raised = Rectangle {
-        frame: a.frame.clone(),
-        half_length: reads.raised(&a.half_length),
-        half_width: reads.raised(&a.half_width),
-    };
-    share_a_point(&raised, b)
+    share_a_point(&a.with_halves(|half| reads.raised(half)), b)
 }
 
 /// The rectangles share a point: no axis parallel to a side of one of them separates their
@@ -56,6 +58,23 @@ pub fn share_a_point(a: &Rectangle, b: &Rectangle) -> bool {
         [direction, &direction.left()].into_iter().all(|axis| {
             let (a, b) = (extent(&corners_a, axis), extent(&corners_b, axis));
             a.0 <= b.1 && b.0 <= a.1
+        })
+    })
+}
+
+/// The rectangle `a` shares a point with `b + w t` for some t >= 0. What `b` sweeps is convex, too: its
+/// sides are sides of `b` and parallels of w, so the two are disjoint exactly when the normal of a side
+/// of `a`, of `b`, or of w separates them: `w` does not lead against it, and all of `b` is beyond all of `a`.
+pub fn is_swept_over(a: &Rectangle, b: &Rectangle, w: &Vector) -> bool {
+    if a.is_empty() || b.is_empty() {
+        return false;
+    }
+    let (corners_a, corners_b) = (a.corners(), b.corners());
+    [&a.frame.direction, &b.frame.direction, w].into_iter().all(|direction| {
+        let left = direction.left();
+        [direction, &-direction, &left, &-&left].into_iter().all(|normal| {
+            let separates = extent(&corners_b, normal).0 > extent(&corners_a, normal).1;
+            !(separates && normal.dot(w) >= Real::zero())
         })
     })
 }

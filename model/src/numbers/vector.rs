@@ -1,6 +1,6 @@
 //! Points and vectors of the plane, and frames (`spec/4-arithmetic.md#domain`).
 
-use std::ops::{Add, Sub};
+use std::ops::{Add, Neg, Sub};
 
 use crate::numbers::real::Real;
 
@@ -79,6 +79,13 @@ impl Sub for &Vector {
     type Output = Vector;
     fn sub(self, other: &Vector) -> Vector {
         Vector { x: &self.x - &other.x, y: &self.y - &other.y }
+    }
+}
+
+impl Neg for &Vector {
+    type Output = Vector;
+    fn neg(self) -> Vector {
+        Vector { x: -&self.x, y: -&self.y }
     }
 }
 

@@ -7,6 +7,7 @@ mod places;
 mod records;
 mod start;
 mod steps;
+mod waiting;
 
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Input, Outcome, Reason, Rule, Stage};

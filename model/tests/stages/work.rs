@@ -9,7 +9,7 @@ use mufasa_model::stages::{check, readings};
 use crate::base::*;
 
 /// 2000 detections, as many in the reference list and `others` in another one: H-13 needs 2000 * 2000
-/// (2000 + others + 12 places) comparisons, the rest of the cycle 51 * 2 + 51 * 2000. The gap fails stage iv
+/// (2000 + others + 51 points) comparisons, the rest of the cycle 51 * 2 + 51 * 2000. The gap fails stage iv
 /// before any of them is made.
 fn crowded(others: usize) -> Cycle {
     let mut cycle = base(Profile::Hardened, PlanRemote);
@@ -25,23 +25,23 @@ fn crowded(others: usize) -> Cycle {
 
 #[test]
 fn more_than_ten_to_the_ten_comparisons_are_an_error() {
-    assert_eq!(rule(&crowded(487), Stage::Iv), Some(Rule::Gap));
+    assert_eq!(rule(&crowded(448), Stage::Iv), Some(Rule::Gap));
     for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
-        let error = check(&crowded(488), reading).expect_err("too much work");
+        let error = check(&crowded(449), reading).expect_err("too much work");
         let InvalidInput { field, index, message } = error;
         assert_eq!((field.as_str(), index), ("work", None));
         assert!(message.contains("10000102102 comparisons"), "{message}");
     }
-    assert!(readings(&crowded(488)).is_err());
+    assert!(readings(&crowded(449)).is_err());
 }
 
 /// Work that no stage comes to is not counted.
 #[test]
 fn only_what_a_stage_is_about_to_do_counts() {
-    let mut cycle = crowded(488);
+    let mut cycle = crowded(449);
     cycle.ego.y = 2.5;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
-    let mut paper = crowded(488);
+    let mut paper = crowded(449);
     paper.profile = Profile::Paper;
     assert_eq!(rule(&paper, Stage::Iv), Some(Rule::Gap));
 }

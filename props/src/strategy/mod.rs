@@ -22,4 +22,5 @@ pub mod schedule;
 pub mod steps;
 pub mod track_validation;
 pub mod tracks;
+pub mod waiting;
 pub mod whole;

@@ -7,16 +7,20 @@ use mufasa_model::services::configuration::Configuration;
 use super::base::{Frame, Obstacle, seconds};
 use super::draw::Draw;
 use super::history;
-use super::obstacle;
 use super::track_validation::detection;
+use super::{obstacle, waiting};
 
 /// A cycle that the motion of one detection decides: it is beside the trajectory now, and in its
 /// way, nearly, when the CAV is at a point.
 pub fn cycle(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    let horizon = obstacle::horizon_of_moving(&cycle);
-    let found = obstacle::decisive(draw, &mut cycle, horizon);
+    let (found, velocity) = if draw.one_in(2) {
+        waiting::decisive(draw, &mut cycle)
+    } else {
+        let horizon = obstacle::horizon_of_moving(&cycle);
+        let found = obstacle::decisive(draw, &mut cycle, horizon);
+        (found, velocity(draw, found))
+    };
     let seen_ns = cycle.now_ns - draw.pick(&[0, 30_000_000, 100_000_000]);
-    let velocity = velocity(draw, found);
     let dt = seconds(time_of(&cycle, found) - seen_ns);
     let at = (found.frame.x - velocity.0 * dt, found.frame.y - velocity.1 * dt);
     let mut items = vec![seen(found, at)];

@@ -30,7 +30,7 @@ pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obs
 }
 
 /// The rectangle of the CAV at a trajectory point, as a frame around its centre.
-fn footprint(cycle: &Cycle, index: usize) -> Frame {
+pub fn footprint(cycle: &Cycle, index: usize) -> Frame {
     let at = |point: &TrajectoryPoint| {
         let TrajectoryPoint { x, y, cos, sin, .. } = *point;
         let (x, y) = Frame { x, y, cos, sin }.at(cycle.ego.center_offset, 0.0);

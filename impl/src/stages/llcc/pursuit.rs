@@ -14,6 +14,8 @@ use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus, split};
 const FASTEST: f64 = 1e3;
 /// s
 const LONGEST: f64 = 100.0;
+/// A first time that is sooner, s, bounds nothing.
+const SOON: f64 = 1e-2;
 
 /// A box that contains the CAV's rectangles as seen so.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +84,18 @@ impl Pursuit {
         }
     }
 
+    /// The CAV where it stands and waits, from a time in s on, for ever.
+    pub(crate) fn standing(footprint: &MovingRectangle, from: f64) -> Self {
+        Self {
+            origin: footprint.centre,
+            along: footprint.direction,
+            half: footprint.extents(footprint.direction),
+            upright: [[0.0; 2], footprint.extents([1.0, 0.0])],
+            seconds: [from, f64::INFINITY],
+            ..Self::anywhere()
+        }
+    }
+
     /// Nothing misses it.
     const fn anywhere() -> Self {
         Self {
@@ -109,8 +123,9 @@ impl Pursuit {
     /// The box in which an item of an earlier list has to be, of that age in s, so that an object
     /// that comes from there, no faster than `speed` in m/s, may touch the CAV at one of the
     /// points; the least above the greatest when there is no such place. `object`: where it is at
-    /// the time 0. Along each axis: what is `gap` m away comes from at least `gap` age / t farther
-    /// behind, as seen from the CAV, t being the last time.
+    /// the time 0. Along each axis, as seen from the CAV, t1 and t2 being the first and the last
+    /// time: what is `gap` m away comes from at least `gap` age / t2 farther behind; and what is at
+    /// most `gap` m away from the far side comes from at most `gap` age / t1 farther behind.
     pub(crate) fn comes_from(
         &self,
         object: &MovingRectangle,
@@ -118,15 +133,18 @@ impl Pursuit {
         age: f64,
     ) -> [[f64; 2]; 2] {
         let ([ux, uy], [[cx, cy], [hx, hy]]) = (self.velocity, self.upright);
-        let (first, last) = (larger(-self.seconds[0], 0.0), self.seconds[1]);
+        let ([first, last], late) = (self.seconds, larger(-self.seconds[0], 0.0));
         // Before the time 0 an object moves back, but not far.
-        let reach = object.reach() + MARGIN + (speed + ux.abs() + uy.abs()) * first;
+        let reach = object.reach() + MARGIN + (speed + ux.abs() + uy.abs()) * late;
         let rate = if last > 0.0 { age / last } else { 0.0 };
         let most = speed * age + MARGIN;
+        // Infinite times 0 is no number, and no bound then.
+        let greatest_rate = if first > SOON { age / first } else { f64::INFINITY };
+        let rate_at = |gap: f64| if gap > 0.0 { rate } else { greatest_rate };
         let range = |at: f64, from: f64, reach: f64, moved: f64| {
             let (below, above) = (-reach - from, from - reach);
-            let least = if above > 0.0 { larger(above * rate - moved, -most) } else { -most };
-            let greatest = if below > 0.0 { smaller(-below * rate - moved, most) } else { most };
+            let least = larger(above * rate_at(above) - moved, -most);
+            let greatest = smaller(-below * rate_at(below) - moved, most);
             [at + least - MARGIN, at + greatest + MARGIN]
         };
         let ([x, y], [from_x, from_y]) = (object.centre, minus(object.centre, self.origin));

@@ -1,7 +1,8 @@
-//! Whether two rectangles share a point: by corners inside and sides that cross, in integers.
+//! Whether two rectangles share a point, now or when one of them has moved on: by corners inside and
+//! sides that cross, in integers.
 
 use mufasa_model::numbers::real::Real;
-use mufasa_model::numbers::rectangle::{Rectangle, share_a_point};
+use mufasa_model::numbers::rectangle::{Rectangle, is_swept_over, share_a_point};
 use mufasa_model::numbers::vector::{Frame, Vector};
 
 use super::Draw;
@@ -12,6 +13,8 @@ const METRE: i64 = 1 << 23;
 const ONE: i64 = 1 << 20;
 /// Sizes are multiples of an eighth of a metre.
 const EIGHTH: i64 = METRE / 8 / ONE;
+/// More metres than between any two points of the rectangles drawn.
+const FAR: i64 = 64;
 
 /// A rectangle in integers: origin in units, direction in 1/`ONE`, half sizes in eighths of a metre.
 #[derive(Clone, Copy, Debug)]
@@ -55,14 +58,14 @@ fn turn(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i128 {
     part(0, 1) - part(1, 0)
 }
 
-/// The sides of a rectangle, counterclockwise.
-fn sides(corners: &[[i64; 2]; 4]) -> [[[i64; 2]; 2]; 4] {
-    [0, 1, 2, 3].map(|i| [corners[i], corners[(i + 1) % 4]])
+/// The sides of a convex polygon, counterclockwise.
+fn sides(corners: &[[i64; 2]]) -> impl Iterator<Item = [[i64; 2]; 2]> + Clone {
+    (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
-/// The point is in the closed rectangle.
-fn holds(corners: &[[i64; 2]; 4], point: [i64; 2]) -> bool {
-    sides(corners).iter().all(|[a, b]| turn(*a, *b, point) >= 0)
+/// The point is in the closed polygon.
+fn holds(corners: &[[i64; 2]], point: [i64; 2]) -> bool {
+    sides(corners).all(|[a, b]| turn(a, b, point) >= 0)
 }
 
 /// Two sides cross at a point inside both; touching ends are corners inside.
@@ -71,11 +74,65 @@ fn cross([a, b]: [[i64; 2]; 2], [c, d]: [[i64; 2]; 2]) -> bool {
         && turn(c, d, a).signum() * turn(c, d, b).signum() < 0
 }
 
+fn polygons_meet(a: &[[i64; 2]], b: &[[i64; 2]]) -> bool {
+    a.iter().any(|corner| holds(b, *corner))
+        || b.iter().any(|corner| holds(a, *corner))
+        || sides(a).any(|one| sides(b).any(|other| cross(one, other)))
+}
+
 fn meet(a: &Whole, b: &Whole) -> bool {
-    let (a, b) = (a.corners(), b.corners());
-    a.iter().any(|corner| holds(&b, *corner))
-        || b.iter().any(|corner| holds(&a, *corner))
-        || sides(&a).iter().any(|one| sides(&b).iter().any(|other| cross(*one, *other)))
+    polygons_meet(&a.corners(), &b.corners())
+}
+
+/// The convex polygon around points, counterclockwise: half of it from left to right, and back.
+fn around(mut points: Vec<[i64; 2]>) -> Vec<[i64; 2]> {
+    points.sort_unstable();
+    let half = |points: &mut dyn Iterator<Item = [i64; 2]>| {
+        let mut chain: Vec<[i64; 2]> = Vec::new();
+        for point in points {
+            while let [.., a, b] = chain[..] {
+                if turn(a, b, point) > 0 {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(point);
+        }
+        chain.pop();
+        chain
+    };
+    let mut there = half(&mut points.iter().copied());
+    there.extend(half(&mut points.iter().rev().copied()));
+    there
+}
+
+/// `a` meets what `b` covers until it has moved on by `FAR` w, farther than anything is apart here.
+fn is_met_on_the_way(a: &Whole, b: &Whole, w: [i64; 2]) -> bool {
+    let end = b.corners().map(|[x, y]| [x + FAR * w[0], y + FAR * w[1]]);
+    polygons_meet(&a.corners(), &around([b.corners(), end].concat()))
+}
+
+/// w in units, at least a metre long.
+fn drawn_velocity(draw: &mut Draw, b: &Whole) -> [i64; 2] {
+    let [cos, sin] = b.direction;
+    match draw.between(0, 4) {
+        0 => [METRE, 0],
+        1 => [0, -METRE],
+        // Along a side of it, up to rounding.
+        2 => [cos * 8, sin * 8],
+        3 => [-sin * 8, cos * 8],
+        _ => {
+            let [x, y] = [(1 << 23, 1 << 24), (-1 << 24, 1 << 24)]
+                .map(|(low, high)| i64::from(draw.between(low, high)));
+            if draw.between(0, 1) == 0 { [x, y] } else { [-x, y] }
+        }
+    }
+}
+
+/// As a vector of the model.
+fn velocity_of(w: [i64; 2]) -> Vector {
+    let [x, y] = w.map(|it| Real::from_integer(it.into()) / Real::from_integer(METRE.into()));
+    Vector { x, y }
 }
 
 fn drawn(draw: &mut Draw) -> Whole {
@@ -134,6 +191,56 @@ fn rectangles_that_touch_meet_and_a_unit_apart_they_do_not() {
             let moved = Whole { origin: [b.origin[0] + step[0], b.origin[1] + step[1]], ..b };
             let expected = meet(&a, &moved);
             assert_eq!(share_a_point(&a.exact(), &moved.exact()), expected, "{a:?} {moved:?}");
+            seen[usize::from(expected)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 300), "{seen:?}");
+}
+
+#[test]
+fn a_rectangle_that_moves_on_sweeps_over_what_its_convex_hull_meets() {
+    let mut draw = Draw::new(7);
+    let mut seen = [[0; 2]; 2];
+    for _ in 0..3000 {
+        let (a, b) = (drawn(&mut draw), drawn(&mut draw));
+        let w = drawn_velocity(&mut draw, &b);
+        let expected = is_met_on_the_way(&a, &b, w);
+        let swept = is_swept_over(&a.exact(), &b.exact(), &velocity_of(w));
+        assert_eq!(swept, expected, "{a:?} {b:?} {w:?}");
+        seen[usize::from(meet(&a, &b))][usize::from(expected)] += 1;
+        let stays = is_swept_over(&a.exact(), &b.exact(), &velocity_of([0, 0]));
+        assert_eq!(stays, meet(&a, &b), "{a:?} {b:?}");
+    }
+    let [[never, later], [no, now]] = seen;
+    assert!(never.min(later).min(now) > 300 && no == 0, "{seen:?}");
+}
+
+/// A corner of one on the side of the way of the other; and 2^-23 m nearer or farther.
+#[test]
+fn a_rectangle_beside_the_way_is_swept_over_where_it_touches() {
+    let mut draw = Draw::new(8);
+    let mut seen = [0; 2];
+    for case in 0..600 {
+        let mut a = drawn(&mut draw);
+        let b = drawn(&mut draw);
+        let w = drawn_velocity(&mut draw, &b);
+        let left = |[x, y]: &[i64; 2]| {
+            i128::from(w[0]) * i128::from(*y) - i128::from(w[1]) * i128::from(*x)
+        };
+        let (mut of_a, mut of_b) = (a.corners(), b.corners());
+        of_a.sort_by_key(left);
+        of_b.sort_by_key(left);
+        let (near, on) = if case % 2 == 0 { (of_a[0], of_b[3]) } else { (of_a[3], of_b[0]) };
+        let on_by = i64::from(draw.between(0, 2));
+        for axis in [0, 1] {
+            a.origin[axis] += on[axis] + on_by * w[axis] - near[axis];
+        }
+        let swept = |a: &Whole| is_swept_over(&a.exact(), &b.exact(), &velocity_of(w));
+        assert!(is_met_on_the_way(&a, &b, w) && swept(&a), "{a:?} {b:?} {w:?}");
+        for step in [[1, 0], [-1, 0], [0, 1], [0, -1]] {
+            let moved = Whole { origin: [a.origin[0] + step[0], a.origin[1] + step[1]], ..a };
+            let expected = is_met_on_the_way(&moved, &b, w);
+            assert_eq!(swept(&moved), expected, "{moved:?} {b:?} {w:?}");
             seen[usize::from(expected)] += 1;
         }
     }

@@ -43,12 +43,12 @@ fn moving(cycle: &Cycle) -> Option<Witness> {
     }
 }
 
-/// A car at (10, -8) that says that it drives at 4 m/s, as it does, and is not met; an item of the
+/// A car at (10, -9) that says that it drives at 4 m/s, as it does, and is not met; an item of the
 /// reference list at (10, y) beside its own origin.
 fn tracked(cycle: &mut Cycle, y: f64) {
-    alone(cycle, &[[10.0, -8.0], [60.0, 0.0]], &[[10.0, -9.0]], &[[10.0, -10.0], [10.0, y]]);
+    alone(cycle, &[[10.0, -9.0], [60.0, 0.0]], &[[10.0, -10.0]], &[[10.0, -11.0], [10.0, y]]);
     cycle.configuration = MotRemote;
-    let says = Track { cos: 0.0, sin: 1.0, vy: 4.0, ..track(1, 10.0, -8.0) };
+    let says = Track { cos: 0.0, sin: 1.0, vy: 4.0, ..track(1, 10.0, -9.0) };
     cycle.tracks = tracks(vec![says, track(2, 60.0, 0.0)]);
 }
 
@@ -61,7 +61,7 @@ const NEAR: &[Near] = &[
         alone(c, &[[10.0, -8.0]], &[[11.0 - e, -10.0]], &[[10.0, -12.0]]);
     }),
     ("(a) distance <= theta_track_max + theta_velocity dt + m", MotRemote, HARDENED, |c, e| {
-        tracked(c, -12.0 + e);
+        tracked(c, -13.0 + e);
     }),
     ("way <= (1 + 1e-6) (s_stop + tau_motion v_now) + m", PlanRemote, HARDENED, |c, e| {
         // s_stop = 6.25; the car is met at the point after the one 10.00001 m along.
@@ -103,7 +103,7 @@ fn what_is_on_the_bound_is_examined() {
         tracked(&mut cycle, y);
         moving(&cycle).is_some()
     };
-    assert!(of_track(-12.0) && !of_track((-12.0f64).next_down()));
+    assert!(of_track(-13.0) && !of_track((-13.0f64).next_down()));
 }
 
 /// Point, detection, item and age of its list; the point comes first, then the detections, then items.
@@ -165,12 +165,12 @@ fn one_list_alone_needs_no_support() {
 #[test]
 fn an_explained_detection_takes_no_item_away() {
     let mut cycle = base(HARDENED, MotRemote);
-    tracked(&mut cycle, -10.0);
+    tracked(&mut cycle, -11.0);
     assert_eq!(moving(&cycle), None, "4 m/s");
     // A second, unseen car: its detection was 4 m away from the origin of the tracked one.
     let seen = cycle.detections.as_mut().expect("set");
     seen.items.push(crossing(6.0, -6.0));
-    cycle.detection_history[0].items.push(crossing(8.0, -8.0));
+    cycle.detection_history[0].items.push(crossing(8.0, -8.5));
     let witness = moving(&cycle).expect("it may have come from there");
     assert_eq!((witness.detection, witness.item), (Some(2), Some(0)));
 }
@@ -219,9 +219,9 @@ fn motion_counts_from_the_stamp_of_the_detections() {
     };
     // Seen at -8 m 62.5 ms ago is seen at -7.5 m now.
     assert_eq!(at(0.0, -7.5), at(0.0625, -8.0));
-    // At 1.1 s, the last place, what is seen at -11.8 m now reaches -1 m.
-    assert!(at(0.0, -11.7).is_some() && at(0.0, -11.9).is_none());
-    assert!(at(0.0625, -12.2).is_some() && at(0.0625, -12.4).is_none());
+    // At 1.3 s, when the CAV's rear is at 11 m, what is seen at -13.4 m now reaches -1 m.
+    assert!(at(0.0, -13.3).is_some() && at(0.0, -13.5).is_none());
+    assert!(at(0.0625, -13.8).is_some() && at(0.0625, -14.0).is_none());
 }
 
 /// H-04: beyond the end of the trajectory up to s_stop, at the time of the last point.
@@ -243,7 +243,8 @@ fn motion_is_examined_beyond_the_end() {
     assert_eq!(with(&mut cycle, 10.9), None, "it begins at 9.9");
 }
 
-/// Detections times items of the longest usable list times (items of all usable lists + places).
+/// Detections times items of the longest usable list times (items of all usable lists + points of the
+/// trajectory + places beyond its end).
 #[test]
 fn work_above_the_limit_fails_stage_iv_of_the_strict_reading() {
     let with = |work_limit: i64| {
@@ -254,9 +255,17 @@ fn work_above_the_limit_fails_stage_iv_of_the_strict_reading() {
         cycle.parameters.work_limit = work_limit;
         cycle
     };
-    // 12 points: up to 10.65 m, and the next one.
-    assert_eq!(safe(&with(2 * 3 * (6 + 12))), YES);
-    assert_eq!(safe(&with(2 * 3 * (6 + 12) - 1)), NEAR_SAFE);
+    assert_eq!(safe(&with(2 * 3 * (6 + 51))), YES);
+    assert_eq!(safe(&with(2 * 3 * (6 + 51) - 1)), NEAR_SAFE);
+    // 13 points to 6.5 m, s_stop = 7.65: places at 6.75 to 7.75 m.
+    let shorter = |work_limit: i64| {
+        let mut cycle = with(work_limit);
+        cycle.trajectory = Some(straight(14, 0.5));
+        cycle.parameters.lag_tolerance = 2.0;
+        cycle
+    };
+    assert_eq!(safe(&shorter(2 * 3 * (6 + 14 + 5))), YES);
+    assert_eq!(safe(&shorter(2 * 3 * (6 + 14 + 5) - 1)), NEAR_SAFE);
     let mut without = with(0);
     without.detection_history.clear();
     assert_eq!(safe(&without), YES);
