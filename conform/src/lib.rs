@@ -2,8 +2,8 @@
 //! (`spec/5-interfaces.md#programs-under-test`).
 //!
 //! A campaign asks cases one by one, each from its own number and the seed alone, so that shards
-//! are disjoint and any case can be had again. The first disagreement of every class is shrunk
-//! while the program is asked about every smaller record.
+//! are disjoint and any case can be had again. At its end the classes of disagreements are made small, those
+//! to mend first before the others, as far as there is time: the program is asked about every smaller record.
 
 mod cases;
 mod error;
@@ -15,6 +15,8 @@ mod results;
 mod runner;
 mod settings;
 mod shrink;
+mod shrinking;
+mod sighting;
 mod subject;
 pub mod vectors;
 
@@ -27,7 +29,8 @@ pub use cases::source::CASES;
 pub use error::ConformError;
 pub use judge::class::{Breach, Class, Kind, Scale};
 pub use judge::explain::{Numbers, Told};
-pub use results::summary::{Campaign, CaseCount, Found, Summary};
+pub use results::found::{Found, NotShrunk};
+pub use results::summary::{Campaign, CaseCount, Summary};
 pub use settings::Settings;
 
 use cases::source::Source;
@@ -62,7 +65,7 @@ pub fn run(
     let subject = Subject::start(&settings.command, settings.time_limit, stop)?;
     let mut runner = Runner::new(settings, &source, &vectors, subject);
     runner.run(out)?;
-    let summary = runner.summary();
+    let summary = runner.summary()?;
     files.write(&summary)?;
     results::report::end(&summary, out)?;
     writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;

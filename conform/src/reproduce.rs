@@ -5,7 +5,8 @@ use crate::cases::question::Question;
 use crate::error::ConformError;
 use crate::judge::class::Class;
 use crate::judge::examine::{Examined, ask_and_compare};
-use crate::shrink::{Hunt, Read};
+use crate::results::found::NotShrunk;
+use crate::shrink::{Hunt, Limits, Read};
 use crate::subject::Subject;
 
 /// So many lines are asked in all to shorten a sequence, in whole sequences.
@@ -21,8 +22,8 @@ pub enum Again {
     Alone(Box<(Question, Examined)>),
     /// The case itself, after these lines.
     After(Vec<String>),
-    /// Nothing that was tried.
-    Never,
+    /// Nothing that was tried, or there was no time to try.
+    Not(NotShrunk),
 }
 
 /// A case that shows a class, and the program under test.
@@ -38,35 +39,50 @@ pub struct Reproduction<'a> {
     pub question: &'a Question,
     /// As of the campaign.
     pub tolerance: Option<f64>,
+    /// How long, and how many starts.
+    pub limits: &'a mut Limits,
 }
 
 impl Reproduction<'_> {
-    /// The smallest record that shows the class alone; if there is none and `with_sequence`, the
-    /// lines that were asked before the case and that it needs. `tape` are the choices that the
+    /// The smallest record that shows the class alone; if there is none, the lines that the case
+    /// needs of those that were asked `before` it. `tape` are the choices that the
     /// case was drawn from and how they are read.
     /// Errors: the program cannot be started again.
     pub fn run(
         &mut self,
         tape: Option<&(Vec<u32>, &Read<'_>)>,
-        with_sequence: bool,
+        before: &dyn Fn() -> Vec<String>,
     ) -> Result<Again, ConformError> {
-        let mut before = self.subject.restart();
-        // The last line is the case itself.
-        before.pop();
+        if let Some(why) = self.over() {
+            return Ok(Again::Not(why));
+        }
+        self.subject.restart();
         for each_fresh in [false, true] {
             let tape = tape.map(|(tape, read)| (tape.clone(), *read));
-            let hunt = Hunt::new(self.subject, self.class, self.name, self.tolerance, each_fresh);
+            let Self { class, name, tolerance, .. } = *self;
+            let hunt = Hunt::new(self.subject, class, name, tolerance, each_fresh, self.limits);
             let Some(smallest) = hunt.run(self.question, tape)? else { break };
             let examined = self.alone(&smallest)?;
             if examined.class.as_ref() == Some(self.class) {
                 return Ok(Again::Alone(Box::new((smallest, examined))));
             }
         }
-        if !with_sequence {
-            return Ok(Again::Never);
+        let needed = self.needed(&before())?;
+        if needed.is_empty() {
+            return Ok(Again::Not(self.over().unwrap_or(NotShrunk::NotAlone)));
         }
-        let needed = self.needed(&before)?;
-        Ok(if needed.is_empty() { Again::Never } else { Again::After(needed) })
+        Ok(Again::After(needed))
+    }
+
+    /// Why nothing more is tried, if that is so.
+    fn over(&self) -> Option<NotShrunk> {
+        let is_over = self.limits.is_over() || self.subject.is_interrupted();
+        let may_break = self.class.breach.is_broken();
+        match (is_over, self.limits.restarts) {
+            (true, _) => Some(NotShrunk::Time),
+            (false, 0) if may_break => Some(NotShrunk::Limit),
+            (false, _) => None,
+        }
     }
 
     /// Asks a record in a fresh process.
@@ -81,9 +97,11 @@ impl Reproduction<'_> {
         let mut lines_left = WHOLE_SEQUENCES * before.len() + FURTHER_LINES;
         let mut failed = None;
         let mut shows = |lines: &[&str]| {
-            if lines.len() >= lines_left || failed.is_some() || self.subject.is_interrupted() {
+            let is_over = self.limits.is_over() || self.limits.restarts == 0;
+            if is_over || lines.is_empty() || lines.len() >= lines_left || failed.is_some() {
                 return false;
             }
+            self.limits.restarts -= 1;
             lines_left -= lines.len() + 1;
             self.shows_after(lines).unwrap_or_else(|error| {
                 failed = Some(error);
@@ -100,7 +118,8 @@ impl Reproduction<'_> {
     fn shows_after(&mut self, lines: &[&str]) -> Result<bool, ConformError> {
         self.subject.restart();
         for line in lines {
-            if self.subject.ask(line, || ())?.1.is_err() {
+            let is_over = self.limits.is_over() || self.subject.is_interrupted();
+            if is_over || self.subject.ask(line, || ())?.1.is_err() {
                 // The process that the case needs is no more.
                 return Ok(false);
             }

@@ -7,21 +7,21 @@ use std::time::Duration;
 
 use indicatif::ProgressBar;
 use mufasa_props::conformance::{is_too_much, name as stage_name};
-use serde_json::Value;
-use serde_json::value::RawValue;
 
 use crate::cases::case::Case;
+use crate::cases::order::Order;
 use crate::cases::question::Question;
 use crate::cases::source::Source;
 use crate::cases::vectors::Given;
 use crate::error::ConformError;
-use crate::judge::class::{Breach, Class, Kind, Scale};
+use crate::judge::class::{AFTERWARDS, Breach, Class, Kind, Scale};
 use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
-use crate::judge::explain::in_words;
-use crate::reproduce::{Again, Reproduction};
-use crate::results::report;
-use crate::results::summary::{Campaign, CaseCount, Found, Summary};
+use crate::results::found::CASES_OF_A_CLASS;
+use crate::results::summary::{Campaign, CaseCount, Summary};
+use crate::results::{advice, report};
 use crate::settings::Settings;
+use crate::shrinking::Shrinking;
+use crate::sighting::{Sighting, Sightings};
 use crate::subject::{Broken, Subject};
 use mufasa_records::names;
 
@@ -32,22 +32,12 @@ const RESTARTS: u64 = 5;
 /// So often it may break in all.
 const RESTARTS_IN_ALL: u64 = 200;
 
-/// A case is small when it has so many objects; of a class without a small one further cases are
-/// shrunk, too.
-const SMALL: usize = 3;
-
-/// So many cases of a class are shrunk at most.
-const SHRUNK: u64 = 6;
-
 /// A case that is not answered in time is asked once more, with so many times the limit, before a
 /// program is said to hang: on a busy machine it may stand still.
 const LONGER: u32 = 5;
 
 /// So many late answers are forgiven; a program with more of them does not keep the limit.
 const FORGIVEN: u64 = 20;
-
-/// Place of what the program did after its answer.
-const AFTERWARDS: &str = "after its answer";
 
 /// Of the vectors, or of the cases: how many were asked, given up, and let pass.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,19 +51,23 @@ struct Counts {
 #[derive(Debug)]
 pub struct Runner<'a> {
     settings: &'a Settings,
-    source: &'a Source,
-    vectors: &'a [Given],
+    order: Order<'a>,
     subject: Subject,
     bar: ProgressBar,
     of_vectors: Counts,
     of_cases: Counts,
     late: u64,
     interrupted: bool,
-    given_up: Vec<Kind>,
+    enough: bool,
+    /// Kinds of records, and the position from which on they were not asked any more.
+    given_up: Vec<(Kind, u64)>,
     /// By kind of record: how often the program broke in a row, hung, and broke in all.
     broken: BTreeMap<Kind, [u64; 3]>,
     groups: BTreeMap<(Kind, &'static str, &'static str, &'static str), (u64, u64)>,
-    classes: BTreeMap<Class, Found>,
+    classes: BTreeMap<Class, Sightings>,
+    /// How often the program was started up to now, and the position of the first line that it was asked since.
+    starts: u64,
+    begin: u64,
 }
 
 impl<'a> Runner<'a> {
@@ -84,61 +78,72 @@ impl<'a> Runner<'a> {
         vectors: &'a [Given],
         subject: Subject,
     ) -> Self {
+        let (first, step) = settings.shard.unwrap_or((0, 1));
+        let cases = source.cases(settings.cases);
         Self {
             settings,
-            source,
-            vectors,
+            order: Order { source, vectors, cases, first, step },
+            starts: subject.starts(),
             subject,
             bar: ProgressBar::hidden(),
             of_vectors: Counts::default(),
             of_cases: Counts::default(),
             late: 0,
             interrupted: false,
+            enough: false,
             given_up: Vec::new(),
             broken: BTreeMap::new(),
             groups: BTreeMap::new(),
             classes: BTreeMap::new(),
+            begin: 0,
         }
     }
 
-    /// Asks all vectors, then all cases; prints the name of the first class of each rule as it is found.
+    /// Asks all vectors, then all cases, unless the vectors show that much is wrong; prints the name of the
+    /// first class of each rule as it is found.
     /// Errors: the program cannot be started again, `out` cannot be written.
     pub fn run(&mut self, out: &mut impl Write) -> Result<(), ConformError> {
-        let (first, step) = self.settings.shard.unwrap_or((0, 1));
-        let cases = self.source.cases(self.settings.cases);
-        let vectors = self.vectors.len() as u64;
-        let mine = |all: u64| all.saturating_sub(first).div_ceil(step);
-        self.bar = progress(mine(vectors).saturating_add(mine(cases)));
+        let order = self.order;
+        self.bar = progress(order.len());
         let mut last = None;
-        // Divided among the shards as the cases are.
-        let (mut vector, mut number) = (first, first);
-        while vector < vectors || number < cases {
+        for position in 0..order.len() {
             if self.subject.is_interrupted() {
                 self.interrupted = true;
                 break;
             }
-            let given = usize::try_from(vector).ok().and_then(|at| self.vectors.get(at));
-            let kind = given.map_or_else(|| self.source.kind(number), |it| it.question.kind());
-            if self.given_up.contains(&kind) {
-                self.counts(given.is_none()).skipped += 1;
+            if position == order.vectors_here() && self.has_enough() {
+                self.enough = true;
+                break;
+            }
+            let kind = order.kind(position);
+            if self.given_up.iter().any(|(given_up, _)| *given_up == kind) {
+                self.counts(!order.is_vector(position)).skipped += 1;
             } else {
-                let case =
-                    given.map_or_else(|| Case::of_source(self.source, number), Case::of_vector);
-                self.ask(&case, last.as_ref(), out)?;
+                let case = order.case(position);
+                self.ask(&case, position, last.as_ref(), out)?;
                 last = Some(case);
             }
             self.bar.inc(1);
-            let next = if given.is_some() { &mut vector } else { &mut number };
-            *next = next.saturating_add(step);
         }
-        self.bar.finish_and_clear();
         if self.interrupted {
+            self.bar.finish_and_clear();
             return Ok(());
         }
         match (self.subject.finish(), last) {
-            (Err(broken), Some(case)) => self.afterwards(broken, &case, out),
+            (Err(broken), Some(case)) => {
+                self.afterwards(broken, &case, order.len().saturating_sub(1), out)
+            }
             (Ok(()), _) | (_, None) => Ok(()),
         }
+    }
+
+    /// Whether the vectors show that so much is wrong that random cases would say no more; never where their
+    /// number was given, and not in a shard, which sees some of the vectors.
+    fn has_enough(&self) -> bool {
+        let Settings { cases, shard, drives, .. } = self.settings;
+        let wrong = self.classes.values().map(|it| it.count).sum();
+        let is_asked_for = cases.is_some() || shard.is_some() || !drives.is_empty();
+        !is_asked_for && advice::is_much(wrong, self.of_vectors.asked)
     }
 
     /// What the program did after its answer to a case, which was counted with that answer.
@@ -146,6 +151,7 @@ impl<'a> Runner<'a> {
         &mut self,
         broken: Broken,
         case: &Case,
+        position: u64,
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
         let class = Class {
@@ -156,18 +162,30 @@ impl<'a> Runner<'a> {
             configuration: String::new(),
             scale: Scale::Clear,
         };
-        self.broke(class.kind, class.breach);
+        self.broke(&class, position);
         let expected = expect(&case.name, &case.question);
         let answered = Err(broken);
         let examined =
             Examined { expected, answered, class: Some(class.clone()), tolerated: false };
-        self.settle(&class, case, &examined, out)
+        self.note(class, case, position, examined, out)
     }
 
-    /// What was found.
-    pub fn summary(mut self) -> Summary {
-        self.given_up.sort();
+    /// What was found, with records as small as there is time for.
+    /// Errors: the program cannot be started again.
+    pub fn summary(mut self) -> Result<Summary, ConformError> {
         let campaign = self.campaign();
+        let wrong = self.classes.values().map(|it| it.count).sum();
+        let much = advice::is_much(wrong, self.of_vectors.asked + self.of_cases.asked);
+        let restarts = self.subject.starts().saturating_sub(1);
+        let classes = Shrinking {
+            order: self.order,
+            subject: &mut self.subject,
+            settings: self.settings,
+            given_up: &self.given_up,
+            bar: &self.bar,
+        }
+        .run(self.classes, much)?;
+        self.bar.finish_and_clear();
         let group =
             |((kind, profile, configuration, expected), (cases, disagreements))| CaseCount {
                 kind,
@@ -177,7 +195,9 @@ impl<'a> Runner<'a> {
                 cases,
                 disagreements,
             };
-        Summary {
+        let mut given_up: Vec<Kind> = self.given_up.iter().map(|(kind, _)| *kind).collect();
+        given_up.sort();
+        Ok(Summary {
             campaign,
             shards: vec![self.settings.shard.map_or(0, |(at, _)| at)],
             vectors: self.of_vectors.asked,
@@ -187,12 +207,13 @@ impl<'a> Runner<'a> {
             skipped: self.of_cases.skipped,
             tolerated: self.of_cases.tolerated,
             late: self.late,
-            starts: self.subject.starts(),
-            interrupted: self.interrupted,
-            given_up: self.given_up,
+            restarts,
+            interrupted: self.interrupted || self.subject.is_interrupted(),
+            enough: self.enough,
+            given_up,
             groups: self.groups.into_iter().map(group).collect(),
-            classes: self.classes.into_values().collect(),
-        }
+            classes,
+        })
     }
 
     fn campaign(&self) -> Campaign {
@@ -202,9 +223,9 @@ impl<'a> Runner<'a> {
             command: settings.command.iter().map(text).collect(),
             profile: names::profile(settings.profile).to_owned(),
             seed: settings.seed,
-            vectors: self.vectors.len() as u64,
-            cases: self.source.cases(settings.cases),
-            kinds: self.source.kinds(),
+            vectors: self.order.vectors.len() as u64,
+            cases: self.order.cases,
+            kinds: self.order.source.kinds(),
             drives: settings.drives.iter().map(|path| path.display().to_string()).collect(),
             time_limit_ms: milliseconds(settings.time_limit),
             tolerance: settings.tolerance,
@@ -216,6 +237,7 @@ impl<'a> Runner<'a> {
     fn ask(
         &mut self,
         case: &Case,
+        position: u64,
         last: Option<&Case>,
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
@@ -235,10 +257,14 @@ impl<'a> Runner<'a> {
             return Ok(());
         }
         if let (Some(broken), Some(last)) = (self.subject.take_afterwards(), last) {
-            self.afterwards(broken, last, out)?;
+            self.afterwards(broken, last, position.saturating_sub(1), out)?;
+        }
+        if self.subject.starts() != self.starts {
+            // For this line: who breaks at it is started again for the next.
+            (self.starts, self.begin) = (self.subject.starts(), position);
         }
         match &examined.class {
-            Some(class) if class.breach.is_broken() => self.broke(class.kind, class.breach),
+            Some(class) if class.breach.is_broken() => self.broke(class, position),
             _ => self.broken.entry(question.kind()).or_default()[0] = 0,
         }
         let counts = self.counts(case.number.is_some());
@@ -249,7 +275,7 @@ impl<'a> Runner<'a> {
         }
         match examined.class.clone() {
             None => Ok(()),
-            Some(class) => self.settle(&class, case, &examined, out),
+            Some(class) => self.note(class, case, position, examined, out),
         }
     }
 
@@ -275,114 +301,43 @@ impl<'a> Runner<'a> {
         group.1 += u64::from(examined.class.is_some());
     }
 
-    /// Counts a disagreement; shrinks and prints the first of its class.
-    fn settle(
+    /// Counts a disagreement, and keeps where it was seen.
+    fn note(
         &mut self,
-        class: &Class,
+        class: Class,
         case: &Case,
-        examined: &Examined,
+        position: u64,
+        examined: Examined,
         out: &mut impl Write,
     ) -> Result<(), ConformError> {
-        let known = self.classes.get(class);
-        let known = known.map(|found| (found.count, found.rank(), found.shrunk));
-        let enough = known.is_some_and(|(count, (_, _, size), shrunk)| {
-            (shrunk && size <= SMALL) || count >= SHRUNK || class.breach.is_broken()
-        });
-        if !enough {
-            self.bar.set_message(format!("shrinking: {class}"));
-            let found = self.shrunk(class, case, examined)?;
-            if known.is_none_or(|(_, rank, _)| found.rank() < rank) {
-                let of_class = self.classes.get(class);
-                let (count, first) = of_class.map_or((0, None), |it| (it.count, it.first));
-                let vectors = of_class.map_or_else(Vec::new, |it| it.vectors.clone());
-                let is_new = !self.classes.keys().any(|it| it.is_of_rule(class));
-                if is_new {
-                    self.bar.suspend(|| report::noticed(&found, out).and_then(|()| out.flush()))?;
-                }
-                self.classes.insert(class.clone(), Found { count, vectors, first, ..found });
-            }
-            self.bar.set_message("");
+        if !self.classes.keys().any(|it| it.is_of_rule(&class)) {
+            self.bar.suspend(|| report::noticed(&class, out).and_then(|()| out.flush()))?;
         }
-        if let Some(found) = self.classes.get_mut(class) {
-            found.count += 1;
-            match case.number {
-                Some(_) => found.first = found.first.or(case.number),
-                None => found.vectors.push(case.name.clone()),
-            }
+        let sightings = self.classes.entry(class).or_default();
+        sightings.count += 1;
+        match case.number {
+            Some(_) => sightings.first = sightings.first.or(case.number),
+            None => sightings.vectors.push(case.name.clone()),
+        }
+        if sightings.earliest.len() < CASES_OF_A_CLASS {
+            sightings.earliest.push(Sighting { position, begin: self.begin, examined });
         }
         Ok(())
     }
 
     /// The program gave no answer that could be compared. A kind of record for which it does so
     /// again and again is given up.
-    fn broke(&mut self, kind: Kind, breach: Breach) {
+    fn broke(&mut self, class: &Class, position: u64) {
+        let kind = class.kind;
         let [in_a_row, hung, in_all] = self.broken.entry(kind).or_default();
         *in_a_row += 1;
-        *hung += u64::from(breach == Breach::Hangs);
+        *hung += u64::from(class.breach == Breach::Hangs);
         *in_all += 1;
         let hopeless = *in_a_row >= RESTARTS || *hung >= RESTARTS || *in_all >= RESTARTS_IN_ALL;
-        if hopeless && !self.given_up.contains(&kind) {
-            self.given_up.push(kind);
+        if hopeless && !self.given_up.iter().any(|(given_up, _)| *given_up == kind) {
+            self.given_up.push((kind, position));
         }
     }
-
-    fn shrunk(
-        &mut self,
-        class: &Class,
-        case: &Case,
-        examined: &Examined,
-    ) -> Result<Found, ConformError> {
-        let Case { number, name, about, question } = case;
-        let is_first = !self.classes.contains_key(class);
-        let mut reproduction = Reproduction {
-            subject: &mut self.subject,
-            class,
-            name,
-            question,
-            tolerance: self.settings.tolerance,
-        };
-        let again = match (self.source, *number) {
-            // That comes after an answer, and cannot be asked.
-            _ if class.place == AFTERWARDS => Again::Never,
-            (Source::Generated(generator), Some(number)) => {
-                let kind = question.kind();
-                let read = |tape: &[u32]| generator.read(kind, tape);
-                reproduction.run(Some(&(generator.tape(number), &read)), is_first)?
-            }
-            (Source::Generated(_) | Source::Drives(_), _) => reproduction.run(None, is_first)?,
-        };
-        // What the program did after an answer while a case was made smaller is no case of its own.
-        let _ = self.subject.take_afterwards();
-        let (told, shown, shrunk, before) = match &again {
-            Again::Alone(alone) => (in_words(&alone.0, &alone.1), &alone.0, true, Vec::new()),
-            Again::After(before) => (in_words(question, examined), question, false, before.clone()),
-            Again::Never => (in_words(question, examined), question, false, Vec::new()),
-        };
-        let id = class.slug();
-        Ok(Found {
-            class: class.clone(),
-            count: 1,
-            vectors: Vec::new(),
-            first: *number,
-            name: name.clone(),
-            about: about.clone(),
-            told,
-            shrunk,
-            before,
-            size: shown.objects(),
-            unit: shown.unit().to_owned(),
-            record: record(&shown.line(&id))?,
-            id,
-        })
-    }
-}
-
-/// A record as it is; a line that is none, as a string.
-fn record(line: &str) -> Result<Box<RawValue>, ConformError> {
-    let text = line.to_owned();
-    RawValue::from_string(text)
-        .or_else(|_| RawValue::from_string(Value::from(line).to_string()))
-        .map_err(|error| ConformError::Output(error.into()))
 }
 
 fn milliseconds(time: Duration) -> u64 {

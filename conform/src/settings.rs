@@ -21,6 +21,8 @@ pub struct Settings {
     pub seed: u64,
     /// How long an answer may take.
     pub time_limit: Duration,
+    /// How long records are made small, in all.
+    pub shrinking: Duration,
     /// Kinds of generated records.
     pub kinds: Vec<Kind>,
     /// Only the cases whose number leaves the first when divided by the second.
@@ -33,4 +35,25 @@ pub struct Settings {
     pub tolerance: Option<f64>,
     /// Where summary, JUnit and reproducers go.
     pub out: PathBuf,
+}
+
+#[cfg(test)]
+impl Settings {
+    /// The vectors and cases of a profile and of these kinds, for no program.
+    pub fn of(profile: Profile, kinds: &[Kind]) -> Self {
+        Self {
+            command: Vec::new(),
+            profile,
+            cases: None,
+            seed: 0,
+            time_limit: Duration::ZERO,
+            shrinking: Duration::ZERO,
+            kinds: kinds.into(),
+            shard: None,
+            drives: Vec::new(),
+            vectors: true,
+            tolerance: None,
+            out: "out".into(),
+        }
+    }
 }

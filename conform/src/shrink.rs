@@ -2,12 +2,14 @@
 //! record was drawn from, with proptest's search; then the record itself, by what makes it easier
 //! to read.
 
+use std::time::{Duration, Instant};
+
 use proptest::num::u32::BinarySearch;
 use proptest::strategy::ValueTree;
 
 use crate::cases::question::Question;
 use crate::error::ConformError;
-use crate::judge::class::{Breach, Class};
+use crate::judge::class::Class;
 use crate::judge::examine::{Expected, ask_and_compare, expect};
 use crate::minimise;
 use crate::subject::Subject;
@@ -15,8 +17,36 @@ use crate::subject::Subject;
 /// Records tried while the choices are shrunk.
 const TRIES_OF_CHOICES: usize = 1500;
 
+/// Records at which it may hang.
+const HANGS: usize = 4;
+
 /// Records tried while the record itself is made smaller.
 const TRIES_OF_RECORDS: usize = 4000;
+
+/// So long, and with so many starts of the program beyond the first, records are made small.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// When it ends.
+    pub until: Instant,
+    /// Starts that are left for records that take one each.
+    pub restarts: usize,
+}
+
+impl Limits {
+    /// Whether the time is over.
+    pub fn is_over(&self) -> bool {
+        Instant::now() >= self.until
+    }
+
+    /// What one of several may take: a part of what is left, of the starts at least one.
+    pub fn part(&self, parts: u32) -> Self {
+        let now = Instant::now();
+        let left: Duration = self.until.saturating_duration_since(now);
+        let parts_of_starts = usize::try_from(parts).unwrap_or(1).max(1);
+        let restarts = self.restarts.div_ceil(parts_of_starts);
+        Self { until: now + left / parts.max(1), restarts }
+    }
+}
 
 /// How choices become a record.
 pub type Read<'a> = dyn Fn(&[u32]) -> Question + 'a;
@@ -63,7 +93,9 @@ pub struct Hunt<'a> {
     validity: Validity,
     tries: usize,
     tries_left: usize,
-    restarts_left: usize,
+    limits: &'a mut Limits,
+    /// A hang costs the time limit each, a start of another program some milliseconds.
+    hangs_left: usize,
     error: Option<ConformError>,
 }
 
@@ -75,19 +107,8 @@ impl<'a> Hunt<'a> {
         name: &'a str,
         tolerance: Option<f64>,
         each_fresh: bool,
+        limits: &'a mut Limits,
     ) -> Self {
-        // A hang costs the time limit each, a start of another program some milliseconds.
-        let restarts_left = match class.breach {
-            Breach::Hangs => 4,
-            Breach::Dies | Breach::Floods | Breach::OutOfOrder | Breach::Nonsense => 60,
-            Breach::Soundness
-            | Breach::Completeness
-            | Breach::Stage
-            | Breach::Input
-            | Breach::States
-            | Breach::Compositions
-            | Breach::Schema => 200,
-        };
         Self {
             subject,
             class,
@@ -97,7 +118,8 @@ impl<'a> Hunt<'a> {
             validity: Validity::Refused,
             tries: 0,
             tries_left: 1,
-            restarts_left,
+            limits,
+            hangs_left: HANGS,
             error: None,
         }
     }
@@ -131,8 +153,12 @@ impl<'a> Hunt<'a> {
 
     /// Whether a record shows the class; never once the tries are used up or the campaign is interrupted.
     fn shows(&mut self, question: &Question) -> bool {
-        let is_over = self.tries_left == 0 || self.restarts_left == 0 || self.error.is_some();
-        if is_over || self.subject.is_interrupted() {
+        let is_over = self.tries_left == 0 || self.hangs_left == 0 || self.limits.is_over();
+        if is_over || self.error.is_some() || self.subject.is_interrupted() {
+            return false;
+        }
+        let takes_a_start = self.each_fresh || self.class.breach.is_broken();
+        if takes_a_start && self.limits.restarts == 0 {
             return false;
         }
         self.tries_left -= 1;
@@ -144,12 +170,13 @@ impl<'a> Hunt<'a> {
         let id = format!("{}.{}", self.name, self.tries);
         if self.each_fresh {
             self.subject.restart();
-            self.restarts_left -= 1;
+            self.limits.restarts -= 1;
         }
         match ask_and_compare(self.subject, &id, question, self.tolerance) {
             Ok(examined) => {
                 if examined.answered.is_err() {
-                    self.restarts_left = self.restarts_left.saturating_sub(1);
+                    self.limits.restarts = self.limits.restarts.saturating_sub(1);
+                    self.hangs_left -= usize::from(examined.hangs());
                 }
                 examined.class.as_ref() == Some(self.class)
             }

@@ -2,9 +2,7 @@
 
 mod pipes;
 
-use std::collections::VecDeque;
 use std::ffi::OsString;
-use std::mem;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, TryRecvError};
@@ -27,9 +25,6 @@ const START: u32 = 5;
 
 /// How long an ended program is waited for.
 const LAST_WORDS: Duration = Duration::from_millis(300);
-
-/// What is kept of the lines that a process was asked.
-const KEPT_BYTES: usize = 64 << 20;
 
 /// No answer, or none that can be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,9 +51,6 @@ pub struct Subject {
     /// Set from elsewhere when the campaign is to end.
     stop: Arc<AtomicBool>,
     starts: u64,
-    /// Lines that the process was asked since its start; the oldest go when they are too many.
-    asked: VecDeque<String>,
-    asked_bytes: usize,
     /// What the program did after its last answer, unasked.
     afterwards: Option<Broken>,
 }
@@ -89,8 +81,6 @@ impl Subject {
             running: None,
             stop: Arc::clone(stop),
             starts: 0,
-            asked: VecDeque::new(),
-            asked_bytes: 0,
             afterwards: None,
         };
         subject.ensure()?;
@@ -130,8 +120,6 @@ impl Subject {
             self.stop();
             self.afterwards = Some(broken);
         }
-        self.ensure()?;
-        self.keep(line);
         let running = self.ensure()?;
         if !running.answered {
             time_limit = time_limit.saturating_mul(START);
@@ -152,12 +140,9 @@ impl Subject {
         Ok((result, answer))
     }
 
-    /// Ends the process, so that the next line is the first of a new one. Returns the lines that it
-    /// was asked.
-    pub fn restart(&mut self) -> Vec<String> {
+    /// Ends the process, so that the next line is the first of a new one.
+    pub fn restart(&mut self) {
         self.stop();
-        self.asked_bytes = 0;
-        mem::take(&mut self.asked).into()
     }
 
     /// Judges an answer that is none: followed by another line at once, it is a flood. The
@@ -208,21 +193,9 @@ impl Subject {
             running
         } else {
             self.starts += 1;
-            self.asked.clear();
-            self.asked_bytes = 0;
             Running::start(&self.command)?
         };
         Ok(self.running.insert(running))
-    }
-
-    fn keep(&mut self, line: &str) {
-        self.asked_bytes += line.len();
-        self.asked.push_back(line.to_owned());
-        while self.asked_bytes > KEPT_BYTES
-            && let Some(oldest) = self.asked.pop_front()
-        {
-            self.asked_bytes -= oldest.len();
-        }
     }
 
     fn stop(&mut self) {

@@ -1,6 +1,7 @@
 //! The command line: commands, exit codes, and quiet ends when nobody reads on.
 
 mod arguments;
+mod conform;
 pub(crate) mod link;
 #[cfg(test)]
 mod tests;
@@ -20,10 +21,10 @@ use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
-    CheckArguments, CompletionsArguments, ComposeArguments, ConformArguments, DemoArguments,
-    ExploreArguments, ManArguments, MergeCommand, OracleArguments, ProveArguments,
-    SchemasArguments, VectorsArguments,
+    CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ExploreArguments,
+    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments,
 };
+use self::conform::{ConformArguments, MergeCommand};
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
 use crate::demo;
@@ -33,7 +34,7 @@ use crate::explore;
 use crate::parameters_file;
 use crate::prove;
 use crate::schemas;
-use mufasa_conform as conform;
+use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
 use mufasa_conform::vectors;
 use mufasa_drives::check::{self, Format, Settings, complain};
@@ -137,9 +138,7 @@ pub fn main() -> ExitCode {
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
         Command::Evaluate(arguments) => evaluate::run(&arguments, &mut out, &mut io::stderr()),
-        Command::Merge(arguments) => {
-            evaluate::shards::merge(&arguments, &mut out, &mut io::stderr())
-        }
+        Command::Merge(arguments) => merge(&arguments, &mut out),
         Command::Vehicle(arguments) => {
             Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
         }
@@ -271,15 +270,16 @@ fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
 fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> {
     let result = match arguments.merge {
         Some(MergeCommand::Merge { files, out: folder }) => {
-            conform::merge(&files, folder.as_ref(), out)
+            kit::merge(&files, folder.as_ref(), out)
         }
         None => {
-            let settings = conform::Settings {
+            let settings = kit::Settings {
                 command: arguments.command,
                 profile: arguments.profile,
                 cases: arguments.cases,
                 seed: arguments.seed,
                 time_limit: Duration::from_millis(arguments.time_limit),
+                shrinking: Duration::from_secs(arguments.shrinking),
                 kinds: arguments.kinds,
                 shard: arguments.shard,
                 drives: arguments.drives,
@@ -291,12 +291,28 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
                 Ok(stop) => stop,
                 Err(error) => return Ok(refused(&format!("interrupts: {error}"))),
             };
-            conform::run(&settings, &stop, out, &mut io::stderr())
+            kit::run(&settings, &stop, out, &mut io::stderr())
         }
     };
+    conformed(result, out)
+}
+
+/// Parts of an experiment, or of a campaign of `conform`.
+fn merge(arguments: &MergeArguments, out: &mut impl Write) -> io::Result<u8> {
+    let MergeArguments { parts, out: folder, into } = arguments;
+    if !parts.first().is_some_and(|it| kit::Summary::read(it).is_ok()) {
+        return evaluate::shards::merge(arguments, out, &mut io::stderr());
+    }
+    if into.is_some() {
+        return Ok(refused("--into: a campaign of conform has no table for a document"));
+    }
+    conformed(kit::merge(parts, folder.as_ref(), out), out)
+}
+
+fn conformed(result: Result<u8, kit::ConformError>, out: &mut impl Write) -> io::Result<u8> {
     match result {
         Ok(code) => Ok(code),
-        Err(conform::ConformError::Output(error)) => Err(error),
+        Err(kit::ConformError::Output(error)) => Err(error),
         Err(error) => {
             out.flush()?;
             Ok(refused(&error.to_string()))
@@ -319,7 +335,7 @@ fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     let set = Arc::clone(&stop);
     ctrlc::set_handler(move || {
         if set.swap(true, Ordering::Relaxed) {
-            process::exit(i32::from(conform::INTERRUPTED));
+            process::exit(i32::from(kit::INTERRUPTED));
         }
     })?;
     Ok(stop)

@@ -7,6 +7,8 @@ use crate::cases::vectors::Given;
 /// A vector or case.
 #[derive(Debug)]
 pub struct Case {
+    /// Its place among all vectors and cases of all shards.
+    pub at: u64,
     /// Its number; vectors have none.
     pub number: Option<u64>,
     /// Its name; a vector's id.
@@ -19,14 +21,14 @@ pub struct Case {
 
 impl Case {
     /// A case of the source.
-    pub fn of_source(source: &Source, number: u64) -> Self {
+    pub fn of_source(source: &Source, number: u64, at: u64) -> Self {
         let (name, question) = source.case(number);
-        Self { number: Some(number), name, about: String::new(), question }
+        Self { at, number: Some(number), name, about: String::new(), question }
     }
 
     /// A vector.
-    pub fn of_vector(vector: &Given) -> Self {
+    pub fn of_vector(vector: &Given, at: u64) -> Self {
         let Given { id, about, question } = vector.clone();
-        Self { number: None, name: id, about, question }
+        Self { at, number: None, name: id, about, question }
     }
 }

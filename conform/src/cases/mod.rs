@@ -4,6 +4,7 @@ pub mod case;
 pub mod damage;
 pub mod drives;
 pub mod generate;
+pub mod order;
 pub mod question;
 pub mod source;
 pub mod vectors;

@@ -86,25 +86,10 @@ fn given(vector: Vector, question: Question) -> Given {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use super::*;
 
     fn asked(profile: Profile, kinds: &[Kind]) -> Vec<Given> {
-        let settings = Settings {
-            command: Vec::new(),
-            profile,
-            cases: None,
-            seed: 0,
-            time_limit: Duration::ZERO,
-            kinds: kinds.into(),
-            shard: None,
-            drives: Vec::new(),
-            vectors: true,
-            tolerance: None,
-            out: "out".into(),
-        };
-        fitting(&settings).unwrap_or_else(|error| panic!("{error}"))
+        fitting(&Settings::of(profile, kinds)).unwrap_or_else(|error| panic!("{error}"))
     }
 
     #[test]

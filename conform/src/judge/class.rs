@@ -5,6 +5,9 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Place of what the program did after its answer, which cannot be asked.
+pub const AFTERWARDS: &str = "after its answer";
+
 /// A kind of record (`spec/5-interfaces.md`).
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,

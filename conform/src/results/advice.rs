@@ -3,8 +3,9 @@
 use std::cmp::Reverse;
 use std::io::{self, Write};
 
-use crate::judge::class::{Breach, Kind, Scale};
-use crate::results::summary::{Found, Summary};
+use crate::judge::class::{Breach, Class, Kind, Scale};
+use crate::results::found::Found;
+use crate::results::summary::Summary;
 
 /// So many places of a rule are named; of lines that are no records, whose places are many and
 /// alike, fewer.
@@ -72,13 +73,12 @@ fn rules(summary: &Summary) -> Vec<(Kind, Breach)> {
 }
 
 /// One class of each rule, in the order in which to mend them: what gives no answer, then what
-/// rounding does not explain, cycles before other records, the commonest, the smallest.
+/// rounding does not explain, cycles before other records, what was made small, the commonest, the smallest.
 pub fn order(summary: &Summary) -> Vec<&Found> {
     let mut classes: Vec<&Found> = summary.classes.iter().collect();
     classes.sort_by_key(|found| {
-        let class = &found.class;
-        let is_threshold = class.scale == Scale::Threshold;
-        (!class.breach.is_broken(), is_threshold, class.kind, Reverse(found.count), found.size)
+        let Found { class, count, size, .. } = found;
+        (urgency(class), !found.is_tried(), Reverse(*count), *size)
     });
     let mut order: Vec<&Found> = Vec::new();
     for found in classes {
@@ -89,9 +89,19 @@ pub fn order(summary: &Summary) -> Vec<&Found> {
     order
 }
 
+/// What is to be mended before others: the lower.
+pub fn urgency(class: &Class) -> impl Ord {
+    (!class.breach.is_broken(), class.scale == Scale::Threshold, class.kind)
+}
+
 /// Whether so many answers are wrong that one record says more than several.
 pub fn is_beginning(summary: &Summary) -> bool {
-    BEGINNING * summary.disagreements() >= summary.asked + summary.vectors && !summary.is_empty()
+    is_much(summary.disagreements(), summary.asked + summary.vectors)
+}
+
+/// Whether so many of the answers are wrong that the program is at its beginning.
+pub fn is_much(wrong: u64, asked: u64) -> bool {
+    BEGINNING * wrong >= asked && asked > 0
 }
 
 /// Whether less cannot be asked, or other options would not mean less.

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::results::summary::{CaseCount, Found, Summary};
+use crate::results::found::Found;
+use crate::results::summary::{CaseCount, Summary};
 
 /// A test per class of disagreements, which failed, and per group of cases without any.
 pub fn xml(summary: &Summary) -> String {
@@ -47,6 +48,9 @@ pub fn xml(summary: &Summary) -> String {
         }
         if !before.is_empty() {
             let _ = writeln!(body, "does not occur alone: sequence.{id}.jsonl");
+        }
+        if !found.is_tried() {
+            let _ = writeln!(body, "not shrunk");
         }
         let _ = writeln!(body, "record: {}", record.get());
         let _ = writeln!(

@@ -6,8 +6,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::ConformError;
-use crate::judge::class::Kind;
-use crate::results::summary::{Campaign, CaseCount, Found, Summary};
+use crate::judge::class::{Class, Kind};
+use crate::results::found::{Found, NotShrunk};
+use crate::results::summary::{Campaign, CaseCount, Summary};
 use crate::results::{advice, junit, seeded};
 use mufasa_records::files;
 
@@ -24,14 +25,13 @@ const MOST: usize = 4000;
 const SHOWN: usize = 3;
 
 /// Prints that a rule broke for the first time; the end shows more.
-pub fn noticed(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "found: {}", found.class)
+pub fn noticed(class: &Class, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "found: {class}")
 }
 
 /// Prints a class with its smallest case.
 fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
-    let Found { class, count, id, name, about, told, shrunk, before, size, unit, record, .. } =
-        found;
+    let Found { class, count, id, name, about, told, why, before, size, unit, record, .. } = found;
     let plural = if *count == 1 { "" } else { "s" };
     writeln!(out, "DISAGREES  {class}, {count} time{plural}")?;
     writeln!(out, "  program  {}", told.answered)?;
@@ -47,10 +47,11 @@ fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     if let Some(delta) = found.delta() {
         writeln!(out, "  delta    {delta} m, the record's own margin (parameters.delta)")?;
     }
-    let how = match (shrunk, before.len()) {
-        (true, _) => "shrunk from",
-        (false, 0) => "was not shown again;",
-        (false, _) => "does not occur alone;",
+    let how = match (why, before.is_empty()) {
+        (None, _) => "shrunk from",
+        (Some(_), false) => "does not occur alone;",
+        (Some(NotShrunk::NotAlone), true) => "was not shown again;",
+        (Some(NotShrunk::Limit | NotShrunk::Time), true) => "not shrunk;",
     };
     let what = if about.is_empty() { "case" } else { "vector" };
     let plural = if *size == 1 { "" } else { "s" };
@@ -91,7 +92,24 @@ fn wrong(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     if !order.is_empty() {
         writeln!(out)?;
     }
-    advice::print(summary, out)
+    advice::print(summary, out)?;
+    not_shrunk(summary, out)
+}
+
+/// How many classes were not made small, and why.
+fn not_shrunk(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
+    let reasons = [
+        (NotShrunk::Limit, "others of the same rule were, which come first"),
+        (NotShrunk::Time, "there was no more time for it (--shrinking)"),
+    ];
+    for (why, words) in reasons {
+        let count = summary.classes.iter().filter(|found| found.why == Some(why)).count();
+        if count > 0 {
+            let all = summary.classes.len();
+            writeln!(out, "{count} of {all} classes not shrunk: {words}")?;
+        }
+    }
+    Ok(())
 }
 
 fn counts(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
@@ -137,6 +155,12 @@ fn cases(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     left_out(summary.skipped, summary.tolerated, out)?;
     if summary.interrupted {
         write!(out, ", INTERRUPTED")?;
+    }
+    if summary.enough {
+        return writeln!(
+            out,
+            ": the vectors show that much is wrong; mend that first (--cases {cases} asks all the same)"
+        );
     }
     let of_cases = summary.disagreements() - summary.wrong_vectors().len() as u64;
     match (of_cases, summary.asked) {
@@ -289,10 +313,13 @@ mod tests {
             count: 1,
             vectors: Vec::new(),
             first: Some(0),
+            at: 0,
             name: String::from("c-0"),
             about: String::new(),
             told,
             shrunk: true,
+            why: None,
+            tried: Vec::new(),
             before: Vec::new(),
             size: 1,
             unit: String::from("object"),

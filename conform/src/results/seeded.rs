@@ -135,8 +135,6 @@ fn least_likely(bugs: &[&Bug], cases: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use mufasa_model::input::cycle::Profile;
 
     use super::*;
@@ -170,8 +168,9 @@ mod tests {
             skipped: 0,
             tolerated: 0,
             late: 0,
-            starts: 1,
+            restarts: 0,
             interrupted: false,
+            enough: false,
             given_up: Vec::new(),
             groups: Vec::new(),
             classes: Vec::new(),
@@ -281,19 +280,7 @@ mod tests {
     fn the_bugs_were_measured_with_the_vectors_as_they_are() {
         let record: Record = serde_json::from_str(RECORD).expect("the record");
         let vectors = [Profile::Paper, Profile::Hardened].into_iter().flat_map(|profile| {
-            let settings = Settings {
-                command: Vec::new(),
-                profile,
-                cases: None,
-                seed: 0,
-                time_limit: Duration::ZERO,
-                kinds: Kind::ALL.into(),
-                shard: None,
-                drives: Vec::new(),
-                vectors: true,
-                tolerance: None,
-                out: "out".into(),
-            };
+            let settings = Settings::of(profile, &Kind::ALL);
             let given = fitting(&settings).expect("author and model agree");
             given.into_iter().map(|it| it.question.line(&it.id))
         });

@@ -6,11 +6,10 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::value::RawValue;
 
 use crate::error::ConformError;
 use crate::judge::class::{Class, Kind};
-use crate::judge::explain::Told;
+use crate::results::found::Found;
 
 /// The result of a campaign, or of some of its shards.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -34,10 +33,12 @@ pub struct Summary {
     pub tolerated: u64,
     /// Answers that came too late and, when the case was asked again, in time.
     pub late: u64,
-    /// Starts of the program.
-    pub starts: u64,
-    /// Whether it was ended before all cases were asked.
+    /// How often the program had to be started again while vectors and cases were asked.
+    pub restarts: u64,
+    /// Whether it was ended before all cases were asked, or before their records were made small.
     pub interrupted: bool,
+    /// Whether the cases were left out because the vectors show that much is wrong.
+    pub enough: bool,
     /// Kinds that were given up after too many restarts.
     pub given_up: Vec<Kind>,
     /// Cases by kind, profile, configuration and expected verdict.
@@ -90,66 +91,6 @@ pub struct CaseCount {
     pub disagreements: u64,
 }
 
-/// A class of disagreements with its smallest case.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Found {
-    /// The class.
-    pub class: Class,
-    /// Its name, which is the id of the record below.
-    pub id: String,
-    /// How many vectors and cases of it.
-    pub count: u64,
-    /// The vectors among them.
-    pub vectors: Vec<String>,
-    /// Number of the first case in the campaign; null where there are vectors alone.
-    pub first: Option<u64>,
-    /// Name of the vector or case that was shrunk: the first, or a later one that led to fewer
-    /// objects.
-    pub name: String,
-    /// Of a vector, what it is about; empty for a case.
-    pub about: String,
-    /// What was answered and what is right, in the shrunk case.
-    pub told: Told,
-    /// Whether the record shows the class alone, in a fresh process, and was shrunk.
-    pub shrunk: bool,
-    /// Where it does not: the lines that a fresh process has to be asked before; none when the
-    /// class was not shown again.
-    pub before: Vec<String>,
-    /// Objects, events or services of the shrunk case.
-    pub size: usize,
-    /// What `size` counts.
-    pub unit: String,
-    /// The shrunk record; a line that is no JSON as a string.
-    #[schemars(with = "serde_json::Value")]
-    pub record: Box<RawValue>,
-}
-
-impl Found {
-    /// The line that was asked.
-    pub fn line(&self) -> String {
-        let text = self.record.get();
-        serde_json::from_str(text).unwrap_or_else(|_| text.to_owned())
-    }
-
-    /// The margin that the record sets itself, m, as it is written there (`parameters.delta`).
-    pub fn delta(&self) -> Option<String> {
-        let record: serde_json::Value = serde_json::from_str(self.record.get()).ok()?;
-        record.pointer("/parameters/delta").map(ToString::to_string)
-    }
-
-    /// Which of two cases of a class says more: the lower.
-    pub fn rank(&self) -> (bool, bool, usize) {
-        (!self.shrunk, self.before.is_empty(), self.size)
-    }
-
-    /// The lines of its sequence, the record's last, where the record does not show it alone.
-    pub fn sequence(&self) -> Option<String> {
-        let lines = self.before.iter().cloned().chain([self.line()]);
-        (!self.before.is_empty()).then(|| lines.map(|line| line + "\n").collect())
-    }
-}
-
 impl Summary {
     /// Whether nothing was asked.
     pub fn is_empty(&self) -> bool {
@@ -195,6 +136,7 @@ impl Summary {
                 Some(merged) => merged.with(summary, path)?,
             });
         }
+        let merged = merged.map(Self::of_one_run);
         merged.ok_or_else(|| ConformError::Merge(String::from("no summaries given")))
     }
 
@@ -216,8 +158,9 @@ impl Summary {
         self.skipped += other.skipped;
         self.tolerated += other.tolerated;
         self.late += other.late;
-        self.starts += other.starts;
+        self.restarts += other.restarts;
         self.interrupted |= other.interrupted;
+        self.enough |= other.enough;
         self.given_up.extend(other.given_up);
         self.given_up.sort();
         self.given_up.dedup();
@@ -241,23 +184,23 @@ impl Summary {
         let mut classes: BTreeMap<Class, Found> = BTreeMap::new();
         for found in self.classes.into_iter().chain(other.classes) {
             let class = found.class.clone();
-            let better = |one: &Found, two: &Found| {
-                let key = |it: &Found| (it.rank(), it.first);
-                key(one) < key(two)
-            };
             let joined = match classes.remove(&class) {
                 None => found,
-                Some(known) => {
-                    let count = known.count + found.count;
-                    let first = known.first.into_iter().chain(found.first).min();
-                    let vectors = [known.vectors.as_slice(), &found.vectors].concat();
-                    let smaller = if better(&known, &found) { known } else { found };
-                    Found { count, vectors, first, ..smaller }
-                }
+                Some(known) => known.with(found),
             };
             classes.insert(class, joined);
         }
         self.classes = classes.into_values().collect();
         Ok(self)
+    }
+
+    /// What one run of all shards would have said, where all are there.
+    fn of_one_run(mut self) -> Self {
+        if self.missing().is_empty() {
+            self.campaign.of = 1;
+            self.shards = vec![0];
+            self.classes.iter_mut().for_each(|found| found.tried.clear());
+        }
+        self
     }
 }

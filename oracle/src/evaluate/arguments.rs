@@ -92,7 +92,8 @@ pub struct SizeArguments {
 Exit codes: as those of the experiment made in one go; 2 a part is missing, is there twice, or is of something
 else.")]
 pub struct MergeArguments {
-    /// The files that `mufasa evaluate EXPERIMENT --shard I/N --out DIR` wrote: all N of one experiment.
+    /// The files that `mufasa evaluate EXPERIMENT --shard I/N --out DIR` wrote: all N of one experiment; or the
+    /// summaries of `mufasa conform --shard I/N`.
     #[arg(value_name = "FILE", required = true)]
     pub parts: Vec<PathBuf>,
     /// Write into this folder: table and runs as CSV and JSON, charts as SVG, and all of it in report.html.
