@@ -36,11 +36,8 @@ pub fn text(lines: &[Claim]) -> String {
 
 /// For documents: the number of verdicts of each engine, then every line.
 pub fn markdown(lines: &[Claim]) -> String {
-    let mut text = format!(
-        "{}\nClaims, each by the answer that counts: {}.\n",
-        engines(lines),
-        counts(lines)
-    );
+    let mut text =
+        format!("{}\nClaims, each by the answer that counts: {}.\n", engines(lines), counts(lines));
     text.push_str("\n<details><summary>Every line</summary>\n\n");
     text.push_str("| id | statement | engine | domain | verdict | s | fails when |\n");
     text.push_str("|---|---|---|---|---|--:|---|\n");
