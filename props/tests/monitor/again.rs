@@ -137,17 +137,20 @@ fn the_time_of_use_is_taken_from_the_wait_to_the_nanosecond() {
     }
 }
 
-/// A clock set back by seconds leaves the time of use as it was, and that without counts from there.
+/// A clock set back takes from the time of use what it takes back, and that without counts from there.
 #[test]
-fn a_clock_set_back_leaves_the_time_of_use() {
-    for (used_ns, wait_ns) in [(900 * MS, 0), (900 * MS - 1, 1), (0, 900 * MS)] {
+fn a_clock_set_back_loses_time_of_use() {
+    let (used_ns, whole_ns) = (1_000 * MS, 900 * MS);
+    for (set_back_ns, wait_ns) in
+        [(0, 0), (100 * MS, 0), (100 * MS + 1, 1), (900 * MS, 800 * MS), (3_000 * MS, whole_ns)]
+    {
         let cross_sections = road();
         let mut buffers = Buffers::new(16, 40);
         let mut monitor = buffers.on(&cross_sections);
         let mut station = Station::default();
         let (first_ns, last_ns) = (PERIOD_NS, PERIOD_NS + used_ns);
         of_use(&mut monitor, &mut station, first_ns, last_ns);
-        let back_ns = last_ns - 3_000 * MS;
+        let back_ns = last_ns - set_back_ns;
         let world = World::at(back_ns);
         let inputs = Inputs::new(at(back_ns), world.ego);
         assert!(monitor.cycle(&inputs.detections(at(back_ns), &world.detections)).1.is_empty());
@@ -157,6 +160,6 @@ fn a_clock_set_back_leaves_the_time_of_use() {
         assert_eq!(station.released, 2);
         let until = monitor.requester().hold_until_ns();
         let expected = if wait_ns > 0 { Some(end_ns + wait_ns) } else { before };
-        assert_eq!(until, expected, "{used_ns} ns of use");
+        assert_eq!(until, expected, "{set_back_ns} ns set back");
     }
 }

@@ -144,11 +144,8 @@ struct Held<L> {
 
 impl<T> Held<Option<T>> {
     fn or(self, new: Self, now_ns: i64) -> Self {
-        match new.element {
-            Some(_) => new,
-            None if self.stamp_ns >= now_ns => self,
-            None => new,
-        }
+        let is_kept = new.element.is_none() && self.stamp_ns >= now_ns;
+        if is_kept { self } else { new }
     }
 }
 

@@ -187,9 +187,8 @@ impl<'a> Plain<'a> {
         for (service, is_current) in self.service.iter_mut().zip(is_current) {
             let Some(service) = service else { continue };
             if now_ns < service.since_ns {
-                // The clock was set back, and with it what it has shown.
-                let back_ns = i128::from(service.since_ns) - i128::from(now_ns);
-                service.first_ns = service.first_ns.map(|first_ns| first_ns - back_ns);
+                // The clock was set back: nothing was of use later than now.
+                service.first_ns = service.first_ns.map(|first_ns| first_ns.min(now_ns.into()));
                 service.since_ns = now_ns;
             }
             if is_current {
