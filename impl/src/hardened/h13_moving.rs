@@ -11,21 +11,20 @@ mod lists;
 mod seen_twice;
 mod waiting;
 
-use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
+use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::hardened::h10_explained::Explained;
 use crate::hardened::h13_moving::disputed::Disputes;
 use crate::hardened::h13_moving::lists::{Lists, Past};
 use crate::hardened::h13_moving::seen_twice::SeenTwice;
-use crate::hardened::h13_moving::waiting::Waiting;
-use crate::input::cycle::{Cycle, Detection, DetectionList, TrackList, Trajectory};
+use crate::hardened::h13_moving::waiting::{Far, Stretch, Waiting};
+use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList, Trajectory};
 use crate::input::scratch::Scratch;
-use crate::numbers::range::{intersection, larger};
+use crate::numbers::range::{intersection, is_empty, larger};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, PointsExamined};
-use crate::stages::llcc::CavMotion;
-use crate::stages::llcc::pursuit::{Passing, Pursuit};
+use crate::stages::llcc::pursuit::Passing;
 use crate::stages::llcc::sweep::MovingRectangle;
 
 /// What says how the current detections have moved.
@@ -56,8 +55,10 @@ impl MovingDetections<'_, '_> {
             return Some(Witness::of(Rule::WorkLimit, compared));
         }
         let stamp_ns = detections.stamp_ns;
-        let motion = CavMotion::with_beyond(&examined, stamp_ns);
         let lists = Lists::new(cycle, &self.history, self.tracks);
+        let waiting = Waiting::new(cycle, trajectory.points, examined.points.len(), stamp_ns);
+        let disputes =
+            Disputes::new(detections, self.history.index, self.tracks, explained, scratch);
         let mut search = Search {
             cycle,
             moving: self,
@@ -66,28 +67,17 @@ impl MovingDetections<'_, '_> {
             reference,
             off: lists.greatest_off(),
             lists,
-            motion: &motion,
-            pursuit: &motion.pursuit(),
-            waiting: None,
-            disputes: Disputes::new(
-                detections,
-                self.history.index,
-                self.tracks,
-                explained,
-                scratch,
-            ),
+            at: &Stretch::first(&examined, waiting.as_ref(), stamp_ns),
+            waiting: waiting.as_ref(),
+            disputes,
             first: None,
         };
         search.all(scratch);
-        let points = examined.points.len();
-        let waiting = Waiting::new(cycle.ego, trajectory.points, points, stamp_ns);
-        if let Some(waiting) = waiting.filter(|_| search.first.is_none()) {
-            let motion = CavMotion::new(cycle, waiting.points(), stamp_ns);
-            let pursuit = motion.pursuit();
-            let mut on =
-                Search { motion: &motion, pursuit: &pursuit, waiting: Some(&waiting), ..search };
-            on.all(scratch);
-            return on.first.map(|found| found.witness(&self.history));
+        let far = waiting.as_ref().filter(|_| search.first.is_none()).and_then(Waiting::far);
+        if let Some(far) = &far {
+            let mut search = Search { at: &far.stretch, ..search };
+            search.all_far(far, scratch);
+            return search.first.map(|found| found.witness(&self.history));
         }
         search.first.map(|found| found.witness(&self.history))
     }
@@ -140,30 +130,6 @@ struct Pair {
     list: usize,
 }
 
-/// An object as seen by the CAV on its way; and where it stands and would have to wait.
-struct Passes<'m> {
-    moving: Passing<'m>,
-    standing: Option<Passing<'m>>,
-}
-
-impl Passes<'_> {
-    #[inline]
-    fn misses_on_line(&self, velocity: [f64; 2]) -> bool {
-        self.moving.misses_on_line(velocity)
-            || self.standing.as_ref().is_some_and(|standing| standing.misses_on_line(velocity))
-    }
-
-    #[inline]
-    fn misses(&self, velocity: [f64; 2]) -> bool {
-        self.moving.misses(velocity)
-            || self.standing.as_ref().is_some_and(|standing| standing.misses_on_line(velocity))
-    }
-}
-
-fn is_empty(area: [[f64; 2]; 2]) -> bool {
-    area.iter().any(|[least, greatest]| least > greatest)
-}
-
 /// The search for the first collision.
 struct Search<'m, 'c, 'a> {
     cycle: &'m Cycle<'a>,
@@ -175,15 +141,15 @@ struct Search<'m, 'c, 'a> {
     lists: Lists<'m, 'c, 'a>,
     /// The most of `Past::off`.
     off: f64,
-    motion: &'m CavMotion<'m, 'a>,
-    pursuit: &'m Pursuit,
-    /// (c): that the CAV may not wait at points before, when these are the points after.
-    waiting: Option<&'m Waiting<'a>>,
+    /// The points that are looked at.
+    at: &'m Stretch<'m, 'a>,
+    /// (c), when there are points after those of (a) and (b).
+    waiting: Option<&'m Waiting<'m, 'a>>,
     disputes: Disputes<'m, 'c, 'a>,
     first: Option<Found>,
 }
 
-impl<'m> Search<'m, '_, '_> {
+impl Search<'_, '_, '_> {
     /// All detections that may reach the CAV. No other order finds another first collision.
     fn all(&mut self, scratch: &mut Scratch<'_>) {
         let items = self.detections.items;
@@ -198,12 +164,12 @@ impl<'m> Search<'m, '_, '_> {
             return;
         };
         let speed = libm::sqrt(self.explained.fastest) * (1.0 + 1e-9) + self.off;
-        let [across, up] = self.motion.sweep.surroundings(index.reach, speed);
+        let [across, up] = self.at.motion.sweep.surroundings(index.reach, speed);
         let is_within = |[least, most]: [f64; 2], at: f64| least <= at && at <= most;
         let from_anywhere = self.cycle.parameters.v_object + self.more();
         let all_explained = self.explained.count == items.len();
         let fastest = if all_explained { speed } else { larger(speed, from_anywhere) };
-        let near = self.motion.sweep.surroundings(index.reach, fastest);
+        let near = self.at.motion.sweep.surroundings(index.reach, fastest);
         index.for_each_in(near, |detection, [x, y]| {
             let Some(now) = items.get(detection) else { return };
             let track = self.explained.by(detection, scratch.rows, scratch.columns);
@@ -214,9 +180,23 @@ impl<'m> Search<'m, '_, '_> {
         });
     }
 
-    fn passing(&self, object: &MovingRectangle) -> Passes<'m> {
-        let standing = self.waiting.map(|waiting| waiting.standing.passing(object));
-        Passes { moving: self.pursuit.passing(object), standing }
+    /// (c): all detections that may meet the CAV far on.
+    fn all_far(&mut self, far: &Far<'_, '_>, scratch: &mut Scratch<'_>) {
+        for (detection, now) in self.detections.items.iter().enumerate() {
+            let standing = MovingRectangle::detection(now);
+            if !far.may_be_met(&standing) {
+                continue;
+            }
+            let velocities = far.velocities(&standing);
+            if is_empty(velocities) {
+                continue;
+            }
+            let track = self.explained.by(detection, scratch.rows, scratch.columns);
+            if let Some(track) = track {
+                self.confirmed_with(velocities, track, (detection, now), scratch);
+            }
+            self.come_from_anywhere_with(velocities, (detection, now), track, scratch);
+        }
     }
 
     /// By how much what moves at most `CLOSE` more than `v_object` at the age of the reference list is
@@ -238,29 +218,53 @@ impl<'m> Search<'m, '_, '_> {
         };
         let velocity = [track.vx, track.vy];
         let about = MovingRectangle { velocity, ..MovingRectangle::detection(now) };
-        if self.motion.sweep.misses_all_near(&about, self.off) {
+        if self.at.motion.sweep.misses_all_near(&about, self.off) {
             return;
         }
         let Some(past) = self.lists.past_of(row) else { return };
-        let Past { list, usable, reach, off, .. } = past;
-        if off < self.off && self.motion.sweep.misses_all_near(&about, off) {
+        if past.off < self.off && self.at.motion.sweep.misses_all_near(&about, past.off) {
             return;
         }
-        let (dx, dy) = past.moved(track);
-        let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
-        let mut near = [around(track.x + dx), around(track.y + dy)];
-        if let Some(waiting) = self.waiting {
-            let speed = libm::sqrt(self.explained.fastest) * (1.0 + 1e-9) + off;
-            let from = self.pursuit.comes_from(&about, speed, usable.age);
-            let standing = waiting.standing.comes_from(&about, speed, usable.age);
-            near = intersection(near, intersection(from, standing));
-            if is_empty(near) {
-                return;
-            }
+        self.come_from_past((order, track), &past, (detection, now), past.around(track), scratch);
+    }
+
+    /// The same with velocities between these.
+    fn confirmed_with(
+        &mut self,
+        velocities: [[f64; 2]; 2],
+        order: usize,
+        (detection, now): (usize, &Detection),
+        scratch: &mut Scratch<'_>,
+    ) {
+        let Some(tracks) = self.moving.tracks else { return };
+        let Some((track, row)) = tracks.items.get(order).zip(scratch.rows.get(order)) else {
+            return;
+        };
+        let about = |rate: f64| [rate - self.off, rate + self.off];
+        if is_empty(intersection(velocities, [about(track.vx), about(track.vy)])) {
+            return;
         }
-        let passing = self.passing(&about);
+        let Some(past) = self.lists.past_of(row) else { return };
+        let from = intersection(past.around(track), before(now, velocities, past.usable.age));
+        if !is_empty(from) {
+            self.come_from_past((order, track), &past, (detection, now), from, scratch);
+        }
+    }
+
+    /// From every item in the box that may have been the track.
+    fn come_from_past(
+        &mut self,
+        (order, track): (usize, &Track),
+        past: &Past<'_>,
+        (detection, now): (usize, &Detection),
+        from: [[f64; 2]; 2],
+        scratch: &mut Scratch<'_>,
+    ) {
+        let &Past { list, usable, reach, .. } = past;
+        let passing = self.at.pursuit.passing(&MovingRectangle::detection(now));
         let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
-        squares.for_each_in(scratch.columns, near, |item, before| {
+        let (dx, dy) = past.moved(track);
+        squares.for_each_in(scratch.columns, from, |item, before| {
             let [before_x, before_y] = before;
             let (x, y) = ((track.x - before_x) + dx, (track.y - before_y) + dy);
             let seen = SeenTwice::new(now, before, &usable);
@@ -284,24 +288,53 @@ impl<'m> Search<'m, '_, '_> {
                 return;
             }
         }
-        let reference = self.reference;
-        let Some(list) = self.lists.usable(reference) else { return };
-        let (v_object, age) = (self.cycle.parameters.v_object, list.age);
-        let (farthest, rate) = (v_object * age + CLOSE, 1.0 / age);
-        let standing = MovingRectangle::detection(now);
+        let Some(list) = self.lists.usable(self.reference) else { return };
         // Rounded up: what moves as fast as that in an instant more.
-        let speed = v_object + self.more();
-        let mut from = self.pursuit.comes_from(&standing, speed, age);
-        if let Some(waiting) = self.waiting.filter(|_| !is_empty(from)) {
-            from = intersection(from, waiting.standing.comes_from(&standing, speed, age));
+        let speed = self.cycle.parameters.v_object + self.more();
+        let standing = MovingRectangle::detection(now);
+        let from = self.at.pursuit.comes_from(&standing, speed, list.age);
+        if !is_empty(from) {
+            self.come_from_within(from, &list, (detection, now), track, scratch);
         }
-        if is_empty(from) {
-            return;
+    }
+
+    /// The same with velocities between these.
+    fn come_from_anywhere_with(
+        &mut self,
+        velocities: [[f64; 2]; 2],
+        (detection, now): (usize, &Detection),
+        track: Option<usize>,
+        scratch: &mut Scratch<'_>,
+    ) {
+        if let Some(track) = track {
+            if !self.disputes.may_be_disputed(track, &self.lists, scratch) {
+                return;
+            }
         }
+        let Some(list) = self.lists.usable(self.reference) else { return };
+        let speed = self.cycle.parameters.v_object + self.more();
+        let within = intersection(velocities, [[-speed, speed]; 2]);
+        if !is_empty(within) {
+            let from = before(now, within, list.age);
+            self.come_from_within(from, &list, (detection, now), track, scratch);
+        }
+    }
+
+    /// From every item in the box that some other list supports.
+    fn come_from_within(
+        &mut self,
+        from: [[f64; 2]; 2],
+        list: &UsableList<'_>,
+        (detection, now): (usize, &Detection),
+        track: Option<usize>,
+        scratch: &mut Scratch<'_>,
+    ) {
+        let (reference, age) = (self.reference, list.age);
+        let (farthest, rate) = (self.cycle.parameters.v_object * age + CLOSE, 1.0 / age);
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
         let tracks = self.moving.tracks.map_or(0, |list| list.items.len());
         let order = tracks.saturating_add(detection);
-        let passing = self.passing(&standing);
+        let passing = self.at.pursuit.passing(&MovingRectangle::detection(now));
         let scratch = &*scratch;
         squares.for_each_in(scratch.columns, from, |item, before| {
             let [before_x, before_y] = before;
@@ -320,7 +353,7 @@ impl<'m> Search<'m, '_, '_> {
         before: [f64; 2],
         (now, track): (&Detection, Option<usize>),
         pair: &Pair,
-        passing: &Passes<'_>,
+        passing: &Passing<'_>,
         scratch: &Scratch<'_>,
     ) {
         let Some(list) = self.lists.usable(pair.list) else { return };
@@ -337,13 +370,16 @@ impl<'m> Search<'m, '_, '_> {
     }
 
     /// A collision that is earlier than the first so far.
-    fn earlier(&self, pair: &Pair, seen: &SeenTwice, passing: &Passes<'_>) -> Option<Found> {
+    fn earlier(&self, pair: &Pair, seen: &SeenTwice, passing: &Passing<'_>) -> Option<Found> {
         let &Pair { order, detection, item, list } = pair;
-        let window = passing.moving.window(seen.now.velocity);
-        let from = self.waiting.map_or(0, |waiting| waiting.from);
-        let end = self.first.map_or(usize::MAX, |first| first.point.saturating_add(1));
+        let (window, from) = (passing.window(seen.now.velocity), self.at.from);
+        let mut end = self.first.map_or(usize::MAX, |first| first.point.saturating_add(1));
+        let waiting = self.waiting.filter(|waiting| end > waiting.examined);
+        if let Some(waiting) = waiting.filter(|waiting| waiting.is_passed_by(seen)) {
+            end = waiting.examined;
+        }
         let end = end.saturating_sub(from);
-        let (point, compared) = self.motion.collision_within(window, seen, end)?;
+        let (point, compared) = self.at.motion.collision_within(window, seen, end)?;
         let point = point.saturating_add(from);
         if self.waiting.is_some_and(|waiting| !waiting.is_examined_at(point, seen)) {
             return None;
@@ -351,4 +387,12 @@ impl<'m> Search<'m, '_, '_> {
         let found = Found { point, order, item, detection, list, compared };
         self.first.is_none_or(|first| found.key() < first.key()).then_some(found)
     }
+}
+
+/// Where an item of that age in s is from which the detection comes with velocities between these.
+fn before(now: &Detection, [across, up]: [[f64; 2]; 2], age: f64) -> [[f64; 2]; 2] {
+    let range = |at: f64, [least, greatest]: [f64; 2]| {
+        [at - greatest * age - MARGIN, at - least * age + MARGIN]
+    };
+    [range(now.x, across), range(now.y, up)]
 }

@@ -18,6 +18,11 @@ pub(crate) fn intersection([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> [[f6
     [both(a, c), both(b, d)]
 }
 
+/// Whether nothing is in the box.
+pub(crate) fn is_empty(area: [[f64; 2]; 2]) -> bool {
+    area.iter().any(|[least, greatest]| least > greatest)
+}
+
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

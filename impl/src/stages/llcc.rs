@@ -97,6 +97,16 @@ impl<'c, 'a> CavMotion<'c, 'a> {
         Self::timed(cycle, points, beyond, Clock::Since(stamp_ns))
     }
 
+    /// As `new`, where no object is asked whether it misses the sweep.
+    pub(crate) const fn unswept(
+        cycle: &'c Cycle<'a>,
+        points: &'c [TrajectoryPoint],
+        stamp_ns: i64,
+    ) -> Self {
+        let (beyond, clock) = (&PlacesBeyond::NONE, Clock::Since(stamp_ns));
+        Self { cycle, points, beyond, clock, sweep: Sweep::EVERYWHERE }
+    }
+
     /// Objects stand still where they are after so many ns.
     pub(crate) fn among_standing(
         cycle: &'c Cycle<'a>,

@@ -26,6 +26,13 @@ impl Past<'_> {
     pub(super) fn moved(&self, track: &Track) -> (f64, f64) {
         (track.vx * self.since, track.vy * self.since)
     }
+
+    /// A box that holds what is as near to the past as an item may be.
+    pub(super) fn around(&self, track: &Track) -> [[f64; 2]; 2] {
+        let (dx, dy) = self.moved(track);
+        let around = |at: f64| [at - self.reach - MARGIN, at + self.reach + MARGIN];
+        [around(track.x + dx), around(track.y + dy)]
+    }
 }
 
 /// All that H-13 asks of the usable lists.

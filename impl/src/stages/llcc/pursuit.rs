@@ -14,7 +14,7 @@ use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus, split};
 const FASTEST: f64 = 1e3;
 /// s
 const LONGEST: f64 = 100.0;
-/// A first time that is sooner, s, bounds nothing.
+/// s
 const SOON: f64 = 1e-2;
 
 /// A box that contains the CAV's rectangles as seen so.
@@ -68,7 +68,7 @@ impl Pursuit {
             let back = velocity.map(|rate| rate * time);
             let place = minus(minus(footprint.centre, origin), back);
             extend(&mut ranges, split(along, place), footprint.extents(along));
-            extend(&mut upright, place, [footprint.reach(); 2]);
+            extend(&mut upright, place, footprint.upright());
         }
         let (middle, half) = (|[a, b]: [f64; 2]| 0.5 * (a + b), |[a, b]: [f64; 2]| 0.5 * (b - a));
         Self {
@@ -90,7 +90,7 @@ impl Pursuit {
             origin: footprint.centre,
             along: footprint.direction,
             half: footprint.extents(footprint.direction),
-            upright: [[0.0; 2], footprint.extents([1.0, 0.0])],
+            upright: [[0.0; 2], footprint.upright()],
             seconds: [from, f64::INFINITY],
             ..Self::anywhere()
         }
@@ -123,9 +123,8 @@ impl Pursuit {
     /// The box in which an item of an earlier list has to be, of that age in s, so that an object
     /// that comes from there, no faster than `speed` in m/s, may touch the CAV at one of the
     /// points; the least above the greatest when there is no such place. `object`: where it is at
-    /// the time 0. Along each axis, as seen from the CAV, t1 and t2 being the first and the last
-    /// time: what is `gap` m away comes from at least `gap` age / t2 farther behind; and what is at
-    /// most `gap` m away from the far side comes from at most `gap` age / t1 farther behind.
+    /// the time 0. Along each axis: what is `gap` m away comes from at least `gap` age / t farther
+    /// behind, as seen from the CAV, t being the last time.
     pub(crate) fn comes_from(
         &self,
         object: &MovingRectangle,
@@ -133,22 +132,44 @@ impl Pursuit {
         age: f64,
     ) -> [[f64; 2]; 2] {
         let ([ux, uy], [[cx, cy], [hx, hy]]) = (self.velocity, self.upright);
-        let ([first, last], late) = (self.seconds, larger(-self.seconds[0], 0.0));
+        let (first, last) = (larger(-self.seconds[0], 0.0), self.seconds[1]);
         // Before the time 0 an object moves back, but not far.
-        let reach = object.reach() + MARGIN + (speed + ux.abs() + uy.abs()) * late;
+        let more = MARGIN + (speed + ux.abs() + uy.abs()) * first;
+        let [reach_x, reach_y] = object.upright();
         let rate = if last > 0.0 { age / last } else { 0.0 };
         let most = speed * age + MARGIN;
-        // Infinite times 0 is no number, and no bound then.
-        let greatest_rate = if first > SOON { age / first } else { f64::INFINITY };
-        let rate_at = |gap: f64| if gap > 0.0 { rate } else { greatest_rate };
         let range = |at: f64, from: f64, reach: f64, moved: f64| {
             let (below, above) = (-reach - from, from - reach);
-            let least = larger(above * rate_at(above) - moved, -most);
-            let greatest = smaller(-below * rate_at(below) - moved, most);
+            let least = if above > 0.0 { larger(above * rate - moved, -most) } else { -most };
+            let greatest = if below > 0.0 { smaller(-below * rate - moved, most) } else { most };
             [at + least - MARGIN, at + greatest + MARGIN]
         };
         let ([x, y], [from_x, from_y]) = (object.centre, minus(object.centre, self.origin));
-        [range(x, from_x - cx, hx + reach, ux * age), range(y, from_y - cy, hy + reach, uy * age)]
+        let (hx, hy) = (hx + reach_x + more, hy + reach_y + more);
+        [range(x, from_x - cx, hx, ux * age), range(y, from_y - cy, hy, uy * age)]
+    }
+}
+
+impl Pursuit {
+    /// With which velocities along the axes of the plane an object may touch the CAV at one of the
+    /// points, m/s; all when the first of them is sooner than `SOON`. `object`: where it is at the time 0.
+    /// Along each axis, as seen from the CAV: what has to go a way to one side goes it until the first
+    /// time at the fastest, and until the last at the slowest.
+    pub(crate) fn velocities(&self, object: &MovingRectangle) -> [[f64; 2]; 2] {
+        let ([ux, uy], [[cx, cy], [hx, hy]]) = (self.velocity, self.upright);
+        let [first, last] = self.seconds;
+        if !(first > SOON) {
+            return [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+        }
+        let (soon, late) = (1.0 / first, 1.0 / last);
+        let ([reach_x, reach_y], [x, y]) = (object.upright(), minus(self.origin, object.centre));
+        let (hx, hy) = (hx + reach_x + MARGIN, hy + reach_y + MARGIN);
+        let range = |to: f64, half: f64, mean: f64| {
+            let (least, greatest) = (to - half, to + half);
+            let slowest = mean + least * if least < 0.0 { soon } else { late };
+            [slowest, mean + greatest * if greatest > 0.0 { soon } else { late }]
+        };
+        [range(x + cx, hx, ux), range(y + cy, hy, uy)]
     }
 }
 

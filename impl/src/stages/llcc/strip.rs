@@ -4,6 +4,7 @@
 //! Plain doubles, with the bounds of `sweep`: what is not certain either way is left to
 //! `rectangle`.
 
+use crate::numbers::range::larger;
 use crate::stages::llcc::sweep::{MARGIN, MovingRectangle, minus, split};
 
 /// What is less than this of a velocity is no sign of a component: it rounds by less than 2^-48.
@@ -42,6 +43,21 @@ impl MovingRectangle {
             return Some(true);
         }
         (is_met && (size <= 0.0 || gap < -close)).then_some(false)
+    }
+
+    /// Whether no velocity leads the rectangle from where it is at the time 0 to both others, later
+    /// on: the line to half way between them keeps them certainly on either side.
+    pub(crate) fn is_beside(&self, one: &Self, other: &Self) -> bool {
+        let [x, y] = minus(other.centre, one.centre);
+        let to_one = minus(one.centre, self.centre);
+        let line = [to_one[0] + 0.5 * x, to_one[1] + 0.5 * y];
+        let extent = |it: &Self| {
+            let [_, across] = it.extents(line);
+            across
+        };
+        let wider = larger(extent(one), extent(other));
+        let margin = (line[0].abs() + line[1].abs()) * MARGIN + UNDERFLOW;
+        (0.5 * (line[0] * y - line[1] * x)).abs() > wider + extent(self) + margin
     }
 }
 

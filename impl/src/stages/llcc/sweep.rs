@@ -60,6 +60,14 @@ impl MovingRectangle {
         (length + width) * (0.5 * (1.0 + 1e-6))
     }
 
+    /// Half the extents along the axes of the plane.
+    #[inline]
+    pub(super) fn upright(&self) -> [f64; 2] {
+        let ([length, width], [cos, sin]) = (self.size, self.direction);
+        let (cos, sin) = (0.5 * cos.abs(), 0.5 * sin.abs());
+        [length * cos + width * sin, length * sin + width * cos]
+    }
+
     /// Half the extents along a direction and across it.
     pub(super) fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
         let ([length, width], [along, across]) = (self.size, split(axis, self.direction));
@@ -135,6 +143,16 @@ impl Sweep {
             seconds: [0.5 * (first + last), 0.5 * (last - first) + 1e-9],
         }
     }
+
+    /// Nothing misses it.
+    pub(super) const EVERYWHERE: Self = Self {
+        upright: [[0.0; 2], [f64::INFINITY; 2]],
+        origin: [0.0; 2],
+        along: [1.0, 0.0],
+        centre: [0.0; 2],
+        half: [f64::INFINITY; 2],
+        seconds: [0.0; 2],
+    };
 
     /// Whether the object certainly touches the CAV at none of the points.
     #[inline]
