@@ -76,7 +76,7 @@ fn drive_on(draw: &mut Draw<'_>, cycle: &mut Cycle) -> usize {
         cycle.ego.speed = draw.pick(&[5.0, 8.0, 10.0]);
     }
     let speed = cycle.ego.speed;
-    let step_s = draw.pick(&[0.1_f64, 0.2, 0.15]).min(0.9 * cycle.ego.length / speed);
+    let step_s = f64::min(draw.pick(&[0.1, 0.2, 0.15]), 0.9 * cycle.ego.length / speed);
     let (step_s, step) = (seconds(to_ns(step_s)), speed * seconds(to_ns(step_s)));
     let last = base::count(horizon_of_moving(cycle).metres / step + draw.range(0.0, 0.9));
     let count = last + 5 + base::count(speed / cycle.parameters.a_b / step_s);
