@@ -2,6 +2,8 @@
 
 pub mod arguments;
 mod falsify;
+pub mod merge;
+mod parts;
 mod replay;
 pub mod shards;
 pub mod tables;

@@ -76,3 +76,42 @@ fn what_is_no_whole_is_refused() {
     }
     refused(&folder, &["evaluate", "failures", "--shard", "1/2"], "--out");
 }
+
+/// Rounds do not know of each other: a search in parts is the search, collisions and all.
+#[test]
+fn a_search_in_parts_is_byte_for_byte_the_search() {
+    let folder = folder("falsify");
+    let size = ["--profile", "paper", "--attack", "tracks-empty", "--attack", "one-removed"];
+    let size = [&size[..], &["--vehicles", "6", "--rounds", "2"]].concat();
+    let search = |more: &[&str]| {
+        let done = run(&folder, &[&["evaluate", "falsify"], &size[..], more].concat());
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+    };
+    search(&["--out", "whole"]);
+    for shard in ["2/2", "1/2"] {
+        search(&["--out", "parts", "--shard", shard]);
+    }
+    let parts = ["parts/falsify.2-of-2.part.json", "parts/falsify.1-of-2.part.json"];
+    refused(&folder, &["merge", parts[0]], "part 1 of 2 is missing");
+    let merged = run(&folder, &["merge", "--out", "merged", parts[0], parts[1]]);
+    assert_eq!(merged.status.code(), Some(0), "{merged:?}");
+    let names = |place: &str| {
+        let entries = fs::read_dir(folder.join(place)).expect("a folder");
+        let mut names: Vec<_> = entries.map(|it| it.expect("an entry").path()).collect();
+        names.retain(|it| it.is_file());
+        names.sort();
+        names
+    };
+    for place in ["", "found"] {
+        let [one, other] = ["whole", "merged"].map(|it| names(&format!("{it}/{place}")));
+        assert!(!one.is_empty(), "{place}: nothing was found");
+        assert_eq!(one.len(), other.len());
+        for (one, other) in one.iter().zip(&other) {
+            assert_eq!(one.file_name(), other.file_name());
+            let [one, other] = [one, other].map(|it| fs::read_to_string(it).expect("a file"));
+            assert_eq!(one, other);
+        }
+    }
+    let without = ["evaluate", "falsify", "--shard", "1/2", "--out", "parts"];
+    refused(&folder, &without, "--rounds");
+}
