@@ -55,6 +55,8 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
+    let part = schema::written::<Part<falsify::Options>>();
+    schemas.push(("evaluation-falsify-part", part));
     schemas.push(("evaluation-found", schema::written::<falsify::found::Found>()));
     schemas
 }
