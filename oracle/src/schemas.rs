@@ -30,7 +30,11 @@ pub const WRITTEN: [(&str, &str, &[&str]); 16] = [
     ("evaluate availability", "out", &["evaluation-availability"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
-    ("merge", "out", &["evaluation-part", "evaluation-failures"]),
+    (
+        "merge",
+        "out",
+        &["evaluation-part", "evaluation-falsify-part", "evaluation-failures", "conform-summary"],
+    ),
     ("vehicle", "json", &["vehicle-summary"]),
     ("vehicle", "log", &["vehicle-log"]),
     ("station", "json", &["station-summary"]),
