@@ -26,9 +26,8 @@ use crate::subject::Subject;
 /// So many classes of a rule are shrunk; of a program at its beginning, whose classes are many and alike, one.
 const CLASSES_OF_A_RULE: usize = 6;
 
-/// So often the program is started to make records small that take a start each, in all; at its beginning less.
+/// So often the program is started to make records small that take a start each, in all.
 const STARTS: usize = 240;
-const STARTS_AT_THE_BEGINNING: usize = 60;
 
 /// One case takes at most one of so many parts of the time and of the starts.
 const PARTS: u32 = 4;
@@ -55,13 +54,12 @@ impl Shrinking<'_> {
     /// What was found; `much`: the program is at its beginning. Errors: the program cannot be started again.
     pub fn run(
         mut self,
-        classes: BTreeMap<Class, Sightings>,
+        classes: &BTreeMap<Class, Sightings>,
         much: bool,
     ) -> Result<Vec<Found>, ConformError> {
         let until = Instant::now() + self.settings.shrinking;
-        let restarts = if much { STARTS_AT_THE_BEGINNING } else { STARTS };
-        let mut limits = Limits { until, restarts };
-        let chosen = chosen(&classes, if much { 1 } else { CLASSES_OF_A_RULE });
+        let mut limits = Limits { until, restarts: STARTS };
+        let chosen = chosen(classes, if much { 1 } else { CLASSES_OF_A_RULE });
         let mut tried: BTreeMap<&Class, Vec<Found>> = BTreeMap::new();
         for class in &chosen {
             if let Some(first) = classes[*class].earliest.first() {
@@ -89,7 +87,7 @@ impl Shrinking<'_> {
             vectors.sort_unstable();
             let shown = best(&tries)?.clone();
             let tried = if self.settings.shard.is_some() { tries } else { Vec::new() };
-            Some(Found { count, first, vectors, tried, ..shown })
+            Some(Found { count, vectors, first, tried, ..shown })
         });
         Ok(found.collect())
     }

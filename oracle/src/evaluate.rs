@@ -4,6 +4,8 @@ pub mod arguments;
 mod codes;
 mod falsify;
 mod log;
+pub mod merge;
+mod parts;
 mod plots;
 mod published;
 mod replay;

@@ -30,7 +30,11 @@ pub const WRITTEN: [(&str, &str, &[&str]); 16] = [
     ("evaluate availability", "out", &["evaluation-availability"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
-    ("merge", "out", &["evaluation-part", "evaluation-failures"]),
+    (
+        "merge",
+        "out",
+        &["evaluation-part", "evaluation-falsify-part", "evaluation-failures", "conform-summary"],
+    ),
     ("vehicle", "json", &["vehicle-summary"]),
     ("vehicle", "log", &["vehicle-log"]),
     ("station", "json", &["station-summary"]),
@@ -55,6 +59,8 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
+    let part = schema::written::<Part<falsify::Options>>();
+    schemas.push(("evaluation-falsify-part", part));
     schemas.push(("evaluation-found", schema::written::<falsify::found::Found>()));
     schemas
 }

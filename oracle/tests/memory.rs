@@ -93,7 +93,7 @@ fn ten_times_as_many_cycles_take_no_more_memory() {
 
 /// As [`common::cycle`], later and later. The CAV is on its road for 40 s, and nowhere near it from then on.
 fn small(index: u32) -> String {
-    let mut cycle = common::cycle(index, index % 3 == 0);
+    let mut cycle = common::cycle(index, index.is_multiple_of(3));
     cycle.route.cross_sections.truncate(6);
     cycle_to_line(&format!("c-{index}"), &cycle) + "\n"
 }

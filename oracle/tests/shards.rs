@@ -4,6 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use serde_json::{Value, json};
+
+const REPORT: &str = "report.html";
 const SIZE: [&str; 4] = ["--scenarios", "1", "--vehicles", "2"];
 
 fn folder(name: &str) -> PathBuf {
@@ -54,6 +57,32 @@ fn parts_put_together_are_byte_for_byte_the_whole() {
     assert_eq!(table(&whole), table(&merged));
     assert!(table(&merged).contains("checked by the model; model and implementation agree"));
     assert!(!folder.join("parts/failures.json").exists(), "a part is no whole");
+    // Where the parts are, the pages of runs that failed are there too, and linked.
+    merge[2] = "parts";
+    let beside = run(&folder, &merge);
+    assert_eq!(beside.status.code(), whole.status.code(), "{beside:?}");
+    let [one, other] =
+        ["whole", "parts"].map(|it| fs::read_to_string(folder.join(it).join(REPORT)));
+    let one = one.expect("it is there");
+    assert!(one.contains("<a href=\"replays/"), "{one}");
+    assert_eq!(one, other.expect("it is there"));
+}
+
+/// What was checked in the parts is summed, and disagreements are named once more, with their exit code.
+#[test]
+fn what_disagreed_in_a_part_is_said_of_the_whole() {
+    let folder = folder("disagrees");
+    let parts = ["1/2", "2/2"].map(|shard| part(&folder, &SIZE, shard));
+    let file = folder.join(&parts[1]);
+    let text = fs::read_to_string(&file).expect("it is there");
+    let mut part: Value = serde_json::from_str(&text).expect("JSON");
+    assert!(part["checks"]["checked"].as_u64().is_some_and(|it| it > 0), "{}", part["checks"]);
+    part["checks"]["disagreements"] = json!([{"id": "failures/x", "t_ns": 7, "why": "differs"}]);
+    fs::write(&file, part.to_string()).expect("it can be written");
+    let merged = run(&folder, &["merge", &parts[0], &parts[1]]);
+    assert_eq!(merged.status.code(), Some(3), "{merged:?}");
+    let said = String::from_utf8_lossy(&merged.stderr).into_owned();
+    assert!(said.contains("failures/x at 7 ns: differs"), "{said}");
 }
 
 #[test]
@@ -76,4 +105,46 @@ fn what_is_no_whole_is_refused() {
         refused(&folder, &arguments, "a part is I/N");
     }
     refused(&folder, &["evaluate", "failures", "--shard", "1/2"], "--out");
+}
+
+/// Rounds do not know of each other: a search in parts is the search, collisions and all.
+#[test]
+fn a_search_in_parts_is_byte_for_byte_the_search() {
+    let folder = folder("falsify");
+    let size = ["--profile", "paper", "--attack", "tracks-empty", "--attack", "one-removed"];
+    let size = [&size[..], &["--vehicles", "6", "--rounds", "2"]].concat();
+    let search = |more: &[&str]| {
+        let done = run(&folder, &[&["evaluate", "falsify"], &size[..], more].concat());
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+    };
+    search(&["--out", "whole"]);
+    for shard in ["2/2", "1/2"] {
+        search(&["--out", "parts", "--shard", shard]);
+    }
+    let parts = ["parts/falsify.2-of-2.part.json", "parts/falsify.1-of-2.part.json"];
+    refused(&folder, &["merge", parts[0]], "part 1 of 2 is missing");
+    let merged = run(&folder, &["merge", "--out", "merged", parts[0], parts[1]]);
+    assert_eq!(merged.status.code(), Some(0), "{merged:?}");
+    let names = |place: &str| {
+        let entries = fs::read_dir(folder.join(place)).expect("a folder");
+        let mut names: Vec<_> = entries.map(|it| it.expect("an entry").path()).collect();
+        names.retain(|it| it.is_file());
+        names.sort();
+        names
+    };
+    let wanted = ["falsify.csv", "falsify.json", "falsify.svg", REPORT];
+    let written = names("whole");
+    assert!(written.iter().map(|it| it.file_name().unwrap_or_default()).eq(wanted), "{written:?}");
+    for place in ["", "found"] {
+        let [one, other] = ["whole", "merged"].map(|it| names(&format!("{it}/{place}")));
+        assert!(!one.is_empty(), "{place}: nothing was found");
+        assert_eq!(one.len(), other.len());
+        for (one, other) in one.iter().zip(&other) {
+            assert_eq!(one.file_name(), other.file_name());
+            let [one, other] = [one, other].map(|it| fs::read_to_string(it).expect("a file"));
+            assert_eq!(one, other);
+        }
+    }
+    let without = ["evaluate", "falsify", "--shard", "1/2", "--out", "parts"];
+    refused(&folder, &without, "--rounds");
 }

@@ -26,7 +26,8 @@ impl Caller for Backwards {
 /// Empty lists in the paper's profile (F-14): the random points of one round, and one generation.
 fn known_hole() -> Options {
     let kinds = vec![Kind::TracksEmpty];
-    Options { variant: Variant::Paper, without: None, kinds, runs: Some(96), vehicles: 15, seed: 1 }
+    let (runs, rounds) = (Some(96), None);
+    Options { variant: Variant::Paper, without: None, kinds, runs, rounds, vehicles: 15, seed: 1 }
 }
 
 fn found(made: &Falsified) -> [u64; 2] {

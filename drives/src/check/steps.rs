@@ -8,6 +8,7 @@ use super::words::seconds;
 
 /// Times between cycles that follow each other, and ages of their remote data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(clippy::struct_field_names, reason = "a unit is no postfix")]
 pub struct Steps {
     last_ns: Option<i64>,
     /// Shortest and longest, ns; times that do not advance are no steps.

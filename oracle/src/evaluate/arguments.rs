@@ -7,6 +7,7 @@ use mufasa_sim::experiment::job::Options;
 use mufasa_sim::experiment::select::Shard;
 
 use super::falsify::FalsifyArguments;
+use super::parts::shard;
 use super::replay::ReplayArguments;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -84,34 +85,6 @@ pub struct SizeArguments {
     /// Put the table into a document, between the lines that mark its place.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     pub into: Option<PathBuf>,
-}
-
-/// Part files, and where the results go.
-#[derive(Args, Clone, Debug, PartialEq, Eq)]
-#[command(after_help = "\
-Exit codes: as those of the experiment made in one go; 2 a part is missing, is there twice, or is of something
-else.")]
-pub struct MergeArguments {
-    /// The files that `mufasa evaluate EXPERIMENT --shard I/N --out DIR` wrote: all N of one experiment; or the
-    /// summaries of `mufasa conform --shard I/N`.
-    #[arg(value_name = "FILE", required = true)]
-    pub parts: Vec<PathBuf>,
-    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, and all of it in report.html.
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Put the table into a document, between the lines that mark its place.
-    #[arg(long, value_name = "FILE")]
-    pub into: Option<PathBuf>,
-}
-
-/// I/N with I from 1 to N.
-fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text
-        .split_once('/')
-        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
-    parts.filter(|it| (1..=it.of).contains(&it.index)).ok_or_else(|| {
-        String::from("a part is I/N, with I from 1 to N, such as 2/8 for the second of eight")
-    })
 }
 
 impl SizeArguments {

@@ -1,5 +1,6 @@
 //! The search for collisions (`mufasa_sim::experiment::falsify`).
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -13,14 +14,22 @@ use mufasa_records::files;
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::cav::without::Without;
+use mufasa_sim::experiment::checks::Checks;
+pub(super) use mufasa_sim::experiment::falsify::NAME;
 use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::falsify::genome::KINDS;
-use mufasa_sim::experiment::falsify::{Caller, Falsified, NAME, Options, Progress, experiment};
+use mufasa_sim::experiment::falsify::{
+    Caller, Falsified, Options, Progress, Round, experiment, part,
+};
+use mufasa_sim::experiment::select::{Part, Shard};
 use mufasa_sim::map::streets::town;
 use mufasa_sim::replay::Replay;
-use mufasa_sim::run::End;
+use mufasa_sim::run::{End, RunError};
+use serde::Deserialize;
 
 use super::codes::{BAD_INPUT, FAILED};
+use super::merge::MergeArguments;
+use super::parts::{self, shard};
 use super::plots::figures::{self, Figure};
 use super::replay::{kind, variant};
 use super::report::{self, FailedRun, Section};
@@ -47,6 +56,13 @@ pub struct FalsifyArguments {
     /// Goes on for so long.
     #[arg(long, value_name = "M", conflicts_with = "runs", value_parser = value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
     pub minutes: Option<u32>,
+    /// Whole rounds, each of at most 376 runs: what can be made in parts.
+    #[arg(long, value_name = "N", conflicts_with_all = ["runs", "minutes"], value_parser = value_parser!(u64).range(1..=1_000_000), allow_negative_numbers = true)]
+    pub rounds: Option<u64>,
+    /// Only one of N parts of the rounds, such as 2/8, for other machines to make the others; `mufasa merge` puts
+    /// the parts together.
+    #[arg(long, value_name = "I/N", value_parser = shard, requires_all = ["out", "rounds"], conflicts_with = "into")]
+    pub shard: Option<Shard>,
     /// What is checked of remote data.
     #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
     pub profile: Variant,
@@ -106,9 +122,55 @@ pub fn run(
         complain(err, "--without: only the hardened profile has rules that can be left out");
         return Ok(BAD_INPUT);
     }
-    let made = search(arguments);
+    if let Some(shard) = arguments.shard {
+        let made = search(arguments, |options, caller| part(&town(), options, shard, caller));
+        return match made {
+            Ok((options, rounds)) => write_part(arguments, options, shard, &rounds, out, err),
+            Err(message) => {
+                complain(err, &message);
+                Ok(BAD_INPUT)
+            }
+        };
+    }
+    let made = search(arguments, |options, caller| experiment(&town(), options.clone(), caller));
+    let places = [&arguments.out, &arguments.into].map(Option::as_deref);
+    ended(made.map(|(_, made)| made), places, out, err)
+}
+
+/// Puts parts together: what comes out is, byte for byte, what one run of all rounds would write. What was found is
+/// shrunk here, as one run shrinks what no round before it had found. Its exit code.
+/// Errors: those of writing to `out`.
+pub(super) fn merge(
+    arguments: &MergeArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let places = [&arguments.out, &arguments.into].map(Option::as_deref);
+    let made = parts::read(&arguments.parts).and_then(|whole: Part<Options>| {
+        prepared(places[0])?;
+        let mut made = Falsified::nothing(whole.options);
+        for number in 0..made.options.rounds.unwrap_or(0) {
+            let id = id(number);
+            let round =
+                whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
+            let round = Round::deserialize(round)
+                .map_err(|error| format!("{id}: {error}; write the part anew"))?;
+            made.add(&town(), round).map_err(said)?;
+        }
+        Ok(made)
+    });
+    ended(made, places, out, err)
+}
+
+/// Writes the table, the collisions and the files. The exit code.
+fn ended(
+    made: Result<Falsified, String>,
+    places: [Option<&Path>; 2],
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
     let written = made.and_then(|made| {
-        let names = write_files(arguments, &made)?;
+        let names = write_files(places, &made)?;
         Ok((made, names))
     });
     let (made, names) = match written {
@@ -135,20 +197,22 @@ pub fn run(
         writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s")?;
     }
     names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
-    let is_whole = arguments.profile == Variant::Hardened && arguments.without.is_none();
+    let is_whole = made.options.variant == Variant::Hardened && made.options.without.is_none();
     Ok(if is_whole && !made.found.is_empty() { FAILED } else { 0 })
 }
 
-fn search(arguments: &FalsifyArguments) -> Result<Falsified, String> {
-    let &FalsifyArguments { profile, without, vehicles, seed, minutes, .. } = arguments;
-    if let Some(folder) = &arguments.out {
-        let say = |error| format!("{}: cannot be written to: {error}", folder.display());
-        files::prepare(&folder.join("found")).map_err(say)?;
-    }
-    let runs = if minutes.is_some() { None } else { Some(arguments.runs.unwrap_or(RUNS)) };
+/// What the search makes in a pool of threads, with its options.
+fn search<M: Send>(
+    arguments: &FalsifyArguments,
+    make: impl FnOnce(&Options, &Bar) -> Result<M, RunError> + Send,
+) -> Result<(Options, M), String> {
+    let &FalsifyArguments { profile, without, vehicles, seed, minutes, rounds, .. } = arguments;
+    prepared(arguments.out.as_deref())?;
+    let is_bounded = minutes.is_some() || rounds.is_some();
+    let runs = if is_bounded { None } else { Some(arguments.runs.unwrap_or(RUNS)) };
     let vehicles = vehicles.into();
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
-    let options = Options { variant: profile, without, kinds, runs, vehicles, seed };
+    let options = Options { variant: profile, without, kinds, runs, rounds, vehicles, seed };
     let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
     let bar = progress::bar(runs.unwrap_or(0), template);
     bar.set_prefix(NAME);
@@ -156,13 +220,44 @@ fn search(arguments: &FalsifyArguments) -> Result<Falsified, String> {
     let caller = Bar { bar, until };
     let threads = usize::from(arguments.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
-    let made = pool.install(|| experiment(&town(), options, &caller)).map_err(said);
+    let made = pool.install(|| make(&options, &caller)).map_err(said);
     caller.bar.finish_and_clear();
-    made
+    Ok((options, made?))
+}
+
+/// Whether collisions can be written into the folder.
+fn prepared(folder: Option<&Path>) -> Result<(), String> {
+    let Some(folder) = folder else { return Ok(()) };
+    let say = |error| format!("{}: cannot be written to: {error}", folder.display());
+    files::prepare(&folder.join("found")).map_err(say)
+}
+
+/// The name of a round in a part.
+fn id(round: u64) -> String {
+    format!("{NAME}/{round}")
+}
+
+fn write_part(
+    arguments: &FalsifyArguments,
+    options: Options,
+    shard: Shard,
+    rounds: &BTreeMap<u64, Round>,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let value = |(number, round): (&u64, &Round)| Ok((id(*number), serde_json::to_value(round)?));
+    let runs = rounds.iter().map(value).collect::<Result<_, serde_json::Error>>();
+    let (experiment, runs) = (NAME.to_owned(), runs.map_err(io::Error::other)?);
+    let part = Part { experiment, options, shard, runs, checks: Checks::default() };
+    let folder = arguments.out.as_deref().unwrap_or(Path::new("."));
+    parts::write(folder, &part, "rounds", out, err)
 }
 
 /// The names of the files, each there completely or not at all.
-fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<PathBuf>, String> {
+fn write_files(
+    [folder, document]: [Option<&Path>; 2],
+    made: &Falsified,
+) -> Result<Vec<PathBuf>, String> {
     let say =
         |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
     let mut names = Vec::new();
@@ -171,7 +266,7 @@ fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<Pat
         names.push(file);
         Ok::<(), String>(())
     };
-    if let Some(folder) = &arguments.out {
+    if let Some(folder) = folder {
         write(folder.join(format!("{NAME}.csv")), &csv(&made.rows)?)?;
         write(folder.join(format!("{NAME}.json")), &json(made)?)?;
         let town = town();
@@ -187,14 +282,14 @@ fn write_files(arguments: &FalsifyArguments, made: &Falsified) -> Result<Vec<Pat
             write(folder.join(&figure.file), &figure.svg)?;
         }
         let (file, table) = (folder.join(report::FILE), tables::falsified(made));
-        let section = section(arguments, made, &table, &figures);
+        let section = section(made, &table, &figures);
         report::write(folder, &section).map_err(|error| say(&file, error))?;
         names.push(file);
     }
-    if let Some(file) = &arguments.into {
+    if let Some(file) = document {
         let table = tables::falsified(made).markdown();
-        document::write(file, &command(arguments), &table).map_err(|error| say(file, error))?;
-        names.push(file.clone());
+        document::write(file, &command(&made.options), &table).map_err(|error| say(file, error))?;
+        names.push(file.to_owned());
     }
     Ok(names)
 }
@@ -205,26 +300,23 @@ fn file_of(found: &Found, ending: &str) -> PathBuf {
 }
 
 /// The command, but for how long and from which seed.
-fn command(arguments: &FalsifyArguments) -> String {
+fn command(options: &Options) -> String {
     let without =
-        arguments.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
-    let profile = match arguments.profile {
+        options.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
+    let profile = match options.variant {
         Variant::Hardened => String::new(),
         other => format!(" --profile {}", other.name()),
     };
     format!("mufasa evaluate {NAME}{profile}{without}")
 }
 
-fn section<'s>(
-    arguments: &FalsifyArguments,
-    made: &Falsified,
-    table: &'s Rows,
-    figures: &'s [Figure],
-) -> Section<'s> {
-    let Options { vehicles, seed, .. } = made.options;
-    let kinds = arguments.attack.iter().map(|kind| format!(" --attack {}", kind.name()));
-    let kinds: String = kinds.collect();
-    let size = format!("--runs {} --vehicles {vehicles} --seed {seed}", made.runs);
+fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Section<'s> {
+    let Options { kinds, rounds, vehicles, seed, .. } = &made.options;
+    let named: &[Kind] = if kinds[..] == KINDS { &[] } else { kinds };
+    let kinds = named.iter().map(|kind| format!(" --attack {}", kind.name()));
+    let kinds = kinds.collect::<Vec<_>>().concat();
+    let end = rounds.map_or(format!("--runs {}", made.runs), |it| format!("--rounds {it}"));
+    let size = format!("{end} --vehicles {vehicles} --seed {seed}");
     let failed = |found: &Found| {
         let [json, page] = ["json", "html"].map(|it| file_of(found, it).display().to_string());
         let command = format!("mufasa evaluate replay {json}");
@@ -232,7 +324,7 @@ fn section<'s>(
     };
     Section {
         name: NAME,
-        command: format!("{}{kinds} {size}", command(arguments)),
+        command: format!("{}{kinds} {size}", command(&made.options)),
         settings: vec![
             ("Other vehicles", vehicles.to_string()),
             ("seed", seed.to_string()),

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use mufasa_conform::Summary;
 
-use crate::{EACH, MUFASA, SAFE, conform, folder, summary, text};
+use crate::{EACH, MUFASA, SAFE, conform, folder, summary, text, with_vectors};
 
 #[test]
 fn a_program_that_is_not_there_is_bad_usage() {
@@ -54,6 +54,7 @@ fn shards_are_disjoint_and_merge_to_the_whole() {
     let output = merge(&["2", "0", "1"], &merged);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output));
     let (merged, whole) = (summary(&merged), summary(&whole));
+    assert_eq!((&merged.campaign, &merged.shards), (&whole.campaign, &whole.shards));
     assert_eq!((merged.asked, &merged.groups), (whole.asked, &whole.groups));
     let counts = |summary: &Summary| {
         let classes = summary.classes.iter();
@@ -67,6 +68,56 @@ fn shards_are_disjoint_and_merge_to_the_whole() {
     assert!(text(&twice).contains("shard 0 is given twice"), "{}", text(&twice));
     let part = merge(&["0", "1"], &folder("part"));
     assert!(text(&part).contains("INCOMPLETE: shard 2 missing"), "{}", text(&part));
+}
+
+/// The files of a right program, and of one that is wrong in few classes and answers each line the same whatever
+/// came before, are those of one run; `mufasa merge` and `mufasa conform merge` write the same.
+#[test]
+fn the_merged_files_are_byte_for_byte_those_of_one_run() {
+    let wrong = format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        case $line in
+        *'"failed_stage":"iii"'*) id=${{line#*'"id":"'}}; id=${{id%%'"'*}};
+          printf '{{"id": "%s", "verdict": "unsafe", "failed_stage": "iv"}}\n' "$id";;
+        *) printf '%s\n' "$line";;
+        esac; done"#
+    );
+    let right = format!("exec '{MUFASA}' oracle");
+    let options = ["--kinds", "cycle", "--cases", "90", "--profile", "paper", "--seed", "5"];
+    let options = [&options[..], &["--time-limit", "20000"]].concat();
+    for (name, program, code) in [("equal-right", right, 0), ("equal-wrong", wrong, 1)] {
+        let command = ["sh", "-c", program.as_str()];
+        let whole = folder(&format!("{name}-whole"));
+        let output = with_vectors(&whole, &options, &command);
+        if output.status.code() == Some(2) {
+            return eprintln!("NOT RUN: equal files: there is no `sh` here");
+        }
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+        let parts = folder(&format!("{name}-parts"));
+        for shard in ["2/3", "0/3", "1/3"] {
+            with_vectors(&parts, &[&options[..], &["--shard", shard]].concat(), &command);
+        }
+        for merge in [&["merge"][..], &["conform", "merge"]] {
+            let merged = folder(&format!("{name}-merged"));
+            let files = [1, 2, 0].map(|it| parts.join(format!("summary.{it}-of-3.json")));
+            let mut mufasa = Command::new(MUFASA);
+            mufasa.args(merge).args(files).arg("--out").arg(&merged);
+            let output = mufasa.output().expect("mufasa runs");
+            assert_eq!(output.status.code(), Some(code), "{}", text(&output));
+            let names = |folder: &Path| -> Vec<_> {
+                let entries = fs::read_dir(folder).expect("a folder");
+                let mut names: Vec<_> =
+                    entries.map(|it| it.expect("an entry").file_name()).collect();
+                names.sort();
+                names
+            };
+            assert_eq!(names(&merged), names(&whole));
+            for name in names(&whole) {
+                let [one, other] = [&whole, &merged].map(|it| fs::read_to_string(it.join(&name)));
+                assert_eq!(one.expect("a file"), other.expect("a file"), "{name:?}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -98,103 +149,4 @@ fn recorded_cycles_are_asked_clean_attacked_and_in_other_configurations() {
     }
     let nothing = conform(&folder, &["--drives", "no-such-file"], &[MUFASA, "oracle"]);
     assert_eq!(nothing.status.code(), Some(2), "{}", text(&nothing));
-}
-
-#[cfg(unix)]
-#[test]
-fn an_interrupted_campaign_leaves_what_is_known_and_does_not_look_complete() {
-    use std::os::unix::process::CommandExt;
-    use std::process::Stdio;
-    use std::{thread, time::Duration};
-
-    let out = folder("interrupted");
-    let running = Command::new(MUFASA)
-        .args(["conform", "--no-vectors", "--cases", "100000000", "--kinds", "offloading", "--out"])
-        .arg(&out)
-        .args(["--", MUFASA, "oracle", "--implementation"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .process_group(0)
-        .spawn()
-        .expect("mufasa runs");
-    thread::sleep(Duration::from_secs(2));
-    // To the whole group, as a terminal does it.
-    let group = format!("-{}", running.id());
-    let killed = Command::new("kill").args(["-INT", "--", &group]).status();
-    assert!(killed.expect("kill runs").success());
-    let output = running.wait_with_output().expect("it ends");
-    let told = text(&output);
-    assert_eq!(output.status.code(), Some(130), "{told}");
-    assert!(told.contains("INTERRUPTED: no disagreement so far"), "{told}");
-    let known = summary(&out);
-    assert!(known.interrupted && !known.is_complete() && known.asked > 0, "{told}");
-    assert_eq!(known.disagreements(), 0, "{told}");
-    let junit = fs::read_to_string(out.join("junit.xml")).expect("JUnit XML");
-    assert!(junit.contains("errors=\"1\"") && junit.contains("interrupted after"), "{junit}");
-
-    let mut merge = Command::new(MUFASA);
-    let merged = merge.args(["conform", "merge"]).arg(out.join("summary.json")).output();
-    let merged = merged.expect("mufasa runs");
-    assert_eq!(merged.status.code(), Some(2), "{}", text(&merged));
-}
-
-/// The vectors have been asked, one of them disagrees, and it is ended among the cases.
-#[cfg(unix)]
-#[test]
-fn an_interrupted_campaign_says_what_the_vectors_found() {
-    use std::os::unix::process::CommandExt;
-    use std::process::Stdio;
-    use std::time::{Duration, Instant};
-
-    let out = folder("interrupted-late");
-    let reached = out.join("reached");
-    let program = format!(
-        r#""{MUFASA}" oracle | while IFS= read -r line; do
-        case $line in
-        *'"id":"collision'*) printf '%s\n' "$line" | sed 's/"verdict":.*/"verdict":"safe","failed_stage":null}}/';;
-        *'"id":"c-9"'*) : > "{}"; printf '%s\n' "$line";;
-        *) printf '%s\n' "$line";; esac; done"#,
-        reached.display()
-    );
-    let mut running = Command::new(MUFASA)
-        .args(["conform", "--cases", "100000000", "--kinds", "cycle", "--profile", "paper"])
-        .args(["--time-limit", "60000", "--out"])
-        .arg(&out)
-        .args(["--", "sh", "-c", &program])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .process_group(0)
-        .spawn()
-        .expect("mufasa runs");
-    let begun = Instant::now();
-    while !reached.exists() {
-        if running.try_wait().expect("a process").is_some() {
-            let output = running.wait_with_output().expect("it ended");
-            assert_eq!(output.status.code(), Some(2), "{}", text(&output));
-            return eprintln!("NOT RUN: interrupted: there is no `sh` here");
-        }
-        assert!(begun.elapsed().as_secs() < 300, "the cases are not reached");
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    let group = format!("-{}", running.id());
-    let killed = Command::new("kill").args(["-INT", "--", &group]).status();
-    assert!(killed.expect("kill runs").success());
-    let output = running.wait_with_output().expect("it ends");
-    let told = text(&output);
-    assert_eq!(output.status.code(), Some(130), "{told}");
-    let known = summary(&out);
-    assert!(known.interrupted && known.asked >= 9, "{told}");
-    assert_eq!(known.vectors, known.campaign.vectors, "{told}");
-    let wrong = known.wrong_vectors();
-    assert!(!wrong.is_empty() && wrong.iter().all(|id| id.starts_with("collision")), "{told}");
-    assert!(told.contains("\nmend first:\nDISAGREES  cycle soundness"), "{told}");
-    assert!(
-        told.contains(&format!("vectors asked: {} DISAGREE: collision", wrong.len())),
-        "{told}"
-    );
-    assert!(told.contains(" cases asked, INTERRUPTED: no disagreement so far"), "{told}");
-    let reproducers = fs::read_to_string(out.join("reproducers.jsonl")).expect("reproducers");
-    assert_eq!(reproducers.lines().count(), known.classes.len(), "{told}");
-    let junit = fs::read_to_string(out.join("junit.xml")).expect("JUnit XML");
-    assert!(junit.contains("interrupted after") && junit.contains("<failure"), "{junit}");
 }

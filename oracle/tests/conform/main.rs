@@ -5,6 +5,8 @@
 mod batch;
 mod broken;
 mod campaign;
+mod interrupted;
+mod limits;
 mod right;
 mod stateful;
 mod vectors;
@@ -44,7 +46,12 @@ fn conform(folder: &Path, options: &[&str], command: &[&str]) -> Output {
 
 fn with_vectors(folder: &Path, options: &[&str], command: &[&str]) -> Output {
     let mut mufasa = Command::new(MUFASA);
-    mufasa.arg("conform").args(options).arg("--out").arg(folder).arg("--").args(command);
+    mufasa.arg("conform").args(options);
+    if !options.contains(&"--shrinking") {
+        // On a busy machine there is time enough.
+        mufasa.args(["--shrinking", "600"]);
+    }
+    mufasa.arg("--out").arg(folder).arg("--").args(command);
     mufasa.output().expect("mufasa runs")
 }
 

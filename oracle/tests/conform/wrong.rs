@@ -13,7 +13,7 @@ fn who_always_says_safe_is_unsound() {
         // Invalid local input has a rule of its own.
         let breaches = [Breach::Soundness, Breach::Input];
         assert!(breaches.contains(&found.class.breach), "{told}");
-        assert!(found.shrunk && found.size <= 3, "{told}");
+        assert!(!found.is_tried() || found.shrunk && found.size <= 3, "{told}");
     }
     let collision = |scale| {
         let place = |place: &str| place == "iii collision" || place == "iv collision";
@@ -150,7 +150,7 @@ fn who_takes_a_line_that_is_no_record_for_one_is_found() {
     for wrong in ["blank", "no JSON", "unknown field", "field twice", "integer with fraction"] {
         let found = summary.classes.iter().find(|it| matches_class(it, Breach::Schema, wrong));
         let found = found.unwrap_or_else(|| panic!("{wrong}: {told}"));
-        assert!(found.shrunk && found.size <= 3, "{told}");
+        assert!(!found.is_tried() || found.shrunk && found.size <= 3, "{told}");
         assert!(found.told.expected.starts_with("error: field"), "{told}");
     }
     // Invalid values are another matter than lines that cannot be read.
@@ -185,7 +185,7 @@ fn who_names_another_place_of_invalid_input_is_found() {
     for found in &summary.classes {
         assert!([Breach::Input, Breach::Compositions].contains(&found.class.breach), "{told}");
         assert!(found.class.place.ends_with("at another place"), "{told}");
-        assert!(found.size <= 3, "{told}");
+        assert!(!found.is_tried() || found.size <= 3, "{told}");
     }
     for place in ["ego at another place", "tracks at another place"] {
         let found = summary.classes.iter().any(|it| matches_class(it, Breach::Input, place));

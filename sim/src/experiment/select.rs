@@ -35,7 +35,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    fn has(self, run: usize) -> bool {
+    pub(super) fn has(self, run: usize) -> bool {
         let [index, of] = [self.index, self.of].map(|it| usize::try_from(it).unwrap_or(usize::MAX));
         run % of.max(1) + 1 == index
     }
@@ -43,16 +43,16 @@ impl Shard {
 
 /// The runs of a part, as a file holds them until all are there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Part {
+pub struct Part<O = Options> {
     /// Of which experiment.
     pub experiment: String,
     /// How large it is, with all parts.
-    pub options: Options,
+    pub options: O,
     /// Which part it is.
     pub shard: Shard,
     /// What is kept of each run, by its id.
     pub runs: BTreeMap<String, Value>,
-    /// What was checked of its cycles.
+    /// What was checked of its cycles; in a search none is.
     pub checks: Checks,
 }
 

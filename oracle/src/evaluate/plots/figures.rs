@@ -188,7 +188,7 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
         let names = rows().filter(|row| row.variant == Variant::Paper);
         Small {
             name: words_of(factor).to_owned(),
-            names: names.map(|row| row.value.to_string()).collect(),
+            names: names.map(said_of).collect(),
             lines: [Variant::Paper, Variant::Hardened].map(line).into(),
         }
     };
@@ -217,7 +217,7 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
         },
     ];
     let about = [
-        "No attack. One setting at a time differs from the defaults: 0.01 missed, no clutter, 0.05 m, 2 ms, 10 s.",
+        "No attack. One setting at a time differs from the defaults: 0.01 missed, no clutter, 0.05 m, 2 ms, no loss, 10 s.",
         "The paper gives no such figures.",
     ];
     let key = [Series::PAPER, Series::HARDENED];
@@ -225,12 +225,19 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
     vec![figure(availability::NAME, svg)]
 }
 
+/// The value that is set, short enough to stand beside others.
+fn said_of(row: &availability::Row) -> String {
+    let percent = if row.factor == Factor::Loss { 100.0 } else { 1.0 };
+    (percent * row.value).to_string()
+}
+
 const fn words_of(factor: Factor) -> &'static str {
     match factor {
-        Factor::Missed => "objects missed, share",
-        Factor::Clutter => "clutter in a cycle",
+        Factor::Missed => "share missed",
+        Factor::Clutter => "clutter, a cycle",
         Factor::PositionM => "noise, m",
         Factor::JitterMs => "jitter, ms",
+        Factor::Loss => "loss, %",
         Factor::TWaitS => "t_wait, s",
     }
 }

@@ -6,29 +6,29 @@
 //! attacks is shrunk (`shrink`) and kept so that it can be made again (`found`).
 //!
 //! A number of runs and a seed give the same with any number of threads: points are drawn before their runs
-//! are made, and runs are looked at in their order.
+//! are made, and runs are looked at in their order. Rounds do not know of each other (`rounds`): other machines can
+//! make some of them.
 
 pub mod cma;
 pub mod danger;
 pub mod found;
 pub mod genome;
+pub mod rounds;
 pub mod shrink;
 
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::Serialize;
 
 use self::cma::{Cma, anywhere};
 use self::danger::Danger;
 use self::found::{Case, Found};
 use self::genome::{Clean, GENES, decode};
-use self::shrink::shrunk;
+use self::rounds::explains;
+pub use self::rounds::{Falsified, Options, Round, Row, Try};
 use super::attacks::Offered;
+use super::select::Shard;
 use crate::attack::Kind;
-use crate::cav::guard::Variant;
-use crate::cav::without::Without;
 use crate::map::Town;
 use crate::run::{End, RunError};
 
@@ -46,74 +46,6 @@ const GENERATIONS: usize = 8;
 const NEAR: f64 = 30.0;
 /// A collision is lower than any time left, s.
 const COLLISION: f64 = -1.0;
-
-/// What is searched.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Options {
-    /// What is checked of remote data.
-    pub variant: Variant,
-    /// A rule that is left out.
-    pub without: Option<Without>,
-    /// Kinds of attacks that are tried, at least one.
-    pub kinds: Vec<Kind>,
-    /// Most runs with attacks; none: as long as the caller lets it.
-    pub runs: Option<u64>,
-    /// Other vehicles.
-    pub vehicles: usize,
-    /// Of the scenarios and of what is drawn.
-    pub seed: u64,
-}
-
-/// What came of it.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Falsified {
-    /// What was searched.
-    pub options: Options,
-    /// Rounds, the last one perhaps in part.
-    pub rounds: u64,
-    /// Runs with attacks.
-    pub runs: u64,
-    /// Those that ended in a collision.
-    pub collided: u64,
-    /// Of these the random ones: the others were found by going on from what came near.
-    pub collided_at_random: u64,
-    /// Runs to shrink what was found.
-    pub shrinking_runs: u64,
-    /// Runs without an attack that collided: their scenarios were left out.
-    pub clean_collided: u64,
-    /// By kind of attack.
-    pub rows: Vec<Row>,
-    /// Every run with attacks, in order.
-    pub tries: Vec<Try>,
-    /// Collisions that are not made of the kinds of another one, offered the same.
-    pub found: Vec<Found>,
-}
-
-/// Runs with one kind of attack, alone or with another.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Row {
-    /// The kind; none: without attacks.
-    pub attack: Option<Kind>,
-    /// Runs.
-    pub runs: u64,
-    /// Those that ended in a collision.
-    pub collided: u64,
-    /// Least time left to react of those that did not, s (`danger`); `FREE_S` where nothing was in the way.
-    pub least_time_left_s: f64,
-    /// Least distance to another of those that did not, m; none in an empty town.
-    pub least_distance_m: Option<f64>,
-}
-
-/// A run with attacks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Try {
-    /// Its round, from 0.
-    pub round: u64,
-    /// Whether it is a random point; if not, a search goes on from the best of these.
-    pub is_random: bool,
-    /// Least time left to react, s; none where it ended in a collision.
-    pub time_left_s: Option<f64>,
-}
 
 /// How far it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -151,11 +83,28 @@ pub fn experiment(
     options: Options,
     caller: &impl Caller,
 ) -> Result<Falsified, RunError> {
-    let mut search = Search::new(town, options, caller);
-    while search.has_budget() {
-        search.round()?;
+    let mut made = Falsified::nothing(options);
+    while made.left() > 0 && caller.goes_on() {
+        let round = Search::new(town, &made, made.rounds, caller).round()?;
+        made.add(town, round)?;
     }
-    Ok(search.result())
+    Ok(made)
+}
+
+/// The rounds of a part of so many rounds, each with its number from 0, for other machines to make the others.
+///
+/// Errors: a town that cannot be.
+pub fn part(
+    town: &Town,
+    options: &Options,
+    shard: Shard,
+    caller: &impl Caller,
+) -> Result<BTreeMap<u64, Round>, RunError> {
+    let nothing = Falsified::nothing(options.clone());
+    let numbers = 0..options.rounds.unwrap_or(0);
+    let mine = numbers.filter(|it| shard.has(usize::try_from(*it).unwrap_or(usize::MAX)));
+    let one = |number| Ok((number, Search::new(town, &nothing, number, caller).round()?));
+    mine.map(one).collect()
 }
 
 /// A scenario in which attacks are tried.
@@ -182,46 +131,45 @@ struct Tried {
 struct Search<'a, C> {
     town: &'a Town,
     caller: &'a C,
-    rows: BTreeMap<Option<Kind>, Row>,
+    /// What the rounds before came to: it says how much may be done, and nothing about what.
+    before: &'a Falsified,
+    /// Which round it is, from 0.
+    number: u64,
     least: f64,
-    result: Falsified,
+    rows: BTreeMap<Option<Kind>, Row>,
+    result: Round,
 }
 
 impl<'a, C: Caller> Search<'a, C> {
-    fn new(town: &'a Town, options: Options, caller: &'a C) -> Self {
-        let result = Falsified {
-            options,
-            rounds: 0,
-            runs: 0,
-            collided: 0,
-            collided_at_random: 0,
-            shrinking_runs: 0,
-            clean_collided: 0,
-            rows: Vec::new(),
-            tries: Vec::new(),
-            found: Vec::new(),
-        };
-        Self { town, caller, rows: BTreeMap::new(), least: danger::FREE_S, result }
-    }
-
-    fn result(self) -> Falsified {
-        Falsified { rows: self.rows.into_values().collect(), ..self.result }
+    fn new(town: &'a Town, before: &'a Falsified, number: u64, caller: &'a C) -> Self {
+        let of = |row: &Row| if row.collided > 0 { COLLISION } else { row.least_time_left_s };
+        let least = before.rows.iter().map(of).fold(danger::FREE_S, f64::min);
+        let (rows, result) = (BTreeMap::new(), Round::default());
+        Self { town, caller, before, number, least, rows, result }
     }
 
     fn left(&self) -> u64 {
-        self.result.options.runs.map_or(u64::MAX, |runs| runs.saturating_sub(self.result.runs))
+        self.before.left().saturating_sub(self.result.runs)
     }
 
     fn has_budget(&self) -> bool {
         self.left() > 0 && self.caller.goes_on()
     }
 
+    fn options(&self) -> &'a Options {
+        &self.before.options
+    }
+
+    /// A round to its end, or to that of the budget.
+    fn round(mut self) -> Result<Round, RunError> {
+        self.search()?;
+        Ok(Round { rows: self.rows.into_values().collect(), ..self.result })
+    }
+
     /// New scenarios, random points, and searches from the best of them.
-    fn round(&mut self) -> Result<(), RunError> {
-        let round = self.result.rounds;
-        self.result.rounds += 1;
-        let starts = self.starts(round)?;
-        let seed = self.result.options.seed;
+    fn search(&mut self) -> Result<(), RunError> {
+        let starts = self.starts()?;
+        let (seed, round) = (self.options().seed, self.number);
         let random = |index: u64| Point {
             start: usize::try_from(index / POINTS).unwrap_or(0),
             genes: anywhere([seed, round * STARTS * POINTS + index]),
@@ -276,9 +224,9 @@ impl<'a, C: Caller> Search<'a, C> {
     }
 
     /// The scenarios of a round, and what the attacker learns from their runs without an attack.
-    fn starts(&mut self, round: u64) -> Result<Vec<Start>, RunError> {
-        let Options { variant, without, vehicles, seed, .. } = self.result.options;
-        let town = self.town;
+    fn starts(&mut self) -> Result<Vec<Start>, RunError> {
+        let &Options { variant, without, vehicles, seed, .. } = self.options();
+        let (town, round) = (self.town, self.number);
         let one = |index: u64| {
             let route = usize::from(index % 2 == 1);
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
@@ -314,7 +262,7 @@ impl<'a, C: Caller> Search<'a, C> {
     ) -> Result<Vec<(f64, Option<Found>)>, RunError> {
         let count = points.len().min(usize::try_from(self.left()).unwrap_or(usize::MAX));
         let (town, caller) = (self.town, self.caller);
-        let kinds = &self.result.options.kinds;
+        let kinds = &self.options().kinds;
         let one = |point: &Point| {
             let tried = try_point(town, &starts[point.start], kinds, &point.genes)?;
             caller.tell(Progress::Run);
@@ -322,7 +270,6 @@ impl<'a, C: Caller> Search<'a, C> {
         };
         let tried: Vec<Tried> = points[..count].par_iter().map(one).collect::<Result<_, _>>()?;
         self.result.runs += u64::try_from(count).unwrap_or(0);
-        let mut new: Vec<Found> = Vec::new();
         for it in &tried {
             let mut kinds: Vec<Kind> = it.case.attacks.iter().map(|it| it.kind).collect();
             kinds.sort_unstable();
@@ -332,36 +279,19 @@ impl<'a, C: Caller> Search<'a, C> {
             }
             self.result.collided += u64::from(it.found.is_some());
             let time_left_s = Some(it.time_left).filter(|_| it.found.is_none());
-            let round = self.result.rounds - 1;
-            self.result.tries.push(Try { round, is_random, time_left_s });
+            self.result.tries.push(Try { round: self.number, is_random, time_left_s });
             self.least = self.least.min(if it.found.is_some() { COLLISION } else { it.time_left });
             let Some(found) = &it.found else { continue };
-            if !self.result.found.iter().chain(&new).any(|old| explains(old, found)) {
-                new.push(found.clone());
+            if !self.result.found.iter().any(|old| explains(old, found)) {
+                self.result.found.push(found.clone());
             }
         }
-        self.keep(&new)?;
-        caller.tell(Progress::Looked(self.least, self.result.collided));
+        caller.tell(Progress::Looked(self.least, self.before.collided + self.result.collided));
         let worth = |it: Tried| {
             let time_left = if it.found.is_some() { COLLISION } else { it.time_left };
             (caller.worth(time_left), it.found)
         };
         Ok(tried.into_iter().map(worth).collect())
-    }
-
-    /// Shrinks collisions, and keeps those that are new then, too.
-    fn keep(&mut self, new: &[Found]) -> Result<(), RunError> {
-        let town = self.town;
-        let small: Vec<(Found, u64)> =
-            new.par_iter().map(|it| shrunk(town, it)).collect::<Result<_, _>>()?;
-        for (found, runs) in small {
-            self.result.shrinking_runs += runs;
-            if !self.result.found.iter().any(|old| explains(old, &found)) {
-                self.result.found.retain(|old| !explains(&found, old));
-                self.result.found.push(found);
-            }
-        }
-        Ok(())
     }
 
     fn count(
@@ -371,24 +301,15 @@ impl<'a, C: Caller> Search<'a, C> {
         time_left: f64,
         distance: Option<f64>,
     ) {
-        let (least_time_left_s, least_distance_m) = (danger::FREE_S, None);
-        let none = Row { attack, runs: 0, collided: 0, least_time_left_s, least_distance_m };
-        let row = self.rows.entry(attack).or_insert(none);
-        row.runs += 1;
-        row.collided += u64::from(has_collided);
-        if !has_collided {
-            row.least_time_left_s = row.least_time_left_s.min(time_left);
-            let nearer = |it: f64| row.least_distance_m.is_none_or(|least| it < least);
-            row.least_distance_m = distance.filter(|it| nearer(*it)).or(row.least_distance_m);
-        }
+        let one = Row {
+            attack,
+            runs: 1,
+            collided: u64::from(has_collided),
+            least_time_left_s: if has_collided { danger::FREE_S } else { time_left },
+            least_distance_m: distance.filter(|_| !has_collided),
+        };
+        self.rows.entry(attack).and_modify(|row| *row = row.with(one)).or_insert(one);
     }
-}
-
-/// Whether a collision has all kinds of attacks of another one, with the same offered.
-fn explains(smaller: &Found, found: &Found) -> bool {
-    let (a, b) = (&smaller.case, &found.case);
-    a.offered == b.offered
-        && a.attacks.iter().all(|it| b.attacks.iter().any(|other| other.kind == it.kind))
 }
 
 fn try_point(

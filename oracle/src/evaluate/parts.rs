@@ -1,0 +1,114 @@
+//! The files of parts: how they are written, and read until all are there.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use mufasa_drives::check::complain;
+use mufasa_records::files;
+use mufasa_sim::experiment::checks::Checks;
+use mufasa_sim::experiment::select::{Part, Shard};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::codes::{BAD_INPUT, DISAGREES};
+
+/// I/N with I from 1 to N.
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text
+        .split_once('/')
+        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
+    parts.filter(|it| (1..=it.of).contains(&it.index)).ok_or_else(|| {
+        String::from("a part is I/N, with I from 1 to N, such as 2/8 for the second of eight")
+    })
+}
+
+/// Writes a part as a file that cannot be taken for the whole; `what` its runs are. The exit code.
+/// Errors: those of writing to `out`.
+pub(super) fn write<O: Serialize>(
+    folder: &Path,
+    part: &Part<O>,
+    what: &str,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let Shard { index, of } = part.shard;
+    let file = folder.join(format!("{}.{index}-of-{of}.part.json", part.experiment));
+    let text = serde_json::to_string_pretty(part).map_err(io::Error::other)? + "\n";
+    if let Err(error) = files::write(&file, &text) {
+        complain(err, &format!("{}: cannot be written: {error}", file.display()));
+        return Ok(BAD_INPUT);
+    }
+    writeln!(out, "{}: {} {what}, part {index} of {of}", file.display(), part.runs.len())?;
+    Ok(if part.checks.disagreements.is_empty() { 0 } else { DISAGREES })
+}
+
+/// All runs of the parts, and what was checked in them, if these are all of one experiment.
+pub(super) fn read<O>(files: &[PathBuf]) -> Result<Part<O>, String>
+where
+    O: Clone + PartialEq + Debug + DeserializeOwned,
+{
+    let mut whole: Option<Part<O>> = None;
+    let mut from: BTreeMap<u32, &Path> = BTreeMap::new();
+    for file in files {
+        let part = part(file).map_err(|why| format!("{}: {why}", file.display()))?;
+        let first = whole.get_or_insert_with(|| Part {
+            runs: BTreeMap::new(),
+            checks: Checks::default(),
+            ..part.clone()
+        });
+        let is_same = first.experiment == part.experiment && first.options == part.options;
+        if !is_same || first.shard.of != part.shard.of {
+            return Err(format!(
+                "{}: a part of {} with {:?} in {} parts, and {} is of {} with {:?} in {}",
+                file.display(),
+                part.experiment,
+                part.options,
+                part.shard.of,
+                files[0].display(),
+                first.experiment,
+                first.options,
+                first.shard.of,
+            ));
+        }
+        if let Some(other) = from.insert(part.shard.index, file) {
+            let [one, two] = [other.display(), file.display()];
+            return Err(format!("{two}: part {} is there already: {one}", part.shard.index));
+        }
+        first.runs.extend(part.runs);
+        first.checks.add(part.checks);
+    }
+    let whole = whole.ok_or("no part")?;
+    let missing = (1..=whole.shard.of).filter(|index| !from.contains_key(index));
+    let missing: Vec<String> = missing.take(10).map(|index| index.to_string()).collect();
+    if missing.is_empty() {
+        return Ok(whole);
+    }
+    Err(format!(
+        "part {} of {} is missing; make it by `mufasa evaluate {} --shard {}/{}` with the same options",
+        missing.join(", "),
+        whole.shard.of,
+        whole.experiment,
+        missing[0],
+        whole.shard.of
+    ))
+}
+
+fn part<O: DeserializeOwned>(file: &Path) -> Result<Part<O>, String> {
+    let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
+    let part: Part<O> = serde_json::from_str(&text).map_err(|error| {
+        format!("no part of an experiment: {error}; give files named *.part.json")
+    })?;
+    if !(1..=part.shard.of).contains(&part.shard.index) {
+        return Err(format!("shard: part {} of {}", part.shard.index, part.shard.of));
+    }
+    Ok(part)
+}
+
+/// Whether a file is a part of this experiment.
+pub(super) fn is_of(file: &Path, experiment: &str) -> bool {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let part: Result<Part<serde_json::Value>, _> = serde_json::from_str(&text);
+    part.is_ok_and(|it| it.experiment == experiment)
+}
