@@ -35,6 +35,32 @@ fn refused(folder: &Path, arguments: &[&str], why: &str) {
     assert!(said.contains(why), "{said}");
 }
 
+/// The files below a folder, in order.
+fn names(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|it| it.expect("an entry").path());
+    let below = entries.flat_map(|path| {
+        let name = PathBuf::from(path.file_name().expect("a name"));
+        if !path.is_dir() {
+            return vec![name];
+        }
+        names(&path).into_iter().map(|it| name.join(it)).collect()
+    });
+    let mut all: Vec<_> = below.collect();
+    all.sort();
+    all
+}
+
+/// The same files with the same bytes.
+fn same(folder: &Path, one: &str, other: &str) {
+    let [one, other] = [one, other].map(|it| folder.join(it));
+    let all = names(&one);
+    assert_eq!(all, names(&other));
+    for name in all {
+        let [one, other] = [&one, &other].map(|it| fs::read(it.join(&name)).expect("a file"));
+        assert!(one == other, "{}", name.display());
+    }
+}
+
 #[test]
 fn parts_put_together_are_byte_for_byte_the_whole() {
     let folder = folder("whole");
@@ -44,10 +70,10 @@ fn parts_put_together_are_byte_for_byte_the_whole() {
     merge.extend(parts.iter().map(String::as_str));
     let merged = run(&folder, &merge);
     assert_eq!(merged.status.code(), whole.status.code(), "{merged:?}");
-    for name in ["failures.csv", "failures-runs.csv", "failures.json", "failures.svg"] {
-        let [one, other] = ["whole", "merged"].map(|it| fs::read(folder.join(it).join(name)));
-        assert_eq!(one.expect("it is there"), other.expect("it is there"), "{name}");
-    }
+    let written = names(&folder.join("whole"));
+    let pages = written.iter().filter(|it| it.starts_with("replays")).count();
+    assert!(written.contains(&PathBuf::from(REPORT)) && pages > 0, "{written:?}");
+    same(&folder, "whole", "merged");
     let table = |output: &Output| {
         let text = String::from_utf8(output.stdout.clone()).expect("UTF-8");
         text.split_inclusive('\n')
@@ -57,15 +83,6 @@ fn parts_put_together_are_byte_for_byte_the_whole() {
     assert_eq!(table(&whole), table(&merged));
     assert!(table(&merged).contains("checked by the model; model and implementation agree"));
     assert!(!folder.join("parts/failures.json").exists(), "a part is no whole");
-    // Where the parts are, the pages of runs that failed are there too, and linked.
-    merge[2] = "parts";
-    let beside = run(&folder, &merge);
-    assert_eq!(beside.status.code(), whole.status.code(), "{beside:?}");
-    let [one, other] =
-        ["whole", "parts"].map(|it| fs::read_to_string(folder.join(it).join(REPORT)));
-    let one = one.expect("it is there");
-    assert!(one.contains("<a href=\"replays/"), "{one}");
-    assert_eq!(one, other.expect("it is there"));
 }
 
 /// What was checked in the parts is summed, and disagreements are named once more, with their exit code.
@@ -125,26 +142,12 @@ fn a_search_in_parts_is_byte_for_byte_the_search() {
     refused(&folder, &["merge", parts[0]], "part 1 of 2 is missing");
     let merged = run(&folder, &["merge", "--out", "merged", parts[0], parts[1]]);
     assert_eq!(merged.status.code(), Some(0), "{merged:?}");
-    let names = |place: &str| {
-        let entries = fs::read_dir(folder.join(place)).expect("a folder");
-        let mut names: Vec<_> = entries.map(|it| it.expect("an entry").path()).collect();
-        names.retain(|it| it.is_file());
-        names.sort();
-        names
-    };
-    let wanted = ["falsify.csv", "falsify.json", "falsify.svg", REPORT];
-    let written = names("whole");
-    assert!(written.iter().map(|it| it.file_name().unwrap_or_default()).eq(wanted), "{written:?}");
-    for place in ["", "found"] {
-        let [one, other] = ["whole", "merged"].map(|it| names(&format!("{it}/{place}")));
-        assert!(!one.is_empty(), "{place}: nothing was found");
-        assert_eq!(one.len(), other.len());
-        for (one, other) in one.iter().zip(&other) {
-            assert_eq!(one.file_name(), other.file_name());
-            let [one, other] = [one, other].map(|it| fs::read_to_string(it).expect("a file"));
-            assert_eq!(one, other);
-        }
-    }
+    let written = names(&folder.join("whole"));
+    let found = written.iter().filter(|it| it.starts_with("found")).count();
+    let files = ["falsify.csv", "falsify.json", "falsify.svg", REPORT];
+    assert!(files.iter().all(|it| written.contains(&PathBuf::from(it))), "{written:?}");
+    assert!(found > 0, "nothing was found");
+    same(&folder, "whole", "merged");
     let without = ["evaluate", "falsify", "--shard", "1/2", "--out", "parts"];
     refused(&folder, &without, "--rounds");
 }

@@ -36,6 +36,7 @@ fn main() -> std::io::Result<()> {
             cells: vec![snapshot.ego.rectangle.pose.ahead(15.0, 3.0)],
             cell_size: 0.5,
             caption: String::from("truth < & > belief"),
+            ..Overlay::default()
         })
         .collect();
     let frames: Vec<_> =

@@ -14,7 +14,8 @@ pub struct MergeArguments {
     /// summaries of `mufasa conform --shard I/N`.
     #[arg(value_name = "FILE", required = true)]
     pub parts: Vec<PathBuf>,
-    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, and all of it in report.html.
+    /// Write into this folder: table and runs as CSV and JSON, charts as SVG, pages of runs that failed (those that
+    /// are beside the parts), and all of it in report.html.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Put the table into a document, between the lines that mark its place.

@@ -1,15 +1,20 @@
 //! Parts of an experiment that are made on different machines, and put together.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use mufasa_drives::check::complain;
 use mufasa_sim::experiment::select::{Part, Select, Shard};
+use serde_json::Value;
 
 use super::codes::BAD_INPUT;
 use super::merge::MergeArguments;
-use super::{EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, parts, prepared, tell};
+use super::{
+    EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, page_of, parts, prepared, tell,
+};
 
 /// Writes what was kept of the runs of a part, as a file that cannot be taken for the whole.
 pub(super) fn write(
@@ -53,7 +58,9 @@ pub fn merge(
         }
     };
     let Part { experiment, options, runs, checks, .. } = whole;
-    let select = Select { made: Some(&runs), checks: Mutex::new(checks), ..Select::default() };
+    let drawn = folder.map_or_else(BTreeMap::new, |_| drawn(&runs, &arguments.parts));
+    let (checks, drawn) = (Mutex::new(checks), Mutex::new(drawn));
+    let select = Select { made: Some(&runs), checks, drawn, ..Select::default() };
     let named = EXPERIMENTS.iter().find(|it| it.name == experiment).ok_or_else(|| {
         let names = EXPERIMENTS.map(|it| it.name).join(", ");
         format!("{experiment}: no such experiment; there are {names}")
@@ -64,4 +71,14 @@ pub fn merge(
     });
     let made = made.map(|results| (results, select));
     ended(made, folder, arguments.into.as_deref(), out, err)
+}
+
+/// The pages of runs that failed, by their ids, as far as they are still beside the parts.
+fn drawn(runs: &BTreeMap<String, Value>, parts: &[PathBuf]) -> BTreeMap<String, String> {
+    let folders: BTreeSet<&Path> = parts.iter().filter_map(|it| it.parent()).collect();
+    let page = |id: &String| {
+        let mut found = folders.iter().map(|folder| fs::read_to_string(folder.join(page_of(id))));
+        Some((id.clone(), found.find_map(Result::ok)?))
+    };
+    runs.keys().filter_map(page).collect()
 }

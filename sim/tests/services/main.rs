@@ -13,7 +13,6 @@ mod detectors;
 mod drive;
 mod env;
 mod give_way;
-mod give_way;
 mod grid;
 mod mot;
 mod scene;
