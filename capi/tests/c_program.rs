@@ -75,7 +75,7 @@ fn the_vehicle_loop_offloads_in_c_and_in_cpp() {
     let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
     let Some(cxx) = compiler(&["c++", "g++", "clang++"]) else { return };
     let in_c = says(cc, ["-std=c11", "c", "vehicle_c"], "examples/vehicle.c");
-    assert!(in_c.ends_with("93 of 200 cycles offloaded, 1 fallback\n"), "{in_c}");
+    assert!(in_c.ends_with("188 of 400 cycles offloaded, 1 fallback\n"), "{in_c}");
     assert_eq!(in_c, says(cxx, ["-std=c++17", "c++", "vehicle_cpp"], "examples/vehicle.c"));
 }
 

@@ -8,10 +8,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use mufasa_drives::check::checked::{Checked, Seen};
 use mufasa_drives::check::fallback::Hold;
+use mufasa_drives::check::findings::Findings;
 use mufasa_drives::check::judge::Judged;
 use mufasa_drives::check::records::Records;
 use mufasa_drives::check::report::Report;
-use mufasa_drives::check::{self, Findings, Format, Settings};
+use mufasa_drives::check::{self, Format, Settings};
 use mufasa_drives::{Attack, Drive, DriveCycle, Injection, ReadError, Stream, inject};
 use mufasa_model::input::cycle::DetectionList;
 use mufasa_model::offloading::requester::Parameters;

@@ -9,8 +9,9 @@ use mufasa_model::offloading::requester::Parameters;
 
 use mufasa_drives::check::checked::Checked;
 use mufasa_drives::check::fallback::Hold;
+use mufasa_drives::check::findings::Findings;
 use mufasa_drives::check::table;
-use mufasa_drives::check::{self, Findings, complain, pictures, report, words};
+use mufasa_drives::check::{self, complain, pictures, report, words};
 use mufasa_drives::counted;
 use mufasa_drives::{self as drive, Attack, DEMO, Injection, Options, Stream};
 use mufasa_records::files;

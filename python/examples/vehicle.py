@@ -28,8 +28,8 @@ from mufasa import (
     VerifiedTrajectory,
 )
 
-# As docs/configuration.md advises: 100 ms would be all of tau, with nothing left for the check and the brake,
-# and would need a larger dt_max, which has to be above the period.
+# As docs/configuration.md advises: 100 ms would be all of tau, with nothing left for the check and the brake
+# and would need a larger dt_max, which has to be above the period.
 PERIOD = timedelta(milliseconds=50)
 # Cycles.
 SECOND = 20

@@ -13,10 +13,11 @@ use serde_json::value::RawValue;
 
 use super::checked::{Checked, Seen};
 use super::fallback::{Hold, RequesterRun};
+use super::findings::Findings;
 use super::judge::Judged;
 use super::sheet::Sheet;
 use super::tally::Tally;
-use super::{Findings, words};
+use super::words;
 use crate::drive::DriveCycle;
 use mufasa_records::answer::CycleAnswer;
 use mufasa_records::{names, schema};
