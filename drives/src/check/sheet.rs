@@ -69,7 +69,7 @@ mod tests {
             assert_eq!(read.unwrap(), lines);
             let mut copy = Vec::new();
             sheet.copy(&mut copy).unwrap();
-            assert_eq!(copy.iter().filter(|byte| **byte == b'\n').count(), count);
+            assert_eq!(copy.lines().count(), count);
         }
     }
 }

@@ -83,6 +83,7 @@ pub fn detection(x: f64, y: f64) -> Detection {
 impl Scene {
     /// Checks the scene with scratch of exactly the size asked for, without indexes of the lists of
     /// detections and with them.
+    #[expect(clippy::redundant_closure, reason = "the function alone has fewer lifetimes")]
     pub fn check(&self) -> Result<Report, InvalidInput> {
         self.both_ways(|cycle, indexes, scratch| stages::check_with(cycle, indexes, scratch))
     }

@@ -15,8 +15,8 @@ use mufasa::services::configuration::Configuration::MotRemote;
 /// between them.
 const LOOK: f64 = 0.05;
 const BETWEEN: f64 = 0.1;
-/// What is farther away from where it could be met is not looked for, m.
-const FAR: f64 = 150.0;
+/// So many looks: what is farther away than 150 m from where it could be met is not looked for.
+const LOOKS: u32 = 3000;
 /// Detections are 10 ms old, s.
 const AGE: f64 = 0.01;
 
@@ -153,11 +153,10 @@ impl Search<'_> {
     }
 
     fn may_wait(&self, at: &TrajectoryPoint, pair: &Pair) -> Answer {
-        let looks = (FAR / LOOK) as u32;
         let step = if pair.speed() > 0.0 { LOOK / pair.speed() } else { 0.0 };
         let touches = |more: f64| {
             let cav = self.cav(at, more);
-            (0..looks).any(|i| cav.touches(&pair.at(seconds(at) + f64::from(i) * step)))
+            (0..LOOKS).any(|i| cav.touches(&pair.at(seconds(at) + f64::from(i) * step)))
         };
         match Answer::of(touches(-1e-5), touches(BETWEEN)) {
             Answer::Yes => Answer::No,
@@ -260,11 +259,11 @@ fn driving(draws: &mut Draws) -> Scene {
     let [mut x, mut y, mut heading] = [0.0, 0.0, draws.from([-3.0, 3.0])];
     (scene.ego.cos, scene.ego.sin) = (heading.cos(), heading.sin());
     scene.ego.speed = speed;
-    let count = 12 + draws.below(30);
+    let count = 12 + i64::try_from(draws.below(30)).expect("few");
     scene.points = (0..count)
         .map(|i| {
             let (cos, sin) = (heading.cos(), heading.sin());
-            let point = TrajectoryPoint { t_ns: NOW_NS + i as i64 * 100_000_000, x, y, cos, sin };
+            let point = TrajectoryPoint { t_ns: NOW_NS + i * 100_000_000, x, y, cos, sin };
             let step = 0.1 * speed * (1.0 + slower * i as f64 * 0.05).max(0.1);
             (x, y, heading) = (x + step * cos, y + step * sin, heading + turn * 0.1);
             point
@@ -316,7 +315,7 @@ fn what_nobody_explains_is_examined_on() {
     for _ in 0..6_000 {
         let mut scene = driving(&mut draws);
         let Some(examined) = examined(&scene) else { continue };
-        let objects: Vec<_> = (0..1 + draws.below(3)).map(|_| coming(&mut draws, &scene)).collect();
+        let objects: Vec<_> = (0..=draws.below(3)).map(|_| coming(&mut draws, &scene)).collect();
         let before: Vec<_> = objects
             .iter()
             .map(|(now, [vx, vy])| Detection { x: now.x - 0.5 * vx, y: now.y - 0.5 * vy, ..*now })
@@ -350,7 +349,7 @@ fn confirmed_tracks_are_examined_on() {
     for _ in 0..6_000 {
         let mut scene = driving(&mut draws);
         let Some(examined) = examined(&scene) else { continue };
-        let objects: Vec<_> = (0..1 + draws.below(3)).map(|_| coming(&mut draws, &scene)).collect();
+        let objects: Vec<_> = (0..=draws.below(3)).map(|_| coming(&mut draws, &scene)).collect();
         let ago = |(now, [vx, vy]): &(Detection, [f64; 2]), seconds: f64| {
             [now.x - seconds * vx, now.y - seconds * vy]
         };
@@ -364,17 +363,17 @@ fn confirmed_tracks_are_examined_on() {
         }
         let mut items = Vec::new();
         let (mut tracks, mut sooner, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, object) in objects.iter().enumerate() {
+        for (id, (index, object)) in (0..).zip(objects.iter().enumerate()) {
             let (now, [vx, vy]) = *object;
             let speed = vx.hypot(vy);
             let now = Detection { cos: vx / speed, sin: vy / speed, ..now };
             let (vx, vy) = (vx + draws.from([-0.5, 0.5]), vy + draws.from([-0.5, 0.5]));
-            let at = track(index as i64, now.x, now.y);
+            let at = track(id, now.x, now.y);
             tracks.push(Track { vx, vy, cos: now.cos, sin: now.sin, ..at });
             let [x, y] = ago(object, 0.3);
             sooner.push(Detection { x, y, ..now });
             let [x, y] = ago(object, 0.5);
-            for aside in 0..1 + draws.below(3) {
+            for aside in 0..=draws.below(3) {
                 let aside = f64::from(u32::from(aside > 0)) * 1.8;
                 let (x, y) = (x + draws.from([-aside, aside]), y + draws.from([-aside, aside]));
                 let off = (x - now.x + 0.5 * vx).hypot(y - now.y + 0.5 * vy);
