@@ -184,7 +184,7 @@ impl<'a> Runner<'a> {
             given_up: &self.given_up,
             bar: &self.bar,
         }
-        .run(self.classes, much)?;
+        .run(&self.classes, much)?;
         self.bar.finish_and_clear();
         let group =
             |((kind, profile, configuration, expected), (cases, disagreements))| CaseCount {

@@ -54,12 +54,12 @@ impl Shrinking<'_> {
     /// What was found; `much`: the program is at its beginning. Errors: the program cannot be started again.
     pub fn run(
         mut self,
-        classes: BTreeMap<Class, Sightings>,
+        classes: &BTreeMap<Class, Sightings>,
         much: bool,
     ) -> Result<Vec<Found>, ConformError> {
         let until = Instant::now() + self.settings.shrinking;
         let mut limits = Limits { until, restarts: STARTS };
-        let chosen = chosen(&classes, if much { 1 } else { CLASSES_OF_A_RULE });
+        let chosen = chosen(classes, if much { 1 } else { CLASSES_OF_A_RULE });
         let mut tried: BTreeMap<&Class, Vec<Found>> = BTreeMap::new();
         for class in &chosen {
             if let Some(first) = classes[*class].earliest.first() {
@@ -87,7 +87,7 @@ impl Shrinking<'_> {
             vectors.sort_unstable();
             let shown = best(&tries)?.clone();
             let tried = if self.settings.shard.is_some() { tries } else { Vec::new() };
-            Some(Found { count, first, vectors, tried, ..shown })
+            Some(Found { count, vectors, first, tried, ..shown })
         });
         Ok(found.collect())
     }

@@ -294,7 +294,7 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
 /// Parts of an experiment, or of a campaign of `conform`.
 fn merge(arguments: &MergeArguments, out: &mut impl Write) -> io::Result<u8> {
     let MergeArguments { parts, out: folder, into } = arguments;
-    if !parts.first().is_some_and(|it| kit::Summary::read(it).is_ok()) {
+    if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {
         return evaluate::shards::merge(arguments, out, &mut io::stderr());
     }
     if into.is_some() {

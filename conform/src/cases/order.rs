@@ -47,14 +47,11 @@ impl Order<'_> {
 
     /// The vector or case at this position.
     pub fn case(&self, position: u64) -> Case {
-        match self.vector(position) {
-            Some((at, given)) => Case::of_vector(given, at),
-            None => {
-                let number = self.number(position);
-                let at = number.saturating_add(self.vectors.len() as u64);
-                Case::of_source(self.source, number, at)
-            }
+        if let Some((at, given)) = self.vector(position) {
+            return Case::of_vector(given, at);
         }
+        let number = self.number(position);
+        Case::of_source(self.source, number, number.saturating_add(self.vectors.len() as u64))
     }
 
     fn here(&self, all: u64) -> u64 {

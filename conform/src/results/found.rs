@@ -90,7 +90,7 @@ impl Found {
     }
 
     /// The same class in other shards. Of what was tried there that is shown which one run would have come to.
-    pub fn with(self, other: Self) -> Self {
+    pub fn with(self, other: &Self) -> Self {
         let first = self.first.into_iter().chain(other.first).min();
         let count = self.count + other.count;
         let mut vectors = [self.vectors.as_slice(), &other.vectors].concat();
@@ -100,7 +100,7 @@ impl Found {
             [] => vec![found.clone()],
             tried => tried.to_vec(),
         };
-        let mut tried = [of(&self), of(&other)].concat();
+        let mut tried = [of(&self), of(other)].concat();
         tried.sort_by_key(|it| (!it.is_tried(), it.at));
         let shown = best(&tried).cloned().unwrap_or(self);
         Self { class, count, vectors, first, tried, ..shown }

@@ -186,7 +186,7 @@ impl Summary {
             let class = found.class.clone();
             let joined = match classes.remove(&class) {
                 None => found,
-                Some(known) => known.with(found),
+                Some(known) => known.with(&found),
             };
             classes.insert(class, joined);
         }
