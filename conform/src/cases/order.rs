@@ -51,8 +51,7 @@ impl Order<'_> {
             return Case::of_vector(given, at);
         }
         let number = self.number(position);
-        let at = number.saturating_add(self.vectors.len() as u64);
-        Case::of_source(self.source, number, at)
+        Case::of_source(self.source, number, number.saturating_add(self.vectors.len() as u64))
     }
 
     fn here(&self, all: u64) -> u64 {

@@ -84,6 +84,14 @@ impl Found {
         record.pointer("/parameters/delta").map(ToString::to_string)
     }
 
+    /// How many of the CAV's earlier detections are in the record (`detection_history`); `size` does not count them.
+    pub fn history(&self) -> usize {
+        let record: serde_json::Value = serde_json::from_str(self.record.get()).unwrap_or_default();
+        let lists = record.get("detection_history").and_then(serde_json::Value::as_array);
+        let items = |list: &serde_json::Value| list["items"].as_array().map_or(0, Vec::len);
+        lists.map_or(0, |lists| lists.iter().map(items).sum())
+    }
+
     /// Whether no further case of its class is tried.
     pub fn is_small(&self) -> bool {
         self.shrunk && self.size <= SMALL

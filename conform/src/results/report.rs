@@ -56,6 +56,9 @@ fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     let what = if about.is_empty() { "case" } else { "vector" };
     let plural = if *size == 1 { "" } else { "s" };
     writeln!(out, "  size     {size} {unit}{plural}, {how} {what} {name}")?;
+    if found.history() > 0 {
+        writeln!(out, "  history  {} earlier detections (detection_history)", found.history())?;
+    }
     if !about.is_empty() {
         writeln!(out, "  vector   {about}")?;
     }
@@ -328,6 +331,14 @@ mod tests {
         let mut out = Vec::new();
         super::found(&found, &mut out).expect("written");
         String::from_utf8(out).expect("text")
+    }
+
+    #[test]
+    fn earlier_detections_of_the_record_are_counted_under_their_name() {
+        let with = |items| printed(&format!(r#"{{"detection_history": [{{"items": {items}}}]}}"#));
+        let two = with("[{}, {}]");
+        assert!(two.contains("\n  history  2 earlier detections (detection_history)\n"), "{two}");
+        assert!(!with("[]").contains("history  "));
     }
 
     #[test]
