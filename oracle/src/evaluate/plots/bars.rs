@@ -41,10 +41,10 @@ pub(super) struct Bars<'t> {
 /// As an SVG document.
 pub(super) fn draw(bars: &Bars<'_>) -> String {
     let (mut page, top) = Page::new(bars.title, bars.about, bars.key);
-    let top = top + 26.0;
+    let top = top + 36.0;
     let left = MARGIN + 44.0;
     let y = Scale { values: [0.0, bars.most], places: [top + HIGH, top], is_log: false };
-    page.text([MARGIN, top - 12.0], "", bars.unit);
+    page.text([MARGIN, top - 26.0], "", bars.unit);
     let mut value = 0.0;
     while value <= bars.most * 1.0001 {
         let at = y.at(value);
@@ -64,7 +64,8 @@ pub(super) fn draw(bars: &Bars<'_>) -> String {
         }
     }
     page.line([left, top + HIGH], [WIDTH - MARGIN, top + HIGH], "axis");
-    page.ends(top + HIGH + 54.0);
+    let has_notes = bars.groups.iter().any(|it| !it.note.is_empty());
+    page.ends(top + HIGH + if has_notes { 54.0 } else { 36.0 });
     page.svg()
 }
 
@@ -80,7 +81,8 @@ fn one(page: &mut Page, bar: &Bar, y: &Scale, [left, each]: [f64; 2]) {
     place(0.0, bar.value, bar.series.class);
     place(bar.value, all, &format!("{} pale", bar.series.class));
     let highest = bar.published.iter().fold(all, |most, it| most.max(*it));
-    let above = if highest > all { 14.0 } else { 8.0 };
+    let is_marked = bar.published.iter().any(|it| *it >= all);
+    let above = if is_marked { 14.0 } else { 8.0 };
     let words = bar.label.split('\n').rev();
     for (line, words) in words.enumerate() {
         page.text([middle, y.at(highest) - above - 14.0 * nth(line)], "small", words);

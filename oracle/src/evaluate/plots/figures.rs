@@ -343,7 +343,7 @@ pub fn falsified(of: &Falsified) -> Vec<Figure> {
     let svg = lines::search(
         "The search for collisions",
         &[
-            "Least time left to react of each run: below it nothing helps any more. The line is the least up to then;",
+            "Least time left to react of each run; at 0 nothing helps any more. The line is the least up to then;",
             "upright lines part the rounds, which have new scenarios.",
         ],
         &[random, guided, COLLIDED],

@@ -20,7 +20,7 @@ const STYLE: &str = "\
 .chart .page{fill:#fff}.chart .grid{stroke:#d5dbe1;stroke-width:1;fill:none}\
 .chart .axis{stroke:#6a7683;stroke-width:1.2;fill:none}\
 .chart .sofof{fill:#e69f00}.chart .paper{fill:#0072b2}.chart .hardened{fill:#009e73}\
-.chart .published{fill:none;stroke:#1d2733;stroke-width:1.8}\
+.chart .published{fill:#fff;fill-opacity:.9;stroke:#1d2733;stroke-width:1.8}\
 .chart .pale{fill-opacity:.4}.chart .open{fill-opacity:0}\
 .chart .sofof-line,.chart .sofof{stroke:#e69f00}.chart .paper-line,.chart .paper{stroke:#0072b2}\
 .chart .hardened-line,.chart .hardened{stroke:#009e73}\
@@ -32,7 +32,7 @@ const STYLE: &str = "\
 @media (prefers-color-scheme:dark){.chart .page{fill:#15191e}.chart text{fill:#e8edf2}\
 .chart .about,.chart .faint{fill:#a9b4bf}.chart .grid{stroke:#343c45}.chart .axis{stroke:#8694a3}\
 .chart .paper{fill:#56b4e9;stroke:#56b4e9}.chart .paper-line{stroke:#56b4e9}\
-.chart .published,.chart .best{stroke:#e8edf2}}";
+.chart .published{fill:#15191e}.chart .published,.chart .best{stroke:#e8edf2}}";
 
 /// A shape that a value is drawn as.
 #[derive(Clone, Copy)]
