@@ -4,7 +4,8 @@
 //! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which
 //! pairs of a detection and an earlier item are examined; whether they collide is decided as in
 //! stage iii. That an explained detection is disputed is asked last, of a pair that collides
-//! (`disputed`, with what it costs).
+//! (`disputed`, with what it costs). Which points after those of (a) and (b) a pair is examined at,
+//! (c), is asked of a pair that collides there, too (`waiting`).
 
 mod disputed;
 mod lists;

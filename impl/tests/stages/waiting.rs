@@ -305,8 +305,7 @@ fn coming(draws: &mut Draws, scene: &Scene) -> (Detection, [f64; 2]) {
     let x = at.x + ahead * at.cos + aside[0] - velocity[0] * seconds(&at);
     let y = at.y + ahead * at.sin + aside[1] - velocity[1] * seconds(&at);
     let turned = angle + [0.0, draws.from([-0.1, 0.1]), draws.from([-3.0, 3.0])][draws.below(3)];
-    let size = [draws.from([0.5, 6.0]), draws.from([0.5, 2.5])];
-    let [length, width] = size;
+    let [length, width] = [draws.from([0.5, 6.0]), draws.from([0.5, 2.5])];
     (Detection { cos: turned.cos(), sin: turned.sin(), length, width, ..detection(x, y) }, velocity)
 }
 
@@ -338,7 +337,6 @@ fn what_nobody_explains_is_examined_on() {
         scene.history = vec![(500_000_000, before)];
         Search { scene: &scene, examined }.compare(&pairs, &mut seen);
     }
-    println!("{seen:?}");
     assert!(seen.later > 200 && seen.sooner > 200 && seen.nothing > 200, "{seen:?}");
     assert!(seen.may_wait > 200 && seen.never_could > 50, "{seen:?}");
     assert!(seen.may_wait_on_the_way > 5, "{seen:?}");
@@ -398,6 +396,5 @@ fn confirmed_tracks_are_examined_on() {
         scene.history = vec![(300_000_000, sooner), (500_000_000, items)];
         Search { scene: &scene, examined }.compare(&pairs, &mut seen);
     }
-    println!("{seen:?}");
     assert!(seen.later > 100 && seen.sooner > 100 && seen.nothing > 100, "{seen:?}");
 }

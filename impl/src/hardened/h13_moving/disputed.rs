@@ -9,8 +9,9 @@
 //! compares its origin with every unexplained detection, and of each of these one place in every
 //! other list with the items there, at most U. Confirmed tracks have two own origins at least, and no
 //! two tracks have the same one, so that there are at most U / 2 of them, which is at most 2 R:
-//! together 2 R D (U + 1) steps. (b) takes D R (U + P) for all detections, disputed or not, as if
-//! none were explained, and (a) no more: each at most a few times the work.
+//! together 2 R D (U + 1) steps, twice that with the far points of (c). (b) takes D R (U + P) for all
+//! detections, disputed or not, as if none were explained, and (a) no more: each at most a few times
+//! the work.
 
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
 use crate::hardened::h10_explained::Explained;

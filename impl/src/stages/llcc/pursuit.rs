@@ -158,7 +158,8 @@ impl Pursuit {
     pub(crate) fn velocities(&self, object: &MovingRectangle) -> [[f64; 2]; 2] {
         let ([ux, uy], [[cx, cy], [hx, hy]]) = (self.velocity, self.upright);
         let [first, last] = self.seconds;
-        if !(first > SOON) {
+        let is_later = first > SOON;
+        if !is_later {
             return [[f64::NEG_INFINITY, f64::INFINITY]; 2];
         }
         let (soon, late) = (1.0 / first, 1.0 / last);
