@@ -3,8 +3,8 @@
 
 use super::Search;
 use super::scenes::{
-    bare, both, crossed, crossed_farther, crossing, detections, every, every_four_metres, grid, integer, met,
-    straight, track, tracks, within,
+    bare, both, crossed, crossed_farther, crossing, detections, every, every_four_metres, grid,
+    integer, met, straight, track, tracks, within,
 };
 use crate::input::cycle::{CrossSection, Lead, Track};
 use crate::numbers::real::Real;
