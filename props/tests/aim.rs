@@ -4,8 +4,9 @@
 use std::collections::BTreeMap;
 
 use mufasa_model::hardened::detection_history::usable;
-use mufasa_model::hardened::h13_moving::{Pair, object_at, pairs, places};
-use mufasa_model::hardened::h13_waiting::{Margin, may_wait};
+use mufasa_model::hardened::h13_moving::seen_twice::{Pair, object_at};
+use mufasa_model::hardened::h13_moving::waiting::{Margin, may_wait};
+use mufasa_model::hardened::h13_moving::{pairs, places};
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::input::scene::{Point, Scene};
 use mufasa_model::report::{Outcome, Reading, Rule};

@@ -1,34 +1,20 @@
 //! H-13: stage iv also examines detections as moving, the way that the CAV saw them move.
 
+pub mod seen_twice;
+pub mod waiting;
+
 use crate::hardened::detection_history::{
     Seen, Usable, confirmed, nearest_to_reference, origin_limit, past, usable,
 };
 use crate::hardened::h04_horizon::{Places, places_within, s_stop_along};
-use crate::hardened::h13_waiting::collision_beyond;
+use crate::hardened::h13_moving::seen_twice::{Pair, object_at, velocity};
+use crate::hardened::h13_moving::waiting::collision_beyond;
 use crate::input::scene::{Detections, Object, Point, Scene, Track};
 use crate::numbers::real::Real;
-use crate::numbers::vector::{Frame, Vector};
+use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 use crate::stages::i_track_validation::over_work_limit;
 use crate::stages::llcc::first_collision;
-
-/// A detection d and the item d' of an earlier list that it may have come from, by their indices.
-#[derive(Clone, Copy, Debug)]
-pub struct Pair<'a> {
-    /// Of the current detection.
-    pub detection: usize,
-    /// Of the item of the list.
-    pub item: usize,
-    /// The list.
-    pub list: &'a Usable<'a>,
-}
-
-impl Pair<'_> {
-    /// w of its detection, m/s.
-    pub fn velocity(&self, d: &Object) -> Vector {
-        velocity(d, &self.list.items[self.item], &self.list.dt)
-    }
-}
 
 /// The first collision of stage iv with a detection as moving: in the order point, (a) confirmed
 /// tracks before (b) unexplained or disputed detections, items.
@@ -55,14 +41,6 @@ pub fn collision_moving(
     Some(Witness { detection: Some(detection), item: Some(item), age_ns, ..witness })
 }
 
-/// What a pair stands for when the CAV is at a point: d, its centre at d + w (t_point - t_D).
-pub fn object_at(detections: &Detections, pair: &Pair, point: &Point) -> Object {
-    let t_ns = i128::from(point.t_ns) - i128::from(detections.stamp_ns);
-    let d = &detections.items[pair.detection];
-    let origin = &d.frame.origin + &pair.velocity(d).scaled(&Real::seconds(t_ns));
-    Object { frame: Frame { origin, direction: d.frame.direction.clone() }, ..d.clone() }
-}
-
 /// The places with way <= (1 + 1e-6) (s_stop + tau_motion v_now), the next one, and those beyond the
 /// end of the trajectory up to s_stop.
 pub fn places<'a>(scene: &'a Scene, trajectory: &'a [Point]) -> Places<'a> {
@@ -84,12 +62,6 @@ pub fn work(
     let pairs = detections.items.len() as i128 * longest as i128;
     let all = items().sum::<usize>() + trajectory.len();
     Some(pairs * (all as i128 + places.count_beyond()))
-}
-
-/// w = (d - d') / dt, m/s.
-fn velocity(d: &Object, before: &Object, dt: &Real) -> Vector {
-    let moved = &d.frame.origin - &before.frame.origin;
-    Vector { x: moved.x / dt, y: moved.y / dt }
 }
 
 /// What stage iv examines as moving.

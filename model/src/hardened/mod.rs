@@ -14,4 +14,3 @@ pub mod h10_explained;
 pub mod h11_steps;
 pub mod h12_progress;
 pub mod h13_moving;
-pub mod h13_waiting;

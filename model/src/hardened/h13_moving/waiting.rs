@@ -1,7 +1,7 @@
 //! H-13 (c): farther on, stage iv examines as moving what the CAV may not wait for.
 
 use crate::hardened::h04_horizon::Places;
-use crate::hardened::h13_moving::{Pair, object_at};
+use crate::hardened::h13_moving::seen_twice::{Pair, object_at};
 use crate::input::scene::{Detections, Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, is_swept_over};
