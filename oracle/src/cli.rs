@@ -10,7 +10,7 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{self, ExitCode};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,7 +22,7 @@ use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
     CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ExploreArguments,
-    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments,
+    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments, folder_or,
 };
 use self::conform::{ConformArguments, MergeCommand};
 use self::link::{StationArguments, VehicleArguments};
@@ -340,15 +340,6 @@ fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
         }
     })?;
     Ok(stop)
-}
-
-/// The folder that is to be written, which is said first where nobody named it.
-fn folder_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
-    named.unwrap_or_else(|| {
-        let note = format!("writes into {usual}/; --out names another folder");
-        complain(&mut io::stderr(), &note);
-        PathBuf::from(usual)
-    })
 }
 
 fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {

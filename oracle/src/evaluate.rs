@@ -69,7 +69,7 @@ pub fn run(
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let (size, make) = match &arguments.experiment {
-        Some(Experiment::Replay(it)) => return replay::run(it, out, err),
+        Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
         Some(Experiment::Falsify(it)) => return falsify::run(it, out, err),
         None => (&arguments.size, made::<Failures> as Make),
         Some(Experiment::Failures(size)) => (size, made::<Failures> as Make),
@@ -205,6 +205,12 @@ const EXPERIMENTS: [Named; 5] = [
     named::<Availability>(),
     named::<Cpu>(),
 ];
+
+/// The runs of an experiment; none, if there is no such one.
+fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job<()>> {
+    let named = EXPERIMENTS.iter().find(|it| it.name == name);
+    named.map_or_else(Vec::new, |it| (it.jobs)(town, sized(it.options)))
+}
 
 /// Whether files can be written into the folder.
 fn prepared(folder: Option<&Path>) -> Result<(), String> {

@@ -83,7 +83,7 @@ fn a_folder_has_one_page_with_a_section_of_each_experiment() {
                 .descendants()
                 .filter(|it| it.has_tag_name(("http://www.w3.org/2000/svg", "rect")))
                 .count()
-                > 5
+                >= 5
         );
         assert!(page.contains(chart.input_text()), "{name} is in the page");
     }

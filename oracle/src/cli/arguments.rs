@@ -1,6 +1,7 @@
 //! The arguments of every command, and how their values are read.
 
 use std::fmt::Display;
+use std::io;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -11,6 +12,7 @@ use mufasa_model::input::cycle::Profile;
 use mufasa_model::services::configuration::Configuration;
 
 use crate::demo;
+use mufasa_drives::check::complain;
 use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
 use mufasa_records::names;
 
@@ -284,6 +286,15 @@ where
         Ok(number) if (low..=high).contains(&number) => Ok(number),
         Ok(_) | Err(_) => Err(format!("must be a whole number from {low} to {high}")),
     }
+}
+
+/// The folder that is to be written, which is said first where nobody named it.
+pub(super) fn folder_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
+    named.unwrap_or_else(|| {
+        let note = format!("writes into {usual}/; --out names another folder");
+        complain(&mut io::stderr(), &note);
+        PathBuf::from(usual)
+    })
 }
 
 #[cfg(test)]

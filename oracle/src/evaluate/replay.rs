@@ -19,7 +19,6 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
-use super::EXPERIMENTS;
 use super::codes::BAD_INPUT;
 use super::log::Log;
 use super::text::said;
@@ -71,14 +70,18 @@ pub struct ReplayArguments {
     pub mcap: Option<PathBuf>,
 }
 
+/// The runs of an experiment by its name and its size, which is made of its defaults; none, if there is no such one.
+pub(super) type Jobs = fn(&str, &dyn Fn(Options) -> Options, &Town) -> Vec<Job<()>>;
+
 /// Makes the run and writes its page, and its log. Returns the exit code. Errors: those of writing to `out`.
 pub fn run(
     arguments: &ReplayArguments,
+    jobs: Jobs,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let town = town();
-    let written = job(arguments, &town).and_then(|job| write(arguments, &town, &job));
+    let written = job(arguments, jobs, &town).and_then(|job| write(arguments, &town, &job));
     match written {
         Ok((name, outcome, files)) => {
             let files: Vec<String> = files.iter().map(|it| it.display().to_string()).collect();
@@ -94,12 +97,12 @@ pub fn run(
 }
 
 /// The run that is meant. Errors: there is none.
-fn job(arguments: &ReplayArguments, town: &Town) -> Result<Job<()>, String> {
+fn job(arguments: &ReplayArguments, jobs: Jobs, town: &Town) -> Result<Job<()>, String> {
     let &ReplayArguments { attack: attack_of, variant, route, scenario, vehicles, from, .. } =
         arguments;
     let job = match (&arguments.found, &arguments.run) {
         (Some(file), _) => found(file)?,
-        (None, Some(id)) => of_experiment(id, arguments, town)?,
+        (None, Some(id)) => of_experiment(id, arguments, jobs, town)?,
         (None, None) => {
             let place = (variant, usize::from(route), scenario);
             let vehicles = vehicles.map_or(VEHICLES, usize::from);
@@ -127,17 +130,19 @@ fn found(file: &Path) -> Result<Job<()>, String> {
 }
 
 /// A run of an experiment.
-fn of_experiment(id: &str, arguments: &ReplayArguments, town: &Town) -> Result<Job<()>, String> {
+fn of_experiment(
+    id: &str,
+    arguments: &ReplayArguments,
+    jobs: Jobs,
+    town: &Town,
+) -> Result<Job<()>, String> {
     let name = id.split('/').next().unwrap_or_default();
-    let named = EXPERIMENTS.iter().find(|it| it.name == name);
-    let mut jobs = named.map_or_else(Vec::new, |it| {
-        let options = Options {
-            scenarios: arguments.scenarios.unwrap_or(it.options.scenarios),
-            vehicles: arguments.vehicles.map_or(it.options.vehicles, usize::from),
-            seed: arguments.seed,
-        };
-        (it.jobs)(town, options)
-    });
+    let sized = |defaults: Options| Options {
+        scenarios: arguments.scenarios.unwrap_or(defaults.scenarios),
+        vehicles: arguments.vehicles.map_or(defaults.vehicles, usize::from),
+        seed: arguments.seed,
+    };
+    let mut jobs = jobs(name, &sized, town);
     let at = jobs.iter().position(|job| job.id == id);
     at.map(|at| jobs.swap_remove(at)).ok_or_else(|| {
         format!(
