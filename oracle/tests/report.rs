@@ -151,8 +151,16 @@ fn all_cycles_are_checked_where_that_is_asked_for() {
 #[test]
 fn a_run_as_a_log_is_read_back() {
     let folder = folder("log");
-    let replay =
-        ["evaluate", "replay", "--attack", "tracks-empty", "--variant", "paper", "--scenario", "1"];
+    let replay = [
+        "evaluate",
+        "replay",
+        "--attack",
+        "map-replaced",
+        "--variant",
+        "hardened",
+        "--scenario",
+        "0",
+    ];
     done(&folder, 0, &[&replay[..], &["--out", "run.html", "--mcap", "run.mcap"]].concat());
     let bytes = fs::read(folder.join("run.mcap")).expect("a log");
     let mut counts = std::collections::BTreeMap::new();
