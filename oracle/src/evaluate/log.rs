@@ -181,8 +181,11 @@ fn verdict(at_ns: i64, decided: &Decided, cycle: &Cycle) -> Value {
     };
     let mut message = json!({
         "timestamp": foxglove::time(at_ns), "configuration": remote, "attacked": cycle.attacked,
-        "speed_mps": cycle.speed, "nearest_m": cycle.nearest, "failed_stage": "",
+        "speed_mps": cycle.speed, "failed_stage": "",
     });
+    if let Some(nearest) = cycle.nearest {
+        message["nearest_m"] = nearest.into();
+    }
     message["verdict"] = match &decided.report {
         None => "not checked".into(),
         Some(Err(_)) => "error".into(),
