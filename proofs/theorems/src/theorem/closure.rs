@@ -184,13 +184,6 @@ pub const THEOREMS: &[Theorem] = &[
         "but for those of the second and the third point, turned by 0.05 rad; y above 0.2 to 1 m",
         Some(Stage::Ii)
     ),
-    closure!(
-        "F-44",
-        "a car at (12, -13), left out, that crosses before a CAV at 10 m/s, which meets it behind what is \
-         examined of every pair: rejected by H-13 (c)",
-        "seen at (12, -17) to (12, -16.5) 500 ms ago; a list of one item",
-        Some(Stage::Iv)
-    ),
 ];
 
 fn is_rejected(finding: &str, profile: Profile, by: Option<Stage>) -> Formula {

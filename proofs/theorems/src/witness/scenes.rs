@@ -13,23 +13,14 @@ use crate::theorem::base::{self, NOW_NS};
 
 /// The CAV at 10 m/s; a car at (10, -8), seen 500 ms ago at (10, before), and one at 60 m that is tracked.
 pub fn crossed(profile: Profile) -> Cycle {
-    crossed_at([10.0, -8.0], 13, profile)
-}
-
-/// As [`crossed`]: a car at (12, -13), which a CAV at 10 m/s meets behind what H-13 examines of every pair.
-pub fn crossed_farther(profile: Profile) -> Cycle {
-    crossed_at([12.0, -13.0], 17, profile)
-}
-
-fn crossed_at([x, y]: [f64; 2], last: u32, profile: Profile) -> Cycle {
     let mut cycle = bare(profile, MotRemote);
     cycle.ego.speed = 10.0;
-    let places: Vec<f64> = (0..=last).map(f64::from).collect();
+    let places: Vec<f64> = (0..=13).map(f64::from).collect();
     cycle.trajectory = Some(every(100_000_000, &places));
     cycle.tracks = Some(tracks(vec![track(1, 60.0)]));
-    let car = |y: f64| Detection { y, ..detections(x).items[0].clone() };
+    let car = |y: f64| Detection { y, ..detections(10.0).items[0].clone() };
     let mut seen = detections(60.0);
-    seen.items.push(car(y));
+    seen.items.push(car(-8.0));
     cycle.detections = Some(seen);
     let items = vec![car(open_number("before"))];
     cycle.detection_history = vec![DetectionList { stamp_ns: NOW_NS - 500_000_000, items }];

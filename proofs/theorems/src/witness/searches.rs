@@ -3,8 +3,8 @@
 
 use super::Search;
 use super::scenes::{
-    bare, both, crossed, crossed_farther, crossing, detections, every, every_four_metres, grid,
-    integer, met, straight, track, tracks, within,
+    bare, both, crossed, crossing, detections, every, every_four_metres, grid, integer, met,
+    straight, track, tracks, within,
 };
 use crate::input::cycle::{CrossSection, Lead, Track};
 use crate::numbers::real::Real;
@@ -15,7 +15,7 @@ use crate::theorem::base::NOW_NS;
 
 /// All searches. Objects are as large as the CAV and along x, so that two of them meet when their
 /// centres on the x axis are at most 4 m apart.
-pub const SEARCHES: [Search; 27] = [
+pub const SEARCHES: [Search; 26] = [
     Search {
         finding: "F-02",
         cycle: |profile| {
@@ -332,13 +332,5 @@ pub const SEARCHES: [Search; 27] = [
             cycle
         },
         conditions: |_| [within("y", 0, 1), less(&Real::ratio(1, 5), &Real::named("y"))],
-    },
-    Search {
-        finding: "F-44",
-        cycle: crossed_farther,
-        conditions: |_| {
-            let before = Real::named("before");
-            [within("before", -17, -16), less(&before, &Real::ratio(-33, 2))]
-        },
     },
 ];
