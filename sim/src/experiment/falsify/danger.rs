@@ -7,6 +7,9 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
 use crate::collision;
@@ -30,6 +33,17 @@ const STANDING: f64 = 0.5;
 const PER_SPEED: f64 = 0.02;
 /// Farther away nobody is looked at, m.
 const FAR: f64 = 80.0;
+
+/// A run with attacks.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Try {
+    /// Its round, from 0.
+    pub round: u64,
+    /// Whether it is a random point; if not, a search goes on from the best of these.
+    pub is_random: bool,
+    /// Least time left to react, s; none where it ended in a collision.
+    pub time_left_s: Option<f64>,
+}
 
 /// Keeps where everybody was.
 #[derive(Clone, Debug, Default)]

@@ -21,7 +21,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use self::cma::{Cma, anywhere};
-use self::danger::Danger;
+use self::danger::{Danger, Try};
 use self::found::{Case, Found};
 use self::genome::{Clean, GENES, decode};
 use self::shrink::shrunk;
@@ -102,17 +102,6 @@ pub struct Row {
     pub least_time_left_s: f64,
     /// Least distance to another of those that did not, m; none in an empty town.
     pub least_distance_m: Option<f64>,
-}
-
-/// A run with attacks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Try {
-    /// Its round, from 0.
-    pub round: u64,
-    /// Whether it is a random point; if not, a search goes on from the best of these.
-    pub is_random: bool,
-    /// Least time left to react, s; none where it ended in a collision.
-    pub time_left_s: Option<f64>,
 }
 
 /// How far it is.
