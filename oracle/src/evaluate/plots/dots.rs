@@ -88,7 +88,7 @@ fn one(
     }
     if let Some(off) = dots.off {
         page.line([end, top], [end, bottom], "axis");
-        page.text([end + OFF / 2.0, bottom + 18.0], "small", off);
+        page.text([end + OFF / 2.0, bottom + 34.0], "small", off);
     }
     for (value, class) in &panel.lines {
         let at = x.at(*value);
