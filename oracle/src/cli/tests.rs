@@ -24,7 +24,7 @@ fn writes_json(command: &clap::Command, path: &str, found: &mut BTreeSet<(String
     }
     let options = command.get_arguments().filter(|it| !it.is_positional());
     options
-        .filter(|it| says(it.get_help(), &["as JSON", "Write JSON", "(JSON)"]))
+        .filter(|it| says(it.get_help(), &["as JSON", "and JSON", "Write JSON", "(JSON)"]))
         .for_each(|it| note(it.get_id().as_str()));
     for inner in command.get_subcommands() {
         writes_json(inner, format!("{path} {}", inner.get_name()).trim(), found);

@@ -167,8 +167,8 @@ mod tests {
         let two = page(&one, "stages", "<p>two</p>\n");
         let again = page(&two, "failures", "<p>new</p>\n");
         assert!(again.starts_with(HEAD) && again.ends_with(TAIL), "{again}");
-        assert!(!again.contains("one") && again.contains("new") && again.contains("two"));
-        assert!(again.find("new") < again.find("two"), "in its old place");
+        assert!(!again.contains(">one<") && again.contains(">new<") && again.contains(">two<"));
+        assert!(again.find(">new<") < again.find(">two<"), "in its old place");
         assert_eq!(again.matches("<h1>").count(), 1);
         assert_eq!(page(&again, "failures", "<p>new</p>\n"), again);
         // What is no such page is none of ours.

@@ -122,11 +122,11 @@ fn who_gives_way_to_us_waits_as_long_as_it_can() {
 }
 
 #[test]
-fn others_are_looked_for_up_to_120_m_before() {
+fn others_are_looked_for_up_to_120_m_before_and_as_near_to_that_as_to_their_route() {
     let town = town(RouteKind::Road, true);
     // Their middle.
     let at = |before: f64| waits(&town, (FRONT, PACE), other(before - HALF, 25.0));
-    assert!(at(120.0 - EPS) && !at(120.0 + EPS));
+    assert!(at(122.0 - EPS) && !at(122.0 + EPS));
 }
 
 #[test]

@@ -12,7 +12,7 @@ use crate::pose::{Point, Pose};
 use crate::services::tpl::settings::Settings;
 
 /// Passages are looked at up to this way ahead of the front, m, and their others up to this way before the
-/// place where they meet us.
+/// place where they meet us, and `ON_ROUTE` more.
 const LOOKED_M: (f64, f64) = (80.0, 120.0);
 /// A track is on a route when it is so near to it, m, and goes about along it (cosine).
 const ON_ROUTE: (f64, f64) = (2.0, 0.7);
