@@ -137,6 +137,9 @@ def stays_apart(ego, pose, more, item, dx, dy, velocity):
     dx, dy = from_centre(pose, ego["center_offset"], item, dx, dy)
     sides, (wx, wy) = edges(pose, ego, more, item), velocity
     speed = math.hypot(wx, wy)
-    normals = [(ux, uy) for ux, uy, _ in sides] + ([(-wy / speed, wx / speed)] if speed else [])
-    return any(sign * (dx * ux + dy * uy) > reach(sides, ux, uy) and sign * (wx * ux + wy * uy) >= 0
-               for ux, uy in normals for sign in (1, -1))
+    if speed and abs(dy * wx - dx * wy) / speed > reach(sides, -wy / speed, wx / speed):
+        return True
+    # Too close to call counts as the margin does: a smaller CAV stays apart, a larger one does not.
+    least = math.copysign(1e-9, more) * speed
+    return any(sign * (dx * ux + dy * uy) > reach(sides, ux, uy) and sign * (wx * ux + wy * uy) >= least
+               for ux, uy, _ in sides for sign in (1, -1))
