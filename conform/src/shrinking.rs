@@ -181,7 +181,7 @@ fn chosen(classes: &BTreeMap<Class, Sightings>, of_a_rule: usize) -> Vec<&Class>
         }
     }
     // The order stays among those that are equal.
-    chosen.sort_by_key(|(before, _)| (*before > 0, *before));
+    chosen.sort_by_key(|(before, _)| *before);
     chosen.into_iter().map(|(_, class)| class).collect()
 }
 

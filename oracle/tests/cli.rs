@@ -2,12 +2,15 @@
 
 #[path = "../../drives/tests/common/mod.rs"]
 mod common;
+#[path = "kit/folders.rs"]
+mod folders;
 
 use std::ffi::OsStr;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use folders::folder;
 use mufasa_records::cycle_to_line;
 use roxmltree::Document;
 use serde_json::Value;
@@ -32,14 +35,6 @@ fn stderr(output: &Output) -> String {
     let text = String::from_utf8(output.stderr.clone()).unwrap();
     assert!(!text.contains("panicked"), "{text}");
     text
-}
-
-/// An empty folder for one test.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 /// A drive of `count` cycles as JSON Lines; those in `blocked` are unsafe.

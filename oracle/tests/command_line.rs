@@ -1,9 +1,13 @@
 //! The built program's command line: what is refused says what was meant, and the shell is helped.
 
+#[path = "kit/folders.rs"]
+mod folders;
+
+use folders::folder;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 fn mufasa(arguments: impl IntoIterator<Item = impl AsRef<OsStr>>) -> Command {
@@ -18,14 +22,6 @@ fn output(arguments: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).expect("the program writes UTF-8")
-}
-
-/// An empty folder for one test.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command_line").join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("the folder can be written");
-    folder
 }
 
 #[test]

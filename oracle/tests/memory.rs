@@ -2,17 +2,20 @@
 
 #[path = "../../drives/tests/common/mod.rs"]
 mod common;
+#[path = "kit/folders.rs"]
+mod folders;
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use folders::folder;
 use mufasa_model::input::cycle::Profile;
 use mufasa_records::cycle_to_line;
 
@@ -20,14 +23,6 @@ use mufasa_records::cycle_to_line;
 const LINE: usize = 200_000;
 /// What ten times as many lines may take more, bytes; they are 36 MB longer.
 const MORE: u64 = 4_000_000;
-
-/// An empty folder for one test.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("memory").join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("the folder can be written");
-    folder
-}
 
 /// Bytes of memory at the highest, of `mufasa check` with these arguments, all of whose cycles can be judged;
 /// `None` where the system has no `/proc`. `input` is what standard input is.

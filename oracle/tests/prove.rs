@@ -1,8 +1,12 @@
 //! `mufasa prove`: what is not here is not run, what is refuted is no success.
 
+#[path = "kit/folders.rs"]
+mod folders;
+
 use std::path::Path;
 use std::process::{Command, Output};
 
+use folders::folder;
 use mufasa_mutants::Engine;
 use mufasa_oracle::document;
 use mufasa_oracle::prove::{SOURCES, TABLE_NAME, sources, tables};
@@ -15,12 +19,6 @@ fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
         command.env("PATH", path);
     }
     command.output().expect("the program runs")
-}
-
-fn folder(name: &str) -> std::path::PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).expect("a folder for the test");
-    folder
 }
 
 #[test]

@@ -1,24 +1,18 @@
 //! What `mufasa evaluate` leaves for people: charts, the report, replays and logs.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+#[path = "kit/folders.rs"]
+mod folders;
+#[path = "kit/program.rs"]
+mod program;
 
+use std::fs;
+use std::path::Path;
+
+use folders::folder;
 use mcap::{MessageStream, Schema};
+use program::run;
 use roxmltree::Document;
 use serde_json::Value;
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    command.args(arguments).current_dir(folder).output().expect("the program starts")
-}
 
 fn done(folder: &Path, code: i32, arguments: &[&str]) -> String {
     let output = run(folder, arguments);

@@ -1,10 +1,14 @@
 //! What the program writes as JSON is what its schemas say.
 
+#[path = "kit/folders.rs"]
+mod folders;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
+use folders::folder;
 use jsonschema::Validator;
 use mufasa_oracle::schemas;
 use serde_json::Value;
@@ -13,13 +17,6 @@ use serde_json::Value;
 fn validators() -> BTreeMap<&'static str, Validator> {
     let build = |schema| jsonschema::validator_for(&schema).expect("a valid schema");
     schemas::all().into_iter().map(|(name, schema)| (name, build(schema))).collect()
-}
-
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("schemas").join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("the folder can be written");
-    folder
 }
 
 /// What the program wrote, whatever its exit code.

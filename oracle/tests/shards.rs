@@ -1,25 +1,20 @@
 //! Parts of an experiment that are put together are the experiment (`mufasa merge`).
 
+#[path = "kit/folders.rs"]
+mod folders;
+#[path = "kit/program.rs"]
+mod program;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
+use folders::folder;
+use program::run;
 use serde_json::{Value, json};
 
 const REPORT: &str = "report.html";
 const SIZE: [&str; 4] = ["--scenarios", "1", "--vehicles", "2"];
-
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shards").join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    command.args(arguments).current_dir(folder).output().expect("the program starts")
-}
 
 fn part(folder: &Path, size: &[&str], shard: &str) -> String {
     let arguments = [&["evaluate", "failures", "--out", "parts", "--shard", shard], size].concat();

@@ -150,7 +150,7 @@ struct Search<'m, 'c, 'a> {
     first: Option<Found>,
 }
 
-impl Search<'_, '_, '_> {
+impl<'c> Search<'_, 'c, '_> {
     /// All detections that may reach the CAV. No other order finds another first collision.
     fn all(&mut self, scratch: &mut Scratch<'_>) {
         let items = self.detections.items;
@@ -284,14 +284,7 @@ impl Search<'_, '_, '_> {
         track: Option<usize>,
         scratch: &mut Scratch<'_>,
     ) {
-        if let Some(track) = track {
-            if !self.disputes.may_be_disputed(track, &self.lists, scratch) {
-                return;
-            }
-        }
-        let Some(list) = self.lists.usable(self.reference) else { return };
-        // Rounded up: what moves as fast as that in an instant more.
-        let speed = self.cycle.parameters.v_object + self.more();
+        let Some((list, speed)) = self.anywhere(track, scratch) else { return };
         let standing = MovingRectangle::detection(now);
         let from = self.at.pursuit.comes_from(&standing, speed, list.age);
         if !is_empty(from) {
@@ -307,18 +300,25 @@ impl Search<'_, '_, '_> {
         track: Option<usize>,
         scratch: &mut Scratch<'_>,
     ) {
-        if let Some(track) = track {
-            if !self.disputes.may_be_disputed(track, &self.lists, scratch) {
-                return;
-            }
-        }
-        let Some(list) = self.lists.usable(self.reference) else { return };
-        let speed = self.cycle.parameters.v_object + self.more();
+        let Some((list, speed)) = self.anywhere(track, scratch) else { return };
         let within = intersection(velocities, [[-speed, speed]; 2]);
         if !is_empty(within) {
             let from = before(now, within, list.age);
             self.come_from_within(from, &list, (detection, now), track, scratch);
         }
+    }
+
+    /// The reference list, and the greatest speed from it, rounded up: what moves as fast as `v_object` in
+    /// an instant more. `None` where a track explains the detection, and nobody may dispute that.
+    fn anywhere(
+        &self,
+        track: Option<usize>,
+        scratch: &Scratch<'_>,
+    ) -> Option<(UsableList<'c>, f64)> {
+        let may_be = |track| self.disputes.may_be_disputed(track, &self.lists, scratch);
+        let list = self.lists.usable(self.reference)?;
+        let speed = self.cycle.parameters.v_object + self.more();
+        track.is_none_or(may_be).then_some((list, speed))
     }
 
     /// From every item in the box that some other list supports.

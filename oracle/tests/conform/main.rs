@@ -26,6 +26,18 @@ const EACH: &str = r#"while IFS= read -r line; do id=${line#*'"id": "'}; id=${id
 /// Answers that the cycle is safe.
 const SAFE: &str = r#"printf '{"id": "%s", "verdict": "safe", "failed_stage": null}\n' "$id""#;
 
+/// A script that is right but that it says stage iv where stage iii failed, in each line by itself.
+fn names_iv_for_iii() -> String {
+    format!(
+        r#""{MUFASA}" oracle | while IFS= read -r line; do
+        case $line in
+        *'"failed_stage":"iii"'*) id=${{line#*'"id":"'}}; id=${{id%%'"'*}};
+          printf '{{"id": "%s", "verdict": "unsafe", "failed_stage": "iv"}}\n' "$id";;
+        *) printf '%s\n' "$line";;
+        esac; done"#
+    )
+}
+
 /// The folder of a test.
 fn path(test: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("conform-{test}"))

@@ -6,7 +6,7 @@ use mufasa::input::profile::Profile;
 use mufasa::monitor::{Inputs, Monitor};
 
 use super::habits::{Deed, Habit, PERIOD_NS, drive};
-use super::kit::{Buffers, MS, Station, World, at, look_around, road};
+use super::kit::{Buffers, MS, Station, World, at, inputs, look_around, road};
 
 /// Ten minutes.
 const PERIODS: i64 = 6_000;
@@ -70,14 +70,9 @@ fn of_use(monitor: &mut Monitor<'_>, station: &mut Station, first_ns: i64, last_
     for now_ns in periods.chain([last_ns]) {
         let world = World::at(now_ns);
         let (tracks, points) = station.period(monitor, &world);
-        let now = at(now_ns);
-        let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-        if let (Some(tracks), Some(points)) = (&tracks, &points) {
-            inputs = inputs.remote_tracks(tracks).remote_trajectory(points);
-        }
         let is_used = tracks.is_some() && points.is_some();
         assert_eq!(is_used, now_ns >= first_ns, "{now_ns}");
-        station.take(&monitor.cycle(&inputs).1);
+        station.take(&monitor.cycle(&inputs(&world, &tracks, &points)).1);
     }
 }
 

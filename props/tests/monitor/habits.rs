@@ -1,12 +1,12 @@
 //! Stations that have a habit: what they do in each session, period by period, and what it costs the CAV.
 
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Decision, Inputs, Message, Monitor, Settings};
+use mufasa::monitor::{Decision, Message, Monitor, Settings};
 use mufasa::offloading::requester::{Groups, Source};
 use mufasa::services::configuration::Group;
 
 use super::kit::{
-    Buffers, MS, Points, Station, Tracks, World, at, message, place, road, route, settings,
+    Buffers, MS, Points, Station, Tracks, World, at, inputs, message, place, road, route, settings,
 };
 
 pub const PERIOD_NS: i64 = 100 * MS;
@@ -274,15 +274,7 @@ fn cycle(
     tracks: &Tracks,
     points: &Points,
 ) -> [bool; 2] {
-    let now = at(world.now_ns);
-    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-    if let Some(tracks) = tracks {
-        inputs = inputs.remote_tracks(tracks);
-    }
-    if let Some(points) = points {
-        inputs = inputs.remote_trajectory(points);
-    }
-    let (decision, actions) = monitor.cycle(&inputs);
+    let (decision, actions) = monitor.cycle(&inputs(world, tracks, points));
     let Decision::Safe { tracks, trajectory, .. } = decision else {
         panic!("an unsafe cycle at {}", world.now_ns);
     };

@@ -199,6 +199,19 @@ impl Station {
     }
 }
 
+/// What a cycle at a time of the world is about, with these results.
+pub fn inputs<'c>(world: &'c World, tracks: &'c Tracks, points: &'c Points) -> Inputs<'c> {
+    let now = at(world.now_ns);
+    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+    if let Some(tracks) = tracks {
+        inputs = inputs.remote_tracks(tracks);
+    }
+    if let Some(points) = points {
+        inputs = inputs.remote_trajectory(points);
+    }
+    inputs
+}
+
 pub fn message<L>(session: i64, now: Time, items: L) -> Message<L> {
     Message { station: 1, session, generated: now, stamp: now, items }
 }

@@ -9,7 +9,7 @@ use mufasa::offloading::requester::{Group, Groups, RequesterError};
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Station, World, at, message, road, route, settings};
+use super::kit::{Buffers, MS, Station, World, at, inputs, message, road, route, settings};
 
 fn refused(settings: Settings) -> (MonitorError, String) {
     let mut buffers = Buffers::new(16, 40);
@@ -279,14 +279,9 @@ fn results_that_no_cycle_can_use_end_their_session() {
                 (station.accepted(tracks), station.accepted(points))
             };
             assert_eq!(points.is_some(), i > 0 && (i < 5 || is_used), "{age_ns} in period {i}");
-            let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-            if let Some(tracks) = &tracks {
-                inputs = inputs.remote_tracks(tracks);
-            }
-            if let Some(points) = &points {
-                inputs = inputs.remote_trajectory(points);
-            }
-            let (Decision::Safe { trajectory, .. }, actions) = monitor.cycle(&inputs) else {
+            let (Decision::Safe { trajectory, .. }, actions) =
+                monitor.cycle(&inputs(&world, &tracks, &points))
+            else {
                 panic!("nothing is wrong with what is used");
             };
             assert_eq!(trajectory.is_some(), points.is_some());

@@ -10,7 +10,7 @@ use mufasa::report::{FailedStage, Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{
-    Buffers, MS, Station, World, at, look_around, message, road, route, seconds, settings,
+    Buffers, MS, Station, World, at, inputs, look_around, message, road, route, seconds, settings,
 };
 use super::plain::check_plainly;
 
@@ -53,15 +53,7 @@ fn period(
     world: &World,
 ) -> Option<(FailedStage, Option<Rule>)> {
     let (tracks, points) = station.period(monitor, world);
-    let now = at(world.now_ns);
-    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-    if let Some(tracks) = &tracks {
-        inputs = inputs.remote_tracks(tracks);
-    }
-    if let Some(points) = &points {
-        inputs = inputs.remote_trajectory(points);
-    }
-    let (decision, actions) = monitor.cycle(&inputs);
+    let (decision, actions) = monitor.cycle(&inputs(world, &tracks, &points));
     station.take(&actions);
     match decision {
         Decision::Safe { .. } => None,

@@ -1,11 +1,13 @@
 //! Killed at any moment and started again, the vehicle reaches offloading anew, and uses nothing of its
 //! earlier life.
 
-use mufasa::monitor::{Decision, Inputs, Monitor, Settings};
+use mufasa::monitor::{Decision, Monitor, Settings};
 use mufasa::offloading::requester::Groups;
 use mufasa::services::configuration::Configuration;
 
-use super::kit::{Buffers, MS, Points, Station, Tracks, World, at, message, road, route, settings};
+use super::kit::{
+    Buffers, MS, Points, Station, Tracks, World, at, inputs, message, road, route, settings,
+};
 
 /// The station, and what is left of the vehicle's earlier lives.
 #[derive(Default)]
@@ -78,15 +80,7 @@ impl Left {
         world: &World,
         (tracks, points): &(Tracks, Points),
     ) -> usize {
-        let now = at(world.now_ns);
-        let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-        if let Some(tracks) = tracks {
-            inputs = inputs.remote_tracks(tracks);
-        }
-        if let Some(points) = points {
-            inputs = inputs.remote_trajectory(points);
-        }
-        let (decision, actions) = monitor.cycle(&inputs);
+        let (decision, actions) = monitor.cycle(&inputs(world, tracks, points));
         self.station.take(&actions);
         match decision {
             Decision::Safe { tracks, trajectory, .. } => {

@@ -6,7 +6,7 @@ use mufasa::offloading::requester::{Action, Actions, Group, Groups};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{
-    Buffers, MS, Points, Station, Tracks, World, at, look_around, message, road, settings,
+    Buffers, MS, Points, Station, Tracks, World, at, inputs, look_around, message, road, settings,
 };
 
 const PERIOD_NS: i64 = 100 * MS;
@@ -55,15 +55,7 @@ fn period(
         let arrival = monitor.trajectory(at(arrival_ns), new);
         points = station.accepted(arrival.expect("a station"));
     }
-    let now = at(world.now_ns);
-    let mut inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
-    if let Some(tracks) = &tracks {
-        inputs = inputs.remote_tracks(tracks);
-    }
-    if let Some(points) = &points {
-        inputs = inputs.remote_trajectory(points);
-    }
-    let (decision, actions) = monitor.cycle(&inputs);
+    let (decision, actions) = monitor.cycle(&inputs(&world, &tracks, &points));
     let Decision::Safe { tracks, trajectory, .. } = decision else {
         panic!("{habit:?} at {start_ns}: {decision:?}");
     };
