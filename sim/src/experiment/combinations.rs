@@ -117,21 +117,21 @@ pub struct Run {
 
 /// Counts how many attacks go on at the same time.
 #[derive(Clone, Debug)]
-struct Several {
+struct Overlaps {
     watch: Watch,
     attacks: Vec<Attack>,
     most_at_once: usize,
     several: u64,
 }
 
-impl Several {
+impl Overlaps {
     fn of(attacks: &[Attack]) -> Self {
         let attacks = attacks.to_vec();
         Self { watch: Watch::default(), attacks, most_at_once: 0, several: 0 }
     }
 }
 
-impl Watcher for Several {
+impl Watcher for Overlaps {
     fn cycle(&mut self, truth: &Snapshot, cav: &Cav<'_>, decided: &Decided, cycle: &Cycle) {
         self.watch.cycle(truth, cav, decided, cycle);
         let going_on = |it: &&Attack| it.from <= cycle.t && cycle.t < it.until;
@@ -169,7 +169,7 @@ pub fn experiment(
     select: &Select<'_>,
     done: impl Fn(usize) + Sync,
 ) -> Result<Combinations, ExperimentError> {
-    let watcher = |job: &Job<Offered>| Several::of(&job.settings.attacks);
+    let watcher = |job: &Job<Offered>| Overlaps::of(&job.settings.attacks);
     let runs = job::watched(town, jobs(town, options), select, done, watcher, kept)?;
     let same = |a: &Run, b: &Run| (a.offered, a.variant) == (b.offered, b.variant);
     Ok(Combinations { options, rows: runs.chunk_by(same).map(row).collect(), runs })
@@ -197,7 +197,7 @@ pub fn attacks(seed: u64, route: usize) -> Vec<Attack> {
     attacks
 }
 
-fn kept(job: &Job<Offered>, outcome: &Outcome, seen: &Several) -> Run {
+fn kept(job: &Job<Offered>, outcome: &Outcome, seen: &Overlaps) -> Run {
     let attacks = &job.settings.attacks;
     Run {
         id: job.id.clone(),

@@ -126,8 +126,8 @@ impl Without {
         }
     }
 
-    /// Whether a cycle that is decided so with all rules may be decided otherwise without this one. Only H-01 and
-    /// H-06 may accept what the paper rejects, too: of the others a cycle that fails at nothing of theirs stays as it is.
+    /// Whether a cycle that is decided so with all rules may be decided otherwise without this one. Without H-01, H-06 or H-10
+    /// one may fail that passes with it; of the others a cycle that fails at nothing of theirs stays as it is.
     pub fn may_change(self, report: &Report) -> bool {
         let ran = |stage: Stage| {
             matches!(report.stages[stage as usize], Outcome::Passed | Outcome::Failed(_))
@@ -150,7 +150,8 @@ impl Without {
             Self::H06 => ran(Stage::V),
             Self::H07 | Self::H11 | Self::H12 => failed(&[Stage::Ii]),
             Self::H09 => by(&[Rule::CollisionStanding]),
-            Self::H10 => failed(&[Stage::Iv, Stage::V]),
+            // Where stage i could not check what stage iii ran on, H-02 asks for one of the stages that H-10 keeps.
+            Self::H10 => failed(&[Stage::Iv, Stage::V]) || (ran(Stage::Iii) && !ran(Stage::I)),
             Self::H13 => failed(&[Stage::Iv]),
         }
     }
