@@ -306,7 +306,8 @@ impl<'a> World<'a> {
         let roads: Vec<usize> = self.town.roads().collect();
         let route = roads[self.random.random_range(0..roads.len())];
         let size = scenario::size(&mut self.random, &self.town.routes[route]);
-        let mut start = scenario::start(&mut self.random, route, size.0 / 2.0, size);
+        let place = (route, size.0 / 2.0);
+        let mut start = scenario::vehicle(&mut self.random, self.town, place, size);
         start.speed = start.speed.min(6.0);
         let pose: Pose = self.town.routes[route].path.pose_at(start.s);
         if self.is_free(pose.at, FREE.0)

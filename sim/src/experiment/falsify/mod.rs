@@ -232,7 +232,8 @@ impl<'a, C: Caller> Search<'a, C> {
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
             let attacks = Vec::new();
-            let case = Case { variant, without, offered, route, scenario, vehicles, attacks };
+            let map = town.id;
+            let case = Case { variant, without, offered, route, scenario, vehicles, attacks, map };
             let mut danger = Danger::default();
             let outcome = case.run(town, &mut danger)?;
             let clean =
