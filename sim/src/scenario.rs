@@ -47,6 +47,8 @@ const SIZES: [(f64, f64, u32); 5] =
 const LONG: (f64, f64) = (7.0, 1.0 / 30.0);
 /// Free road between two vehicles at the start, m.
 const FREE: f64 = 6.0;
+/// Places ahead of a vehicle that came with the map that are kept free, m.
+const AHEAD: [f64; 6] = [0.0, 5.0, 10.0, 15.0, 20.0, 25.0];
 
 impl Scenario {
     /// A random start: `vehicles` (fewer when no free place was found) on all roads, in about four of five
@@ -65,11 +67,15 @@ impl Scenario {
         placed.add(route, ego_s, 5.1, 1.89);
         let mut actors: Vec<Start> =
             given.iter().flat_map(|it| &it.actors).take(vehicles).cloned().collect();
-        for actor in &actors {
-            placed.add(&town.routes[actor.route], actor.s, actor.length, actor.width);
+        // They drive as they are given: nobody is put so near ahead of them that they would have to be slower.
+        let ego = given.map(|_| (ego_route, ego_s));
+        for (index, s) in actors.iter().map(|it| (it.route, it.s)).chain(ego) {
+            for ahead in AHEAD {
+                placed.add(&town.routes[index], s + ahead, 5.1, 2.0);
+            }
         }
-        let fixed = actors.len();
-        if vehicles > fixed && random.random_bool(0.8) {
+        let given = actors.len();
+        if vehicles > given && random.random_bool(0.8) {
             actors.extend(lead(&mut random, town, (ego_route, ego_s), &mut placed));
         }
         let roads: Vec<usize> = town.roads().collect();
@@ -97,12 +103,13 @@ impl Scenario {
             refill: true,
             time_limit: 120.0,
         };
-        scenario.slow_down(town);
+        scenario.slow_down(town, given);
         scenario
     }
 
-    /// Starts nobody faster than they can stop behind who is ahead, or before the next passage, at 2 m/s^2.
-    fn slow_down(&mut self, town: &Town) {
+    /// Starts nobody, but those who are given, faster than they can stop behind who is ahead, or before the next
+    /// passage, at 2 m/s^2.
+    fn slow_down(&mut self, town: &Town, given: usize) {
         let all: Vec<Rectangle> =
             self.actors.iter().map(|a| rectangle(&town.routes[a.route], a)).collect();
         let ego = Rectangle {
@@ -123,7 +130,7 @@ impl Scenario {
                 }
                 (4.0 * (free - 4.0).max(0.0)).sqrt().min(0.9 * route.pace_at(s))
             };
-        for index in 0..self.actors.len() {
+        for index in given..self.actors.len() {
             let actor = &self.actors[index];
             let mut others =
                 all.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, r)| r).chain([&ego]);

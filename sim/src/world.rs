@@ -246,6 +246,7 @@ impl<'a> World<'a> {
         let ego = &mut self.agents[0];
         ego.rectangle = self.body.rectangle(&self.motion);
         ego.speed = self.motion.speed;
+        ego.acceleration = self.motion.acceleration;
         let seen = route.path.project_within(ego.rectangle.pose.at, ego.s - 3.0, ego.s + 5.0);
         ego.s = seen.s;
         self.left = seen.left;

@@ -50,7 +50,8 @@ impl FromStr for MapId {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let digits = text.strip_prefix(LEHR).filter(|it| it.len() == 16);
+        let is_sum = |it: &&str| it.len() == 16 && it.bytes().all(|it| it.is_ascii_hexdigit());
+        let digits = text.strip_prefix(LEHR).filter(is_sum);
         let sum = digits.and_then(|it| u64::from_str_radix(it, 16).ok()).map(Self::Lehr);
         sum.or((text == TOWN).then_some(Self::Town))
             .ok_or_else(|| format!("{text}: a map is `{TOWN}` or `{LEHR}` and sixteen digits"))
