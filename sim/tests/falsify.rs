@@ -3,7 +3,6 @@
 use mufasa_sim::attack::means::{Lists, Means};
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::attacks::Offered;
 use mufasa_sim::experiment::falsify::cma::{Cma, anywhere};
 use mufasa_sim::experiment::falsify::danger::{Danger, FREE_S};
@@ -13,7 +12,7 @@ use mufasa_sim::experiment::falsify::shrink::shrunk;
 use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, experiment};
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
-use mufasa_sim::run::End;
+use mufasa_sim::run::{End, TAU_S};
 
 /// Looks for much time left instead of little.
 struct Backwards;
@@ -81,6 +80,7 @@ fn what_is_found_is_shrunk_to_what_matters() {
     let case = Case {
         variant: Variant::Sofof,
         without: None,
+        tau_s: TAU_S,
         offered: Offered::Both,
         route: 0,
         scenario: 0,
@@ -157,6 +157,7 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     let mut case = Case {
         variant: Variant::Sofof,
         without: None,
+        tau_s: TAU_S,
         offered: Offered::Both,
         route: 0,
         scenario: 0,
@@ -196,10 +197,13 @@ fn what_was_found_still_collides_and_only_under_attack() {
             continue;
         }
         assert_eq!(again.as_ref(), Some(&found), "{}", file.display());
+        let is_own = file.file_stem().is_some_and(|it| it.to_string_lossy().ends_with("-own"));
+        assert_eq!(found.is_own(), is_own, "{}", file.display());
         let clean = Case { attacks: Vec::new(), ..found.case.clone() };
         assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
-        if found.case.without == Some(Without::H13) {
-            let whole = Case { without: None, ..found.case.clone() };
+        // Nor with all rules, or with the time that the CAV takes.
+        let whole = Case { without: None, tau_s: TAU_S, ..found.case.clone() };
+        if whole != found.case {
             assert_eq!(whole.collision(&town).expect("it can be"), None, "{}", file.display());
         }
         count += 1;

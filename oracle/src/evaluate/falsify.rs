@@ -197,9 +197,19 @@ fn ended(
         made.found.len()
     )?;
     for found in &made.found {
-        let Found { case, t_s, with, speed_mps } = found;
+        let Found { case, t_s, with, speed_mps, last_use } = found;
         let name = case.name();
-        writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s")?;
+        let last = match last_use {
+            None => "no remote result was ever used".to_owned(),
+            Some(it) => {
+                let own = if found.is_own() { ", enough for its own services" } else { "" };
+                format!(
+                    "last remote result used at {:.2} s with {:.1} s left{own}",
+                    it.t_s, it.left_s
+                )
+            }
+        };
+        writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s; {last}")?;
     }
     names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
     let is_whole = made.options.variant == Variant::Hardened && made.options.without.is_none();
@@ -303,7 +313,8 @@ fn write_files(
 
 /// The file of a collision in the folder of the search: all about it, or its page.
 fn file_of(found: &Found, ending: &str) -> PathBuf {
-    Path::new("found").join(format!("{}.{ending}", found.case.name()))
+    let own = if found.is_own() { "-own" } else { "" };
+    Path::new("found").join(format!("{}{own}.{ending}", found.case.name()))
 }
 
 /// The command, but for how long and from which seed.

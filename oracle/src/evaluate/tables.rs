@@ -231,6 +231,7 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
         ("attack", false),
         ("runs", true),
         ("collided", true),
+        ("of them its own services'", true),
         ("least time left, s", true),
         ("least distance, m", true),
     ];
@@ -239,6 +240,7 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
             kind_name(row.attack).to_owned(),
             row.runs.to_string(),
             row.collided.to_string(),
+            row.own.to_string(),
             format!("{:.1}", row.least_time_left_s),
             row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
         ]

@@ -31,6 +31,8 @@ pub enum Kind {
     Drift,
     /// The trajectory begins 1 s from now.
     StartsLate,
+    /// The trajectory ends as soon as the rules let it: behind where the CAV can stop (F-44).
+    EndsEarly,
     /// The trajectory runs backwards.
     Backwards,
     /// The trajectory goes on at the present speed, whatever is ahead.
@@ -51,7 +53,7 @@ pub enum Kind {
 
 impl Kind {
     /// All.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::MapReplaced,
         Self::TracksEmpty,
         Self::Ghosts,
@@ -63,6 +65,7 @@ impl Kind {
         Self::Replay,
         Self::Drift,
         Self::StartsLate,
+        Self::EndsEarly,
         Self::Backwards,
         Self::IntoLead,
         Self::Swerve,
@@ -90,6 +93,7 @@ impl Kind {
             Self::Replay => "replay",
             Self::Drift => "drift",
             Self::StartsLate => "starts-late",
+            Self::EndsEarly => "ends-early",
             Self::Backwards => "backwards",
             Self::IntoLead => "into-lead",
             Self::Swerve => "swerve",

@@ -28,7 +28,8 @@ pub struct Means {
     /// Which lists are spoiled.
     pub lists: Lists,
     /// How far ahead of the CAV something is made up, m; `ghosts` and `ghost-in-mean`: this on top of where
-    /// they are; `swerve`: way until the trajectory is aside.
+    /// they are; `swerve`: way until the trajectory is aside; `ends-early`: how far behind where the CAV can
+    /// stop the trajectory ends.
     pub ahead_m: f64,
     /// How far to the left of that, m; `swerve`: how far the trajectory is aside.
     pub left_m: f64,
@@ -77,6 +78,7 @@ impl Means {
             | Kind::OneRemoved
             | Kind::GhostInMean
             | Kind::ExchangedPasts
+            | Kind::EndsEarly
             | Kind::Backwards
             | Kind::NotFinite
             | Kind::Flood

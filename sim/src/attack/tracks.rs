@@ -84,6 +84,7 @@ pub(super) fn spoil(
         | Kind::TracksEmpty
         | Kind::Replay
         | Kind::StartsLate
+        | Kind::EndsEarly
         | Kind::Backwards
         | Kind::IntoLead
         | Kind::Swerve

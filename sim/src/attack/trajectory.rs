@@ -3,11 +3,14 @@
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use super::{Attack, Kind, later, nanoseconds};
+use crate::run::TAU_S;
 use crate::services::tpl::STEP_NS;
 use crate::services::way::seconds;
 
 /// Most points of a message.
 const MOST_POINTS: usize = 1024;
+/// The CAV's hardest braking, m/s^2.
+const A_B: f64 = 8.0;
 
 /// Spoils the points, if this kind of attack does that.
 pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint>) {
@@ -17,6 +20,7 @@ pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint
             let late_ns = nanoseconds(means.late_s);
             points.iter_mut().for_each(|it| *it = later(it, late_ns));
         }
+        Kind::EndsEarly => end_early(ego.speed, means.ahead_m, points),
         Kind::Backwards => {
             let places: Vec<_> = points.iter().rev().copied().collect();
             for (point, place) in points.iter_mut().zip(places) {
@@ -96,6 +100,18 @@ fn swerve(left: f64, over: f64, points: &mut [TrajectoryPoint]) {
             sin: (before.sin + slope * before.cos) / norm,
         };
     }
+}
+
+/// Up to the first point farther than the CAV's way until it stands, from a speed on, m/s, and `behind`, m.
+fn end_early(speed: f64, behind: f64, points: &mut Vec<TrajectoryPoint>) {
+    let reach = TAU_S * speed + speed * speed / (2.0 * A_B) + behind;
+    let mut way = 0.0;
+    let last = points.windows(2).position(|pair| {
+        let (x, y) = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
+        way += (x * x + y * y).sqrt();
+        way > reach
+    });
+    points.truncate(last.map_or(usize::MAX, |index| index + 2));
 }
 
 /// As many points as the formats allow, the last standing.

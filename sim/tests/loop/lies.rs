@@ -4,6 +4,7 @@ use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
 use mufasa_sim::attack::{Attack, Attacker, Kind, Results};
 use mufasa_sim::cav::sensing::ego;
 use mufasa_sim::map::streets::town;
+use mufasa_sim::run::TAU_S;
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::world::World;
 
@@ -97,4 +98,15 @@ fn a_ghost_in_the_mean_stands_by_the_nearest_track_of_four() {
     assert!(before.tracks.iter().all(|it| it.id != ghost.id));
     let (_, before, after) = attacked(Kind::GhostInMean, |own| tracks(own)[..3].to_vec());
     assert_eq!(after.tracks, before.tracks, "three hide nothing");
+}
+
+#[test]
+fn a_trajectory_that_ends_early_ends_behind_where_the_cav_can_stop() {
+    let (own, before, after) = attacked(Kind::EndsEarly, tracks);
+    // Points are 1 m apart.
+    let stop = TAU_S * own.speed + own.speed * own.speed / 16.0;
+    let way = |count: usize| f64::from(u32::try_from(count).expect("a few")) - 1.0;
+    let count = after.points.len();
+    assert!(way(count) > stop && way(count) - 1.0 <= stop, "{count} points, {stop} m");
+    assert!(count < before.points.len() && after.points == before.points[..count]);
 }

@@ -7,6 +7,9 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
 use crate::collision;
@@ -31,6 +34,16 @@ const PER_SPEED: f64 = 0.02;
 /// Farther away nobody is looked at, m.
 const FAR: f64 = 80.0;
 
+/// When remote results were used for the last time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LastUse {
+    /// When, s.
+    pub t_s: f64,
+    /// The time that was left to react then, s.
+    pub left_s: f64,
+}
+
 /// Keeps where everybody was.
 #[derive(Clone, Debug, Default)]
 pub struct Danger {
@@ -45,6 +58,7 @@ struct Moment {
     ego: EgoState,
     nearest: Option<f64>,
     is_remote: bool,
+    is_used: bool,
     others: Vec<(u32, Rectangle)>,
 }
 
@@ -53,7 +67,8 @@ impl Watcher for Danger {
         self.last_speed = truth.ego.speed;
         let moment = Moment::new(truth, cycle.t);
         let (nearest, is_remote) = (cycle.nearest, cycle.remote != 0);
-        self.moments.push(Moment { nearest, is_remote, ..moment });
+        let is_used = is_remote && cycle.failed == 0;
+        self.moments.push(Moment { nearest, is_remote, is_used, ..moment });
     }
 
     /// A collision is after the last cycle.
@@ -67,7 +82,7 @@ impl Moment {
         let ego = truth.ego;
         let near = |it: &&Object| it.rectangle.pose.at.distance(ego.rectangle.pose.at) < FAR;
         let others = truth.objects.iter().filter(near).map(|it| (it.id, it.rectangle)).collect();
-        Self { t, ego, nearest: None, is_remote: false, others }
+        Self { t, ego, nearest: None, is_remote: false, is_used: false, others }
     }
 }
 
@@ -87,6 +102,12 @@ impl Danger {
     /// Times of the cycles with something remote, s.
     pub fn remote_times(&self) -> Vec<f64> {
         self.moments.iter().filter(|it| it.is_remote).map(|it| it.t).collect()
+    }
+
+    /// The last cycle whose remote results were used.
+    pub fn last_use(&self, route: &Route) -> Option<LastUse> {
+        let at = self.moments.iter().rposition(|it| it.is_used)?;
+        Some(LastUse { t_s: self.moments[at].t, left_s: self.time_left(route, at) })
     }
 
     /// Speed of the CAV in the last cycle, m/s.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::super::attacks::Offered;
 use super::super::job::Job;
-use super::danger::Danger;
+use super::danger::{Danger, LastUse};
 use crate::attack::Attack;
 use crate::cav::guard::Variant;
 use crate::cav::without::Without;
@@ -17,6 +17,8 @@ use crate::run::{End, Outcome, RunError, Settings, Watcher};
 /// that false alarms end fewer of the attacks. No rule of the stages is changed by that.
 const T_WAIT_NS: i64 = 1_000_000_000;
 const POSITION_M: f64 = 0.02;
+/// What the CAV's own services need to take over, s: the cycle that fails, the one in which they answer, and tau.
+const TAKES_OVER_S: f64 = 0.3;
 
 /// A run: where it starts, what is checked, and what the attacker does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +28,8 @@ pub struct Case {
     pub variant: Variant,
     /// A rule that is left out.
     pub without: Option<Without>,
+    /// `tau` of the hardened profile, s; less than `TAU_S` is less than A-07 asks for.
+    pub tau_s: f64,
     /// What the station offers.
     pub offered: Offered,
     /// Which of the ego's routes, from 0.
@@ -53,6 +57,16 @@ pub struct Found {
     pub with: u32,
     /// How fast the CAV was in the last cycle before, m/s.
     pub speed_mps: f64,
+    /// The last cycle whose remote results were used; none: none ever was.
+    pub last_use: Option<LastUse>,
+}
+
+impl Found {
+    /// Whether the CAV's own services had the time to avoid it, after the last remote result that was used.
+    pub fn is_own(&self) -> bool {
+        self.last_use
+            .is_none_or(|it| self.t_s - it.t_s >= TAKES_OVER_S && it.left_s >= TAKES_OVER_S)
+    }
 }
 
 impl Case {
@@ -69,6 +83,7 @@ impl Case {
         let mut settings = Settings::new(self.variant, self.offered.groups(), scenario);
         settings.attacks.clone_from(&self.attacks);
         settings.without = self.without;
+        settings.stages.tau = self.tau_s;
         settings.requester.t_wait_ns = T_WAIT_NS;
         settings.errors.position = POSITION_M;
         let (what, id, watched_from) = ((), self.name(), 0.0);
@@ -84,14 +99,15 @@ impl Case {
     pub fn collision(&self, town: &Town) -> Result<Option<Found>, RunError> {
         let mut danger = Danger::default();
         let outcome = self.run(town, &mut danger)?;
-        Ok(self.found(&outcome, &danger))
+        Ok(self.found(town, &outcome, &danger))
     }
 
     /// The collision of an outcome.
-    pub fn found(&self, outcome: &Outcome, danger: &Danger) -> Option<Found> {
+    pub fn found(&self, town: &Town, outcome: &Outcome, danger: &Danger) -> Option<Found> {
         let with = outcome.with.filter(|_| outcome.end == End::Collided)?;
         let speed_mps = danger.last_speed();
-        Some(Found { case: self.clone(), t_s: outcome.t, with, speed_mps })
+        let last_use = danger.last_use(&town.routes[self.ego_route(town)]);
+        Some(Found { case: self.clone(), t_s: outcome.t, with, speed_mps, last_use })
     }
 
     /// When the first attack begins, s.

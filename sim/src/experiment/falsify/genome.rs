@@ -20,7 +20,7 @@ const GENES_OF_ATTACK: usize = 8;
 
 /// What the search attacks with: all but what an attacker gets nothing from (`flood` and `slow` cost time
 /// that a run does not know).
-pub const KINDS: [Kind; 17] = [
+pub const KINDS: [Kind; 18] = [
     Kind::MapReplaced,
     Kind::TracksEmpty,
     Kind::Ghosts,
@@ -32,6 +32,7 @@ pub const KINDS: [Kind; 17] = [
     Kind::Replay,
     Kind::Drift,
     Kind::StartsLate,
+    Kind::EndsEarly,
     Kind::Backwards,
     Kind::IntoLead,
     Kind::Swerve,
@@ -98,6 +99,7 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         Kind::Replay => Means { late_s: between(a, 0.1, 8.0), ..none },
         Kind::StartsLate => Means { late_s: between(a, 0.02, 2.0), ..none },
         Kind::Delay => Means { late_s: between(a, 0.005, 0.1), ..none },
+        Kind::EndsEarly => Means { ahead_m: between(a, 0.0, 6.0), ..none },
         Kind::IntoLead => Means {
             speed_mps: between(a, 0.0, 20.0),
             acceleration_mps2: between(b, -3.0, 3.0),

@@ -30,7 +30,7 @@ use super::attacks::Offered;
 use super::select::Shard;
 use crate::attack::Kind;
 use crate::map::Town;
-use crate::run::{End, RunError};
+use crate::run::{RunError, TAU_S};
 
 /// Its name.
 pub const NAME: &str = "falsify";
@@ -231,23 +231,23 @@ impl<'a, C: Caller> Search<'a, C> {
             let route = usize::from(index % 2 == 1);
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
-            let attacks = Vec::new();
-            let map = town.id;
-            let case = Case { variant, without, offered, route, scenario, vehicles, attacks, map };
+            let (tau_s, attacks, map) = (TAU_S, Vec::new(), town.id);
+            let case =
+                Case { variant, without, tau_s, offered, route, scenario, vehicles, attacks, map };
             let mut danger = Danger::default();
             let outcome = case.run(town, &mut danger)?;
             let clean =
                 Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
+            let collided = case.found(town, &outcome, &danger).map(|it| it.is_own());
             let time_left = danger.least_time_left(&town.routes[case.ego_route(town)], 0.0);
-            Ok((Start { case, clean }, outcome.end, time_left, danger.least_distance(0.0)))
+            Ok((Start { case, clean }, collided, time_left, danger.least_distance(0.0)))
         };
         let made: Vec<_> = (0..STARTS).into_par_iter().map(one).collect::<Result<_, _>>()?;
         let mut starts = Vec::new();
-        for (start, end, time_left, distance) in made {
-            let has_collided = end == End::Collided;
-            self.count(None, has_collided, time_left, distance);
-            self.result.clean_collided += u64::from(has_collided);
-            if !has_collided {
+        for (start, collided, time_left, distance) in made {
+            self.count(None, collided, time_left, distance);
+            self.result.clean_collided += u64::from(collided.is_some());
+            if collided.is_none() {
                 starts.push(start);
             }
         }
@@ -276,7 +276,12 @@ impl<'a, C: Caller> Search<'a, C> {
             kinds.sort_unstable();
             kinds.dedup();
             for kind in kinds {
-                self.count(Some(kind), it.found.is_some(), it.time_left, it.distance);
+                self.count(
+                    Some(kind),
+                    it.found.as_ref().map(Found::is_own),
+                    it.time_left,
+                    it.distance,
+                );
             }
             self.result.collided += u64::from(it.found.is_some());
             let time_left_s = Some(it.time_left).filter(|_| it.found.is_none());
@@ -295,19 +300,21 @@ impl<'a, C: Caller> Search<'a, C> {
         Ok(tried.into_iter().map(worth).collect())
     }
 
+    /// Counts a run; `collided`: whether the own services had the time to avoid it, if it did.
     fn count(
         &mut self,
         attack: Option<Kind>,
-        has_collided: bool,
+        collided: Option<bool>,
         time_left: f64,
         distance: Option<f64>,
     ) {
         let one = Row {
             attack,
             runs: 1,
-            collided: u64::from(has_collided),
-            least_time_left_s: if has_collided { danger::FREE_S } else { time_left },
-            least_distance_m: distance.filter(|_| !has_collided),
+            collided: u64::from(collided.is_some()),
+            own: u64::from(collided == Some(true)),
+            least_time_left_s: if collided.is_some() { danger::FREE_S } else { time_left },
+            least_distance_m: distance.filter(|_| collided.is_none()),
         };
         self.rows.entry(attack).and_modify(|row| *row = row.with(one)).or_insert(one);
     }
@@ -323,7 +330,7 @@ fn try_point(
     let case = Case { offered, attacks, ..start.case.clone() };
     let mut danger = Danger::default();
     let outcome = case.run(town, &mut danger)?;
-    let found = case.found(&outcome, &danger);
+    let found = case.found(town, &outcome, &danger);
     let route = &town.routes[case.ego_route(town)];
     let time_left = danger.least_time_left(route, case.begins());
     let distance = danger.least_distance(case.begins());

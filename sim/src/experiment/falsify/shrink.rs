@@ -34,6 +34,8 @@ impl Shrinking<'_> {
     fn offer(&mut self, case: &Case) -> Result<bool, RunError> {
         self.runs += 1;
         let found = case.collision(self.town)?;
+        // What remote results led to is not shrunk to what the own services did.
+        let found = found.filter(|it| it.is_own() == self.best.is_own());
         let is_taken = found.is_some();
         if let Some(found) = found {
             self.best = found;
