@@ -1,10 +1,12 @@
 //! The junction of Ulm-Lehr, read where it lies; says so when it does not.
 
 mod common;
+#[path = "common/maps.rs"]
+mod maps;
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use maps::maps;
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::ulm::lehr;
 use mufasa_sim::scenario::Scenario;
@@ -12,28 +14,9 @@ use mufasa_sim::traffic::idm::Idm;
 use mufasa_sim::world::World;
 use serde_json::{Value, json};
 
-/// The folder of the maps, below `MUFASA_DATA` or `shared/data` beside the workspace.
-fn folder() -> Option<PathBuf> {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    // A checkout may lie one folder deeper.
-    let deeper = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let named = std::env::var_os("MUFASA_DATA").map(PathBuf::from);
-    let places = named.map_or(vec![beside, deeper], |named| vec![named]);
-    let found = places.iter().map(|place| place.join("ulm")).find(|place| place.is_dir());
-    if found.is_none() {
-        let line = format!(
-            "NOT RUN: {}: no maps of Ulm in {}; set MUFASA_DATA\n",
-            std::thread::current().name().unwrap_or("a test"),
-            places[0].display()
-        );
-        std::io::stderr().write_all(line.as_bytes()).expect("standard error can be written");
-    }
-    found
-}
-
 #[test]
 fn the_junction_has_its_ways_and_their_conflicts() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = maps() else { return };
     let town = lehr(&folder).unwrap();
     assert_eq!(town.routes.len(), 6);
     for route in &town.routes {
@@ -185,7 +168,7 @@ fn a_map_is_known_by_what_is_in_its_files() {
 
 #[test]
 fn the_scenario_of_the_institute_runs() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = maps() else { return };
     let town = lehr(&folder).unwrap();
     let [given] = &town.given.starts[..] else { panic!("{:?}", town.given) };
     assert_eq!((given.ego_route, given.actors.len(), town.given.drivers.len()), (1, 4, 4));
@@ -207,7 +190,7 @@ fn the_scenario_of_the_institute_runs() {
 
 #[test]
 fn nobody_collides_at_lehr() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = maps() else { return };
     let town = lehr(&folder).unwrap();
     let routes: Vec<usize> = town.ego_routes().collect();
     assert_eq!(routes, [1, 4]);
