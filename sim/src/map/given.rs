@@ -10,6 +10,9 @@ pub struct Given {
     pub drivers: Vec<Idm>,
     /// Starts, at most one for each route of the ego.
     pub starts: Vec<GivenStart>,
+    /// Whether others let the ego go that evidently goes, if they can still stop. Not in the town: runs of it are
+    /// kept, and would be other ones.
+    pub lets_ego_go: bool,
 }
 
 /// Where the ego and others are at a start.

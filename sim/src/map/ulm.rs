@@ -167,7 +167,7 @@ fn given(town: &Town, uuids: &[String], file: &File, bytes: &[u8]) -> Result<Giv
     if v < 0.0 {
         return Err(error(file, "ego.v", format!("{v}: it drives backwards")));
     }
-    let mut given = Given::default();
+    let mut given = Given { lets_ego_go: true, ..Given::default() };
     let mut actors = Vec::new();
     for (index, car) in state.cars.iter().enumerate() {
         let broken = |field: &str, message: String| {

@@ -28,7 +28,9 @@ pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
     for agent in agents.iter_mut() {
         forced += u32::from(revoke_or_force(agent, town, lights));
     }
-    yield_to_ego(agents, town);
+    if town.given.lets_ego_go {
+        yield_to_ego(agents, town);
+    }
     // The longest waiting first; people and others in the order of their numbers.
     let mut order: Vec<usize> = (0..agents.len()).filter(|&i| asks(&agents[i], town)).collect();
     let since = |i: &usize| agents[*i].waits_since.unwrap_or(f64::INFINITY);
@@ -69,7 +71,10 @@ fn revoke_or_force(agent: &mut Agent, town: &Town, lights: f64) -> bool {
     if let Some(next) = passages.get(agent.granted) {
         let room = next.from - agent.front();
         let (speed, acceleration, near) = EGO_GOES;
-        let goes = agent.speed > speed && agent.acceleration > acceleration && room < near;
+        let goes = town.given.lets_ego_go
+            && agent.speed > speed
+            && agent.acceleration > acceleration
+            && room < near;
         if room < -0.3 || agent.kind == Kind::Ego && (goes || room < square / A_FORCED) {
             agent.granted += 1;
             return agent.kind != Kind::Ego;
