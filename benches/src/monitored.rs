@@ -1,5 +1,5 @@
-//! A cycle of the monitor beside the same by the plain calls: the stages, and the verdict to the
-//! requester (`spec/5-interfaces.md#monitor`). The plain side keeps no detections for later cycles.
+//! A period of the monitor, tick and cycle, beside the same by the plain calls: the stages, and a tick and the verdict to
+//! the requester (`spec/5-interfaces.md#monitor`). The plain side keeps no detections for later cycles.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -53,8 +53,10 @@ impl<'a> Plain<'a> {
     /// Whether the cycle is safe.
     ///
     /// # Panics
-    /// Never: a verdict names no station.
+    /// Never: neither tick nor verdict names a station.
     pub fn cycle(&mut self) -> bool {
+        let tick = Event { t_ns: self.now_ns, kind: EventKind::Tick };
+        let _done = black_box(self.requester.step(&tick).expect("a tick names no station"));
         let report = Ok(self.stages.check());
         let kind = EventKind::of_cycle(&report, SESSIONS);
         let actions = self.requester.step(&Event { t_ns: self.now_ns, kind });
@@ -66,6 +68,7 @@ impl<'a> Plain<'a> {
 /// A monitor that has seen the history of the cycle.
 pub struct Monitored<'a> {
     monitor: Monitor<'a>,
+    now: Time,
     inputs: Inputs<'a>,
 }
 
@@ -137,11 +140,12 @@ impl<'a> Monitored<'a> {
             let map = GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown };
             inputs = inputs.grid(Time::from_nanoseconds(stamp_ns), map);
         }
-        Self { monitor, inputs }
+        Self { monitor, now, inputs }
     }
 
     /// Whether the cycle is safe, and both results of the station come out.
     pub fn cycle(&mut self) -> bool {
+        let _nothing = black_box(self.monitor.tick(self.now));
         let (decision, _actions) = black_box(self.monitor.cycle(black_box(&self.inputs)));
         match decision {
             Decision::Safe { tracks, trajectory, .. } => tracks.is_some() && trajectory.is_some(),

@@ -159,7 +159,9 @@ int main(void) {
 
     /* The one way to what the station sent. */
     struct MufasaDecision decision;
-    check(mufasa_monitor_cycle(monitor, now, &w.inputs, &decision), "a cycle");
+    /* Not OK: inputs of this program that nobody can check. It counts as unsafe, and the vehicle drives on. */
+    const MufasaStatus status = mufasa_monitor_cycle(monitor, now, &w.inputs, &decision);
+    if (status != MUFASA_STATUS_OK) fprintf(stderr, "a cycle: status %d\n", (int)status);
     if (decision.report.verdict != MUFASA_VERDICT_SAFE) {
       printf("%4.1f s: unsafe in stage %d, back to the local services\n", 0.001 * PERIOD_MS * cycle,
              (int)decision.report.failed_stage);

@@ -80,6 +80,7 @@ static MufasaStatus plan(struct MufasaMonitor *monitor, int64_t now_ns, int64_t 
 }
 
 static void cycle(struct MufasaMonitor *monitor, int64_t now_ns) {
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, now_ns, 0, 0) == MUFASA_STATUS_OK);
   detections.stamp = lead.stamp = own.stamp = AT(now_ns);
   memset(&decision, 0xff, sizeof decision);
   EXPECT(mufasa_monitor_cycle(monitor, AT(now_ns), &inputs, &decision) == MUFASA_STATUS_OK);
@@ -142,6 +143,17 @@ static void results_that_no_cycle_can_use_end_their_session(void) {
     EXPECT(decision.tracks == NULL && decision.trajectory == NULL);
   }
   EXPECT(is_local(monitor) && now_ns > 104 * MS && now_ns - 20 * MS <= (4 + 2 * 100 + 2 * 20) * MS);
+}
+
+/* Only a tick notices silence. */
+static void a_cycle_without_a_tick_is_unsafe(void) {
+  struct MufasaMonitor *monitor = offloading();
+  cycle(monitor, 5 * MS);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE && !is_local(monitor));
+  detections.stamp = lead.stamp = own.stamp = AT(6 * MS);
+  EXPECT(mufasa_monitor_cycle(monitor, AT(6 * MS), &inputs, &decision) == MUFASA_STATUS_OK);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
+  EXPECT(strcmp(decision.report.input.field, "tick") == 0);
 }
 
 /* A fault of the call ends offloading like any unsafe cycle. */
@@ -286,6 +298,7 @@ int main(void) {
   inputs.lead = &lead;
   data_come_out_of_a_safe_cycle_alone();
   results_that_no_cycle_can_use_end_their_session();
+  a_cycle_without_a_tick_is_unsafe();
   faults_fall_back();
   events_that_are_not_for_the_caller();
   settings_that_no_monitor_can_keep();

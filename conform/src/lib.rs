@@ -20,6 +20,7 @@ mod sighting;
 mod subject;
 pub mod vectors;
 
+use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -62,11 +63,24 @@ pub fn run(
     let vectors = fitting(settings)?;
     // First, so that nothing of an earlier run is left when the program cannot be started.
     let files = Files::prepare(&settings.out, settings.shard)?;
-    let subject = Subject::start(&settings.command, settings.time_limit, stop)?;
+    let started = Subject::start(&settings.command, settings.time_limit, stop);
+    // A folder that is empty looks like a result of nothing.
+    let subject = started.inspect_err(|_| drop(fs::remove_dir(&settings.out)))?;
     let mut runner = Runner::new(settings, &source, &vectors, subject);
-    runner.run(out)?;
+    let said = match runner.run(out) {
+        Err(gone @ ConformError::Output(_)) => {
+            // Nobody listens any more: what is known is in the files.
+            runner.interrupt();
+            Err(gone)
+        }
+        said => {
+            said?;
+            Ok(())
+        }
+    };
     let summary = runner.summary()?;
     files.write(&summary)?;
+    said?;
     results::report::end(&summary, out)?;
     writeln!(out, "{}, {}", files.summary.display(), files.junit.display())?;
     if !summary.classes.is_empty() {

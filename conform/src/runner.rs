@@ -137,6 +137,12 @@ impl<'a> Runner<'a> {
         }
     }
 
+    /// Ends the campaign before its end.
+    pub fn interrupt(&mut self) {
+        self.bar.finish_and_clear();
+        self.interrupted = true;
+    }
+
     /// Whether the vectors show that so much is wrong that random cases would say no more; never where their
     /// number was given, and not in a shard, which sees some of the vectors.
     fn has_enough(&self) -> bool {

@@ -46,6 +46,8 @@ pub struct Stream {
     pub lead_range_m: f64,
     /// As of a [`Drive`].
     pub notes: Vec<String>,
+    /// Whether options were given that have no effect on its cycles, because each has its own.
+    pub ignores_options: bool,
     count: usize,
     make: Arc<Make>,
 }
@@ -71,7 +73,8 @@ impl Stream {
         make: impl Fn(usize) -> Result<DriveCycle, ReadError> + Send + Sync + 'static,
     ) -> Self {
         let make = Arc::new(make);
-        Self { name, source, lead_range_m: 0.0, notes: Vec::new(), count, make }
+        let (notes, ignores_options) = (Vec::new(), false);
+        Self { name, source, lead_range_m: 0.0, notes, ignores_options, count, make }
     }
 
     /// How many cycles it has.
@@ -108,9 +111,10 @@ impl From<Drive> for Stream {
 
 impl fmt::Debug for Stream {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, source, lead_range_m, notes, count, make: _ } = self;
+        let Self { name, source, lead_range_m, notes, ignores_options, count, make: _ } = self;
         let mut of = f.debug_struct("Stream");
         of.field("name", name).field("source", source).field("lead_range_m", lead_range_m);
-        of.field("notes", notes).field("count", count).finish_non_exhaustive()
+        of.field("notes", notes).field("ignores_options", ignores_options);
+        of.field("count", count).finish_non_exhaustive()
     }
 }

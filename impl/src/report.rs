@@ -221,6 +221,8 @@ pub enum Problem {
     ScratchTooSmall,
     /// The monitor was never given a route.
     NoRoute,
+    /// Something is remote, and the monitor had no tick since the cycle before.
+    NoTick,
 }
 
 impl Problem {
@@ -244,6 +246,9 @@ impl Problem {
                 "more than the lent memory holds; see scratch::Sizes::for_cycle, monitor::Memory"
             }
             Self::NoRoute => "no route was set; give the monitor one before its first cycle",
+            Self::NoTick => {
+                "no tick came since the cycle before; tick in each period, whatever came"
+            }
         }
     }
 }

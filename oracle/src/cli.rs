@@ -122,11 +122,13 @@ pub fn main() -> ExitCode {
     let demo = || {
         let writes = format!("no command, so the demo, which writes into {}/", demo::FOLDER);
         complain(&mut io::stderr(), &writes);
-        Command::Demo(DemoArguments { out: demo::FOLDER.into() })
+        Command::Demo(DemoArguments { out: Some(demo::FOLDER.into()) })
     };
     let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
-        Command::Demo(arguments) => demo::run(&arguments.out, &mut out, &mut io::stderr()),
+        Command::Demo(DemoArguments { out: folder }) => {
+            demo::run(&folder_or(folder, demo::FOLDER), &mut out, &mut io::stderr())
+        }
         Command::Oracle(OracleArguments { implementation }) => {
             let answer = if implementation { oracle::by_implementation } else { oracle::by_model };
             oracle::run(io::stdin().lock(), &mut out, answer).map(|()| 0)
@@ -247,7 +249,7 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
         world: arguments.world,
         threads: arguments.threads.unwrap_or(all),
         into: arguments.into,
-        folder: arguments.out,
+        folder: folder_or(arguments.out, "exploration"),
     };
     let end = match &arguments.serve {
         Some(address) => explore::serve(&settings, address, out, &mut io::stderr())?,
@@ -286,7 +288,7 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
                 drives: arguments.drives,
                 vectors: !arguments.no_vectors,
                 tolerance: arguments.tolerance,
-                out: arguments.out,
+                out: folder_or(arguments.out, "mufasa-conform"),
             };
             let stop = match interrupts() {
                 Ok(stop) => stop,

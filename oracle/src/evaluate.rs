@@ -29,9 +29,11 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::attacks::Attacks;
 use mufasa_sim::experiment::availability::Availability;
 use mufasa_sim::experiment::checks::Checks;
+use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::{Job, Options};
+use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
@@ -75,7 +77,9 @@ pub fn run(
         Some(Experiment::Failures(size)) => (size, made::<Failures> as Make),
         Some(Experiment::Stages(size)) => (size, made::<Stages> as Make),
         Some(Experiment::Attacks(size)) => (size, made::<Attacks> as Make),
+        Some(Experiment::Combinations(size)) => (size, made::<Combinations> as Make),
         Some(Experiment::Availability(size)) => (size, made::<Availability> as Make),
+        Some(Experiment::Rules(size)) => (size, made::<Rules> as Make),
         Some(Experiment::Cpu(size)) => (size, made::<Cpu> as Make),
     };
     let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
@@ -173,7 +177,8 @@ fn code(results: &Results, checks: &Checks) -> u8 {
         return DISAGREES;
     }
     let is_hit = results.failed.iter().any(|run| run.variant == Variant::Hardened);
-    if results.name == failures::NAME && is_hit { FAILED } else { 0 }
+    let is_asked = [failures::NAME, combinations::NAME].contains(&results.name);
+    if is_asked && is_hit { FAILED } else { 0 }
 }
 
 type Made = Result<Results, String>;
@@ -199,11 +204,13 @@ const fn named<E: Shown>() -> Named {
 }
 
 /// The experiments.
-const EXPERIMENTS: [Named; 5] = [
+const EXPERIMENTS: [Named; 7] = [
     named::<Failures>(),
     named::<Stages>(),
     named::<Attacks>(),
+    named::<Combinations>(),
     named::<Availability>(),
+    named::<Rules>(),
     named::<Cpu>(),
 ];
 

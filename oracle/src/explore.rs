@@ -192,7 +192,10 @@ fn worlds(bounds: Bounds, name: Option<&str>, err: &mut impl Write) -> Option<Ve
         all.iter().filter(|world| name.is_none_or(|name| name == world.name)).collect();
     if found.is_empty() {
         let names: Vec<_> = all.iter().map(|world| world.name).collect();
-        complain(err, &format!("no such world; there are {}", names.join(", ")));
+        complain(
+            err,
+            &format!("{}: no such world; there are {}", name.unwrap_or_default(), names.join(", ")),
+        );
         return None;
     }
     Some(found)

@@ -59,7 +59,7 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         }
     }
     if lines.is_empty() {
-        complain(err, "nothing has such a name");
+        complain(err, &format!("{}: nothing has such a name", settings.names.join(", ")));
         return Ok(End::BadInput);
     }
     if lines.iter().any(|line| matches!(line.answer.status, Status::Refuted | Status::Unknown)) {

@@ -9,7 +9,9 @@ use mufasa_link::station::StationSummary;
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
-use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
+use mufasa_sim::experiment::{
+    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
+};
 use serde_json::Value;
 
 use crate::explore::report::ExplorationReport;
@@ -17,7 +19,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 16] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -27,7 +29,9 @@ pub const WRITTEN: [(&str, &str, &[&str]); 16] = [
     ("evaluate failures", "out", &["evaluation-failures"]),
     ("evaluate stages", "out", &["evaluation-stages"]),
     ("evaluate attacks", "out", &["evaluation-attacks"]),
+    ("evaluate combinations", "out", &["evaluation-combinations"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
+    ("evaluate rules", "out", &["evaluation-rules"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
     (
@@ -55,7 +59,9 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-failures", schema::written::<failures::Failures>()));
     schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
     schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
+    schemas.push(("evaluation-combinations", schema::written::<combinations::Combinations>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
+    schemas.push(("evaluation-rules", schema::written::<rules::Rules>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));

@@ -290,7 +290,11 @@ fn files_are_counted_and_not_their_lines() {
     let message = stderr(&output);
     assert_eq!((code(&output), message.lines().count()), (2, 11), "{message}");
     assert!(message.trim_end().ends_with("and 20 more lines"), "{message}");
-    assert!(stdout(&output).contains("1 file that could not be read"), "{}", stdout(&output));
+    assert!(
+        stdout(&output).contains("1 file with something that could not be read"),
+        "{}",
+        stdout(&output)
+    );
 }
 
 #[test]

@@ -236,3 +236,89 @@ fn quiet_and_verbose_exclude_each_other() {
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("cannot be used with"));
 }
+
+/// What options of recorded drives change nothing in is said, in every format, and not where none was given.
+#[test]
+fn options_that_change_nothing_are_said() {
+    let folder = folder("options-ignored");
+    let record = first_record();
+    fs::write(folder.join("c.jsonl"), &record).expect("written");
+    let file = folder.join("c.jsonl").display().to_string();
+    for format in [None, Some("--summary"), Some("--json")] {
+        let told = |more: &[&str]| {
+            let arguments = [&["check", &file], more].concat();
+            text(&output(&[&arguments[..], format.as_slice()].concat()).stdout)
+        };
+        let note = "options of recorded drives";
+        assert!(told(&["--sensor-range", "20"]).contains(note), "{format:?}");
+        assert!(told(&["--profile", "paper"]).contains(note), "{format:?}");
+        assert!(!told(&["--sensor-range", "80"]).contains(note), "{format:?}");
+    }
+}
+
+/// A file that is called as one of JSON Lines is read so, whatever its first line is; what is left out is counted, and
+/// every line of complaint says who complains.
+#[test]
+fn the_first_line_may_be_the_broken_one() {
+    let folder = folder("first-line");
+    let record = first_record();
+    fs::write(folder.join("c.jsonl"), format!("xx\n{record}\n{{}}\n")).expect("written");
+    let output = output(&["check", &folder.join("c.jsonl").display().to_string()]);
+    let (told, wrong) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(2), "{told}{wrong}");
+    assert!(told.contains("2 lines left out, which are no cycles"), "{told}");
+    assert!(told.contains("1 file with something that could not be read"), "{told}");
+    assert_eq!(wrong.lines().count(), 2, "{wrong}");
+    assert!(wrong.lines().all(|line| line.starts_with("mufasa: ")), "{wrong}");
+    assert!(wrong.contains("c.jsonl:1") && wrong.contains("c.jsonl:3"), "{wrong}");
+}
+
+/// Whoever writes into a folder that nobody named says so before.
+#[test]
+fn a_folder_that_nobody_named_is_said_first() {
+    let folder = folder("unnamed");
+    let explore = ["explore", "--world", "nope"];
+    let conform = ["conform", "--", "./not-there"];
+    for (arguments, usual) in [(&explore[..], "exploration/"), (&conform, "mufasa-conform/")] {
+        let output = mufasa(arguments).current_dir(&folder).output().expect("the program starts");
+        let wrong = text(&output.stderr);
+        let first = wrong.lines().next().unwrap_or_default();
+        assert_eq!(first, format!("mufasa: writes into {usual}; --out names another folder"));
+        assert_eq!(output.status.code(), Some(2), "{wrong}");
+    }
+    // Neither has begun, and nothing is left that looks like a result.
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 0);
+}
+
+/// A solution that cannot be read does not make another vehicle the CAV.
+#[test]
+fn a_broken_solution_is_no_reason_to_drive_another_way() {
+    let folder = folder("broken-solution");
+    let demo = output(&["demo", "--out", &folder.display().to_string()]);
+    assert_eq!(demo.status.code(), Some(0), "{}", text(&demo.stderr));
+    let [scenario, solution, cut, gone] =
+        ["urban.xml", "urban.solution.xml", "cut.xml", "gone.xml"].map(|it| folder.join(it));
+    let whole = fs::read_to_string(&solution).expect("the demo's");
+    fs::write(&cut, &whole[..whole.len() / 2]).expect("written");
+    let [scenario, solution, cut, gone] =
+        [scenario, solution, cut, gone].map(|it| it.display().to_string());
+    let of_cut = output(&["check", &scenario, &cut]);
+    assert_eq!(of_cut.status.code(), Some(2));
+    assert!(text(&of_cut.stdout).starts_with("0 drives"), "{}", text(&of_cut.stdout));
+    let rows = whole[..whole.len() / 2].lines().count();
+    let told = text(&of_cut.stderr);
+    assert!(told.contains(&format!("cut.xml:{rows}: cut off: it ends here")), "{told}");
+    // A file that is not there comes between a scenario and its solution.
+    let of_gone = output(&["check", &scenario, &gone, &solution]);
+    assert_eq!(of_gone.status.code(), Some(2));
+    let [told, wrong] = [text(&of_gone.stdout), text(&of_gone.stderr)];
+    assert!(told.contains("188 cycles") && !wrong.contains("no scenario"), "{told}{wrong}");
+}
+
+/// A record that `check` reads.
+fn first_record() -> String {
+    let vectors = fs::read_to_string("../vectors/findings/F-06.jsonl").expect("vectors");
+    let vector = vectors.lines().next().expect("a vector");
+    let vector: serde_json::Value = serde_json::from_str(vector).expect("JSON");
+    vector["input"].to_string()
+}

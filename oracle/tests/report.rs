@@ -85,7 +85,8 @@ fn every_experiment_has_charts_that_are_svg() {
     let only = |id: &'static str| {
         [&["evaluate", id.split('/').next().unwrap_or_default(), "--only", id], &size[..]].concat()
     };
-    for id in ["attacks/hardened/ghosts", "availability/paper", "cpu/hardened"] {
+    let ids = ["attacks/hardened/ghosts", "availability/paper", "cpu/hardened"];
+    for id in ids.into_iter().chain(["combinations/sofof/both", "rules/hardened/all"]) {
         done(&folder, 0, &only(id));
     }
     let search = [
@@ -102,7 +103,7 @@ fn every_experiment_has_charts_that_are_svg() {
     ];
     done(&folder, 0, &search);
     let names = ["attacks", "availability", "cpu-offloaded", "cpu-processor", "falsify"];
-    for name in names {
+    for name in names.into_iter().chain(["combinations", "rules"]) {
         let chart = text(&folder, &format!("results/{name}.svg"));
         let document = Document::parse(&chart).unwrap_or_else(|error| panic!("{name}: {error}"));
         let marks =

@@ -56,6 +56,37 @@ fn same(folder: &Path, one: &str, other: &str) {
     }
 }
 
+/// The command of the job of Kubernetes in `docs/evaluation.md`, which sets a number in the environment, with
+/// fewer scenarios.
+#[cfg(unix)]
+#[test]
+fn every_index_of_the_job_in_the_documents_makes_a_part() {
+    use std::process::Command;
+
+    let docs = include_str!("../../docs/evaluation.md");
+    let behind = docs.split_once("command: [sh, -c, '").expect("a job").1;
+    let command = behind.split_once("']").expect("its end").0;
+    let ours = format!("exec \"$MUFASA\" evaluate failures {}", SIZE.join(" "));
+    let script = command.replace("exec mufasa evaluate failures", &ours);
+    let script = script.replace("/results", "results");
+    assert!(script != command && script.contains("+ 1))/8\""), "{script}");
+    let folder = folder("job");
+    for index in 0..8 {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &script]).current_dir(&folder);
+        shell.env("MUFASA", env!("CARGO_BIN_EXE_mufasa"));
+        let done = shell.env("JOB_COMPLETION_INDEX", index.to_string()).output().expect("sh runs");
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+    }
+    let parts = (1..=8).map(|index| format!("results/failures.{index}-of-8.part.json"));
+    let parts: Vec<String> = parts.collect();
+    let mut merge = vec!["merge", "--out", "merged"];
+    merge.extend(parts.iter().map(String::as_str));
+    run(&folder, &merge);
+    run(&folder, &[&["evaluate", "failures", "--out", "whole"], &SIZE[..]].concat());
+    same(&folder, "merged", "whole");
+}
+
 #[test]
 fn parts_put_together_are_byte_for_byte_the_whole() {
     let folder = folder("whole");

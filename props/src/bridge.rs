@@ -52,7 +52,7 @@ pub use self::requester::{
     groups_to_impl, parameters_to_impl, source_from_impl, state_from_impl,
 };
 pub use self::verdict::{
-    invalid_input_from_impl, outcome_from_impl, report_from_impl, stage_to_impl,
+    invalid_input_from_impl, outcome_from_impl, report_from_impl, report_to_impl, stage_to_impl,
 };
 pub use crate::conformance::{Answer, Disagreement, conforms, stage_conforms};
 

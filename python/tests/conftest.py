@@ -77,7 +77,9 @@ class Scene:
 
     @staticmethod
     def decide(monitor: Monitor, ms: int, **more: Any) -> Decision:
-        """A cycle, its actions taken."""
+        """A tick and a cycle, their actions taken."""
+        if monitor.configuration != "Local":
+            list(monitor.tick(at(ms)))
         given = {"detections": Detections(at(ms), Scene.parked), **more}
         decision = monitor.cycle(at(ms), given.pop("ego", Scene.ego), **given)
         list(decision.actions)

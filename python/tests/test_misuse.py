@@ -365,3 +365,12 @@ def test_inputs_that_call_the_monitor_get_an_error(scene: Scene) -> None:
     with pytest.raises(mufasa.UnreadableInputs) as error:
         monitor.cycle(at(10), Meddling())  # type: ignore[arg-type]
     assert error.value.field == "ego.speed" and monitor.configuration == "Local"
+
+
+def test_ticks_that_are_forgotten_are_told(scene: Scene) -> None:
+    """Only a tick notices silence."""
+    monitor = scene.offloading()
+    assert scene.safe(monitor, 10)
+    decision = monitor.cycle(at(20), Scene.ego, detections=Detections(at(20), Scene.parked))
+    assert decision.error is not None and decision.error.field == "tick"
+    assert monitor.configuration == "Local"

@@ -1,7 +1,7 @@
 //! Files that are complete or not there: written under another name, then renamed.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Creates the folder and makes sure that a file can be written there.
@@ -24,8 +24,19 @@ pub fn write(file: &Path, content: &str) -> io::Result<()> {
     write_bytes(file, content.as_bytes())
 }
 
-/// Writes a file at once.
+/// Writes a file at once. What a link points to is written in its place, and what is no file, such as a device or a
+/// pipe, is written to: neither is replaced.
 pub fn write_bytes(file: &Path, content: &[u8]) -> io::Result<()> {
+    match fs::symlink_metadata(file) {
+        Ok(there) if there.is_symlink() => {
+            let target = fs::canonicalize(file)?;
+            return write_bytes(&target, content);
+        }
+        Ok(there) if !there.is_file() && !there.is_dir() => {
+            return fs::OpenOptions::new().write(true).open(file)?.write_all(content);
+        }
+        Ok(_) | Err(_) => {}
+    }
     let mut name = file.as_os_str().to_owned();
     name.push(".tmp");
     let temporary = PathBuf::from(name);
@@ -65,6 +76,26 @@ mod tests {
             threads.into_iter().filter_map(|it| it.join().unwrap()).collect()
         });
         assert!(failed.is_empty(), "{failed:?}");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// A link stays a link, and a device a device, whoever writes.
+    #[cfg(unix)]
+    #[test]
+    fn links_and_devices_are_written_to_and_not_replaced() {
+        let folder = std::env::temp_dir().join(format!("mufasa-links-{}", std::process::id()));
+        prepare(&folder).unwrap();
+        let [file, link, gone] = ["file", "link", "gone"].map(|name| folder.join(name));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        std::os::unix::fs::symlink(folder.join("nowhere"), &gone).unwrap();
+        write(&link, "new").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        write(&gone, "new").unwrap_err();
+        let device = Path::new("/dev/null");
+        write(device, "new").unwrap();
+        assert!(!fs::symlink_metadata(device).unwrap().is_file());
         fs::remove_dir_all(&folder).unwrap();
     }
 

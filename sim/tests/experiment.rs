@@ -1,12 +1,14 @@
 //! The experiments: the same with any number of threads, and what the paper's figure says of this loop.
 
-use mufasa_sim::attack::Kind;
+use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Options};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
-use mufasa_sim::experiment::{attacks, availability, cpu, failures, stages};
+use mufasa_sim::experiment::{
+    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
+};
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
@@ -170,4 +172,41 @@ fn processor_time_is_counted_in_the_state_in_which_it_was_spent() {
         }
         assert!(row.active_s > 0.0 && row.inactive_s > 0.0, "{row:?}");
     }
+}
+
+#[test]
+fn attacks_are_combined_at_random_and_again_the_same() {
+    let all: Vec<_> = (0..20).map(|seed| combinations::attacks(seed, 0)).collect();
+    let at_once = |attacks: &[Attack], t_ns| attacks.iter().filter(|it| it.is_on(t_ns)).count();
+    let times = || (0..1200_i64).map(|tenth| tenth * 100_000_000);
+    let counts: Vec<usize> =
+        all.iter().flat_map(|attacks| times().map(|t_ns| at_once(attacks, t_ns))).collect();
+    let share =
+        |is_it: fn(&&usize) -> bool| counts.iter().filter(is_it).count() * 100 / counts.len();
+    let [none, several, more] = [share(|it| **it == 0), share(|it| **it > 1), share(|it| **it > 2)];
+    assert!(none > 15 && several > 25 && more > 5, "{none} {several} {more} of 100");
+    for kind in falsify::genome::KINDS {
+        assert!(all.iter().flatten().any(|it| it.kind == kind), "{kind:?}");
+    }
+    assert_eq!(combinations::attacks(3, 0), all[3]);
+    assert!(combinations::attacks(3, 1) != all[3] && all[2] != all[3], "others elsewhere");
+}
+
+#[test]
+fn every_false_alarm_of_the_price_of_rules_has_a_cause() {
+    let size = Options { scenarios: 1, vehicles: 8, seed: 0, map: MapId::Town };
+    let made =
+        rules::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
+    assert_eq!((made.rows.len(), made.runs.len()), (15, 30));
+    for row in &made.rows {
+        let of_row =
+            made.causes.iter().filter(|it| (it.variant, it.without) == (row.variant, row.without));
+        assert_eq!(of_row.map(|it| it.fallbacks).sum::<u64>(), row.fallbacks, "{row:?}");
+        let is_by = |cause: &rules::Cause| cause.only_by.is_some() && cause.only_by == row.without;
+        assert!(!made.causes.iter().any(|it| it.without == row.without && is_by(it)), "{row:?}");
+    }
+    let fallbacks = |of: usize| made.rows[of].fallbacks;
+    assert!(fallbacks(0) > 0 && fallbacks(1) > 0, "{:?}", made.rows);
+    let overruled = |it: &rules::Row| it.overruled > 0;
+    assert!(made.rows.iter().any(overruled) && !overruled(&made.rows[1]), "{:?}", made.rows);
 }

@@ -6,7 +6,7 @@ use mufasa::report::{InvalidInput, Problem};
 
 use super::{MUFASA_TEXT_BYTES, input};
 
-const PROBLEMS: [Problem; 13] = [
+const PROBLEMS: [Problem; 14] = [
     Problem::NotFinite,
     Problem::OutOfDomain,
     Problem::NotADirection,
@@ -20,6 +20,7 @@ const PROBLEMS: [Problem; 13] = [
     Problem::BitmapLength,
     Problem::ScratchTooSmall,
     Problem::NoRoute,
+    Problem::NoTick,
 ];
 
 #[test]

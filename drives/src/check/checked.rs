@@ -41,12 +41,17 @@ pub struct Checked {
     pub alike: bool,
     /// A complaint of a requester, or a difference of the two where the verdicts are the same.
     pub protocol: Option<String>,
-    /// What limits of the quality of service the drive exceeds, and what to do; empty where offloading is not lost.
+    /// Options without an effect; where offloading is lost, which limits of the quality of service the drive exceeds,
+    /// and what to do.
     pub notes: Vec<String>,
     steps: Steps,
     configurations: BTreeSet<&'static str>,
     profiles: BTreeSet<&'static str>,
 }
+
+/// What is said where the cycles of a drive ignore options.
+const IGNORED: &str = "each cycle has its own profile, configuration and parameters: options of recorded drives, \
+                       --profile, --configuration and parameters of the stages change nothing";
 
 /// A cycle with a breach of conformance.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,8 +148,11 @@ impl Checked {
         }
         checked.requesters = requesters.runs();
         checked.alike = requesters.are_alike();
+        if drive.ignores_options {
+            checked.notes.push(String::from(IGNORED));
+        }
         if checked.lost() > 0 {
-            checked.notes = checked.steps.notes(parameters);
+            checked.notes.extend(checked.steps.notes(parameters));
         }
         checked.protocol = requesters.complaint();
         Ok(checked)

@@ -87,7 +87,7 @@ impl Findings {
         for (count, what) in [
             (*lost, "time tracking or planning went back to local for late data or silence"),
             (tally.errors, "cycle with invalid local input"),
-            (*unreadable, "file that could not be read or written"),
+            (*unreadable, "file with something that could not be read or written"),
             (*pictures, "picture"),
         ] {
             if count > 0 {
@@ -128,6 +128,9 @@ mod tests {
             text.starts_with("1 drive, 0 cycles: 0 safe, 0 unsafe, 0 fallbacks, 0 offloaded; "),
             "{text}"
         );
-        assert!(text.ends_with("offloaded; 2 files that could not be read or written"), "{text}");
+        assert!(
+            text.ends_with("offloaded; 2 files with something that could not be read or written"),
+            "{text}"
+        );
     }
 }

@@ -173,7 +173,9 @@ impl Judgement {
 
 /// Says what is wrong. A closed standard error is no reason to stop.
 pub fn complain(err: &mut impl Write, message: &str) {
-    let _ = writeln!(err, "mufasa: {message}");
+    for line in message.lines() {
+        let _ = writeln!(err, "mufasa: {line}");
+    }
 }
 
 /// A bar over so many cycles.

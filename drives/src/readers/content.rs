@@ -39,6 +39,9 @@ impl Content {
         // A byte order mark is no content.
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         if !text.trim_start().starts_with('<') {
+            if formats::is_named_lines(path) {
+                return Ok(Self::Lines(Box::new(Cursor::new(text))));
+            }
             let message = format!("neither XML nor JSON Lines; {}", formats::READ);
             return Err(ReadError::file(path, message));
         }

@@ -1,5 +1,6 @@
 //! Formats that are not read, by their first bytes, and what to do with a file of each.
 
+use std::path::Path;
 use std::str::Utf8Error;
 
 /// First bytes of a gz file, which is read.
@@ -40,6 +41,15 @@ const KNOWN: [(&[u8], &str, &str); 22] = [
 /// What `check` reads, for a file that is nothing known.
 pub(crate) const READ: &str = "CommonRoad XML, cycles as JSON Lines or in MCAP logs and maps as .npy \
                                are read, each also as .gz";
+
+/// Whether a file is called as one of JSON Lines is, packed or not, so that its first line may be a broken one.
+pub(crate) fn is_named_lines(path: &Path) -> bool {
+    let name = path.file_name().map(|it| it.to_string_lossy().to_ascii_lowercase());
+    name.is_some_and(|name| {
+        let name = name.strip_suffix(".gz").unwrap_or(&name);
+        [".jsonl", ".ndjson"].iter().any(|end| name.ends_with(end))
+    })
+}
 
 /// What a file of a format that is not read is, and what to do with it; `None` where its bytes are
 /// of no such format.

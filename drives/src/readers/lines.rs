@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::counted;
 use crate::drive::{DriveCycle, Stream};
-use crate::options::Sensor;
+use crate::options::{Options, Sensor};
 use crate::readers::error::ReadError;
 use crate::readers::source::stem;
 use crate::readers::spool::Spool;
@@ -27,20 +27,28 @@ pub(crate) fn drive(
     path: &Path,
     text: impl BufRead,
     spool: &Arc<Spool>,
+    options: &Options,
 ) -> Vec<Result<Stream, ReadError>> {
     let first = spool.count();
-    let mut lines = Lines { path, spool, count: 0, wrong: None, start: Vec::new() };
+    let mut lines = Lines { path, spool, count: 0, others: 0, wrong: None, start: Vec::new() };
     if let Err(error) = lines.read(text) {
         return vec![Err(error)];
     }
-    let Lines { count, wrong, start, .. } = lines;
+    let Lines { count, others, wrong, start, .. } = lines;
     if count == 0 && is_one_document(&start) {
         let message = "one JSON document spread over lines; JSON Lines have every record on a \
                        line of its own, as `jq -c . FILE` writes it";
         return vec![Err(ReadError::file(path, message))];
     }
     let wrong = wrong.into_iter().map(Err);
-    let drive = (count > 0).then(|| Ok(stream(path, first, count, Arc::clone(spool))));
+    let drive = (count > 0).then(|| {
+        let mut drive = stream(path, first, count, Arc::clone(spool));
+        if others > 0 {
+            drive.notes.push(format!("{} left out, which are no cycles", counted(others, "line")));
+        }
+        drive.ignores_options = *options != Options::default();
+        Ok(drive)
+    });
     wrong.chain(drive).collect()
 }
 
@@ -50,6 +58,8 @@ struct Lines<'a> {
     spool: &'a Spool,
     /// Lines that are cycles.
     count: usize,
+    /// Lines that are none.
+    others: usize,
     wrong: Option<ReadError>,
     /// The text, while it may be one document.
     start: Vec<u8>,
@@ -82,6 +92,7 @@ impl Lines<'_> {
 
     /// Notes a line that is no cycle.
     fn is_none(&mut self, error: LineError, line: &[u8]) {
+        self.others += 1;
         if self.count == 0 && self.start.len() + line.len() < DOCUMENT {
             self.start.extend_from_slice(line);
             self.start.push(b'\n');
@@ -156,7 +167,7 @@ mod tests {
             (br#"{"kind": "other"}"#, "kind must be cycle"),
             (br#"{"input": {}}"#, "kind is missing"),
         ] {
-            let mut drives = drive(Path::new("f"), line, &Arc::default());
+            let mut drives = drive(Path::new("f"), line, &Arc::default(), &Options::default());
             let error = drives.remove(0).unwrap_err().to_string();
             assert!(error.contains(said), "{error}");
             assert_eq!(said.contains('`'), error.contains('`'), "{error}");
@@ -170,7 +181,8 @@ mod tests {
             \"ego\": {\"x\": 0, \"y\": 0, \"cos\": 1, \"sin\": 0, \"speed\": 0, \"length\": 4, \"width\": 2, \
             \"center_offset\": 0}, \"route\": {\"closed\": false, \"stations\": []}}\n";
         let spool = Arc::new(Spool::default());
-        let mut drives = drive(Path::new("c.jsonl"), &line.repeat(2)[..], &spool);
+        let mut drives =
+            drive(Path::new("c.jsonl"), &line.repeat(2)[..], &spool, &Options::default());
         let drive = drives.remove(0).unwrap();
         assert!(drive.cycle(1).is_ok());
         spool.empty();

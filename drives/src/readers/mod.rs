@@ -62,9 +62,14 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
     let spool = Arc::new(Spool::default());
     let sources = paths.iter().map(|path| Source::new(path)).collect();
     for mut source in order::solutions_behind_scenarios(sources) {
+        let is_solution = order::is_solution(&mut source);
         let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;
-        if !matches!(content, Ok(Content::Solution(_))) {
+        // What cannot be read is between nothing; a solution that cannot be used is no reason to drive another way.
+        if let (Err(_), true, Some((_, _, used))) = (&content, is_solution, &mut scenario) {
+            *used = true;
+        }
+        if !matches!(content, Ok(Content::Solution(_)) | Err(_)) {
             drives.extend(unsolved(scenario.take(), options));
         }
         match content {
@@ -84,7 +89,7 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
                 )),
             }),
             Ok(Content::Map(bytes)) => drives.push(map::drive(path, &bytes, options)),
-            Ok(Content::Lines(text)) => drives.extend(lines::drive(path, text, &spool)),
+            Ok(Content::Lines(text)) => drives.extend(lines::drive(path, text, &spool, options)),
             Err(error) => drives.push(Err(error)),
         }
     }

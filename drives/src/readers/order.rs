@@ -24,6 +24,11 @@ pub(crate) fn solutions_behind_scenarios(mut files: Vec<Source>) -> Vec<Source> 
     order.into_iter().filter_map(|index| files[index].take()).collect()
 }
 
+/// Whether a file begins as a solution does, whether or not it can be read.
+pub(crate) fn is_solution(file: &mut Source) -> bool {
+    matches!(benchmark(&file.head(HEAD)), Some(Benchmark::Solution(_)))
+}
+
 /// Every index once.
 fn order(files: &[Option<Benchmark>]) -> Vec<usize> {
     let is_scenario = |file: &Option<Benchmark>, id: &str| matches!(file, Some(Benchmark::Scenario(scenario)) if scenario == id);

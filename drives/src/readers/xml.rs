@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Error, Node};
 
 use crate::geometry::Point;
 use crate::readers::error::{ReadError, quoted};
@@ -32,8 +32,15 @@ pub(crate) fn with_part<T>(
     read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
 ) -> Result<T, ReadError> {
     let document = Document::parse(text).map_err(|e| {
-        let row = line(before, e.pos().row);
-        ReadError::file(file, format!("not well-formed XML: {e}")).line(row)
+        let rows = text.lines().count();
+        let cut_off = matches!(e, Error::UnclosedRootNode);
+        let row = if cut_off { u32::try_from(rows).unwrap_or(u32::MAX) } else { e.pos().row };
+        let message = if cut_off {
+            String::from("cut off: it ends here, within its root element; get the file again")
+        } else {
+            format!("not well-formed XML: {e}")
+        };
+        ReadError::file(file, message).line(line(before, row))
     })?;
     read(Element { file, before, node: document.root_element() })
 }

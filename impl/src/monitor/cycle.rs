@@ -1,5 +1,7 @@
 //! One cycle: choose, check, tell the requester, keep what was seen (`spec/5-interfaces.md#monitor`).
 
+use core::mem;
+
 use super::Monitor;
 use super::decision::{Decision, Verified};
 use super::element::Element;
@@ -132,6 +134,11 @@ impl Monitor<'_> {
         let mut report = self.check(inputs, tracks, trajectory);
         if let Err(problem) = &mut report {
             *problem = named(*problem, has_route);
+        }
+        let is_ticked = mem::take(&mut self.is_ticked);
+        if !is_ticked && report.is_ok() && remote.iter().any(Option::is_some) {
+            // Nobody looked for silence.
+            report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
 

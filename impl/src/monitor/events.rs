@@ -76,9 +76,10 @@ impl Monitor<'_> {
     }
 
     /// Time passes: deadlines, silence and requests are decided. To be called in each period, and before
-    /// the cycle of the period. After a session no request is sent for a while, nor, in the hardened
+    /// the cycle of the period, which is unsafe without while something is remote. After a session no request is sent for a while, nor, in the hardened
     /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
+        self.is_ticked = true;
         self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
 

@@ -11,7 +11,6 @@ use mufasa_exploration::bounds::Bounds;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::services::configuration::Configuration;
 
-use crate::demo;
 use mufasa_drives::check::complain;
 use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
 use mufasa_records::names;
@@ -104,9 +103,9 @@ pub(super) struct RecordingArguments {
 Exit codes: 0 the clean drive is safe and the attacks are caught, 1 not so, 2 the folder cannot
 be written, 3 model and implementation disagree.")]
 pub(super) struct DemoArguments {
-    /// Folder of the drive's files and the pictures.
-    #[arg(long, value_name = "DIR", default_value = demo::FOLDER)]
-    pub(super) out: PathBuf,
+    /// Folder of the drive's files and the pictures [default: mufasa-demo].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -150,9 +149,9 @@ pub(super) struct ExploreArguments {
     /// Put the tables into a document, between the lines that mark their place.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["world", "profile"])]
     pub(super) into: Option<PathBuf>,
-    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails.
-    #[arg(long, value_name = "DIR", default_value = "exploration")]
-    pub(super) out: PathBuf,
+    /// Folder for the tables as JSON and Markdown, and the vectors and charts of what fails [default: exploration].
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
     /// Serve stateright's explorer page for a world at this address instead.
     #[arg(long, value_name = "ADDRESS", num_args = 0..=1, default_missing_value = "127.0.0.1:3000")]
     pub(super) serve: Option<String>,

@@ -19,7 +19,7 @@ use super::replay::ReplayArguments;
     after_help = "\
 Of the cycles that the stages decide one in a hundred is checked by the exact model, too (not of `cpu`).
 
-Exit codes: 0 done, 1 a run of `failures` that was checked by the hardened profile failed, 2 bad input or a
+Exit codes: 0 done, 1 a run of `failures` or `combinations` that was checked by the hardened profile failed, 2 bad input or a
 file cannot be written, 3 model and implementation disagree."
 )]
 pub struct EvaluateArguments {
@@ -40,8 +40,12 @@ pub enum Experiment {
     Stages(SizeArguments),
     /// Every attack with tracking, planning or both offered: which stage finds it first, and when.
     Attacks(SizeArguments),
+    /// Failures under attacks of all kinds, drawn at random over time, some of them at once.
+    Combinations(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Price of each rule: fallbacks and time not offloaded without an attack, with all rules and without each alone.
+    Rules(SizeArguments),
     /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
     /// this machine.
     Cpu(SizeArguments),
@@ -54,7 +58,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures 10, cpu 6, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures, combinations and rules 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,

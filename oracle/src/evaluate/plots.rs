@@ -9,3 +9,4 @@ pub(super) mod dots;
 pub(super) mod figures;
 pub(super) mod lines;
 mod page;
+pub(super) mod search;

@@ -3,9 +3,11 @@
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::attacks::{self, Attacks};
 use mufasa_sim::experiment::availability::{self, Availability};
+use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::{ExperimentError, Job, Options};
+use mufasa_sim::experiment::rules::{self, Rules};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::{self, Stages};
 use mufasa_sim::map::Town;
@@ -106,6 +108,8 @@ shown! {
     failures: Failures, |run| Some(run.end);
     stages: Stages, |run| Some(run.end);
     attacks: Attacks, |run| Some(run.end);
+    combinations: Combinations, |run| Some(run.end);
     availability: Availability, |run| Some(run.end);
+    rules: Rules, |run| Some(run.end);
     cpu: Cpu, |_| None;
 }

@@ -5,7 +5,9 @@ use std::fmt::Write;
 use comfy_table::{CellAlignment, Table, presets};
 use mufasa_drives::pictures::escape;
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::{attacks, availability, cpu, failures, falsify, stages};
+use mufasa_sim::experiment::{
+    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
+};
 
 use super::published;
 
@@ -161,6 +163,41 @@ pub fn attacks(of: &attacks::Attacks) -> Rows {
     Rows::new(header, of.rows.iter().map(row).collect())
 }
 
+/// Failures under combinations of attacks.
+pub fn combinations(of: &combinations::Combinations) -> Rows {
+    let header = [
+        ("offered", false),
+        ("checked by", false),
+        ("runs", true),
+        ("failures", true),
+        ("collided", true),
+        ("late", true),
+        ("left the corridor", true),
+        ("attacks", true),
+        ("two or more at a time", true),
+        ("fallbacks", true),
+        ("MOT remote", true),
+        ("PLAN remote", true),
+    ];
+    let row = |row: &combinations::Row| {
+        [
+            row.offered.name().to_owned(),
+            row.variant.name().to_owned(),
+            row.runs.to_string(),
+            row.failures.to_string(),
+            row.collided.to_string(),
+            row.late.to_string(),
+            row.off_road.to_string(),
+            row.attacks.to_string(),
+            format!("{:.0} %", row.share_several * 100.0),
+            row.fallbacks.to_string(),
+            format!("{:.0} %", row.share_mot * 100.0),
+            format!("{:.0} %", row.share_plan * 100.0),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
 /// What the checks cost without an attack.
 pub fn availability(of: &availability::Availability) -> Rows {
     let header = [
@@ -189,6 +226,41 @@ pub fn availability(of: &availability::Availability) -> Rows {
             row.lost.to_string(),
             format!("{:.0} %", row.share_mot * 100.0),
             format!("{:.0} %", row.share_plan * 100.0),
+        ]
+    };
+    Rows::new(header, of.rows.iter().map(row).collect())
+}
+
+/// The price of each rule.
+pub fn rules(of: &rules::Rules) -> Rows {
+    let header = [
+        ("checked by", false),
+        ("without", false),
+        ("runs", true),
+        ("failures", true),
+        ("minutes", true),
+        ("fallbacks", true),
+        ("in an hour", true),
+        ("overruled", true),
+        ("link lost", true),
+        ("MOT remote", true),
+        ("PLAN remote", true),
+        ("fallbacks by stage and rule of the witness", false),
+    ];
+    let row = |row: &rules::Row| {
+        [
+            row.variant.name().to_owned(),
+            row.without.map_or_else(String::new, |it| it.name().to_owned()),
+            row.runs.to_string(),
+            row.failures.to_string(),
+            format!("{:.1}", row.hours * 60.0),
+            row.fallbacks.to_string(),
+            format!("{:.0}", row.fallbacks_per_hour),
+            row.without.map_or_else(String::new, |_| row.overruled.to_string()),
+            row.lost.to_string(),
+            format!("{:.1} %", row.share_mot * 100.0),
+            format!("{:.1} %", row.share_plan * 100.0),
+            row.by.clone(),
         ]
     };
     Rows::new(header, of.rows.iter().map(row).collect())

@@ -90,3 +90,17 @@ fn an_interrupted_campaign_says_what_the_vectors_found() {
     let junit = fs::read_to_string(out.join("junit.xml")).expect("JUnit XML");
     assert!(junit.contains("interrupted after") && junit.contains("<failure"), "{junit}");
 }
+
+/// Standard output ends with the first class that is found: what is known is in the files all the same.
+#[test]
+fn a_campaign_whose_reader_goes_away_leaves_what_is_known() {
+    let out = folder("reader-gone");
+    let always_safe = r#"while IFS= read -r line; do
+        id=${line#*'"id":'}; echo "{\"id\":${id%%,*},\"verdict\":\"safe\",\"failed_stage\":null}"; done"#;
+    let mut running = started(&out, &["--kinds", "cycle"], &["sh", "-c", always_safe]);
+    drop(running.stdout.take());
+    let output = running.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(141), "{}", text(&output));
+    let known = summary(&out);
+    assert!(known.interrupted && !known.is_complete() && known.vectors > 0, "{}", text(&output));
+}

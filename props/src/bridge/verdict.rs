@@ -21,6 +21,13 @@ pub fn invalid_input_from_impl(problem: &twin::InvalidInput) -> InvalidInput {
     InvalidInput { field: field.to_owned(), index, message: problem.message().to_owned() }
 }
 
+/// A report in the implementation's types, if it is one of valid input: a problem has words of its own there.
+pub fn report_to_impl(report: &Report) -> Option<twin::Report> {
+    let Report { failed_stage, stages, input: None } = report else { return None };
+    let failed_stage = failed_stage.map(failed_stage_to_impl);
+    Some(twin::Report { failed_stage, stages: stages.clone().map(outcome_to_impl), input: None })
+}
+
 fn witness_from_impl(witness: twin::Witness) -> Witness {
     let twin::Witness {
         rule,
@@ -36,6 +43,14 @@ fn witness_from_impl(witness: twin::Witness) -> Witness {
     } = witness;
     let rule = rule_from_impl(rule);
     Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "the outcome that held it is taken apart")]
+fn witness_to_impl(witness: Witness) -> twin::Witness {
+    let Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared } =
+        witness;
+    let rule = rule_to_impl(rule);
+    twin::Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared }
 }
 
 same_variants! {
@@ -68,6 +83,38 @@ same_variants! {
     fn input_from_impl(twin::Input) -> Input { Trajectory, Tracks, Detections, Grid, }
 
     fn rule_from_impl(twin::Rule) -> Rule {
+        Ambiguous, MeanCost, WorkLimit, NoAssignment,
+        ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
+        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,
+        TurnReversed, TurnOnTheSpot, TurnHard,
+        ArcTooShort, ArcTooLong, EndsTooSoon,
+        Gap, Collision, CollisionStanding, CollisionMoving,
+        Occupied, Unknown, Outside,
+    }
+
+    fn failed_stage_to_impl(FailedStage) -> twin::FailedStage {
+        Input,
+        Stage(stage: stage_to_impl),
+        NoObstacleCheck,
+    }
+
+    fn outcome_to_impl(Outcome) -> twin::Outcome {
+        Passed,
+        Failed(witness: witness_to_impl),
+        Skipped(reason: reason_to_impl),
+        NotApplicable(input: input_to_impl),
+        NotScheduled,
+    }
+
+    fn reason_to_impl(Reason) -> twin::Reason {
+        AfterFailure,
+        OtherStageRan,
+        NoCurrent(input: input_to_impl),
+    }
+
+    fn input_to_impl(Input) -> twin::Input { Trajectory, Tracks, Detections, Grid, }
+
+    fn rule_to_impl(Rule) -> twin::Rule {
         Ambiguous, MeanCost, WorkLimit, NoAssignment,
         ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
         StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,

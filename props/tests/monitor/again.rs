@@ -148,6 +148,7 @@ fn a_clock_set_back_loses_time_of_use() {
         let back_ns = last_ns - set_back_ns;
         let world = World::at(back_ns);
         let inputs = Inputs::new(at(back_ns), world.ego);
+        assert!(monitor.tick(at(back_ns)).is_empty());
         assert!(monitor.cycle(&inputs.detections(at(back_ns), &world.detections)).1.is_empty());
         let before = monitor.requester().hold_until_ns();
         let end_ns = back_ns + 100 * MS;

@@ -86,6 +86,7 @@ fn a_message_of_a_starved_group_says_so() {
         let answer = why(&monitor.tracks(now, sent).expect("a station"));
         let later = at((ms + 10) * MS);
         let own = Inputs::new(later, World::at((ms + 10) * MS).ego);
+        let _ends_plan = monitor.tick(later);
         let (decision, _) = monitor.cycle(&own);
         assert!(matches!(decision, mufasa::monitor::Decision::Safe { .. }), "{decision:?}");
         answer
@@ -115,6 +116,7 @@ fn a_list_too_long_for_the_lent_memory_is_no_arrival() {
     let world = World::at(240 * MS);
     let now = at(world.now_ns);
     let own = Inputs::new(now, world.ego).detections(now, &world.detections);
+    assert!(monitor.tick(now).is_empty());
     let (decision, _) = monitor.cycle(&own);
     assert!(matches!(decision, mufasa::monitor::Decision::Safe { .. }), "{decision:?}");
     assert_eq!(send(&mut monitor, 360, 5), Some(DropReason::TooLong));

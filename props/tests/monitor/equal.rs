@@ -9,6 +9,7 @@ use mufasa::monitor::{Arrival, Decision, Message, Monitor, Settings};
 use mufasa::offloading::requester::{
     Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
 };
+use mufasa::report::Problem;
 use mufasa::services::configuration::Configuration;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
@@ -83,7 +84,10 @@ impl Pair<'_, '_, '_> {
         if self.draw.one_in(12 * self.calm) {
             session = self.draw.pick(&[session - 1, session + 1, 1]);
         }
-        let age_ns = if self.draw.one_in(20 * self.calm) {
+        // Late more often of a starved group, which has few left.
+        let is_starved = starved(&self.plain)[place(group)].is_some();
+        let rare = if is_starved { 10 } else { 20 * self.calm };
+        let age_ns = if self.draw.one_in(rare) {
             self.draw.pick(&[10 * MS, 50 * MS, 51 * MS, -1, 120 * MS])
         } else {
             0
@@ -224,6 +228,7 @@ impl Pair<'_, '_, '_> {
                 assert!(same(&report, &ended.report), "{report:?} {:?}", ended.report);
                 assert_eq!(self.monitor.configuration(), Configuration::Local);
                 seen.errors += u64::from(report.is_err());
+                seen.no_tick += u64::from(report.is_err_and(|it| it.problem == Problem::NoTick));
                 seen.unsafe_while_remote += u64::from(is_remote);
                 self.fallbacks += 1;
             }
@@ -273,7 +278,12 @@ impl Pair<'_, '_, '_> {
             4 => self.event(EventKind::Reject { station, group, session }, seen),
             5 => self.event(EventKind::Confirm { station, group, session }, seen),
             6 | 7 => self.data(group, seen),
-            _ => self.cycle(seen),
+            _ => {
+                if !self.draw.one_in(8) {
+                    self.event(EventKind::Tick, seen);
+                }
+                self.cycle(seen);
+            }
         }
     }
 }
@@ -326,7 +336,7 @@ fn as_the_plain_calls(profile: Profile) {
         let mut table = vec![StationRecord::FREE; 8];
         let plain = Plain::new(settings, &mut table);
         let (tracks, points) = (Vec::new(), Vec::new());
-        let calm = if draw.one_in(3) { 20 } else { 1 };
+        let calm = if draw.one_in(2) { 20 } else { 1 };
         let (base, draw, fallbacks, habit) = (&base, Draw::new(&steps), 0, (0, 0, 0));
         let mut pair = Pair {
             monitor,
@@ -352,6 +362,10 @@ fn as_the_plain_calls(profile: Profile) {
                 // The clock is set back; not before the domain of times.
                 let back_ns = pair.draw.pick(&[2_000 * MS, 1_001 * MS, 999 * MS]);
                 pair.now_ns = pair.now_ns.saturating_sub(back_ns);
+                if !pair.draw.one_in(4) {
+                    pair.event(EventKind::Tick, seen);
+                    pair.cycle(seen);
+                }
             }
             let end_ns = pair.plain.requester.hold_until_ns().unwrap_or(pair.now_ns);
             let left_ns = end_ns.saturating_sub(pair.now_ns);

@@ -273,6 +273,7 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let Ok((Arrival::Accepted(newer), _)) = newer else { panic!("in time and newer") };
     let come_out = |monitor: &mut Monitor<'_>, token| {
         let own = Inputs::new(now, world.ego).detections(now, &world.detections);
+        assert!(monitor.tick(now).is_empty());
         match monitor.cycle(&own.remote_trajectory(token)).0 {
             Decision::Safe { trajectory, .. } => trajectory.map(|it| it.stamp_ns),
             Decision::Unsafe { report, .. } => panic!("{report:?}"),
@@ -285,6 +286,7 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let arrival = monitor.trajectory(now, nothing);
     let Ok((Arrival::Accepted(nothing), _)) = arrival else { panic!("empty") };
     let inputs = Inputs::new(now, world.ego).remote_trajectory(&nothing);
+    assert!(monitor.tick(now).is_empty());
     match monitor.cycle(&inputs).0 {
         Decision::Unsafe { report: Ok(report) } => {
             assert_eq!(report.failed_stage, Some(FailedStage::Input), "empty");

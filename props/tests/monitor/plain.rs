@@ -11,7 +11,7 @@ use mufasa::monitor::Settings;
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Requester, Sessions, StationRecord, Suspended,
 };
-use mufasa::report::{InvalidInput, Report};
+use mufasa::report::{InvalidInput, Problem, Report};
 use mufasa::services::configuration::Group;
 use mufasa::stages::check;
 
@@ -60,6 +60,8 @@ pub struct Plain<'a> {
     /// Of the running sessions.
     pub service: [Option<Service>; 2],
     kept: Vec<(i64, Vec<Detection>)>,
+    /// Ticks since the last cycle.
+    ticks: u32,
     pub waits: Waits,
 }
 
@@ -93,7 +95,7 @@ impl<'a> Plain<'a> {
         parts.sessions = settings.sessions_before;
         let requester = Requester::resume(Suspended::from_parts(&parts), table);
         let (last, service, kept) = ([None; 2], [None; 2], Vec::new());
-        Self { settings, requester, last, service, kept, waits: Waits::default() }
+        Self { settings, requester, last, service, kept, ticks: 0, waits: Waits::default() }
     }
 
     /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
@@ -116,6 +118,7 @@ impl<'a> Plain<'a> {
 
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
         let event = Event { t_ns, kind };
+        self.ticks += u32::from(kind == EventKind::Tick);
         for group in self.returning(&event) {
             self.hold(t_ns, group);
         }
@@ -230,7 +233,11 @@ impl<'a> Plain<'a> {
             grid: own.grid,
             detection_history: &history,
         };
-        let (report, lists) = (check_plainly(&cycle), history.len());
+        let (checked, lists) = (check_plainly(&cycle), history.len());
+        let no_tick = InvalidInput { field: "tick", index: None, problem: Problem::NoTick };
+        let blind = self.ticks == 0 && (mot || plan);
+        let report = checked.and_then(|report| if blind { Err(no_tick) } else { Ok(report) });
+        self.ticks = 0;
         let safe = report.is_ok_and(|report| report.failed_stage.is_none());
         let max_age_ns = i128::from(self.settings.stages.max_age_ns);
         let current = |stamp_ns: i64| {
@@ -248,7 +255,7 @@ impl<'a> Plain<'a> {
             mot: tracks.filter(|_| verified[0]).map(|it| it.session),
             plan: points.filter(|_| plan && verified[1]).map(|it| it.session),
         };
-        if report.is_ok()
+        if checked.is_ok()
             && let Some((stamp_ns, items)) = own.detections.filter(|it| current(it.0))
         {
             self.keep(stamp_ns, items);

@@ -43,6 +43,9 @@ impl Left {
                     let kept = std::mem::take(&mut self.kept);
                     assert_eq!(self.cycle(monitor, &world, &kept), 0, "of the life before");
                     self.kept = kept;
+                    if monitor.configuration() != Configuration::Local {
+                        self.station.take(&monitor.tick(now));
+                    }
                     match self.cycle(monitor, &world, &fresh) {
                         0 => assert_eq!(first, None, "offloaded, and at {ms} not any more"),
                         out => first = first.or((out == 2).then_some(ms)),

@@ -14,6 +14,8 @@ pub struct Seen {
     pub safe: u64,
     pub errors: u64,
     pub unsafe_while_remote: u64,
+    /// Unsafe for want of a tick.
+    pub no_tick: u64,
     pub tracks: u64,
     pub remote_trajectories: u64,
     pub local_trajectories: u64,
@@ -89,6 +91,7 @@ impl Seen {
         assert!(200 * local_trajectories >= cycles, "{self:?}");
         let needs_history = profile == Profile::Hardened;
         assert!(!needs_history || 20 * self.with_history >= cycles, "{self:?}");
+        assert!(2_000 * self.no_tick >= cycles, "{self:?}");
         let &Self { starved_ahead, starved_old, starved_and_dropped, .. } = self;
         let &Self { starved_and_late, starved_and_left, recovered, set_back, .. } = self;
         let starved = [starved_ahead, starved_old, starved_and_dropped, starved_and_left];

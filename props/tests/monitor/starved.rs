@@ -3,6 +3,7 @@
 
 use mufasa::monitor::{Decision, Inputs, Message, Monitor, Time};
 use mufasa::offloading::requester::{Action, Actions, Group, Groups};
+use mufasa::report::Problem;
 use mufasa::services::configuration::Configuration;
 
 use super::kit::{
@@ -214,7 +215,14 @@ fn after_every_end_of_a_session_nine_periods_less_its_use_are_waited() {
             },
             1,
         ),
-        ("a cycle", |it, now| it.cycle(&Inputs::new(now, World::at(0).ego)).1, 0),
+        (
+            "a cycle",
+            |it, now| {
+                assert!(it.tick(now).is_empty());
+                it.cycle(&Inputs::new(now, World::at(0).ego)).1
+            },
+            0,
+        ),
     ];
     let cross_sections = road();
     for (name, end, left) in ends {
@@ -232,4 +240,29 @@ fn after_every_end_of_a_session_nine_periods_less_its_use_are_waited() {
         let ended = Some(last_ns + 6 * PERIOD_NS);
         assert_eq!(hold, if left == 0 { before } else { ended }, "{name}");
     }
+}
+
+/// `spec/5-interfaces.md#monitor.12`: a loop that ticks only when something came would never notice that a station
+/// is silent. With ticks the session ends; without, the next cycle says what was forgotten.
+#[test]
+fn who_ticks_only_when_something_came_is_told() {
+    let cross_sections = road();
+    let mut buffers = Buffers::new(16, 40);
+    let mut monitor = buffers.on(&cross_sections);
+    let mut station = Station::default();
+    let last_ns = begin(&mut monitor, &mut station, 0);
+    let silent = |monitor: &mut Monitor<'_>, now_ns: i64| {
+        let world = World::at(now_ns);
+        let (decision, _) = monitor.cycle(&inputs(&world, &None, &None));
+        match decision {
+            Decision::Safe { .. } => None,
+            Decision::Unsafe { report } => report.err().map(|it| (it.field, it.problem)),
+        }
+    };
+    assert_ne!(monitor.configuration(), Configuration::Local);
+    // The tick of this period belongs to the cycle before.
+    assert_eq!(silent(&mut monitor, last_ns + PERIOD_NS), Some(("tick", Problem::NoTick)));
+    assert_eq!(monitor.configuration(), Configuration::Local);
+    // Nothing is remote any more, so that there is no silence to notice.
+    assert_eq!(silent(&mut monitor, last_ns + 2 * PERIOD_NS), None);
 }

@@ -241,6 +241,7 @@ impl<'a> Guard<'a> {
                     Decision::Safe { tracks, trajectory, report } => Decided {
                         is_safe: true,
                         report: Some(Ok(report)),
+                        is_overruled: false,
                         trajectory: trajectory.map(|it| it.points.to_vec()),
                         tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
                         actions: actions.to_vec(),
@@ -249,6 +250,7 @@ impl<'a> Guard<'a> {
                     Decision::Unsafe { report } => Decided {
                         is_safe: false,
                         report: Some(report),
+                        is_overruled: false,
                         trajectory: None,
                         tracks: None,
                         actions: actions.to_vec(),
@@ -288,7 +290,8 @@ fn unchecked(
     let tracks = tracks.map(|it| (it.stamp.as_nanoseconds(), it.items.clone()));
     let actions =
         requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
-    Decided { is_safe: true, report: None, trajectory, tracks, actions, record: None }
+    let (is_safe, is_overruled) = (true, false);
+    Decided { is_safe, report: None, is_overruled, trajectory, tracks, actions, record: None }
 }
 
 fn keep<T>(

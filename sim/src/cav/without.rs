@@ -1,9 +1,13 @@
 //! The hardened rules without one of them, for experiments that ask what the rule is good for.
 //!
 //! The implementation has no switch for a rule, and is given none: a vehicle could be built with it. So this
-//! guard is put together here from the functions beneath the monitor, of the requester and of a cycle, and
-//! overrules the one verdict. With `Without::Nothing` it decides as the monitor does (tested:
-//! `sim/tests/loop/without.rs`).
+//! guard is put together here from the functions beneath the monitor, of the requester and of a cycle. In a cycle
+//! that the rule may decide, the stages are put together once more, from the functions of the model and without it
+//! (`stages`); H-08 is a rule of the requester, which is the paper's then. With `Without::Nothing` it decides as the
+//! monitor does (tested: `sim/tests/loop/without.rs`).
+
+pub mod rule;
+pub mod stages;
 
 use mufasa::input::cycle::{Cycle, Ego, Route, Track, TrajectoryPoint};
 use mufasa::input::parameters::Parameters as StageParameters;
@@ -13,41 +17,16 @@ use mufasa::monitor::{Message, Time};
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Parameters, Requester, RequesterError, Sessions, StationRecord,
 };
-use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage};
+use mufasa::report::{InvalidInput, Report};
 use mufasa::services::configuration::{Configuration, Group};
 use mufasa::stages::check;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mufasa_props::bridge::{self, report_from_impl, report_to_impl};
 
+pub use self::rule::Without;
 use super::assembled::{self, Chosen, Fixed, Last};
 use super::decided::{Decided, Local};
 use super::seen::Seen;
 use super::sensing::Sensed;
-
-/// A rule that is left out.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-pub enum Without {
-    /// None: the guard below is that of the hardened profile.
-    Nothing,
-    /// H-13: stage iv does not look at detections as moving.
-    #[serde(rename = "H-13")]
-    H13,
-}
-
-impl Without {
-    /// All that can be left out.
-    pub const ALL: [Self; 1] = [Self::H13];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "nothing",
-            Self::H13 => "H-13",
-        }
-    }
-}
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Served {
@@ -89,12 +68,16 @@ impl<'a> Rules<'a> {
         (requester, period_ns): (Parameters, i64),
         table: &'a mut [StationRecord],
     ) -> Result<Self, RequesterError> {
+        let profile = match without {
+            Without::H08 => Profile::Paper,
+            _ => Profile::Hardened,
+        };
         Ok(Self {
             without,
             fixed: Fixed { profile: Profile::Hardened, parameters, route: (false, Vec::new()) },
             requester_parameters: requester,
             period_ns,
-            requester: Requester::new(Profile::Hardened, requester, table)?,
+            requester: Requester::new(profile, requester, table)?,
             served: [Served::default(); 2],
             seen: Seen::default(),
             rows: vec![Row::default(); Sizes::MAX.rows],
@@ -203,7 +186,7 @@ impl<'a> Rules<'a> {
         let cycle =
             assembled::cycle(&self.fixed, &self.requester, moment, sensed, chosen, &history);
         let scratch = &mut Scratch::new(&mut self.rows, &mut self.columns);
-        let report = report(self.without, &cycle, scratch);
+        let (report, is_overruled) = report(self.without, &cycle, scratch);
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());
         let max_age_ns = self.fixed.parameters.max_age_ns;
         let is_current = |stamp_ns: &i64| (0..=max_age_ns).contains(&(t_ns - stamp_ns));
@@ -232,33 +215,28 @@ impl<'a> Rules<'a> {
         }
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(t_ns, kind).unwrap_or_default();
-        Decided { is_safe, report: Some(report), trajectory, tracks, actions, record: None }
+        let report = Some(report);
+        Decided { is_safe, report, is_overruled, trajectory, tracks, actions, record: None }
     }
 }
 
-/// The report of a cycle; what the rule that is left out found is not heard, and stage v, which would have
-/// been next, is asked.
+/// The report of a cycle without the rule, as it is with all of them, unless the rule may change it; and whether
+/// it changes the verdict.
 fn report(
     without: Without,
     cycle: &Cycle<'_>,
     scratch: &mut Scratch<'_>,
-) -> Result<Report, InvalidInput> {
-    let report = check(cycle, scratch)?;
-    let found = report.stages[3];
-    let is_overruled = without == Without::H13
-        && report.failed_stage == Some(FailedStage::Stage(Stage::Iv))
-        && matches!(found, Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving);
-    if !is_overruled {
-        return Ok(report);
+) -> (Result<Report, InvalidInput>, bool) {
+    let report = match check(cycle, scratch) {
+        Ok(report) => report,
+        Err(problem) => return (Err(problem), false),
+    };
+    if report.input.is_some() || !without.may_change(&report_from_impl(&report)) {
+        return (Ok(report), false);
     }
-    // Stage v does not depend on tracks and detections; without both it is what examines the trajectory.
-    let configuration = Configuration::PlanRemote;
-    let alone =
-        Cycle { configuration, tracks: None, detections: None, detection_history: &[], ..*cycle };
-    let rest = check(&alone, scratch)?;
-    let mut stages = report.stages;
-    (stages[3], stages[4]) = (Outcome::Passed, rest.stages[4]);
-    Ok(Report { failed_stage: rest.failed_stage, stages, ..report })
+    let decided = stages::decide(without, &bridge::from_impl(cycle));
+    let decided = report_to_impl(&decided).unwrap_or(report);
+    (Ok(decided), decided.failed_stage.is_none() != report.failed_stage.is_none())
 }
 
 const fn place(group: Group) -> usize {

@@ -7,10 +7,12 @@
 pub mod attacks;
 pub mod availability;
 pub mod checks;
+pub mod combinations;
 pub mod cpu;
 pub mod failures;
 pub mod falsify;
 pub mod job;
+pub mod rules;
 pub mod select;
 pub mod stages;
 pub mod watch;

@@ -147,7 +147,7 @@ pub fn experiment(
 }
 
 /// MOT on the first two thirds of the way to the target, PLAN on the last two.
-fn areas(town: &Town, route: usize) -> Areas {
+pub(super) fn areas(town: &Town, route: usize) -> Areas {
     let route = &town.routes[route];
     let (start, end) = route.task.map_or((0.0, route.path.length()), |task| {
         (task.start, route.path.project(task.target.pose.at).s)

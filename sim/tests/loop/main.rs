@@ -8,6 +8,7 @@ mod lies;
 mod radio;
 mod records;
 mod replay;
+mod rules;
 mod same;
 mod services;
 mod sessions;

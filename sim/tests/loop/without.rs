@@ -1,4 +1,5 @@
-//! The guard without a rule: with nothing left out it is the monitor, and H-13 is one rule of it.
+//! The guard without a rule: with nothing left out it is the monitor, and each is one rule of it (`rules`: of the
+//! stages, on cases of each).
 
 use mufasa::services::configuration::Groups;
 use mufasa_sim::attack::{Attack, Kind};
@@ -47,4 +48,20 @@ fn h13_is_what_is_left_out() {
         with.0.stages[3][1] > without.0.stages[3][1]
     };
     assert!((0..4).any(differs), "stage iv finds less without it");
+}
+
+#[test]
+fn a_rule_that_finds_nothing_is_left_out_without_a_trace() {
+    let (with, without) = (drive(None, None, 1), drive(Some(Without::H05), None, 1));
+    assert_eq!(with.0, without.0);
+    assert_eq!(with.1.cycles, without.1.cycles);
+}
+
+/// The first safe verdict comes some cycles after the first answer of the station: until then the CAV's own
+/// services run with H-08.
+#[test]
+fn h08_is_a_rule_of_the_requester() {
+    let (with, without) = (drive(None, None, 1), drive(Some(Without::H08), None, 1));
+    assert_eq!(with.0.end, without.0.end);
+    assert!(with.1.cycles != without.1.cycles, "the CAV's own services stop earlier without it");
 }

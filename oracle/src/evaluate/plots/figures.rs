@@ -2,18 +2,19 @@
 
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::attacks::{self, Attacks, Offered};
 use mufasa_sim::experiment::availability::{self, Availability, Factor};
+use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu, Who};
 use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::falsify::Falsified;
-use mufasa_sim::experiment::falsify::danger::FREE_S;
 use mufasa_sim::experiment::job::kind_name;
+use mufasa_sim::experiment::rules::{self, Rules};
 use mufasa_sim::experiment::stages::{self, Stages};
 
 use super::bars::{self, Bar, Bars, Group};
 use super::dots::{self, Dot, Dots, Panel};
-use super::lines::{self, COLLIDED, Row, Small, Tried};
+use super::lines::{self, COLLIDED, Row, Small};
 use super::page::{Mark, Series};
 use crate::evaluate::published;
 
@@ -23,7 +24,7 @@ pub struct Figure {
     pub svg: String,
 }
 
-fn figure(file: &str, svg: String) -> Figure {
+pub(super) fn figure(file: &str, svg: String) -> Figure {
     Figure { file: format!("{file}.svg"), svg }
 }
 
@@ -177,6 +178,35 @@ const fn format_class(variant: Variant) -> &'static str {
     }
 }
 
+/// Failures under combinations of attacks.
+pub fn combinations(of: &Combinations) -> Vec<Figure> {
+    let bar = |row: &combinations::Row| Bar {
+        series: series(row.variant),
+        value: 100.0 * ratio(row.collided, row.runs),
+        paler: 100.0 * ratio(row.late, row.runs),
+        label: format!("{}/{}", row.failures, row.runs),
+        published: Vec::new(),
+    };
+    let group = |rows: &[combinations::Row]| Group {
+        name: format!("{} offered", rows[0].offered.name()),
+        bars: rows.iter().map(bar).collect(),
+        note: String::new(),
+    };
+    let same = |a: &combinations::Row, b: &combinations::Row| a.offered == b.offered;
+    let svg = bars::draw(&Bars {
+        title: "Failures under attacks of all kinds, drawn at random over time",
+        about: &[
+            "In full: collisions; paler: target not reached in time. Above: failures of runs.",
+        ],
+        key: &[Series::SOFOF, Series::PAPER, Series::HARDENED],
+        unit: "runs that failed, %",
+        most: 100.0,
+        step: 25.0,
+        groups: of.rows.chunk_by(same).map(group).collect(),
+    });
+    vec![figure(combinations::NAME, svg)]
+}
+
 /// Availability by each factor.
 pub fn availability(of: &Availability) -> Vec<Figure> {
     let chart = |factor: Factor, value: fn(&availability::Row) -> f64| {
@@ -223,6 +253,31 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
     let key = [Series::PAPER, Series::HARDENED];
     let svg = lines::draw("What the checks cost without an attack", &about, &key, &rows);
     vec![figure(availability::NAME, svg)]
+}
+
+/// The price of each rule.
+pub fn rules(of: &Rules) -> Vec<Figure> {
+    let group = |row: &rules::Row| {
+        let whole = if row.variant == Variant::Paper { "paper" } else { "all" };
+        let name = row.without.map_or(whole, Without::name).to_owned();
+        let (series, value) = (series(row.variant), row.fallbacks_per_hour);
+        let label = format!("{value:.0}\n{:.0} %", 100.0 * row.share_mot);
+        let bars = vec![Bar { series, value, paler: 0.0, label, published: vec![] }];
+        Group { name, bars, note: String::new() }
+    };
+    let most = of.rows.iter().map(|row| row.fallbacks_per_hour).fold(100.0, f64::max);
+    let svg = bars::draw(&Bars {
+        title: "False alarms with all rules, and without each alone",
+        about: &[
+            "No attack. Above each bar: its value, and the share of the time with remote tracks.",
+        ],
+        key: &[Series::PAPER, Series::HARDENED],
+        unit: "fallbacks in an hour, each a false alarm",
+        most: 200.0 * (most / 200.0).ceil(),
+        step: 200.0,
+        groups: of.rows.iter().map(group).collect(),
+    });
+    vec![figure(rules::NAME, svg)]
 }
 
 /// The value that is set, short enough to stand beside others.
@@ -324,33 +379,6 @@ fn processor(row: &cpu::Row, at: usize) -> Vec<Dot> {
         dots.extend(of);
     }
     dots
-}
-
-/// The time left to react in every run of a search.
-pub fn falsified(of: &Falsified) -> Vec<Figure> {
-    let (random, guided) = (
-        Series { name: "at random", ..Series::SOFOF },
-        Series { name: "by CMA-ES, from the best of them", mark: Mark::Circle, ..Series::PAPER },
-    );
-    let random = Series { mark: Mark::Circle, ..random };
-    let tried = of.tries.iter().map(|it| Tried {
-        series: if it.is_random { random } else { guided },
-        value: it.time_left_s,
-    });
-    let tried: Vec<Tried> = tried.collect();
-    let rounds = of.tries.windows(2).enumerate();
-    let rounds = rounds.filter(|(_, it)| it[0].round != it[1].round).map(|(at, _)| at + 1);
-    let svg = lines::search(
-        "The search for collisions",
-        &[
-            "Least time left to react of each run; at 0 nothing helps any more. The line is the least up to then;",
-            "upright lines part the rounds, which have new scenarios.",
-        ],
-        &[random, guided, COLLIDED],
-        ("time left to react, s", FREE_S),
-        (&tried, &rounds.collect::<Vec<_>>()),
-    );
-    vec![figure(mufasa_sim::experiment::falsify::NAME, svg)]
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]

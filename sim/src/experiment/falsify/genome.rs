@@ -71,13 +71,18 @@ fn attack(genes: &[f64], kinds: &[Kind], clean: &Clean) -> Attack {
     let lasts = 0.3 * libm::pow(200.0, genes[2]);
     let chosen = (genes[3] >= 0.5).then(|| 2.0 * (genes[3] - 0.5));
     let target = chosen.and_then(|share| clean.near.get(pick(share, clean.near.len())).copied());
-    let lists = match genes[4] {
+    let means = Means { target, ..means(kind, [genes[4], genes[5], genes[6], genes[7]]) };
+    Attack { kind, from, until: from + lasts, seed: clean.seed, means }
+}
+
+/// Which lists an attack of a kind spoils, and by how much: of four shares from 0 to 1.
+pub fn means(kind: Kind, [lists, a, b, c]: [f64; 4]) -> Means {
+    let lists = match lists {
         share if share < 0.6 => Lists::Both,
         share if share < 0.8 => Lists::Cav,
         _ => Lists::Planner,
     };
-    let means = Means { target, lists, ..magnitudes(kind, [genes[5], genes[6], genes[7]]) };
-    Attack { kind, from, until: from + lasts, seed: clean.seed, means }
+    Means { lists, ..magnitudes(kind, [a, b, c]) }
 }
 
 /// What the three genes a, b, c of an attack are for its kind.
