@@ -302,12 +302,13 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
 
 /// Parts of an experiment, or of a campaign of `conform`.
 fn merge(arguments: &MergeArguments, out: &mut impl Write) -> io::Result<u8> {
-    let MergeArguments { parts, out: folder, into } = arguments;
+    let MergeArguments { parts, map, out: folder, into } = arguments;
     if parts.first().is_none_or(|it| kit::Summary::read(it).is_err()) {
         return evaluate::shards::merge(arguments, out, &mut io::stderr());
     }
-    if into.is_some() {
-        return Ok(refused("--into: a campaign of conform has no table for a document"));
+    let given = [("--into", into, "table for a document"), ("--map", map, "map")];
+    if let Some((name, _, what)) = given.iter().find(|it| it.1.is_some()) {
+        return Ok(refused(&format!("{name}: a campaign of conform has no {what}")));
     }
     conformed(kit::merge(parts, folder.as_ref(), out), out)
 }

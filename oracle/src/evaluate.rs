@@ -4,6 +4,7 @@ pub mod arguments;
 mod codes;
 mod falsify;
 mod log;
+mod maps;
 pub mod merge;
 mod parts;
 mod plots;
@@ -36,7 +37,6 @@ use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
-use mufasa_sim::map::streets::town;
 
 use self::arguments::{EvaluateArguments, Experiment};
 use self::codes::{BAD_INPUT, DISAGREES, FAILED};
@@ -101,7 +101,8 @@ pub fn run(
         ..Select::only(size.only.as_deref())
     };
     let task = Task { sized: &|defaults| size.options(defaults), select: &select };
-    let made = prepared(size.out.as_deref()).and_then(|()| in_threads(size.threads, &task, make));
+    let prepared = prepared(size.out.as_deref()).and_then(|()| maps::of(size.map.as_deref()));
+    let made = prepared.and_then(|town| in_threads(size.threads, &town, &task, make));
     match (made, size.shard, &size.out) {
         (Ok(results), Some(shard), Some(folder)) => {
             shards::write(folder, shard, &results, select, out, err)
@@ -216,7 +217,8 @@ const EXPERIMENTS: [Named; 7] = [
 /// The runs of an experiment; none, if there is no such one.
 fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job<()>> {
     let named = EXPERIMENTS.iter().find(|it| it.name == name);
-    named.map_or_else(Vec::new, |it| (it.jobs)(town, sized(it.options)))
+    let on = |options| Options { map: town.id, ..sized(options) };
+    named.map_or_else(Vec::new, |it| (it.jobs)(town, on(it.options)))
 }
 
 /// Whether files can be written into the folder.
@@ -227,22 +229,23 @@ fn prepared(folder: Option<&Path>) -> Result<(), String> {
 }
 
 /// In a pool of so many threads.
-fn in_threads(threads: Option<u16>, task: &Task<'_>, make: Make) -> Made {
+fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, make: Make) -> Made {
     let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let results = pool.map_err(said)?.install(|| make(task, &town()))?;
+    let results = pool.map_err(said)?.install(|| make(task, town))?;
     if let (0, Some(only)) = (results.runs, task.select.only) {
         return Err(format!(
             "{only}: no run of {} has such an id; one is its experiment, variant, what is special, route \
-             and scenario, such as failures/paper/tracks-empty/0/3",
-            results.name
+             and scenario, such as failures/paper/tracks-empty/{}/3",
+            results.name,
+            town.id.route(0)
         ));
     }
     Ok(results)
 }
 
 fn made<E: Shown>(task: &Task<'_>, town: &Town) -> Made {
-    let options = (task.sized)(E::OPTIONS);
+    let options = Options { map: town.id, ..(task.sized)(E::OPTIONS) };
     let bar = bar(E::NAME);
     let made = E::make(town, options, task.select, |of| step(&bar, of));
     bar.finish_and_clear();
@@ -296,8 +299,9 @@ fn page_of(id: &str) -> PathBuf {
 
 /// The name of the report. Runs are linked whose pages are there.
 fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result<PathBuf> {
-    let Options { scenarios, vehicles, seed } = results.options;
-    let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}");
+    let Options { scenarios, vehicles, seed, map } = results.options;
+    let on = maps::option(map);
+    let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}{on}");
     let failed = |run: &Failed| {
         let page = page_of(&run.id);
         let page = folder.join(&page).exists().then(|| page.display().to_string());
@@ -311,6 +315,7 @@ fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result
             ("Scenarios", scenarios.to_string()),
             ("other vehicles", vehicles.to_string()),
             ("seed", seed.to_string()),
+            ("map", map.to_string()),
             ("runs", results.runs.to_string()),
             ("mufasa", env!("CARGO_PKG_VERSION").to_owned()),
         ],
@@ -324,7 +329,9 @@ fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result
 }
 
 fn put(file: &Path, results: &Results) -> io::Result<()> {
-    document::write(file, &format!("mufasa evaluate {}", results.name), &results.table.markdown())
+    let on = maps::option(results.options.map);
+    let command = format!("mufasa evaluate {}{on}", results.name);
+    document::write(file, &command, &results.table.markdown())
 }
 
 fn bar(name: &str) -> ProgressBar {

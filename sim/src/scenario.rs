@@ -7,6 +7,7 @@ use crate::map::Town;
 use crate::map::route::{Route, RouteKind};
 use crate::pose::{Point, Rectangle};
 use crate::traffic::idm::Idm;
+pub use crate::traffic::start::{Halt, Start};
 
 /// A start of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,34 +31,6 @@ pub struct Scenario {
     pub time_limit: f64,
 }
 
-/// A vehicle at the start.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Start {
-    /// Index of its route.
-    pub route: usize,
-    /// Where its middle is, m.
-    pub s: f64,
-    /// m/s.
-    pub speed: f64,
-    /// m.
-    pub length: f64,
-    /// m.
-    pub width: f64,
-    /// How it drives.
-    pub idm: Idm,
-    /// Where it stops for a while, in order.
-    pub halts: Vec<Halt>,
-}
-
-/// A stop on the lane, as of a delivery van.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Halt {
-    /// Where the front stops, m.
-    pub s: f64,
-    /// How long, s.
-    pub seconds: f64,
-}
-
 /// Somebody who wants to cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walk {
@@ -74,20 +47,36 @@ const SIZES: [(f64, f64, u32); 5] =
 const LONG: (f64, f64) = (7.0, 1.0 / 30.0);
 /// Free road between two vehicles at the start, m.
 const FREE: f64 = 6.0;
+/// Places ahead of a vehicle that came with the map that are kept free, m.
+const AHEAD: [f64; 6] = [0.0, 5.0, 10.0, 15.0, 20.0, 25.0];
 
 impl Scenario {
     /// A random start: `vehicles` (fewer when no free place was found) on all roads, in about four of five
     /// draws one of them ahead of the ego on its lane, which at times stops for a while;
-    /// people at the crossings; signals at a random time of their cycle. The same for the same seed.
+    /// people at the crossings; signals at a random time of their cycle. Where a start comes with the map, every
+    /// second draw begins with that, and with as many of its vehicles. The same for the same seed.
     pub fn draw(town: &Town, ego_route: usize, vehicles: usize, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let route = &town.routes[ego_route];
-        let ego_s = route.task.map_or(0.0, |task| task.start);
+        let given = town.given.starts.iter().find(|it| it.ego_route == ego_route);
+        let given = given.filter(|_| random.random_bool(0.5));
+        let start = route.task.map_or(0.0, |task| task.start);
+        let (ego_s, ego_speed) =
+            given.map_or((start, 0.7 * route.pace_at(start)), |it| (it.ego_s, it.ego_speed));
         let mut placed = Placed { places: Vec::new() };
         placed.add(route, ego_s, 5.1, 1.89);
-        let mut actors = Vec::new();
-        if vehicles > 0 && random.random_bool(0.8) {
-            actors.extend(lead(&mut random, town, ego_route, &mut placed));
+        let mut actors: Vec<Start> =
+            given.iter().flat_map(|it| &it.actors).take(vehicles).cloned().collect();
+        // They drive as they are given: nobody is put so near ahead of them that they would have to be slower.
+        let ego = given.map(|_| (ego_route, ego_s));
+        for (index, s) in actors.iter().map(|it| (it.route, it.s)).chain(ego) {
+            for ahead in AHEAD {
+                placed.add(&town.routes[index], s + ahead, 5.1, 2.0);
+            }
+        }
+        let given = actors.len();
+        if vehicles > given && random.random_bool(0.8) {
+            actors.extend(lead(&mut random, town, (ego_route, ego_s), &mut placed));
         }
         let roads: Vec<usize> = town.roads().collect();
         // A town can be full: each vehicle has twenty tries on the average.
@@ -101,10 +90,9 @@ impl Scenario {
             let (length, width) = size(&mut random, route);
             if waits_before(route, s, length) && placed.is_free(route, s, length, width) {
                 placed.add(route, s, length, width);
-                actors.push(start(&mut random, index, s, (length, width)));
+                actors.push(vehicle(&mut random, town, (index, s), (length, width)));
             }
         }
-        let ego_speed = 0.7 * route.pace_at(ego_s);
         let mut scenario = Self {
             ego_route,
             ego_s,
@@ -115,12 +103,13 @@ impl Scenario {
             refill: true,
             time_limit: 120.0,
         };
-        scenario.slow_down(town);
+        scenario.slow_down(town, given);
         scenario
     }
 
-    /// Starts nobody faster than they can stop behind who is ahead, or before the next passage, at 2 m/s^2.
-    fn slow_down(&mut self, town: &Town) {
+    /// Starts nobody, but those who are given, faster than they can stop behind who is ahead, or before the next
+    /// passage, at 2 m/s^2.
+    fn slow_down(&mut self, town: &Town, given: usize) {
         let all: Vec<Rectangle> =
             self.actors.iter().map(|a| rectangle(&town.routes[a.route], a)).collect();
         let ego = Rectangle {
@@ -141,7 +130,7 @@ impl Scenario {
                 }
                 (4.0 * (free - 4.0).max(0.0)).sqrt().min(0.9 * route.pace_at(s))
             };
-        for index in 0..self.actors.len() {
+        for index in given..self.actors.len() {
             let actor = &self.actors[index];
             let mut others =
                 all.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, r)| r).chain([&ego]);
@@ -160,9 +149,13 @@ pub fn rectangle(route: &Route, start: &Start) -> Rectangle {
 
 /// Somebody ahead of the ego on its lane; every second of them stops for a while. None when twenty places
 /// were taken or inside of a passage.
-fn lead(random: &mut ChaCha8Rng, town: &Town, index: usize, placed: &mut Placed) -> Option<Start> {
+fn lead(
+    random: &mut ChaCha8Rng,
+    town: &Town,
+    (index, ego_s): (usize, f64),
+    placed: &mut Placed,
+) -> Option<Start> {
     let route = &town.routes[index];
-    let ego_s = route.task.map_or(0.0, |task| task.start);
     for _ in 0..20 {
         let s = ego_s + random.random_range(16.0..60.0);
         let (length, width) = size(random, route);
@@ -170,7 +163,7 @@ fn lead(random: &mut ChaCha8Rng, town: &Town, index: usize, placed: &mut Placed)
             continue;
         }
         placed.add(route, s, length, width);
-        let mut lead = start(random, index, s, (length, width));
+        let mut lead = vehicle(random, town, (index, s), (length, width));
         let halt = s + random.random_range(30.0..200.0);
         // Nobody halts within a passage, or so that its rear is still in one.
         if random.random_bool(0.5) && waits_before(route, halt - length / 2.0, length + 6.0) {
@@ -181,13 +174,21 @@ fn lead(random: &mut ChaCha8Rng, town: &Town, index: usize, placed: &mut Placed)
     None
 }
 
-/// A vehicle of this size with a driver of its own.
-pub fn start(random: &mut ChaCha8Rng, route: usize, s: f64, (length, width): (f64, f64)) -> Start {
-    let idm = Idm {
-        v0: random.random_range(9.0..15.0),
-        headway: random.random_range(1.2..1.8),
-        b: random.random_range(2.0..3.0),
-        ..Idm::default()
+/// A vehicle of this size at a place of a route, with a driver: one of those of the map, if it has any.
+pub fn vehicle(
+    random: &mut ChaCha8Rng,
+    town: &Town,
+    (route, s): (usize, f64),
+    (length, width): (f64, f64),
+) -> Start {
+    let idm = match &town.given.drivers[..] {
+        [] => Idm {
+            v0: random.random_range(9.0..15.0),
+            headway: random.random_range(1.2..1.8),
+            b: random.random_range(2.0..3.0),
+            ..Idm::default()
+        },
+        drivers => drivers[random.random_range(0..drivers.len())],
     };
     Start { route, s, speed: random.random_range(3.0..12.0), length, width, idm, halts: Vec::new() }
 }

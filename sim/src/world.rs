@@ -246,6 +246,7 @@ impl<'a> World<'a> {
         let ego = &mut self.agents[0];
         ego.rectangle = self.body.rectangle(&self.motion);
         ego.speed = self.motion.speed;
+        ego.acceleration = self.motion.acceleration;
         let seen = route.path.project_within(ego.rectangle.pose.at, ego.s - 3.0, ego.s + 5.0);
         ego.s = seen.s;
         self.left = seen.left;
@@ -306,7 +307,8 @@ impl<'a> World<'a> {
         let roads: Vec<usize> = self.town.roads().collect();
         let route = roads[self.random.random_range(0..roads.len())];
         let size = scenario::size(&mut self.random, &self.town.routes[route]);
-        let mut start = scenario::start(&mut self.random, route, size.0 / 2.0, size);
+        let place = (route, size.0 / 2.0);
+        let mut start = scenario::vehicle(&mut self.random, self.town, place, size);
         start.speed = start.speed.min(6.0);
         let pose: Pose = self.town.routes[route].path.pose_at(start.s);
         if self.is_free(pose.at, FREE.0)

@@ -19,12 +19,7 @@ fn street() -> Town {
     };
     let route = |y: f64| Route::new("street", RouteKind::Road, line(y), 1.75, 20.0);
     let lanes = vec![Lane { path: line(0.0), width: 3.5 }];
-    Town {
-        lanes,
-        crossings: Vec::new(),
-        routes: vec![route(0.0), route(500.0)],
-        signals: Vec::new(),
-    }
+    Town { lanes, routes: vec![route(0.0), route(500.0)], ..Town::default() }
 }
 
 fn scenario(actors: Vec<Start>) -> Scenario {

@@ -9,12 +9,13 @@ use mufasa_sim::experiment::watch::{By, First, Watch};
 use mufasa_sim::experiment::{
     attacks, availability, combinations, cpu, failures, falsify, rules, stages,
 };
+use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
 use serde::Serialize;
 
 /// Fewer scenarios than of the real ones: this is compiled without all optimisation.
-const SMALL: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
+const SMALL: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// As JSON, made by so many threads.
 fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync) -> String {
@@ -34,7 +35,7 @@ fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
+    let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
     let only = Some("failures/hardened/ghosts");
     let make =
         || failures::experiment(&town, size, &Select::only(only), |_| ()).expect("the town can be");
@@ -51,7 +52,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 #[test]
 fn a_run_is_repeated_alone_by_its_id() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 8, seed: 3 };
+    let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
     let make = |only| {
         failures::experiment(&town, size, &Select::only(Some(only)), |_| ())
             .expect("the town can be")
@@ -84,7 +85,7 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 
 #[test]
 fn every_stage_runs_and_the_hardened_profile_arrives() {
-    let size = Options { scenarios: 2, vehicles: 30, seed: 0 };
+    let size = Options { scenarios: 2, vehicles: 30, seed: 0, map: MapId::Town };
     let made =
         stages::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
@@ -101,7 +102,7 @@ fn every_stage_runs_and_the_hardened_profile_arrives() {
 #[test]
 fn ids_differ_and_every_combination_is_there() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 15, seed: 0 };
+    let size = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
     let mut ids: Vec<String> = failures::jobs(&town, size).into_iter().map(|it| it.id).collect();
     ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
@@ -193,7 +194,7 @@ fn attacks_are_combined_at_random_and_again_the_same() {
 
 #[test]
 fn every_false_alarm_of_the_price_of_rules_has_a_cause() {
-    let size = Options { scenarios: 1, vehicles: 8, seed: 0 };
+    let size = Options { scenarios: 1, vehicles: 8, seed: 0, map: MapId::Town };
     let made =
         rules::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
     assert_eq!((made.rows.len(), made.runs.len()), (15, 30));

@@ -10,6 +10,7 @@ use mufasa_sim::experiment::falsify::found::{Case, Found};
 use mufasa_sim::experiment::falsify::genome::{Clean, GENES, KINDS, decode};
 use mufasa_sim::experiment::falsify::shrink::shrunk;
 use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, experiment};
+use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{End, TAU_S};
 
@@ -26,7 +27,16 @@ impl Caller for Backwards {
 fn known_hole() -> Options {
     let kinds = vec![Kind::TracksEmpty];
     let (runs, rounds) = (Some(96), None);
-    Options { variant: Variant::Paper, without: None, kinds, runs, rounds, vehicles: 15, seed: 1 }
+    Options {
+        variant: Variant::Paper,
+        without: None,
+        kinds,
+        runs,
+        rounds,
+        vehicles: 15,
+        seed: 1,
+        map: MapId::Town,
+    }
 }
 
 fn found(made: &Falsified) -> [u64; 2] {
@@ -76,6 +86,7 @@ fn what_is_found_is_shrunk_to_what_matters() {
         scenario: 0,
         vehicles: 15,
         attacks,
+        map: MapId::Town,
     };
     let found = case.collision(&town).expect("it can be").expect("a collision");
     let (small, runs) = shrunk(&town, &found).expect("it can be");
@@ -152,6 +163,7 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
         scenario: 0,
         vehicles: 15,
         attacks: Vec::new(),
+        map: MapId::Town,
     };
     let time_left = |case: &Case| {
         let mut danger = Danger::default();

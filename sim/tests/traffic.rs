@@ -4,10 +4,14 @@
 mod common;
 
 use mufasa_sim::collision::overlap;
-use mufasa_sim::map::Town;
-use mufasa_sim::map::streets;
+use mufasa_sim::map::given::Given;
+use mufasa_sim::map::route::{Route, RouteKind};
+use mufasa_sim::map::{Town, conflicts, streets};
+use mufasa_sim::path::Path;
+use mufasa_sim::pose::Point;
 use mufasa_sim::scenario::Scenario;
-use mufasa_sim::traffic::ahead;
+use mufasa_sim::traffic::agent::{Agent, Kind};
+use mufasa_sim::traffic::{ahead, give_way};
 use mufasa_sim::world::World;
 
 /// What runs of 60 s showed.
@@ -81,4 +85,37 @@ fn nobody_collides_on_the_straight_route() {
 #[test]
 fn nobody_collides_on_the_route_with_turns() {
     check(1, 15);
+}
+
+/// Two roads that cross after 100 m, the ego and somebody who was granted the way, both before their lines: how
+/// many passages each has then.
+fn granted(lets_ego_go: bool, ego: (f64, f64, f64), other: (f64, f64)) -> [usize; 2] {
+    let line = |from: Point, to: Point| {
+        let path = Path::new(vec![from, to]).unwrap().resampled(1.0).unwrap();
+        Route::new("road", RouteKind::Road, path, 1.75, 10.0)
+    };
+    let along = line(Point::new(-100.0, 0.0), Point::new(100.0, 0.0));
+    let across = line(Point::new(0.0, -100.0), Point::new(0.0, 100.0));
+    let given = Given { lets_ego_go, ..Given::default() };
+    let mut town = Town { routes: vec![along, across], given, ..Town::default() };
+    conflicts::compute(&mut town);
+    let before = |route: usize, room: f64| town.routes[route].passages[0].from - room - 2.5;
+    let mut agents = vec![
+        Agent::new(0, Kind::Ego, &town, 0, before(0, ego.0), (5.0, 1.8)),
+        Agent::new(1, Kind::Car, &town, 1, before(1, other.0), (5.0, 1.8)),
+    ];
+    (agents[0].speed, agents[0].acceleration, agents[1].speed) = (ego.1, ego.2, other.1);
+    agents[1].granted = 1;
+    assert_eq!(give_way::grant(&mut agents, &town, 0.0, 0.0), 0);
+    [agents[0].granted, agents[1].granted]
+}
+
+#[test]
+fn others_let_the_ego_go_that_goes_if_they_can_still_stop() {
+    assert_eq!(granted(true, (1.0, 0.5, 1.5), (2.0, 1.0)), [1, 0], "it goes");
+    assert_eq!(granted(true, (1.0, 0.5, 1.5), (0.2, 1.0)), [1, 1], "too late to stop");
+    assert_eq!(granted(true, (1.0, 0.5, -1.0), (2.0, 1.0)), [0, 1], "it brakes");
+    assert_eq!(granted(true, (1.0, 0.2, 1.5), (2.0, 1.0)), [0, 1], "it has hardly moved");
+    assert_eq!(granted(true, (6.0, 0.5, 1.5), (2.0, 1.0)), [0, 1], "it is not there yet");
+    assert_eq!(granted(false, (1.0, 0.5, 1.5), (2.0, 1.0)), [0, 1], "not on every map");
 }

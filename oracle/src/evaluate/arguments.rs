@@ -68,6 +68,9 @@ pub struct SizeArguments {
     /// Seed of the first scenario; the others follow.
     #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
     pub seed: u64,
+    /// Drive on the map in this folder, not in the town: that of uulm-mrm/tpl's `data`, Ulm-Lehr.
+    #[arg(long, value_name = "FOLDER")]
+    pub map: Option<PathBuf>,
     /// Only runs whose id is this or begins with these parts, such as failures/paper/tracks-empty/0/3.
     #[arg(long, value_name = "ID")]
     pub only: Option<String>,
@@ -98,6 +101,7 @@ impl SizeArguments {
             scenarios: self.scenarios.unwrap_or(defaults.scenarios),
             vehicles: self.vehicles.map_or(defaults.vehicles, usize::from),
             seed: self.seed,
+            map: defaults.map,
         }
     }
 }

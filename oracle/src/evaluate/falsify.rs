@@ -22,12 +22,13 @@ use mufasa_sim::experiment::falsify::{
     Caller, Falsified, Options, Progress, Round, experiment, part,
 };
 use mufasa_sim::experiment::select::{Part, Shard};
-use mufasa_sim::map::streets::town;
+use mufasa_sim::map::Town;
 use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{End, RunError};
 use serde::Deserialize;
 
 use super::codes::{BAD_INPUT, FAILED};
+use super::maps;
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
 use super::plots::figures::Figure;
@@ -73,6 +74,9 @@ pub struct FalsifyArguments {
     /// Only attacks of this kind; may be given several times [default: all but flood and slow].
     #[arg(long, value_name = "KIND", value_parser = kind())]
     pub attack: Vec<Kind>,
+    /// Drive on the map in this folder, not in the town: that of uulm-mrm/tpl's `data`, Ulm-Lehr.
+    #[arg(long, value_name = "FOLDER")]
+    pub map: Option<PathBuf>,
     /// Other vehicles in the town.
     #[arg(long, value_name = "N", default_value = "15", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
     pub vehicles: u16,
@@ -124,18 +128,18 @@ pub fn run(
         return Ok(BAD_INPUT);
     }
     if let Some(shard) = arguments.shard {
-        let made = search(arguments, |options, caller| part(&town(), options, shard, caller));
+        let made = search(arguments, |town, options, caller| part(town, options, shard, caller));
         return match made {
-            Ok((options, rounds)) => write_part(arguments, options, shard, &rounds, out, err),
+            Ok((_, options, rounds)) => write_part(arguments, options, shard, &rounds, out, err),
             Err(message) => {
                 complain(err, &message);
                 Ok(BAD_INPUT)
             }
         };
     }
-    let made = search(arguments, |options, caller| experiment(&town(), options.clone(), caller));
+    let made = search(arguments, |town, options, caller| experiment(town, options.clone(), caller));
     let places = [&arguments.out, &arguments.into].map(Option::as_deref);
-    ended(made.map(|(_, made)| made), places, out, err)
+    ended(made.map(|(town, _, made)| (town, made)), places, out, err)
 }
 
 /// Puts parts together: what comes out is, byte for byte, what one run of all rounds would write. What was found is
@@ -149,6 +153,7 @@ pub(super) fn merge(
     let places = [&arguments.out, &arguments.into].map(Option::as_deref);
     let made = parts::read(&arguments.parts).and_then(|whole: Part<Options>| {
         prepared(places[0])?;
+        let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
         let mut made = Falsified::nothing(whole.options);
         for number in 0..made.options.rounds.unwrap_or(0) {
             let id = id(number);
@@ -156,22 +161,22 @@ pub(super) fn merge(
                 whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
             let round = Round::deserialize(round)
                 .map_err(|error| format!("{id}: {error}; write the part anew"))?;
-            made.add(&town(), round).map_err(said)?;
+            made.add(&town, round).map_err(said)?;
         }
-        Ok(made)
+        Ok((town, made))
     });
     ended(made, places, out, err)
 }
 
 /// Writes the table, the collisions and the files. The exit code.
 fn ended(
-    made: Result<Falsified, String>,
+    made: Result<(Town, Falsified), String>,
     places: [Option<&Path>; 2],
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let written = made.and_then(|made| {
-        let names = write_files(places, &made)?;
+    let written = made.and_then(|(town, made)| {
+        let names = write_files(places, &town, &made)?;
         Ok((made, names))
     });
     let (made, names) = match written {
@@ -212,18 +217,20 @@ fn ended(
     Ok(if is_whole && !made.found.is_empty() { FAILED } else { 0 })
 }
 
-/// What the search makes in a pool of threads, with its options.
+/// What the search makes in a pool of threads, with its map and its options.
 fn search<M: Send>(
     arguments: &FalsifyArguments,
-    make: impl FnOnce(&Options, &Bar) -> Result<M, RunError> + Send,
-) -> Result<(Options, M), String> {
+    make: impl FnOnce(&Town, &Options, &Bar) -> Result<M, RunError> + Send,
+) -> Result<(Town, Options, M), String> {
     let &FalsifyArguments { profile, without, vehicles, seed, minutes, rounds, .. } = arguments;
     prepared(arguments.out.as_deref())?;
+    let town = maps::of(arguments.map.as_deref())?;
+    let map = town.id;
     let is_bounded = minutes.is_some() || rounds.is_some();
     let runs = if is_bounded { None } else { Some(arguments.runs.unwrap_or(RUNS)) };
     let vehicles = vehicles.into();
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
-    let options = Options { variant: profile, without, kinds, runs, rounds, vehicles, seed };
+    let options = Options { variant: profile, without, kinds, runs, rounds, vehicles, seed, map };
     let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
     let bar = progress::bar(runs.unwrap_or(0), template);
     bar.set_prefix(NAME);
@@ -231,9 +238,9 @@ fn search<M: Send>(
     let caller = Bar { bar, until };
     let threads = usize::from(arguments.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
-    let made = pool.install(|| make(&options, &caller)).map_err(said);
+    let made = pool.install(|| make(&town, &options, &caller)).map_err(said);
     caller.bar.finish_and_clear();
-    Ok((options, made?))
+    Ok((town, options, made?))
 }
 
 /// Whether collisions can be written into the folder.
@@ -267,6 +274,7 @@ fn write_part(
 /// The names of the files, each there completely or not at all.
 fn write_files(
     [folder, document]: [Option<&Path>; 2],
+    town: &Town,
     made: &Falsified,
 ) -> Result<Vec<PathBuf>, String> {
     let say =
@@ -280,12 +288,11 @@ fn write_files(
     if let Some(folder) = folder {
         write(folder.join(format!("{NAME}.csv")), &csv(&made.rows)?)?;
         write(folder.join(format!("{NAME}.json")), &json(made)?)?;
-        let town = town();
         for found in &made.found {
             write(folder.join(file_of(found, "json")), &json(found)?)?;
             let (job, mut replay) = (found.case.job(), Replay::default());
-            let outcome = job.run(&town, &mut replay).map_err(said)?;
-            let page = replay.page(&town, &job.id, job.route, &outcome);
+            let outcome = job.run(town, &mut replay).map_err(said)?;
+            let page = replay.page(town, &job.id, job.route, &outcome);
             write(folder.join(file_of(found, "html")), &page)?;
         }
         let figures = search::falsified(made);
@@ -319,11 +326,12 @@ fn command(options: &Options) -> String {
         Variant::Hardened => String::new(),
         other => format!(" --profile {}", other.name()),
     };
-    format!("mufasa evaluate {NAME}{profile}{without}")
+    let on = maps::option(options.map);
+    format!("mufasa evaluate {NAME}{on}{profile}{without}")
 }
 
 fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Section<'s> {
-    let Options { kinds, rounds, vehicles, seed, .. } = &made.options;
+    let Options { kinds, rounds, vehicles, seed, map, .. } = &made.options;
     let named: &[Kind] = if kinds[..] == KINDS { &[] } else { kinds };
     let kinds = named.iter().map(|kind| format!(" --attack {}", kind.name()));
     let kinds = kinds.collect::<Vec<_>>().concat();
@@ -331,7 +339,7 @@ fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Sect
     let size = format!("{end} --vehicles {vehicles} --seed {seed}");
     let failed = |found: &Found| {
         let [json, page] = ["json", "html"].map(|it| file_of(found, it).display().to_string());
-        let command = format!("mufasa evaluate replay {json}");
+        let command = format!("mufasa evaluate replay {json}{}", maps::option(*map));
         FailedRun { id: found.case.name(), end: End::Collided, page: Some(page), command }
     };
     Section {
@@ -340,6 +348,7 @@ fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Sect
         settings: vec![
             ("Other vehicles", vehicles.to_string()),
             ("seed", seed.to_string()),
+            ("map", map.to_string()),
             ("runs with attacks", made.runs.to_string()),
             ("of them collided", made.collided.to_string()),
             ("collided at random", made.collided_at_random.to_string()),

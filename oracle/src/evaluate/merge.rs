@@ -14,6 +14,9 @@ pub struct MergeArguments {
     /// summaries of `mufasa conform --shard I/N`.
     #[arg(value_name = "FILE", required = true)]
     pub parts: Vec<PathBuf>,
+    /// The folder of the map on which the parts were made, if it is not the town.
+    #[arg(long, value_name = "FOLDER")]
+    pub map: Option<PathBuf>,
     /// Write into this folder: table and runs as CSV and JSON, charts as SVG, pages of runs that failed (those that
     /// are beside the parts), and all of it in report.html.
     #[arg(long, value_name = "DIR")]

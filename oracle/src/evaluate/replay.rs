@@ -14,13 +14,13 @@ use mufasa_sim::cav::recorder::Share;
 use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::job::{Job, Options, kind_name};
 use mufasa_sim::map::Town;
-use mufasa_sim::map::streets::town;
 use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
 use super::codes::BAD_INPUT;
 use super::log::Log;
+use super::maps;
 use super::text::said;
 
 /// Other vehicles if nothing is said.
@@ -44,6 +44,9 @@ pub struct ReplayArguments {
     /// Seed of the experiment's first scenario.
     #[arg(long, value_name = "SEED", requires = "run", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
     pub seed: u64,
+    /// Drive on the map in this folder, not in the town; as it was given to the experiment, or to the search.
+    #[arg(long, value_name = "FOLDER")]
+    pub map: Option<PathBuf>,
     /// What the attacker does [default: nothing].
     #[arg(long, value_name = "KIND", value_parser = kind())]
     pub attack: Option<Kind>,
@@ -80,8 +83,7 @@ pub fn run(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let town = town();
-    let written = job(arguments, jobs, &town).and_then(|job| write(arguments, &town, &job));
+    let written = job(arguments, jobs).and_then(|(town, job)| write(arguments, &town, &job));
     match written {
         Ok((name, outcome, files)) => {
             let files: Vec<String> = files.iter().map(|it| it.display().to_string()).collect();
@@ -96,37 +98,45 @@ pub fn run(
     }
 }
 
-/// The run that is meant. Errors: there is none.
-fn job(arguments: &ReplayArguments, jobs: Jobs, town: &Town) -> Result<Job<()>, String> {
+/// The run that is meant, and its map. Errors: there is none.
+fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job<()>), String> {
     let &ReplayArguments { attack: attack_of, variant, route, scenario, vehicles, from, .. } =
         arguments;
-    let job = match (&arguments.found, &arguments.run) {
-        (Some(file), _) => found(file)?,
-        (None, Some(id)) => of_experiment(id, arguments, jobs, town)?,
+    let folder = arguments.map.as_deref();
+    let (town, job) = match (&arguments.found, &arguments.run) {
+        (Some(file), _) => {
+            let case = found(file)?.case;
+            (maps::same(folder, case.map, &file.display().to_string())?, case.job())
+        }
+        (None, Some(id)) => {
+            let town = maps::of(folder)?;
+            let job = of_experiment(id, arguments, jobs, &town)?;
+            (town, job)
+        }
         (None, None) => {
+            let town = maps::of(folder)?;
             let place = (variant, usize::from(route), scenario);
             let vehicles = vehicles.map_or(VEHICLES, usize::from);
-            let of = Options { scenarios: 1, vehicles, seed: 0 };
+            let of = Options { scenarios: 1, vehicles, seed: 0, map: town.id };
             let mut job = Job::new("replay", (kind_name(attack_of), ()), place, of);
             let attack = |kind| Attack::new(kind, from.into(), f64::INFINITY, scenario);
             job.settings.attacks = attack_of.into_iter().map(attack).collect();
-            job
+            (town, job)
         }
     };
     let routes = town.ego_routes().count();
     if job.route >= routes {
-        return Err(format!("route {}: the town has {routes}", job.route));
+        return Err(format!("route {}: the map has {routes}", job.route));
     }
-    Ok(job)
+    Ok((town, job))
 }
 
 /// A collision in a file.
-fn found(file: &Path) -> Result<Job<()>, String> {
+fn found(file: &Path) -> Result<Found, String> {
     let said = |error: String| format!("{}: {error}", file.display());
     let text = std::fs::read_to_string(file).map_err(|error| said(error.to_string()))?;
     let found = serde_json::from_str::<Found>(&text);
-    let found = found.map_err(|error| said(format!("no collision: {error}")))?;
-    Ok(found.case.job())
+    found.map_err(|error| said(format!("no collision: {error}")))
 }
 
 /// A run of an experiment.
@@ -141,13 +151,16 @@ fn of_experiment(
         scenarios: arguments.scenarios.unwrap_or(defaults.scenarios),
         vehicles: arguments.vehicles.map_or(defaults.vehicles, usize::from),
         seed: arguments.seed,
+        map: town.id,
     };
     let mut jobs = jobs(name, &sized, town);
     let at = jobs.iter().position(|job| job.id == id);
     at.map(|at| jobs.swap_remove(at)).ok_or_else(|| {
         format!(
-            "--run {id}: no run of an experiment has such an id; one is its experiment, variant, what is \
-             special, route and scenario, such as failures/paper/tracks-empty/0/3"
+            "--run {id}: no run of an experiment on {} has such an id; one is its experiment, variant, what \
+             is special, route and scenario, such as failures/paper/tracks-empty/{}/3",
+            town.id,
+            town.id.route(0)
         )
     })
 }

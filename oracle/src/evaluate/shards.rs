@@ -13,7 +13,8 @@ use serde_json::Value;
 use super::codes::BAD_INPUT;
 use super::merge::MergeArguments;
 use super::{
-    EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, page_of, parts, prepared, tell,
+    EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared,
+    tell,
 };
 
 /// Writes what was kept of the runs of a part, as a file that cannot be taken for the whole.
@@ -67,7 +68,8 @@ pub fn merge(
     });
     let made = named.and_then(|named| {
         let task = Task { sized: &|_| options, select: &select };
-        in_threads(None, &task, named.make)
+        let town = maps::same(arguments.map.as_deref(), options.map, "the parts")?;
+        in_threads(None, &town, &task, named.make)
     });
     let made = made.map(|results| (results, select));
     ended(made, folder, arguments.into.as_deref(), out, err)

@@ -15,12 +15,13 @@ use super::watch::{By, Watch};
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "attacks";
 /// A few scenarios of each of 180 combinations.
-pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
+pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// What the station offers.
 #[derive(

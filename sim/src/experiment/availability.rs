@@ -11,13 +11,14 @@ use super::select::Select;
 use super::watch::Watch;
 use crate::cav::guard::Variant;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::{End, Outcome, PERIOD_NS, Settings};
 use crate::services::way::seconds;
 
 /// Its name.
 pub const NAME: &str = "availability";
 /// A few scenarios of each of 46 combinations.
-pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0 };
+pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// What is set.
 #[derive(

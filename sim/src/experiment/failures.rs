@@ -12,12 +12,13 @@ use super::watch::Watch;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "failures";
 /// As large as the paper's, on each route.
-pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0 };
+pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

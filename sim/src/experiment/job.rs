@@ -89,7 +89,7 @@ impl<W> Job<W> {
     ) -> Self {
         Self {
             what,
-            id: format!("{name}/{}/{word}/{route}/{scenario}", variant.name()),
+            id: format!("{name}/{}/{word}/{}/{scenario}", variant.name(), of.map.route(route)),
             route,
             scenario,
             vehicles: of.vehicles,

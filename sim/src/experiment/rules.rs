@@ -21,6 +21,7 @@ use crate::cav::Cav;
 use crate::cav::guard::{Decided, Variant};
 use crate::cav::without::Without;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::{Cycle, End, Outcome, PERIOD_NS, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
@@ -28,7 +29,7 @@ use crate::snapshot::Snapshot;
 /// Its name.
 pub const NAME: &str = "rules";
 /// Scenarios of each of 15 sets of rules.
-pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0 };
+pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// The wait after a failure, ns.
 const T_WAIT_NS: i64 = 1_000_000_000;

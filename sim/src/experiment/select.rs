@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::checks::Checks;
+use crate::map::id::MapId;
 
 /// How large an experiment is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -21,6 +22,9 @@ pub struct Options {
     pub vehicles: usize,
     /// The first scenario's seed; the others follow.
     pub seed: u64,
+    /// On which map.
+    #[serde(default)]
+    pub map: MapId,
 }
 
 /// One of so many parts of an experiment: every `of`-th of its runs, from run `index` - 1 on.

@@ -1,17 +1,23 @@
 //! What stands still: lanes, routes through them, crossings for people, and signals.
 
 pub mod conflicts;
+pub mod given;
+pub mod id;
 mod npy;
 pub mod route;
 pub mod streets;
 pub mod ulm;
 
+use crate::map::given::Given;
+use crate::map::id::MapId;
 use crate::map::route::Route;
 use crate::path::Path;
 
 /// A map with everything that may be followed through it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Town {
+    /// Which map it is.
+    pub id: MapId,
     /// What is paved, for pictures.
     pub lanes: Vec<Lane>,
     /// Where people cross.
@@ -20,6 +26,8 @@ pub struct Town {
     pub routes: Vec<Route>,
     /// Programs of the signals, by group.
     pub signals: Vec<Program>,
+    /// Drivers and starts that come with the map.
+    pub given: Given,
 }
 
 /// A strip of pavement.

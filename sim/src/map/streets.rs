@@ -84,8 +84,8 @@ pub fn town() -> Town {
         routes.push(route);
     }
     let phase = |green_from| Program { green_from, green: 14.0, yellow: 3.0, cycle: 40.0 };
-    let mut town =
-        Town { lanes: lanes(), crossings: places, routes, signals: vec![phase(0.0), phase(20.0)] };
+    let signals = vec![phase(0.0), phase(20.0)];
+    let mut town = Town { lanes: lanes(), crossings: places, routes, signals, ..Town::default() };
     conflicts::compute(&mut town);
     town
 }

@@ -1,24 +1,38 @@
 //! The maps of the paper's institute (github.com/uulm-mrm/tpl, Apache-2.0), read from where they lie: the
-//! junction of Ulm-Lehr with its six ways, and the scenarios on it.
+//! junction of Ulm-Lehr with its six ways, and the scenario on it.
 //!
 //! `maps/<set>/state.json` names the maps, `maps/<set>/extern/<uuid>.control_points.npy` holds rows of x, y
-//! (UTM 32N), distance to the left and right boundary, speed limit and altitude.
+//! (UTM 32N), distance to the left and right boundary, speed limit and altitude. A scenario's `state.json` holds
+//! the ego and cars, each on its map, with the parameters of its driver.
 
 use std::path::{Path as File, PathBuf};
 
 use serde::Deserialize;
 
+use crate::map::given::{Given, GivenStart};
+use crate::map::id::{MapId, Sum};
 use crate::map::route::{Route, RouteKind};
 use crate::map::{Lane, Town, conflicts, npy};
 use crate::path::Path;
 use crate::pose::Point;
-use crate::scenario::{Scenario, Start};
 use crate::traffic::idm::Idm;
+use crate::traffic::start::Start;
 
 /// Local origin, UTM 32N: the junction.
 pub const ORIGIN: (f64, f64) = (571_650.0, 5_364_810.0);
 /// Routes are cut where they are farther than this from the junction, m.
 const RADIUS: f64 = 195.0;
+/// The ego starts so far from the beginning of its route, and arrives so far before its end, m.
+const TASK: (f64, f64) = (20.0, 25.0);
+/// A way of less than this around the junction leads nowhere, m.
+const SHORTEST: f64 = 100.0;
+/// The ego of a scenario is so near to the middle of its way, m.
+const ON_WAY: f64 = 3.0;
+/// The maps.
+const SET: &str = "maps/ulm";
+/// The scenario on this junction whose vehicles have drivers. (In the other one, `iv_2023`, the ego begins within
+/// the junction.)
+const SCENARIO: &str = "scenarios/test/intersection_lehr/state.json";
 /// The ways over the junction, and the ranks of the roads that they come from: the one from the north ends
 /// here and gives way.
 const WAYS: [(&str, u8); 6] = [
@@ -29,6 +43,8 @@ const WAYS: [(&str, u8); 6] = [
     ("lehr_crossing_north_to_east", 1),
     ("lehr_crossing_north_to_west", 1),
 ];
+/// Those of the ego: the two that have to find a gap in oncoming or crossing traffic and turn left.
+const EGO_WAYS: [usize; 2] = [1, 4];
 
 /// Why a file gives no map or no scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,20 +59,12 @@ pub struct UlmError {
 
 impl core::fmt::Display for UlmError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{}: {}: {}", self.file.display(), self.field, self.message)
+        let field = if self.field.is_empty() { "" } else { ": " };
+        write!(f, "{}{field}{}: {}", self.file.display(), self.field, self.message)
     }
 }
 
 impl std::error::Error for UlmError {}
-
-/// The junction of Ulm-Lehr, with the names of its maps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lehr {
-    /// The six ways; the first two are those of the ego.
-    pub town: Town,
-    /// Identity of the map of each route.
-    pub uuids: Vec<String>,
-}
 
 #[derive(Deserialize)]
 struct MapState {
@@ -97,17 +105,20 @@ struct SimIdm {
     delta: f64,
 }
 
-/// Reads the junction from the folder that holds `maps`.
+/// Reads the junction, its drivers and its start from the folder that holds `maps` and `scenarios`.
 ///
 /// # Errors
-/// A file that is absent or not of its form, or a map that is not named.
-pub fn lehr(folder: &File) -> Result<Lehr, UlmError> {
-    let set = folder.join("maps/ulm");
+/// A file that is absent or not of its form, a map that is not named, an ego that is on no way of its, a car that
+/// cannot be, a driver whose exponent is not 4.
+pub fn lehr(folder: &File) -> Result<Town, UlmError> {
+    if !folder.is_dir() {
+        let message = format!("no such folder; it has `{SET}` and `scenarios`");
+        return Err(error(folder, "", message));
+    }
+    let set = folder.join(SET);
     let file = set.join("state.json");
-    let maps: serde_json::Map<String, serde_json::Value> = json(&file)?;
-    let mut town =
-        Town { lanes: Vec::new(), crossings: Vec::new(), routes: Vec::new(), signals: Vec::new() };
-    let mut uuids = Vec::new();
+    let maps: serde_json::Map<String, serde_json::Value> = json(&file, &read(&file)?)?;
+    let (mut town, mut uuids, mut sum) = (Town::default(), Vec::new(), Sum::START);
     for (name, rank) in WAYS {
         let named = |value: &serde_json::Value| {
             MapState::deserialize(value).is_ok_and(|map| map.name.starts_with(name))
@@ -116,96 +127,112 @@ pub fn lehr(folder: &File) -> Result<Lehr, UlmError> {
             return Err(error(&file, "name", format!("no map is named {name}")));
         };
         let rows = set.join("extern").join(format!("{uuid}.control_points.npy"));
-        let route = route(&rows, name, rank)?;
+        let bytes = read(&rows)?;
+        let route = route(&rows, &bytes, name, rank)?;
         town.lanes.push(Lane { path: route.path.clone(), width: route.left[0] + route.right[0] });
         town.routes.push(route);
         uuids.push(uuid.clone());
+        sum = sum.with(&bytes);
     }
     conflicts::compute(&mut town);
-    for route in &mut town.routes[..2] {
-        route.set_task(20.0, route.path.length() - 25.0);
+    for way in EGO_WAYS {
+        let route = &mut town.routes[way];
+        route.set_task(TASK.0, route.path.length() - TASK.1);
     }
-    Ok(Lehr { town, uuids })
+    let file = folder.join(SCENARIO);
+    let bytes = read(&file)?;
+    town.given = given(&town, &uuids, &file, &bytes)?;
+    town.id = MapId::Lehr(sum.with(&bytes).value());
+    Ok(town)
 }
 
-impl Lehr {
-    /// Reads a scenario file: cars on their maps, with their parameters, and the ego on the route of its
-    /// that is nearest. Cars on maps that do not lead over the junction are left out.
-    ///
-    /// # Errors
-    /// A file that is absent or not of its form, an ego that is not here, or a driver whose exponent is
-    /// not 4.
-    pub fn scenario(&self, file: &File) -> Result<Scenario, UlmError> {
-        let state: SimState = json(file)?;
-        let place = |x: f64, y: f64| Point::new(x - ORIGIN.0, y - ORIGIN.1);
-        let at = |route: usize, place: Point| self.town.routes[route].path.project(place);
-        let ego = place(state.ego.x, state.ego.y);
-        let nearest = self.town.ego_routes().map(|route| (at(route, ego), route));
-        let nearest = nearest.min_by(|a, b| a.0.left.abs().total_cmp(&b.0.left.abs()));
-        let Some((seen, ego_route)) = nearest.filter(|(seen, _)| seen.left.abs() < 3.0) else {
-            return Err(error(
-                file,
-                "ego",
-                String::from("it is on no route over the junction of Lehr"),
-            ));
-        };
-        let mut actors = Vec::new();
-        for (index, car) in state.cars.iter().enumerate() {
-            if car.params_idm.delta.to_bits() != 4.0_f64.to_bits() {
-                let field = format!("cars[{index}].params_idm.delta");
-                return Err(error(
-                    file,
-                    &field,
-                    format!("{}: only 4 is known here", car.params_idm.delta),
-                ));
-            }
-            let Some(route) = self.uuids.iter().position(|uuid| *uuid == car.map_uuid) else {
-                continue;
-            };
-            let idm = &car.params_idm;
-            let idm = Idm {
-                v0: car.target_v,
-                headway: idm.time_headway,
-                s0: idm.gap_min,
-                a: idm.a,
-                b: idm.b,
-            };
-            let s = at(route, place(car.x, car.y)).s;
-            let (length, width) = (car.length, car.width);
-            actors.push(Start { route, s, speed: car.v, length, width, idm, halts: Vec::new() });
-        }
-        Ok(Scenario {
-            ego_route,
-            ego_s: seen.s,
-            ego_speed: state.ego.v,
-            actors,
-            walkers: Vec::new(),
-            signal_offset: 0.0,
-            refill: false,
-            time_limit: 120.0,
-        })
+/// The start of a scenario file, and its drivers: cars on their maps, with their parameters, and the ego on that
+/// of its routes that is nearest. A car is where its way is nearest to the place in the file, which may be beside it.
+/// Cars on maps that do not lead over the junction are left out.
+fn given(town: &Town, uuids: &[String], file: &File, bytes: &[u8]) -> Result<Given, UlmError> {
+    let state: SimState = json(file, bytes)?;
+    let at = |route: usize, x: f64, y: f64| {
+        town.routes[route].path.project(Point::new(x - ORIGIN.0, y - ORIGIN.1))
+    };
+    let SimBody { x, y, v } = state.ego;
+    let nearest = town.ego_routes().map(|route| (at(route, x, y), route));
+    let nearest = nearest.min_by(|a, b| a.0.left.abs().total_cmp(&b.0.left.abs()));
+    let Some((seen, ego_route)) = nearest.filter(|(seen, _)| seen.left.abs() < ON_WAY) else {
+        return Err(error(
+            file,
+            "ego",
+            String::from("it is on no way of the ego over the junction"),
+        ));
+    };
+    if v < 0.0 {
+        return Err(error(file, "ego.v", format!("{v}: it drives backwards")));
     }
+    let mut given = Given { lets_ego_go: true, ..Given::default() };
+    let mut actors = Vec::new();
+    for (index, car) in state.cars.iter().enumerate() {
+        let broken = |field: &str, message: String| {
+            Err(error(file, &format!("cars[{index}].{field}"), message))
+        };
+        let Some(route) = uuids.iter().position(|uuid| *uuid == car.map_uuid) else { continue };
+        let SimIdm { time_headway, gap_min, a, b, delta } = car.params_idm;
+        if delta.to_bits() != 4.0_f64.to_bits() {
+            return broken("params_idm.delta", format!("{delta}: only 4 is known here"));
+        }
+        let positive = [
+            ("length", car.length),
+            ("width", car.width),
+            ("target_v", car.target_v),
+            ("params_idm.a", a),
+            ("params_idm.b", b),
+        ];
+        if let Some((field, value)) = positive.into_iter().find(|(_, value)| *value <= 0.0) {
+            return broken(field, format!("{value}: it has to be above zero"));
+        }
+        let others = [
+            ("v", car.v),
+            ("params_idm.time_headway", time_headway),
+            ("params_idm.gap_min", gap_min),
+        ];
+        if let Some((field, value)) = others.into_iter().find(|(_, value)| *value < 0.0) {
+            return broken(field, format!("{value}: it is below zero"));
+        }
+        let idm = Idm { v0: car.target_v, headway: time_headway, s0: gap_min, a, b };
+        let (speed, length, width, halts) = (car.v, car.length, car.width, Vec::new());
+        let s = at(route, car.x, car.y).s;
+        actors.push(Start { route, s, speed, length, width, idm, halts });
+        given.drivers.push(idm);
+    }
+    given.starts.push(GivenStart { ego_route, ego_s: seen.s, ego_speed: v, actors });
+    Ok(given)
 }
 
 fn error(file: &File, field: &str, message: String) -> UlmError {
     UlmError { file: file.to_owned(), field: field.to_owned(), message }
 }
 
-fn json<T: for<'a> Deserialize<'a>>(file: &File) -> Result<T, UlmError> {
-    let text = std::fs::read_to_string(file).map_err(|why| error(file, "", why.to_string()))?;
-    // The message of serde names the field, the line and the column.
-    serde_json::from_str(&text).map_err(|why| error(file, "", why.to_string()))
+fn read(file: &File) -> Result<Vec<u8>, UlmError> {
+    std::fs::read(file).map_err(|why| error(file, "", why.to_string()))
+}
+
+/// The message of serde names the field, the line and the column.
+fn json<T: for<'a> Deserialize<'a>>(file: &File, bytes: &[u8]) -> Result<T, UlmError> {
+    serde_json::from_slice(bytes).map_err(|why| error(file, "", why.to_string()))
 }
 
 /// One way, cut to what is around the junction and resampled to about 1 m.
-fn route(file: &File, name: &str, rank: u8) -> Result<Route, UlmError> {
-    let bytes = std::fs::read(file).map_err(|why| error(file, "", why.to_string()))?;
+fn route(file: &File, bytes: &[u8], name: &str, rank: u8) -> Result<Route, UlmError> {
     let rows =
-        npy::table::<6>(&bytes).map_err(|broken| error(file, broken.field, broken.message))?;
+        npy::table::<6>(bytes).map_err(|broken| error(file, broken.field, broken.message))?;
     for (index, row) in rows.iter().enumerate() {
-        let names = ["x", "y", "d_left", "d_right", "speed_limit"];
-        if let Some((_, name)) = row.iter().zip(names).find(|(cell, _)| !cell.is_finite()) {
-            return Err(error(file, &format!("{name}[{index}]"), String::from("not finite")));
+        let named = ["x", "y", "d_left", "d_right", "speed_limit"].into_iter().zip(row);
+        for (column, (name, cell)) in named.enumerate() {
+            let message = match cell {
+                cell if !cell.is_finite() => "not finite",
+                // A lane without a width, or on which nobody may drive.
+                cell if column > 1 && *cell <= 0.0 => "it has to be above zero",
+                _ => continue,
+            };
+            return Err(error(file, &format!("{name}[{index}]"), String::from(message)));
         }
     }
     let local = |row: &[f64; 6]| Point::new(row[0] - ORIGIN.0, row[1] - ORIGIN.1);
@@ -214,6 +241,10 @@ fn route(file: &File, name: &str, rank: u8) -> Result<Route, UlmError> {
         rows.iter().skip_while(|row| !near(row)).take_while(near).copied().collect();
     let fine = Path::new(rows.iter().map(local).collect());
     let fine = fine.map_err(|why| error(file, "x", why.to_string()))?;
+    if fine.length() < SHORTEST {
+        let message = format!("{:.0} m of this way are near the junction", fine.length());
+        return Err(error(file, "x", message));
+    }
     let path = fine.resampled(1.0).map_err(|why| error(file, "x", why.to_string()))?;
     let length = path.length();
     let mut route = Route::new(name, RouteKind::Road, path, 0.0, 0.0);

@@ -19,12 +19,17 @@ const PATIENCE_MAX: f64 = 25.0;
 const A_SIGNAL: f64 = 3.0;
 /// Above this deceleration an agent cannot be asked to wait, m/s^2.
 const A_FORCED: f64 = 4.0;
+/// The ego goes when it is faster than this, m/s, speeds up by more than this, m/s^2, and is as near to the line, m.
+const EGO_GOES: (f64, f64, f64) = (0.3, 0.3, 5.0);
 
 /// Grants what can be granted at a time, s (`lights`: on the signals' clock), and returns how many took what was not.
 pub fn grant(agents: &mut [Agent], town: &Town, time: f64, lights: f64) -> u32 {
     let mut forced = 0;
     for agent in agents.iter_mut() {
         forced += u32::from(revoke_or_force(agent, town, lights));
+    }
+    if town.given.lets_ego_go {
+        yield_to_ego(agents, town);
     }
     // The longest waiting first; people and others in the order of their numbers.
     let mut order: Vec<usize> = (0..agents.len()).filter(|&i| asks(&agents[i], town)).collect();
@@ -65,12 +70,36 @@ fn revoke_or_force(agent: &mut Agent, town: &Town, lights: f64) -> bool {
     }
     if let Some(next) = passages.get(agent.granted) {
         let room = next.from - agent.front();
-        if room < -0.3 || agent.kind == Kind::Ego && room < square / A_FORCED {
+        let (speed, acceleration, near) = EGO_GOES;
+        let goes = town.given.lets_ego_go
+            && agent.speed > speed
+            && agent.acceleration > acceleration
+            && room < near;
+        if room < -0.3 || agent.kind == Kind::Ego && (goes || room < square / A_FORCED) {
             agent.granted += 1;
             return agent.kind != Kind::Ego;
         }
     }
     false
+}
+
+/// Takes grants back from those who meet the ego in the passage that it took, as far as they can still stop: it
+/// decides for itself, and at times in the moment in which another is granted the way.
+fn yield_to_ego(agents: &mut [Agent], town: &Town) {
+    let Some(ego) = agents.iter().find(|agent| agent.kind == Kind::Ego && agent.on_route) else {
+        return;
+    };
+    let (route, taken) = (&town.routes[ego.route], ego.cleared..ego.granted);
+    for conflict in route.conflicts.iter().filter(|it| taken.contains(&it.passage)) {
+        for other in agents.iter_mut().filter(|it| it.route == conflict.with) {
+            let is_last = other.granted == conflict.their_passage + 1;
+            let line = town.routes[other.route].passages[conflict.their_passage].from;
+            let room = line - other.front();
+            if is_last && room > other.speed * other.speed / (2.0 * A_FORCED) + 0.3 {
+                other.granted -= 1;
+            }
+        }
+    }
 }
 
 fn may_enter(agents: &[Agent], index: usize, town: &Town, time: f64, lights: f64) -> bool {

@@ -9,3 +9,4 @@ pub mod agent;
 pub mod ahead;
 pub mod give_way;
 pub mod idm;
+pub mod start;

@@ -34,7 +34,7 @@ fn town(kind: RouteKind, gives_way: bool) -> Town {
     own.conflicts =
         vec![Conflict { passage, here: MET, with, there: MET, their_passage, gives_way }];
     let other = Route::new("theirs", kind, theirs, 1.75, PACE);
-    Town { lanes: vec![], crossings: vec![], routes: vec![own, other], signals: vec![] }
+    Town { routes: vec![own, other], ..Town::default() }
 }
 
 /// Whether the CAV has to wait at the line.

@@ -10,6 +10,7 @@ use crate::attack::Attack;
 use crate::cav::guard::Variant;
 use crate::cav::without::Without;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::{End, Outcome, RunError, Settings, Watcher};
 
 /// The wait after a failure, ns, and the noise of detections, m: both less than in the other experiments, so
@@ -39,6 +40,9 @@ pub struct Case {
     pub vehicles: usize,
     /// What the attacker does.
     pub attacks: Vec<Attack>,
+    /// On which map.
+    #[serde(default)]
+    pub map: MapId,
 }
 
 /// A collision that does not happen in the same run without the attacks.
@@ -124,6 +128,7 @@ impl Case {
         let without = self.without.map_or_else(String::new, |it| format!("-without-{}", it.name()));
         let kinds = self.kinds().replace(" + ", "-and-");
         let (variant, offered) = (self.variant.name(), self.offered.name());
-        format!("{variant}{without}-{offered}-{kinds}-{}-{}", self.route, self.scenario)
+        let route = self.map.route(self.route);
+        format!("{variant}{without}-{offered}-{kinds}-{route}-{}", self.scenario)
     }
 }

@@ -231,9 +231,9 @@ impl<'a, C: Caller> Search<'a, C> {
             let route = usize::from(index % 2 == 1);
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
-            let (tau_s, attacks) = (TAU_S, Vec::new());
+            let (tau_s, attacks, map) = (TAU_S, Vec::new(), town.id);
             let case =
-                Case { variant, without, tau_s, offered, route, scenario, vehicles, attacks };
+                Case { variant, without, tau_s, offered, route, scenario, vehicles, attacks, map };
             let mut danger = Danger::default();
             let outcome = case.run(town, &mut danger)?;
             let clean =

@@ -11,6 +11,7 @@ use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::cav::without::Without;
 use crate::map::Town;
+use crate::map::id::MapId;
 use crate::run::RunError;
 
 /// What is searched.
@@ -30,6 +31,9 @@ pub struct Options {
     pub vehicles: usize,
     /// Of the scenarios and of what is drawn.
     pub seed: u64,
+    /// On which map.
+    #[serde(default)]
+    pub map: MapId,
 }
 
 /// What came of it.
