@@ -10,6 +10,14 @@ pub fn read(path: &Path, name: &str) -> io::Result<String> {
     parts(&text, name).map(|(_, table, _)| table.to_owned())
 }
 
+/// Whether a table of this name has its place in the document, if there is one: asked before the work, not behind it.
+/// Errors: in words, with the file.
+pub fn has_place(path: Option<&Path>, name: &str) -> Result<(), String> {
+    let Some(path) = path else { return Ok(()) };
+    let said = |error| format!("{}: no table can be put there: {error}", path.display());
+    read(path, name).map(drop).map_err(said)
+}
+
 /// Puts a table in the place of the one of this name. Errors: no such file, no markers.
 pub fn write(path: &Path, name: &str, table: &str) -> io::Result<()> {
     let text = fs::read_to_string(path)?;

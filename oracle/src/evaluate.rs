@@ -37,6 +37,7 @@ use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
+use mufasa_sim::map::id::MapId;
 
 use self::arguments::{EvaluateArguments, Experiment};
 use self::codes::{BAD_INPUT, DISAGREES, FAILED};
@@ -70,17 +71,17 @@ pub fn run(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let (size, make) = match &arguments.experiment {
+    let (size, Named { name, make, .. }) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
         Some(Experiment::Falsify(it)) => return falsify::run(it, out, err),
-        None => (&arguments.size, made::<Failures> as Make),
-        Some(Experiment::Failures(size)) => (size, made::<Failures> as Make),
-        Some(Experiment::Stages(size)) => (size, made::<Stages> as Make),
-        Some(Experiment::Attacks(size)) => (size, made::<Attacks> as Make),
-        Some(Experiment::Combinations(size)) => (size, made::<Combinations> as Make),
-        Some(Experiment::Availability(size)) => (size, made::<Availability> as Make),
-        Some(Experiment::Rules(size)) => (size, made::<Rules> as Make),
-        Some(Experiment::Cpu(size)) => (size, made::<Cpu> as Make),
+        None => (&arguments.size, named::<Failures>()),
+        Some(Experiment::Failures(size)) => (size, named::<Failures>()),
+        Some(Experiment::Stages(size)) => (size, named::<Stages>()),
+        Some(Experiment::Attacks(size)) => (size, named::<Attacks>()),
+        Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
+        Some(Experiment::Availability(size)) => (size, named::<Availability>()),
+        Some(Experiment::Rules(size)) => (size, named::<Rules>()),
+        Some(Experiment::Cpu(size)) => (size, named::<Cpu>()),
     };
     let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
     if is_timed && size.check_all {
@@ -102,7 +103,10 @@ pub fn run(
     };
     let task = Task { sized: &|defaults| size.options(defaults), select: &select };
     let prepared = prepared(size.out.as_deref()).and_then(|()| maps::of(size.map.as_deref()));
-    let made = prepared.and_then(|town| in_threads(size.threads, &town, &task, make));
+    let made = prepared.and_then(|town| {
+        document::has_place(size.into.as_deref(), &table_name(name, town.id))?;
+        in_threads(size.threads, &town, &task, make)
+    });
     match (made, size.shard, &size.out) {
         (Ok(results), Some(shard), Some(folder)) => {
             shards::write(folder, shard, &results, select, out, err)
@@ -329,9 +333,13 @@ fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result
 }
 
 fn put(file: &Path, results: &Results) -> io::Result<()> {
-    let on = maps::option(results.options.map);
-    let command = format!("mufasa evaluate {}{on}", results.name);
-    document::write(file, &command, &results.table.markdown())
+    let name = table_name(results.name, results.options.map);
+    document::write(file, &name, &results.table.markdown())
+}
+
+/// What the table of an experiment is called in a document.
+fn table_name(name: &str, map: MapId) -> String {
+    format!("mufasa evaluate {name}{}", maps::option(map))
 }
 
 fn bar(name: &str) -> ProgressBar {

@@ -315,6 +315,24 @@ fn a_broken_solution_is_no_reason_to_drive_another_way() {
     assert!(told.contains("188 cycles") && !wrong.contains("no scenario"), "{told}{wrong}");
 }
 
+/// A document without a place for the table is refused before the work.
+#[test]
+fn a_document_without_the_place_is_refused_first() {
+    let folder = folder("no-place");
+    fs::write(folder.join("page.md"), "# A page\n").expect("written");
+    for experiment in ["failures", "falsify"] {
+        for file in ["page.md", "gone.md"] {
+            let mut command = mufasa(["evaluate", experiment, "--into", file]);
+            let output = command.current_dir(&folder).output().expect("the program starts");
+            assert_eq!(output.status.code(), Some(2));
+            // Nothing was made.
+            assert_eq!(text(&output.stdout), "");
+            let told = format!("mufasa: {file}: no table can be put there: ");
+            assert!(text(&output.stderr).starts_with(&told), "{}", text(&output.stderr));
+        }
+    }
+}
+
 /// A record that `check` reads.
 fn first_record() -> String {
     let vectors = fs::read_to_string("../vectors/findings/F-06.jsonl").expect("vectors");

@@ -231,6 +231,7 @@ fn search<M: Send>(
     let vehicles = vehicles.into();
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
     let options = Options { variant: profile, without, kinds, runs, rounds, vehicles, seed, map };
+    document::has_place(arguments.into.as_deref(), &command(&options))?;
     let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
     let bar = progress::bar(runs.unwrap_or(0), template);
     bar.set_prefix(NAME);
