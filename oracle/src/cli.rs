@@ -126,8 +126,8 @@ pub fn main() -> ExitCode {
     };
     let result = match cli.command.unwrap_or_else(demo) {
         Command::Check(arguments) => check(&arguments, &mut out),
-        Command::Demo(DemoArguments { out: folder }) => {
-            demo::run(&folder_or(folder, demo::FOLDER), &mut out, &mut io::stderr())
+        Command::Demo(it) => {
+            demo::run(&folder_or(it.out, demo::FOLDER), &mut out, &mut io::stderr())
         }
         Command::Oracle(OracleArguments { implementation }) => {
             let answer = if implementation { oracle::by_implementation } else { oracle::by_model };
@@ -152,10 +152,8 @@ pub fn main() -> ExitCode {
             clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
             Ok(0)
         }
-        Command::Man(ManArguments { out: folder }) => man(&folder_or(folder, "man"), &mut out),
-        Command::Schemas(SchemasArguments { out: folder }) => {
-            schemas(&folder_or(folder, "schemas"), &mut out)
-        }
+        Command::Man(it) => man(&folder_or(it.out, "man"), &mut out),
+        Command::Schemas(it) => schemas(&folder_or(it.out, "schemas"), &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,

@@ -15,7 +15,7 @@ use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
 
 use super::held::{Held, choose};
-use super::kit::{Buffers, MS, at, place, settings};
+use super::kit::{Buffers, MS, at, call, place, settings};
 use super::plain::{Own, Plain, Received};
 use super::scene::{Base, Start, inputs, same, start};
 use super::seen::{Seen, starved};
@@ -44,21 +44,7 @@ const HABITS: [(i64, i64); 4] = [(60 * MS, 0), (150 * MS, 0), (1_000 * MS, 0), (
 impl Pair<'_, '_, '_> {
     fn event(&mut self, kind: EventKind, seen: &mut Seen) {
         let (now_ns, now) = (self.now_ns, at(self.now_ns));
-        let monitor = &mut self.monitor;
-        let actions = match kind {
-            EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
-            EventKind::Withdraw { station } => monitor.withdraw(now, station),
-            EventKind::Lost { station } => monitor.lost(now, station),
-            EventKind::Area { groups } => Ok(monitor.area(now, groups)),
-            EventKind::Tick => Ok(monitor.tick(now)),
-            EventKind::Confirm { station, group, session } => {
-                monitor.confirm(now, station, group, session)
-            }
-            EventKind::Reject { station, group, session } => {
-                monitor.reject(now, station, group, session)
-            }
-            EventKind::Data { .. } | EventKind::Verdict { .. } => unreachable!("not events here"),
-        };
+        let actions = call(&mut self.monitor, now, kind);
         let before = starved(&self.plain);
         assert_eq!(actions.expect("a station").to_vec(), self.plain.step(now_ns, kind), "{kind:?}");
         self.same_state();

@@ -114,6 +114,7 @@ fn nothing_of_an_ended_session_is_used() {
 
         // And at once after one that was of use for nine periods.
         for at in (17..=26).map(|i| i * PERIOD) {
+            guard.happens(at, EventKind::Tick).expect("a tick");
             guard.trajectory(at, trajectory(second, at)).expect("a station");
             assert!(decide(&mut guard, at).trajectory.is_some(), "{variant:?}: at {at}");
         }
