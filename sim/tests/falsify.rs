@@ -197,8 +197,8 @@ fn what_was_found_still_collides_and_only_under_attack() {
             continue;
         }
         assert_eq!(again.as_ref(), Some(&found), "{}", file.display());
-        let is_own = file.file_stem().is_some_and(|it| it.to_string_lossy().ends_with("-own"));
-        assert_eq!(found.is_own(), is_own, "{}", file.display());
+        let is_after = file.file_stem().is_some_and(|it| it.to_string_lossy().ends_with("-after"));
+        assert_eq!(found.is_after(), is_after, "{}", file.display());
         let clean = Case { attacks: Vec::new(), ..found.case.clone() };
         assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
         // Nor with all rules, or with the time that the CAV takes.

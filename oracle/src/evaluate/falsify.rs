@@ -203,11 +203,8 @@ fn ended(
         let last = match last_use {
             None => "no remote result was ever used".to_owned(),
             Some(it) => {
-                let own = if found.is_own() { ", enough for its own services" } else { "" };
-                format!(
-                    "last remote result used at {:.2} s with {:.1} s left{own}",
-                    it.t_s, it.left_s
-                )
+                let after = if found.is_after() { "; it could have stood" } else { "" };
+                format!("last remote result used at {:.2} s{after}", it.t_s)
             }
         };
         writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s; {last}")?;
@@ -315,8 +312,8 @@ fn write_files(
 
 /// The file of a collision in the folder of the search: all about it, or its page.
 fn file_of(found: &Found, ending: &str) -> PathBuf {
-    let own = if found.is_own() { "-own" } else { "" };
-    Path::new("found").join(format!("{}{own}.{ending}", found.case.name()))
+    let after = if found.is_after() { "-after" } else { "" };
+    Path::new("found").join(format!("{}{after}.{ending}", found.case.name()))
 }
 
 /// The command, but for how long and from which seed.

@@ -303,7 +303,7 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
         ("attack", false),
         ("runs", true),
         ("collided", true),
-        ("of them its own services'", true),
+        ("of them when it could have stood", true),
         ("least time left, s", true),
         ("least distance, m", true),
     ];
@@ -312,7 +312,7 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
             kind_name(row.attack).to_owned(),
             row.runs.to_string(),
             row.collided.to_string(),
-            row.own.to_string(),
+            row.after.to_string(),
             format!("{:.1}", row.least_time_left_s),
             row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
         ]

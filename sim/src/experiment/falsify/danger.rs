@@ -15,16 +15,16 @@ use crate::cav::guard::Decided;
 use crate::collision;
 use crate::map::route::Route;
 use crate::pose::{Pose, Rectangle};
-use crate::run::{Cycle, Watcher};
+use crate::run::{Cycle, TAU_S, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::{EgoState, Object, Snapshot};
 
 /// Cycles that are looked ahead.
 const LOOKED: u8 = 40;
 /// Time between two cycles, s.
-const STEP_S: f64 = 0.1;
+const PERIOD_S: f64 = 0.1;
 /// The time left where nothing is in the way, s: all that is looked at.
-pub const FREE_S: f64 = LOOKED as f64 * STEP_S;
+pub const FREE_S: f64 = LOOKED as f64 * PERIOD_S;
 /// Hardest braking, m/s^2.
 const A_B: f64 = 8.0;
 /// Slower than this the CAV stands, m/s.
@@ -40,8 +40,15 @@ const FAR: f64 = 80.0;
 pub struct LastUse {
     /// When, s.
     pub t_s: f64,
-    /// The time that was left to react then, s.
-    pub left_s: f64,
+    /// Speed of the CAV then, m/s.
+    pub speed_mps: f64,
+}
+
+impl LastUse {
+    /// When the CAV could have stood, if it had braked from the next cycle on, s.
+    pub fn stands_s(&self) -> f64 {
+        self.t_s + PERIOD_S + TAU_S + self.speed_mps / A_B
+    }
 }
 
 /// Keeps where everybody was.
@@ -105,9 +112,9 @@ impl Danger {
     }
 
     /// The last cycle whose remote results were used.
-    pub fn last_use(&self, route: &Route) -> Option<LastUse> {
-        let at = self.moments.iter().rposition(|it| it.is_used)?;
-        Some(LastUse { t_s: self.moments[at].t, left_s: self.time_left(route, at) })
+    pub fn last_use(&self) -> Option<LastUse> {
+        let moment = self.moments.iter().rfind(|it| it.is_used)?;
+        Some(LastUse { t_s: moment.t, speed_mps: moment.ego.speed })
     }
 
     /// Speed of the CAV in the last cycle, m/s.
@@ -148,7 +155,7 @@ impl Danger {
             moment.others.iter().filter(|it| is_behind(&it.1)).map(|it| it.0).collect();
         let touches = |way: &dyn Fn(f64) -> f64| {
             (0_u32..).zip(&future).find(|(step, then)| {
-                let own = moved(route, &moment.ego, way(STEP_S * f64::from(*step)));
+                let own = moved(route, &moment.ego, way(PERIOD_S * f64::from(*step)));
                 let hits = |it: &&(u32, Rectangle)| {
                     !behind.contains(&it.0) && collision::overlap(&own, &it.1)
                 };
@@ -163,13 +170,13 @@ impl Danger {
             }
         };
         for step in (0..=first).rev() {
-            let while_s = STEP_S * f64::from(step);
+            let while_s = PERIOD_S * f64::from(step);
             if touches(&braking(while_s)).is_none() {
                 return while_s;
             }
         }
         let hit = touches(&braking(0.0)).map_or(0, |it| it.0);
-        -PER_SPEED * (speed - A_B * STEP_S * f64::from(hit)).max(0.0)
+        -PER_SPEED * (speed - A_B * PERIOD_S * f64::from(hit)).max(0.0)
     }
 }
 

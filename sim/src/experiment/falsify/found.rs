@@ -17,8 +17,6 @@ use crate::run::{End, Outcome, RunError, Settings, Watcher};
 /// that false alarms end fewer of the attacks. No rule of the stages is changed by that.
 const T_WAIT_NS: i64 = 1_000_000_000;
 const POSITION_M: f64 = 0.02;
-/// What the CAV's own services need to take over, s: the cycle that fails, the one in which they answer, and tau.
-const TAKES_OVER_S: f64 = 0.3;
 
 /// A run: where it starts, what is checked, and what the attacker does.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,10 +60,10 @@ pub struct Found {
 }
 
 impl Found {
-    /// Whether the CAV's own services had the time to avoid it, after the last remote result that was used.
-    pub fn is_own(&self) -> bool {
-        self.last_use
-            .is_none_or(|it| self.t_s - it.t_s >= TAKES_OVER_S && it.left_s >= TAKES_OVER_S)
+    /// Whether it came when the CAV could have stood, by its own services, after the last remote result that was used.
+    /// Whose fault it is this does not say: what was remote may have brought the CAV to where it is in the way.
+    pub fn is_after(&self) -> bool {
+        self.last_use.is_none_or(|it| self.t_s > it.stands_s())
     }
 }
 
@@ -99,14 +97,14 @@ impl Case {
     pub fn collision(&self, town: &Town) -> Result<Option<Found>, RunError> {
         let mut danger = Danger::default();
         let outcome = self.run(town, &mut danger)?;
-        Ok(self.found(town, &outcome, &danger))
+        Ok(self.found(&outcome, &danger))
     }
 
     /// The collision of an outcome.
-    pub fn found(&self, town: &Town, outcome: &Outcome, danger: &Danger) -> Option<Found> {
+    pub fn found(&self, outcome: &Outcome, danger: &Danger) -> Option<Found> {
         let with = outcome.with.filter(|_| outcome.end == End::Collided)?;
         let speed_mps = danger.last_speed();
-        let last_use = danger.last_use(&town.routes[self.ego_route(town)]);
+        let last_use = danger.last_use();
         Some(Found { case: self.clone(), t_s: outcome.t, with, speed_mps, last_use })
     }
 

@@ -177,9 +177,8 @@ impl<'a, C: Caller> Search<'a, C> {
         let count = u64::try_from(starts.len()).unwrap_or(0) * POINTS;
         let points: Vec<Point> = (0..count).map(random).collect();
         let tried = self.batch(&starts, &points, true)?;
-        let collided = tried.iter().filter(|it| it.1.is_some()).count();
-        self.result.collided_at_random += u64::try_from(collided).unwrap_or(0);
-        let mut best: Vec<usize> = (0..tried.len()).filter(|&it| tried[it].1.is_none()).collect();
+        self.result.collided_at_random += self.result.collided;
+        let mut best: Vec<usize> = (0..tried.len()).filter(|&it| !tried[it].1).collect();
         best.sort_by(|&a, &b| tried[a].0.total_cmp(&tried[b].0));
         best.truncate(SEARCHES);
         let of = |(index, &best): (u64, &usize)| {
@@ -196,7 +195,8 @@ impl<'a, C: Caller> Search<'a, C> {
         Ok(())
     }
 
-    /// One generation of all searches; those that found a collision end.
+    /// One generation of all searches; those that found a collision end, but for one when the CAV could
+    /// have stood.
     fn generation(
         &mut self,
         starts: &[Start],
@@ -211,7 +211,7 @@ impl<'a, C: Caller> Search<'a, C> {
         let mut kept = Vec::new();
         let parts = points.chunks(GENERATION).zip(tried.chunks(GENERATION));
         for ((start, mut cma), (points, tried)) in searches.drain(..).zip(parts) {
-            if tried.len() < points.len() || tried.iter().any(|it| it.1.is_some()) {
+            if tried.len() < points.len() || tried.iter().any(|it| it.1) {
                 continue;
             }
             let mut order: Vec<usize> = (0..points.len()).collect();
@@ -238,7 +238,7 @@ impl<'a, C: Caller> Search<'a, C> {
             let outcome = case.run(town, &mut danger)?;
             let clean =
                 Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
-            let collided = case.found(town, &outcome, &danger).map(|it| it.is_own());
+            let collided = case.found(&outcome, &danger).map(|it| it.is_after());
             let time_left = danger.least_time_left(&town.routes[case.ego_route(town)], 0.0);
             Ok((Start { case, clean }, collided, time_left, danger.least_distance(0.0)))
         };
@@ -254,13 +254,14 @@ impl<'a, C: Caller> Search<'a, C> {
         Ok(starts)
     }
 
-    /// Makes the runs of points, as far as there is budget: what each is worth, and its collision.
+    /// Makes the runs of points, as far as there is budget: what each is worth, and whether it ends its search by a
+    /// collision.
     fn batch(
         &mut self,
         starts: &[Start],
         points: &[Point],
         is_random: bool,
-    ) -> Result<Vec<(f64, Option<Found>)>, RunError> {
+    ) -> Result<Vec<(f64, bool)>, RunError> {
         let count = points.len().min(usize::try_from(self.left()).unwrap_or(usize::MAX));
         let (town, caller) = (self.town, self.caller);
         let kinds = &self.options().kinds;
@@ -278,7 +279,7 @@ impl<'a, C: Caller> Search<'a, C> {
             for kind in kinds {
                 self.count(
                     Some(kind),
-                    it.found.as_ref().map(Found::is_own),
+                    it.found.as_ref().map(Found::is_after),
                     it.time_left,
                     it.distance,
                 );
@@ -294,13 +295,13 @@ impl<'a, C: Caller> Search<'a, C> {
         }
         caller.tell(Progress::Looked(self.least, self.before.collided + self.result.collided));
         let worth = |it: Tried| {
-            let time_left = if it.found.is_some() { COLLISION } else { it.time_left };
-            (caller.worth(time_left), it.found)
+            let collided = it.found.is_some_and(|it| !it.is_after());
+            (caller.worth(if collided { COLLISION } else { it.time_left }), collided)
         };
         Ok(tried.into_iter().map(worth).collect())
     }
 
-    /// Counts a run; `collided`: whether the own services had the time to avoid it, if it did.
+    /// Counts a run; `collided`: if it did, whether it could have stood before.
     fn count(
         &mut self,
         attack: Option<Kind>,
@@ -312,7 +313,7 @@ impl<'a, C: Caller> Search<'a, C> {
             attack,
             runs: 1,
             collided: u64::from(collided.is_some()),
-            own: u64::from(collided == Some(true)),
+            after: u64::from(collided == Some(true)),
             least_time_left_s: if collided.is_some() { danger::FREE_S } else { time_left },
             least_distance_m: distance.filter(|_| collided.is_none()),
         };
@@ -330,7 +331,13 @@ fn try_point(
     let case = Case { offered, attacks, ..start.case.clone() };
     let mut danger = Danger::default();
     let outcome = case.run(town, &mut danger)?;
-    let found = case.found(town, &outcome, &danger);
+    let found = case.found(&outcome, &danger);
+    // The clean run of the scenario was offered everything; one that is offered less may collide by itself.
+    let clean = Case { attacks: Vec::new(), ..case.clone() };
+    let found = match found {
+        Some(_) if offered != Offered::Both && clean.collision(town)?.is_some() => None,
+        found => found,
+    };
     let route = &town.routes[case.ego_route(town)];
     let time_left = danger.least_time_left(route, case.begins());
     let distance = danger.least_distance(case.begins());

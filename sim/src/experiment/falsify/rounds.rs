@@ -70,8 +70,8 @@ pub struct Row {
     pub runs: u64,
     /// Those that ended in a collision.
     pub collided: u64,
-    /// Of these, those that the CAV's own services had the time to avoid (`Found::is_own`).
-    pub own: u64,
+    /// Of these, those when the CAV could have stood by its own services (`Found::is_after`).
+    pub after: u64,
     /// Least time left to react of those that did not, s (`danger`); `FREE_S` where nothing was in the way.
     pub least_time_left_s: f64,
     /// Least distance to another of those that did not, m; none in an empty town.
@@ -175,7 +175,7 @@ impl Row {
         Self {
             runs: self.runs + other.runs,
             collided: self.collided + other.collided,
-            own: self.own + other.own,
+            after: self.after + other.after,
             least_time_left_s: self.least_time_left_s.min(other.least_time_left_s),
             least_distance_m: distances.reduce(f64::min),
             ..self
@@ -183,11 +183,11 @@ impl Row {
     }
 }
 
-/// Whether a collision has all kinds of attacks of another one, with the same offered, and is as much or as little
-/// the own services'.
+/// Whether a collision has all kinds of attacks of another one, with the same offered, both before the CAV could have
+/// stood, or both after.
 pub fn explains(smaller: &Found, found: &Found) -> bool {
     let (a, b) = (&smaller.case, &found.case);
     a.offered == b.offered
-        && smaller.is_own() == found.is_own()
+        && smaller.is_after() == found.is_after()
         && a.attacks.iter().all(|it| b.attacks.iter().any(|other| other.kind == it.kind))
 }

@@ -34,8 +34,8 @@ impl Shrinking<'_> {
     fn offer(&mut self, case: &Case) -> Result<bool, RunError> {
         self.runs += 1;
         let found = case.collision(self.town)?;
-        // What remote results led to is not shrunk to what the own services did.
-        let found = found.filter(|it| it.is_own() == self.best.is_own());
+        // One while remote results were used is not shrunk to one long after.
+        let found = found.filter(|it| it.is_after() == self.best.is_after());
         let is_taken = found.is_some();
         if let Some(found) = found {
             self.best = found;
