@@ -32,7 +32,7 @@ use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::job::{Job, Options};
+use mufasa_sim::experiment::job::{Campaign, Job, Options};
 use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
@@ -251,7 +251,8 @@ fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, make: Make) ->
 fn made<E: Shown>(task: &Task<'_>, town: &Town) -> Made {
     let options = Options { map: town.id, ..(task.sized)(E::OPTIONS) };
     let bar = bar(E::NAME);
-    let made = E::make(town, options, task.select, |of| step(&bar, of));
+    let done = |of| step(&bar, of);
+    let made = E::make(&Campaign { town, options, select: task.select, done: &done });
     bar.finish_and_clear();
     let made = made.map_err(said)?;
     Ok(Results {

@@ -29,6 +29,22 @@ macro_rules! same_variants {
     )*};
 }
 
+/// Functions from one enum to another with the same variants, and back.
+macro_rules! both_ways {
+    ($(
+        $(#[$doc:meta])* $visibility:vis fn $name:ident($from:ty),
+        $(#[$back_doc:meta])* $back_visibility:vis fn $back:ident($to:ty) {
+            $($variant:ident $(($inner:ident: $convert:path, $convert_back:path))?,)*
+        }
+    )*) => { same_variants! {$(
+        $(#[$doc])*
+        $visibility fn $name($from) -> $to { $($variant $(($inner: $convert))?,)* }
+
+        $(#[$back_doc])*
+        $back_visibility fn $back($to) -> $from { $($variant $(($inner: $convert_back))?,)* }
+    )*} };
+}
+
 /// Functions from one struct to another with the same fields.
 macro_rules! same_fields {
     ($($(#[$doc:meta])* $visibility:vis fn $name:ident($from:ty) -> $to:ty { $($field:ident),* })*) => {$(

@@ -2,6 +2,7 @@
 //! types, the rule of conformance, and generators that aim at the thresholds.
 
 pub mod bridge;
+pub mod call;
 pub mod conformance;
 pub mod differential;
 pub mod lent;

@@ -3,12 +3,13 @@
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::failures::{Failures, Row};
-use mufasa_sim::experiment::job::{self, Options};
+use mufasa_sim::experiment::job::{self, Campaign, Options};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
 use mufasa_sim::experiment::{
     attacks, availability, combinations, cpu, failures, falsify, rules, stages,
 };
+use mufasa_sim::map::Town;
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
@@ -17,6 +18,11 @@ use serde::Serialize;
 /// Fewer scenarios than of the real ones: this is compiled without all optimisation.
 const SMALL: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
 
+/// Nobody is told how far it is.
+fn campaign<'a>(town: &'a Town, options: Options, select: &'a Select<'a>) -> Campaign<'a> {
+    Campaign { town, options, select, done: &|_| () }
+}
+
 /// As JSON, made by so many threads.
 fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync) -> String {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
@@ -24,7 +30,7 @@ fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync)
 }
 
 fn small() -> Failures {
-    failures::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("the town can be")
+    failures::experiment(&campaign(&town(), SMALL, &Select::default())).expect("the town can be")
 }
 
 fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
@@ -37,15 +43,16 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
     let only = Some("failures/hardened/ghosts");
-    let make =
-        || failures::experiment(&town, size, &Select::only(only), |_| ()).expect("the town can be");
+    let make = || {
+        failures::experiment(&campaign(&town, size, &Select::only(only))).expect("the town can be")
+    };
     let one = json(1, make);
     assert_eq!(one, json(4, make));
     assert_eq!(make().runs.len(), 4, "{one}");
     let one = Options { scenarios: 2, ..size };
     let only = Some("stages/paper");
     let make =
-        || stages::experiment(&town, one, &Select::only(only), |_| ()).expect("the town can be");
+        || stages::experiment(&campaign(&town, one, &Select::only(only))).expect("the town can be");
     assert_eq!(json(1, make), json(4, make));
 }
 
@@ -54,7 +61,7 @@ fn a_run_is_repeated_alone_by_its_id() {
     let town = town();
     let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
     let make = |only| {
-        failures::experiment(&town, size, &Select::only(Some(only)), |_| ())
+        failures::experiment(&campaign(&town, size, &Select::only(Some(only))))
             .expect("the town can be")
     };
     let all = make("failures/sofof/tracks-empty");
@@ -87,7 +94,7 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 fn every_stage_runs_and_the_hardened_profile_arrives() {
     let size = Options { scenarios: 2, vehicles: 30, seed: 0, map: MapId::Town };
     let made =
-        stages::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
+        stages::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
     assert_eq!(vehicles, [15, 30, 15, 30]);
     assert!(made.rows.iter().all(|row| row.executions > 0), "{:?}", made.rows);
@@ -159,7 +166,7 @@ fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
 
 #[test]
 fn processor_time_is_counted_in_the_state_in_which_it_was_spent() {
-    let made = cpu::experiment(&town(), SMALL, &Select::default(), |_| ()).expect("a town");
+    let made = cpu::experiment(&campaign(&town(), SMALL, &Select::default())).expect("a town");
     assert_eq!(made.rows.len(), 9);
     for row in &made.rows {
         let all = made.runs.iter().filter(|run| run.variant == row.variant);
@@ -196,7 +203,7 @@ fn attacks_are_combined_at_random_and_again_the_same() {
 fn every_false_alarm_of_the_price_of_rules_has_a_cause() {
     let size = Options { scenarios: 1, vehicles: 8, seed: 0, map: MapId::Town };
     let made =
-        rules::experiment(&town(), size, &Select::default(), |_| ()).expect("the town can be");
+        rules::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
     assert_eq!((made.rows.len(), made.runs.len()), (15, 30));
     for row in &made.rows {
         let of_row =

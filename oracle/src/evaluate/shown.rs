@@ -6,9 +6,8 @@ use mufasa_sim::experiment::availability::{self, Availability};
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::job::{ExperimentError, Job, Options};
+use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
 use mufasa_sim::experiment::rules::{self, Rules};
-use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::{self, Stages};
 use mufasa_sim::map::Town;
 use mufasa_sim::run::End;
@@ -39,13 +38,8 @@ pub(super) trait Shown: Serialize + Sized {
     /// Its runs.
     fn jobs(town: &Town, options: Options) -> Vec<Job<()>>;
 
-    /// Makes it. `done`: called after each run with their number.
-    fn make(
-        town: &Town,
-        options: Options,
-        select: &Select<'_>,
-        done: impl Fn(usize) + Sync,
-    ) -> Result<Self, ExperimentError>;
+    /// Makes it.
+    fn make(campaign: &Campaign<'_>) -> Result<Self, ExperimentError>;
 
     fn rows(&self) -> &[Self::Row];
     fn runs(&self) -> &[Self::Run];
@@ -67,13 +61,8 @@ macro_rules! shown {
                 $module::jobs(town, options).into_iter().map(Job::plain).collect()
             }
 
-            fn make(
-                town: &Town,
-                options: Options,
-                select: &Select<'_>,
-                done: impl Fn(usize) + Sync,
-            ) -> Result<Self, ExperimentError> {
-                $module::experiment(town, options, select, done)
+            fn make(campaign: &Campaign<'_>) -> Result<Self, ExperimentError> {
+                $module::experiment(campaign)
             }
 
             fn rows(&self) -> &[Self::Row] {

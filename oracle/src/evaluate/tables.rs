@@ -19,11 +19,24 @@ pub struct Rows {
     rows: Vec<Vec<String>>,
 }
 
-impl Rows {
-    fn new<const N: usize>(header: [(&'static str, bool); N], rows: Vec<[String; N]>) -> Self {
-        Self { header: header.to_vec(), rows: rows.into_iter().map(Vec::from).collect() }
-    }
+/// A column: its name, whether it holds numbers, and what a row has there.
+type Column<R> = (&'static str, bool, fn(&R) -> String);
 
+const fn text<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
+    (name, false, cell)
+}
+
+const fn number<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
+    (name, true, cell)
+}
+
+fn rows<R>(of: &[R], columns: &[Column<R>]) -> Rows {
+    let header = columns.iter().map(|(name, is_number, _)| (*name, *is_number)).collect();
+    let row = |row: &R| columns.iter().map(|(.., cell)| cell(row)).collect();
+    Rows { header, rows: of.iter().map(row).collect() }
+}
+
+impl Rows {
     /// For a terminal.
     pub fn text(&self) -> String {
         let mut table = Table::new();
@@ -78,246 +91,169 @@ impl Rows {
 
 /// Failures by attack and variant.
 pub fn failures(of: &failures::Failures) -> Rows {
-    let header = [
-        ("attack", false),
-        ("checked by", false),
-        ("runs", true),
-        ("failures", true),
-        ("collided", true),
-        ("late", true),
-        ("left the corridor", true),
-        ("failures in the paper", false),
-    ];
-    let row = |row: &failures::Row| {
-        [
-            kind_name(row.attack).to_owned(),
-            row.variant.name().to_owned(),
-            row.runs.to_string(),
-            row.failures.to_string(),
-            row.collided.to_string(),
-            row.late.to_string(),
-            row.off_road.to_string(),
-            published::failures(row.attack, row.variant).words.to_owned(),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("attack", |row| kind_name(row.attack).to_owned()),
+            text("checked by", |row| row.variant.name().to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("failures", |row| row.failures.to_string()),
+            number("collided", |row| row.collided.to_string()),
+            number("late", |row| row.late.to_string()),
+            number("left the corridor", |row| row.off_road.to_string()),
+            text("failures in the paper", |row| {
+                published::failures(row.attack, row.variant).words.to_owned()
+            }),
+        ],
+    )
 }
 
 /// Executions and detections by variant and stage.
 pub fn stages(of: &stages::Stages) -> Rows {
-    let header = [
-        ("checked by", false),
-        ("stage", false),
-        ("executions", true),
-        ("detections", true),
-        ("of 1000", true),
-        ("executions in the paper", true),
-        ("detections in the paper", true),
-        ("of 1000", true),
-    ];
-    let row = |row: &stages::Row| {
-        [
-            row.variant.name().to_owned(),
-            row.stage.name().to_owned(),
-            row.executions.to_string(),
-            row.detections.to_string(),
-            per_thousand(row.detections, row.executions),
-            row.paper_executions.to_string(),
-            row.paper_detections.to_string(),
-            per_thousand(row.paper_detections, row.paper_executions),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("checked by", |row| row.variant.name().to_owned()),
+            text("stage", |row| row.stage.name().to_owned()),
+            number("executions", |row| row.executions.to_string()),
+            number("detections", |row| row.detections.to_string()),
+            number("of 1000", |row| per_thousand(row.detections, row.executions)),
+            number("executions in the paper", |row| row.paper_executions.to_string()),
+            number("detections in the paper", |row| row.paper_detections.to_string()),
+            number("of 1000", |row| per_thousand(row.paper_detections, row.paper_executions)),
+        ],
+    )
 }
 
 /// What found each attack, and when.
 pub fn attacks(of: &attacks::Attacks) -> Rows {
-    let header = [
-        ("attack", false),
-        ("offered", false),
-        ("checked by", false),
-        ("runs", true),
-        ("detected", true),
-        ("first by", false),
-        ("cycles", true),
-        ("m", true),
-        ("collided", true),
-        ("late", true),
-        ("link lost", true),
-    ];
-    let row = |row: &attacks::Row| {
-        [
-            kind_name(row.attack).to_owned(),
-            row.offered.name().to_owned(),
-            row.variant.name().to_owned(),
-            row.runs.to_string(),
-            row.detected.to_string(),
-            row.by.clone(),
-            row.median_cycles.map_or_else(String::new, |it| it.to_string()),
-            row.median_metres.map_or_else(String::new, |it| format!("{it:.1}")),
-            row.collided.to_string(),
-            row.late.to_string(),
-            row.lost.to_string(),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("attack", |row| kind_name(row.attack).to_owned()),
+            text("offered", |row| row.offered.name().to_owned()),
+            text("checked by", |row| row.variant.name().to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("detected", |row| row.detected.to_string()),
+            text("first by", |row| row.by.clone()),
+            number("cycles", |row| row.median_cycles.map_or_else(String::new, |it| it.to_string())),
+            number("m", |row| row.median_metres.map_or_else(String::new, |it| format!("{it:.1}"))),
+            number("collided", |row| row.collided.to_string()),
+            number("late", |row| row.late.to_string()),
+            number("link lost", |row| row.lost.to_string()),
+        ],
+    )
 }
 
 /// Failures under combinations of attacks.
 pub fn combinations(of: &combinations::Combinations) -> Rows {
-    let header = [
-        ("offered", false),
-        ("checked by", false),
-        ("runs", true),
-        ("failures", true),
-        ("collided", true),
-        ("late", true),
-        ("left the corridor", true),
-        ("attacks", true),
-        ("two or more at a time", true),
-        ("fallbacks", true),
-        ("MOT remote", true),
-        ("PLAN remote", true),
-    ];
-    let row = |row: &combinations::Row| {
-        [
-            row.offered.name().to_owned(),
-            row.variant.name().to_owned(),
-            row.runs.to_string(),
-            row.failures.to_string(),
-            row.collided.to_string(),
-            row.late.to_string(),
-            row.off_road.to_string(),
-            row.attacks.to_string(),
-            format!("{:.0} %", row.share_several * 100.0),
-            row.fallbacks.to_string(),
-            format!("{:.0} %", row.share_mot * 100.0),
-            format!("{:.0} %", row.share_plan * 100.0),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("offered", |row| row.offered.name().to_owned()),
+            text("checked by", |row| row.variant.name().to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("failures", |row| row.failures.to_string()),
+            number("collided", |row| row.collided.to_string()),
+            number("late", |row| row.late.to_string()),
+            number("left the corridor", |row| row.off_road.to_string()),
+            number("attacks", |row| row.attacks.to_string()),
+            number("two or more at a time", |row| share(row.share_several)),
+            number("fallbacks", |row| row.fallbacks.to_string()),
+            number("MOT remote", |row| share(row.share_mot)),
+            number("PLAN remote", |row| share(row.share_plan)),
+        ],
+    )
 }
 
 /// What the checks cost without an attack.
 pub fn availability(of: &availability::Availability) -> Rows {
-    let header = [
-        ("set", false),
-        ("to", true),
-        ("checked by", false),
-        ("runs", true),
-        ("failures", true),
-        ("minutes", true),
-        ("fallbacks", true),
-        ("in an hour", true),
-        ("link lost", true),
-        ("MOT remote", true),
-        ("PLAN remote", true),
-    ];
-    let row = |row: &availability::Row| {
-        [
-            row.factor.name().to_owned(),
-            row.value.to_string(),
-            row.variant.name().to_owned(),
-            row.runs.to_string(),
-            row.failures.to_string(),
-            format!("{:.1}", row.hours * 60.0),
-            row.fallbacks.to_string(),
-            format!("{:.0}", row.fallbacks_per_hour),
-            row.lost.to_string(),
-            format!("{:.0} %", row.share_mot * 100.0),
-            format!("{:.0} %", row.share_plan * 100.0),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("set", |row| row.factor.name().to_owned()),
+            number("to", |row| row.value.to_string()),
+            text("checked by", |row| row.variant.name().to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("failures", |row| row.failures.to_string()),
+            number("minutes", |row| format!("{:.1}", row.hours * 60.0)),
+            number("fallbacks", |row| row.fallbacks.to_string()),
+            number("in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
+            number("link lost", |row| row.lost.to_string()),
+            number("MOT remote", |row| share(row.share_mot)),
+            number("PLAN remote", |row| share(row.share_plan)),
+        ],
+    )
 }
 
 /// The price of each rule.
 pub fn rules(of: &rules::Rules) -> Rows {
-    let header = [
-        ("checked by", false),
-        ("without", false),
-        ("runs", true),
-        ("failures", true),
-        ("minutes", true),
-        ("fallbacks", true),
-        ("in an hour", true),
-        ("overruled", true),
-        ("link lost", true),
-        ("MOT remote", true),
-        ("PLAN remote", true),
-        ("fallbacks by stage and rule of the witness", false),
-    ];
-    let row = |row: &rules::Row| {
-        [
-            row.variant.name().to_owned(),
-            row.without.map_or_else(String::new, |it| it.name().to_owned()),
-            row.runs.to_string(),
-            row.failures.to_string(),
-            format!("{:.1}", row.hours * 60.0),
-            row.fallbacks.to_string(),
-            format!("{:.0}", row.fallbacks_per_hour),
-            row.without.map_or_else(String::new, |_| row.overruled.to_string()),
-            row.lost.to_string(),
-            format!("{:.1} %", row.share_mot * 100.0),
-            format!("{:.1} %", row.share_plan * 100.0),
-            row.by.clone(),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("checked by", |row| row.variant.name().to_owned()),
+            text("without", |row| row.without.map_or_else(String::new, |it| it.name().to_owned())),
+            number("runs", |row| row.runs.to_string()),
+            number("failures", |row| row.failures.to_string()),
+            number("minutes", |row| format!("{:.1}", row.hours * 60.0)),
+            number("fallbacks", |row| row.fallbacks.to_string()),
+            number("in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
+            number("overruled", |row| {
+                row.without.map_or_else(String::new, |_| row.overruled.to_string())
+            }),
+            number("link lost", |row| row.lost.to_string()),
+            number("MOT remote", |row| format!("{:.1} %", row.share_mot * 100.0)),
+            number("PLAN remote", |row| format!("{:.1} %", row.share_plan * 100.0)),
+            text("fallbacks by stage and rule of the witness", |row| row.by.clone()),
+        ],
+    )
 }
 
 /// Processor time of the CAV's services and of what checks them.
 pub fn cpu(of: &cpu::Cpu) -> Rows {
-    let header = [
-        ("checked by", false),
-        ("what", false),
-        ("active: CPU %", true),
-        ("s", true),
-        ("inactive: CPU %", true),
-        ("s", true),
-        ("active in the paper", false),
-        ("inactive in the paper", false),
-    ];
-    let percent = |cpu_s: f64, of_s: f64| {
-        if of_s > 0.0 { format!("{:.3}", 100.0 * cpu_s / of_s) } else { String::new() }
-    };
-    let row = |row: &cpu::Row| {
-        let [active, inactive] = published::cpu(row.variant, row.who).map(usage);
-        [
-            row.variant.name().to_owned(),
-            row.who.name().to_owned(),
-            percent(row.active_cpu_s, row.active_s),
-            format!("{:.1}", row.active_s),
-            percent(row.inactive_cpu_s, row.inactive_s),
-            format!("{:.1}", row.inactive_s),
-            active,
-            inactive,
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("checked by", |row| row.variant.name().to_owned()),
+            text("what", |row| row.who.name().to_owned()),
+            number("active: CPU %", |row| percent(row.active_cpu_s, row.active_s)),
+            number("s", |row| format!("{:.1}", row.active_s)),
+            number("inactive: CPU %", |row| percent(row.inactive_cpu_s, row.inactive_s)),
+            number("s", |row| format!("{:.1}", row.inactive_s)),
+            text("active in the paper", |row| published(row)[0].clone()),
+            text("inactive in the paper", |row| published(row)[1].clone()),
+        ],
+    )
 }
 
 /// How near the runs of a search came, by kind of attack.
 pub fn falsified(of: &falsify::Falsified) -> Rows {
-    let header = [
-        ("attack", false),
-        ("runs", true),
-        ("collided", true),
-        ("of them when it could have stood", true),
-        ("least time left, s", true),
-        ("least distance, m", true),
-    ];
-    let row = |row: &falsify::Row| {
-        [
-            kind_name(row.attack).to_owned(),
-            row.runs.to_string(),
-            row.collided.to_string(),
-            row.after.to_string(),
-            format!("{:.1}", row.least_time_left_s),
-            row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}")),
-        ]
-    };
-    Rows::new(header, of.rows.iter().map(row).collect())
+    rows(
+        &of.rows,
+        &[
+            text("attack", |row| kind_name(row.attack).to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("collided", |row| row.collided.to_string()),
+            number("of them when it could have stood", |row| row.after.to_string()),
+            number("least time left, s", |row| format!("{:.1}", row.least_time_left_s)),
+            number("least distance, m", |row| {
+                row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}"))
+            }),
+        ],
+    )
+}
+
+fn published(row: &cpu::Row) -> [String; 2] {
+    published::cpu(row.variant, row.who).map(usage)
+}
+
+fn percent(cpu_s: f64, of_s: f64) -> String {
+    if of_s > 0.0 { format!("{:.3}", 100.0 * cpu_s / of_s) } else { String::new() }
+}
+
+/// Share of the time, to the percent.
+fn share(of: f64) -> String {
+    format!("{:.0} %", of * 100.0)
 }
 
 fn usage(of: &[published::Usage]) -> String {

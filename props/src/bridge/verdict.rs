@@ -1,4 +1,4 @@
-//! Verdicts from the implementation's types to the model's.
+//! Verdicts from the implementation's types to the model's, and back.
 
 use mufasa::report as twin;
 use mufasa_model::report::{
@@ -53,68 +53,35 @@ fn witness_to_impl(witness: Witness) -> twin::Witness {
     twin::Witness { rule, point, track, detection, item, age_ns, segment, disk, cell, compared }
 }
 
-same_variants! {
-    fn failed_stage_from_impl(twin::FailedStage) -> FailedStage {
+both_ways! {
+    fn failed_stage_from_impl(twin::FailedStage), fn failed_stage_to_impl(FailedStage) {
         Input,
-        Stage(stage: stage_from_impl),
+        Stage(stage: stage_from_impl, stage_to_impl),
         NoObstacleCheck,
     }
 
-    fn stage_from_impl(twin::Stage) -> Stage { I, Ii, Iii, Iv, V, }
-
+    fn stage_from_impl(twin::Stage),
     /// A stage in the implementation's types.
-    pub fn stage_to_impl(Stage) -> twin::Stage { I, Ii, Iii, Iv, V, }
+    pub fn stage_to_impl(Stage) { I, Ii, Iii, Iv, V, }
 
     /// An outcome in the model's types.
-    pub fn outcome_from_impl(twin::Outcome) -> Outcome {
+    pub fn outcome_from_impl(twin::Outcome), fn outcome_to_impl(Outcome) {
         Passed,
-        Failed(witness: witness_from_impl),
-        Skipped(reason: reason_from_impl),
-        NotApplicable(input: input_from_impl),
+        Failed(witness: witness_from_impl, witness_to_impl),
+        Skipped(reason: reason_from_impl, reason_to_impl),
+        NotApplicable(input: input_from_impl, input_to_impl),
         NotScheduled,
     }
 
-    fn reason_from_impl(twin::Reason) -> Reason {
+    fn reason_from_impl(twin::Reason), fn reason_to_impl(Reason) {
         AfterFailure,
         OtherStageRan,
-        NoCurrent(input: input_from_impl),
+        NoCurrent(input: input_from_impl, input_to_impl),
     }
 
-    fn input_from_impl(twin::Input) -> Input { Trajectory, Tracks, Detections, Grid, }
+    fn input_from_impl(twin::Input), fn input_to_impl(Input) { Trajectory, Tracks, Detections, Grid, }
 
-    fn rule_from_impl(twin::Rule) -> Rule {
-        Ambiguous, MeanCost, WorkLimit, NoAssignment,
-        ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
-        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,
-        TurnReversed, TurnOnTheSpot, TurnHard,
-        ArcTooShort, ArcTooLong, EndsTooSoon,
-        Gap, Collision, CollisionStanding, CollisionMoving,
-        Occupied, Unknown, Outside,
-    }
-
-    fn failed_stage_to_impl(FailedStage) -> twin::FailedStage {
-        Input,
-        Stage(stage: stage_to_impl),
-        NoObstacleCheck,
-    }
-
-    fn outcome_to_impl(Outcome) -> twin::Outcome {
-        Passed,
-        Failed(witness: witness_to_impl),
-        Skipped(reason: reason_to_impl),
-        NotApplicable(input: input_to_impl),
-        NotScheduled,
-    }
-
-    fn reason_to_impl(Reason) -> twin::Reason {
-        AfterFailure,
-        OtherStageRan,
-        NoCurrent(input: input_to_impl),
-    }
-
-    fn input_to_impl(Input) -> twin::Input { Trajectory, Tracks, Detections, Grid, }
-
-    fn rule_to_impl(Rule) -> twin::Rule {
+    fn rule_from_impl(twin::Rule), fn rule_to_impl(Rule) {
         Ambiguous, MeanCost, WorkLimit, NoAssignment,
         ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
         StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,

@@ -11,11 +11,12 @@ use mufasa::offloading::requester::{
 };
 use mufasa::report::Problem;
 use mufasa::services::configuration::Configuration;
+use mufasa_props::call;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, long_tape, tape};
 
 use super::held::{Held, choose};
-use super::kit::{Buffers, MS, at, call, place, settings};
+use super::kit::{Buffers, MS, at, place, settings};
 use super::plain::{Own, Plain, Received};
 use super::scene::{Base, Start, inputs, same, start};
 use super::seen::{Seen, starved};
@@ -44,7 +45,7 @@ const HABITS: [(i64, i64); 4] = [(60 * MS, 0), (150 * MS, 0), (1_000 * MS, 0), (
 impl Pair<'_, '_, '_> {
     fn event(&mut self, kind: EventKind, seen: &mut Seen) {
         let (now_ns, now) = (self.now_ns, at(self.now_ns));
-        let actions = call(&mut self.monitor, now, kind);
+        let actions = call::event(&mut self.monitor, now, kind).expect("no data");
         let before = starved(&self.plain);
         assert_eq!(actions.expect("a station").to_vec(), self.plain.step(now_ns, kind), "{kind:?}");
         self.same_state();

@@ -7,9 +7,7 @@ use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::monitor::{
     Accepted, Arrival, Decision, Inputs, Memory, Message, Monitor, MonitorError, Settings, Time,
 };
-use mufasa::offloading::requester::{
-    Action, Actions, EventKind, Group, Groups, RequesterError, StationRecord,
-};
+use mufasa::offloading::requester::{Action, Actions, Group, Groups, StationRecord};
 
 pub const MS: i64 = 1_000_000;
 
@@ -222,27 +220,5 @@ pub fn place(group: Group) -> usize {
     match group {
         Group::Mot => 0,
         Group::Plan => 1,
-    }
-}
-
-/// An event by its call.
-pub fn call(
-    monitor: &mut Monitor<'_>,
-    now: Time,
-    kind: EventKind,
-) -> Result<Actions, RequesterError> {
-    match kind {
-        EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
-        EventKind::Withdraw { station } => monitor.withdraw(now, station),
-        EventKind::Lost { station } => monitor.lost(now, station),
-        EventKind::Area { groups } => Ok(monitor.area(now, groups)),
-        EventKind::Tick => Ok(monitor.tick(now)),
-        EventKind::Confirm { station, group, session } => {
-            monitor.confirm(now, station, group, session)
-        }
-        EventKind::Reject { station, group, session } => {
-            monitor.reject(now, station, group, session)
-        }
-        EventKind::Data { .. } | EventKind::Verdict { .. } => unreachable!("not events here"),
     }
 }

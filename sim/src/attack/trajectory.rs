@@ -3,14 +3,12 @@
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use super::{Attack, Kind, later, nanoseconds};
-use crate::run::TAU_S;
+use crate::run::{A_B, TAU_S};
 use crate::services::tpl::STEP_NS;
 use crate::services::way::seconds;
 
 /// Most points of a message.
 const MOST_POINTS: usize = 1024;
-/// The CAV's hardest braking, m/s^2.
-const A_B: f64 = 8.0;
 
 /// Spoils the points, if this kind of attack does that.
 pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint>) {

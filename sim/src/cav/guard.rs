@@ -15,6 +15,7 @@ use mufasa::offloading::requester::{
 };
 use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
+use mufasa_props::call;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -167,21 +168,10 @@ impl<'a> Guard<'a> {
         let actions = match &mut self.kind {
             Kind::Plain(requester) => requester.step(&Event { t_ns, kind }),
             Kind::Without(rules) => return rules.step(t_ns, kind),
-            Kind::Checked { monitor, .. } => match kind {
-                EventKind::Offer { station, groups } => monitor.offer(now, station, groups),
-                EventKind::Withdraw { station } => monitor.withdraw(now, station),
-                EventKind::Lost { station } => monitor.lost(now, station),
-                EventKind::Confirm { station, group, session } => {
-                    monitor.confirm(now, station, group, session)
-                }
-                EventKind::Reject { station, group, session } => {
-                    monitor.reject(now, station, group, session)
-                }
-                EventKind::Area { groups } => Ok(monitor.area(now, groups)),
-                EventKind::Tick | EventKind::Data { .. } | EventKind::Verdict { .. } => {
-                    Ok(monitor.tick(now))
-                }
-            },
+            Kind::Checked { monitor, .. } => {
+                let Some(actions) = call::event(monitor, now, kind) else { return Ok(Vec::new()) };
+                actions
+            }
         };
         actions.map(|actions| actions.to_vec())
     }

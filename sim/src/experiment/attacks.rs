@@ -9,8 +9,7 @@ use mufasa::services::configuration::{Group, Groups};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options, kind_name};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options, kind_name};
 use super::watch::{By, Watch};
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
@@ -152,17 +151,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<What>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Attacks, ExperimentError> {
-    let runs = job::make(town, jobs(town, options), select, done, kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Attacks, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let runs = job::make(campaign, jobs(town, options), kept)?;
     let same =
         |a: &Run, b: &Run| (a.attack, a.offered, a.variant) == (b.attack, b.offered, b.variant);
     Ok(Attacks { options, rows: runs.chunk_by(same).map(row).collect(), runs })

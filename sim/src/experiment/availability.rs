@@ -6,8 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options};
 use super::watch::Watch;
 use crate::cav::guard::Variant;
 use crate::map::Town;
@@ -171,17 +170,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Set>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Availability, ExperimentError> {
-    let runs = job::make(town, jobs(town, options), select, done, kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Availability, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let runs = job::make(campaign, jobs(town, options), kept)?;
     let same = |a: &Run, b: &Run| (a.factor, a.value, a.variant) == (b.factor, b.value, b.variant);
     Ok(Availability { options, rows: runs.chunk_by(same).map(row).collect(), runs })
 }

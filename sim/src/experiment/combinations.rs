@@ -12,8 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::attacks::Offered;
 use super::falsify::genome::{KINDS, means};
-use super::job::{self, ExperimentError, Job, Options};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options};
 use super::watch::Watch;
 use crate::attack::Attack;
 use crate::cav::Cav;
@@ -160,18 +159,11 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Offered>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Combinations, ExperimentError> {
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Combinations, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
     let watcher = |job: &Job<Offered>| Overlaps::of(&job.settings.attacks);
-    let runs = job::watched(town, jobs(town, options), select, done, watcher, kept)?;
+    let runs = job::watched(campaign, jobs(town, options), watcher, kept)?;
     let same = |a: &Run, b: &Run| (a.offered, a.variant) == (b.offered, b.variant);
     Ok(Combinations { options, rows: runs.chunk_by(same).map(row).collect(), runs })
 }

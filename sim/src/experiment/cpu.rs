@@ -10,8 +10,7 @@ use mufasa::services::configuration::Group;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options};
 use crate::cav::Cav;
 use crate::cav::cost::Part;
 use crate::cav::guard::{Decided, Variant};
@@ -171,18 +170,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
     Variant::ALL.into_iter().flat_map(of).collect()
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Cpu, ExperimentError> {
-    let jobs = jobs(town, options);
-    let runs = job::watched(town, jobs, select, done, |_| Meter::default(), kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Cpu, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let runs = job::watched(campaign, jobs(town, options), |_| Meter::default(), kept)?;
     let same = |a: &Run, b: &Run| a.variant == b.variant;
     Ok(Cpu { options, rows: runs.chunk_by(same).flat_map(rows).collect(), runs })
 }

@@ -6,8 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options, kind_name};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options, kind_name};
 use super::watch::Watch;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
@@ -99,17 +98,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Option<Kind>>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Failures, ExperimentError> {
-    let runs = job::make(town, jobs(town, options), select, done, kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Failures, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let runs = job::make(campaign, jobs(town, options), kept)?;
     Ok(Failures { options, rows: rows(&runs), runs })
 }
 

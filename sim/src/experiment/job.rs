@@ -157,31 +157,40 @@ pub fn kind_name(kind: Option<Kind>) -> &'static str {
     kind.map_or("none", Kind::name)
 }
 
+/// An experiment that is to be made.
+pub struct Campaign<'a> {
+    /// On which map.
+    pub town: &'a Town,
+    /// How large.
+    pub options: Options,
+    /// Which of its runs.
+    pub select: &'a Select<'a>,
+    /// Called after each run, in any order, with their number.
+    pub done: &'a (dyn Fn(usize) + Sync),
+}
+
 /// Makes the runs, or those of them that are selected, on the threads of this pool; what is `kept` of them in
-/// their order. `done`: called after each, in any order, with their number.
+/// their order.
 ///
-/// Errors: settings, a route or a town that cannot be.
+/// Errors: settings, a route or a town that cannot be; a run that should be kept is not.
 pub fn make<W: Sync + Send, R: Send + Serialize + DeserializeOwned>(
-    town: &Town,
+    campaign: &Campaign<'_>,
     jobs: Vec<Job<W>>,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
     kept: impl Fn(&Job<W>, &Outcome, &Watch) -> R + Sync,
 ) -> Result<Vec<R>, ExperimentError> {
-    watched(town, jobs, select, done, |job| Watch::new(job.watched_from), kept)
+    watched(campaign, jobs, |job| Watch::new(job.watched_from), kept)
 }
 
 /// As [`make`], with a watcher of one's own for each run.
 ///
 /// Errors: as for [`make`].
 pub fn watched<W: Sync + Send, V: Watcher, R: Send + Serialize + DeserializeOwned>(
-    town: &Town,
+    campaign: &Campaign<'_>,
     jobs: Vec<Job<W>>,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
     watcher: impl Fn(&Job<W>) -> V + Sync,
     kept: impl Fn(&Job<W>, &Outcome, &V) -> R + Sync,
 ) -> Result<Vec<R>, ExperimentError> {
+    let &Campaign { town, select, done, .. } = campaign;
     let chosen = jobs.into_iter().enumerate().filter(|(at, job)| select.has(*at, &job.id));
     let jobs: Vec<Job<W>> = chosen.map(|(_, job)| recorded(job, select)).collect();
     let one = |job: &Job<W>| {

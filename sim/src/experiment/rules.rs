@@ -13,8 +13,7 @@ use mufasa_records::names;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options};
 use super::stages::areas;
 use super::watch::{By, Watch};
 use crate::cav::Cav;
@@ -176,17 +175,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Set>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Rules, ExperimentError> {
-    let made = job::watched(town, jobs(town, options), select, done, |_| Alarms::default(), kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Rules, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let made = job::watched(campaign, jobs(town, options), |_| Alarms::default(), kept)?;
     let same = |(a, _): &Kept, (b, _): &Kept| (a.variant, a.without) == (b.variant, b.without);
     let (mut rows, mut causes) = (Vec::new(), Vec::new());
     for made in made.chunk_by(same) {

@@ -10,8 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::job::{self, ExperimentError, Job, Options};
-use super::select::Select;
+use super::job::{self, Campaign, ExperimentError, Job, Options};
 use super::watch::{By, Watch};
 use crate::attack::{Attack, Kind};
 use crate::cav::Areas;
@@ -130,17 +129,10 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
     jobs
 }
 
-/// Makes the runs, or those of them that are selected. `done`: called after each with
-/// their number.
-///
-/// Errors: a town that cannot be; a run that should be kept is not.
-pub fn experiment(
-    town: &Town,
-    options: Options,
-    select: &Select<'_>,
-    done: impl Fn(usize) + Sync,
-) -> Result<Stages, ExperimentError> {
-    let made = job::make(town, jobs(town, options), select, done, kept)?;
+/// Makes the runs. Errors: those of [`job::make`].
+pub fn experiment(campaign: &Campaign<'_>) -> Result<Stages, ExperimentError> {
+    let &Campaign { town, options, .. } = campaign;
+    let made = job::make(campaign, jobs(town, options), kept)?;
     let rows = rows(&made);
     let runs = made.into_iter().map(|(run, _)| run).collect();
     Ok(Stages { options, rows, runs })

@@ -15,7 +15,7 @@ use crate::cav::guard::Decided;
 use crate::collision;
 use crate::map::route::Route;
 use crate::pose::{Pose, Rectangle};
-use crate::run::{Cycle, TAU_S, Watcher};
+use crate::run::{A_B, Cycle, TAU_S, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::{EgoState, Object, Snapshot};
 
@@ -25,8 +25,6 @@ const LOOKED: u8 = 40;
 const PERIOD_S: f64 = 0.1;
 /// The time left where nothing is in the way, s: all that is looked at.
 pub const FREE_S: f64 = LOOKED as f64 * PERIOD_S;
-/// Hardest braking, m/s^2.
-const A_B: f64 = 8.0;
 /// Slower than this the CAV stands, m/s.
 const STANDING: f64 = 0.5;
 /// Where nothing helps any more, the time left is so much below zero for each m/s of the impact, s.

@@ -1,5 +1,7 @@
 //! Numbers of the planner.
 
+use crate::run::A_B;
+
 /// What the planner wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
@@ -30,7 +32,7 @@ impl Default for Settings {
             lateral: 2.5,
             acceleration: 1.5,
             braking: 2.5,
-            a_b: 8.0,
+            a_b: A_B,
             standing_gap: 3.0,
             headway: 2.0,
             stop_margin: 1.0,
