@@ -221,7 +221,7 @@ pub enum Problem {
     ScratchTooSmall,
     /// The monitor was never given a route.
     NoRoute,
-    /// Something is remote, and the monitor had no tick since the cycle before.
+    /// Something is remote, and the monitor had no tick since the cycle before, or one of another time.
     NoTick,
 }
 
@@ -247,7 +247,7 @@ impl Problem {
             }
             Self::NoRoute => "no route was set; give the monitor one before its first cycle",
             Self::NoTick => {
-                "no tick came since the cycle before; tick in each period, whatever came"
+                "no tick of this time came since the cycle before; tick in each period, whatever came"
             }
         }
     }

@@ -32,8 +32,6 @@ const DECIDES_NS: i64 = 40_000_000;
 /// `tau` as A-07 of `docs/assumptions.md` asks for it here, s: 0.1 until the next cycle, 0.04 until it is decided, 0.1
 /// until the CAV's own planner answers.
 pub const TAU_S: f64 = 0.25;
-/// The CAV's hardest braking, m/s^2.
-pub const A_B: f64 = 8.0;
 /// Most detections of a list, and cross sections of a route.
 const MOST: (usize, usize) = (128, 2048);
 

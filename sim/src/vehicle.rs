@@ -2,6 +2,9 @@
 
 use crate::pose::{Pose, Rectangle};
 
+/// The CAV's hardest braking, m/s^2.
+pub const A_B: f64 = 8.0;
+
 /// What a controller asks for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
@@ -44,7 +47,7 @@ impl Default for Body {
             width: 1.89,
             wheelbase: 3.165,
             middle: 5.1 / 2.0 - 1.0825,
-            acceleration_min: -8.0,
+            acceleration_min: -A_B,
             acceleration_max: 3.0,
             steering_max: 0.71,
             steering_rate: 0.6,

@@ -1,7 +1,5 @@
 //! One cycle: choose, check, tell the requester, keep what was seen (`spec/5-interfaces.md#monitor`).
 
-use core::mem;
-
 use super::Monitor;
 use super::decision::{Decision, Verified};
 use super::element::Element;
@@ -135,7 +133,11 @@ impl Monitor<'_> {
         if let Err(problem) = &mut report {
             *problem = named(*problem, has_route);
         }
-        let is_ticked = mem::take(&mut self.is_ticked);
+        let dt_max_ns = self.settings.requester.dt_max_ns;
+        let is_ticked = self.ticked.take().is_some_and(|tick| {
+            let since_ns = now_ns.checked_sub(tick.as_nanoseconds());
+            since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
+        });
         if !is_ticked && report.is_ok() && remote.iter().any(Option::is_some) {
             // Nobody looked for silence.
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
@@ -149,7 +151,6 @@ impl Monitor<'_> {
             Group::Plan => trajectory.is_some_and(|it| current(it.stamp_ns)),
         };
         for group in Group::ALL {
-            let dt_max_ns = self.settings.requester.dt_max_ns;
             self.served.get_mut(group).cycle(now_ns, has_current(group), dt_max_ns);
         }
         let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));

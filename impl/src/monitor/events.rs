@@ -79,7 +79,7 @@ impl Monitor<'_> {
     /// the cycle of the period, which is unsafe without while something is remote. After a session no request is sent for a while, nor, in the hardened
     /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
-        self.is_ticked = true;
+        self.ticked = Some(now);
         self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
 

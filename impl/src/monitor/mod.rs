@@ -50,8 +50,8 @@ pub struct Monitor<'a> {
     settings: Settings,
     requester: Requester<'a>,
     served: PerGroup<Served>,
-    /// Whether a tick came since the last cycle.
-    is_ticked: bool,
+    /// The last tick since the last cycle.
+    ticked: Option<Time>,
     history: History<'a>,
     route: KeptRoute<'a>,
     rows: &'a mut [Row],
@@ -94,7 +94,7 @@ impl<'a> Monitor<'a> {
             settings,
             requester: requester(&settings, stations)?,
             served: PerGroup::default(),
-            is_ticked: false,
+            ticked: None,
             history: History::new(detections, slots, capacity).ok_or(too_few)?,
             route: KeptRoute::new(cross_sections, blocks),
             rows,

@@ -60,8 +60,8 @@ pub struct Plain<'a> {
     /// Of the running sessions.
     pub service: [Option<Service>; 2],
     kept: Vec<(i64, Vec<Detection>)>,
-    /// Ticks since the last cycle.
-    ticks: u32,
+    /// The last tick since the last cycle.
+    tick_ns: Option<i64>,
     pub waits: Waits,
 }
 
@@ -95,7 +95,7 @@ impl<'a> Plain<'a> {
         parts.sessions = settings.sessions_before;
         let requester = Requester::resume(Suspended::from_parts(&parts), table);
         let (last, service, kept) = ([None; 2], [None; 2], Vec::new());
-        Self { settings, requester, last, service, kept, ticks: 0, waits: Waits::default() }
+        Self { settings, requester, last, service, kept, tick_ns: None, waits: Waits::default() }
     }
 
     /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
@@ -118,7 +118,9 @@ impl<'a> Plain<'a> {
 
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
         let event = Event { t_ns, kind };
-        self.ticks += u32::from(kind == EventKind::Tick);
+        if kind == EventKind::Tick {
+            self.tick_ns = Some(t_ns);
+        }
         for group in self.returning(&event) {
             self.hold(t_ns, group);
         }
@@ -235,9 +237,11 @@ impl<'a> Plain<'a> {
         };
         let (checked, lists) = (check_plainly(&cycle), history.len());
         let no_tick = InvalidInput { field: "tick", index: None, problem: Problem::NoTick };
-        let blind = self.ticks == 0 && (mot || plan);
+        let age_ns = self.tick_ns.map(|tick_ns| i128::from(own.now_ns) - i128::from(tick_ns));
+        let dt_max_ns = i128::from(self.settings.requester.dt_max_ns);
+        let blind = !age_ns.is_some_and(|it| 0 <= it && it <= dt_max_ns) && (mot || plan);
         let report = checked.and_then(|report| if blind { Err(no_tick) } else { Ok(report) });
-        self.ticks = 0;
+        self.tick_ns = None;
         let safe = report.is_ok_and(|report| report.failed_stage.is_none());
         let max_age_ns = i128::from(self.settings.stages.max_age_ns);
         let current = |stamp_ns: i64| {

@@ -3,9 +3,10 @@
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use super::{Attack, Kind, later, nanoseconds};
-use crate::run::{A_B, TAU_S};
+use crate::run::TAU_S;
 use crate::services::tpl::STEP_NS;
 use crate::services::way::seconds;
+use crate::vehicle::A_B;
 
 /// Most points of a message.
 const MOST_POINTS: usize = 1024;

@@ -1,6 +1,6 @@
 //! Numbers of the planner.
 
-use crate::run::A_B;
+use crate::vehicle::A_B;
 
 /// What the planner wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
