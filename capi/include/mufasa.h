@@ -87,6 +87,9 @@ enum MufasaStatus
   MUFASA_STATUS_TIME_TOO_SHORT = 14,
   // max_age is below l_max, so that no cycle could use some of the results that are in time.
   MUFASA_STATUS_MAX_AGE_BELOW_L_MAX = 15,
+  // tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
+  // cycle, the first that can fail.
+  MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD = 16,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -859,7 +862,7 @@ typedef struct MufasaMonitorSettings {
   struct MufasaRequesterParameters requester;
   // The nominal period of the remote's results in nanoseconds, at least 1,000,000 (1 ms). `requester.dt_max_ns` has to be above it:
   // at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
-  // the paper's; at 10 Hz choose a larger one.)
+  // the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in seconds, in the hardened profile.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
   // numbered on from here, so that no message of an earlier life fits.

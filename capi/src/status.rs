@@ -40,4 +40,7 @@ pub enum MufasaStatus {
     TimeTooShort = 14,
     /// max_age is below l_max, so that no cycle could use some of the results that are in time.
     MaxAgeBelowLMax = 15,
+    /// tau is not above the nominal period, in the hardened profile: the way to stop would end before the next
+    /// cycle, the first that can fail.
+    TauNotAbovePeriod = 16,
 }

@@ -243,6 +243,11 @@ static void a_status_of_the_settings_has_a_field(void) {
   it.requester.l_max_ns = it.stages.max_age_ns + 1;
   is_about(&it, MUFASA_STATUS_MAX_AGE_BELOW_L_MAX, "parameters.max_age_ns");
   it = settings();
+  it.stages.tau = 0.02;
+  is_about(&it, MUFASA_STATUS_OK, "");
+  it.profile = MUFASA_PROFILE_HARDENED;
+  is_about(&it, MUFASA_STATUS_TAU_NOT_ABOVE_PERIOD, "parameters.tau");
+  it = settings();
   it.most_tracks = 0;
   is_about(&it, MUFASA_STATUS_MEMORY_TOO_SMALL, "most_tracks");
   EXPECT(make(&it, &monitor) == MUFASA_STATUS_MEMORY_TOO_SMALL);

@@ -106,14 +106,22 @@ fn until(due_ns: i64, clock: SharedClock) -> Duration {
     Duration::from_nanos(ns).min(LOOK)
 }
 
+/// `tau` in periods (A-07 of `docs/assumptions.md`): one until the next cycle, 0.6 until it is decided, the rest until
+/// the brakes act.
+const TAU_PERIODS: f64 = 2.5;
+
 /// The settings of a monitor for a drive: its profile, parameters and period, and the times of the
-/// requester. The sessions are numbered by the vehicle.
+/// requester. `tau` is at least [`TAU_PERIODS`] periods: what the CAV needs to brake is the vehicle's, not the
+/// drive's. The sessions are numbered by the vehicle.
 pub fn settings(played: &Played, requester: &Parameters) -> Settings {
+    let period = Duration::from_nanos(played.period_ns().unsigned_abs());
+    let mut stages = bridge::cycle_parameters(played.parameters());
+    stages.tau = stages.tau.max(TAU_PERIODS * period.as_secs_f64());
     Settings {
         profile: bridge::profile_to_impl(played.profile()),
-        stages: bridge::cycle_parameters(played.parameters()),
+        stages,
         requester: bridge::parameters_to_impl(requester),
-        period: Duration::from_nanos(played.period_ns().unsigned_abs()),
+        period,
         sessions_before: 0,
     }
 }

@@ -91,7 +91,7 @@ def period(drive: mufasa.Drive) -> timedelta:
     return timedelta(microseconds=(second - first) // 1000)
 
 
-monitor = Monitor(period(drive), parameters={"dt_max_ns": 250_000_000, "t_wait_ns": 3_000_000_000})
+monitor = Monitor(period(drive), parameters={"dt_max_ns": 250_000_000, "t_wait_ns": 3_000_000_000, "tau": 0.25})
 monitor.set_route(drive[0]["route"]["stations"], closed=drive[0]["route"]["closed"])
 sessions: dict[mufasa.Group, int] = {}
 asked: list[mufasa.Request] = []

@@ -345,6 +345,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::TimeTooShort { field, .. } => field.rsplit('.').next().unwrap_or(field),
         MonitorError::MaxAgeBelowLMax { .. } => "max_age_ns",
         MonitorError::DtMaxNotAbovePeriod { .. } => "dt_max_ns",
+        MonitorError::TauNotAbovePeriod { .. } => "tau",
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",
     };

@@ -46,7 +46,7 @@ class Scene:
     @staticmethod
     def monitor(**settings: Any) -> Monitor:
         """With everything local, and a route; it has seen enough to ask a station at 0 ms."""
-        settings.setdefault("parameters", {"dt_max_ns": 150_000_000})
+        settings.setdefault("parameters", {"dt_max_ns": 150_000_000, "tau": 0.25})
         monitor = Monitor(PERIOD, **settings)
         monitor.set_route(Scene.road)
         for ms in range(-500, 0, 100):

@@ -241,6 +241,7 @@ def test_inputs_that_cannot_be_read_end_in_the_fallback(scene: Scene) -> None:
         ({"parameters": {}}, "dt_max_ns"),
         ({"parameters": {"dt_max_ns": 100_000_000}}, "dt_max_ns"),
         ({"parameters": {"dt_max_ns": -1}}, "parameters.dt_max_ns"),
+        ({"parameters": {"dt_max_ns": 150_000_000, "tau": 0.1}}, "tau"),
         ({"parameters": {"dt_max": 0.15}}, "dt_max"),
         ({"parameters": {"dt_max_ns": 150_000_000, "t_wait_ns": 10_000}}, "t_wait_ns"),
         ({"parameters": {"dt_max_ns": 150_000_000, "l_max_ns": 100_000_001}}, "max_age_ns"),

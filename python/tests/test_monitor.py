@@ -37,7 +37,7 @@ def seen_by(record: dict[str, Any]) -> Detections:
 
 def decided(records: list[dict[str, Any]], profile: mufasa.Profile) -> Verdict | None:
     """The report of the last cycle by a monitor that has seen those before, and is offloading in it."""
-    parameters = {"dt_max_ns": 150_000_000}
+    parameters = {"dt_max_ns": 150_000_000, "tau": 0.25}
     monitor = mufasa.Monitor(timedelta(milliseconds=100), profile=profile, parameters=parameters)
     [*before, record] = records
     now, route = ns(record["now_ns"]), record["route"]

@@ -94,6 +94,10 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
             "requester.dt_max_ns",
             "not above period_ns; give that and its largest jitter",
         ),
+        MonitorError::TauNotAbovePeriod { .. } => report::wrong(
+            "parameters.tau",
+            "not above period_ns; give that and the time from the next cycle to full braking, s",
+        ),
         MonitorError::SessionsBefore { .. } => report::wrong(
             "sessions_before",
             "below 0; give the last session of earlier lives, or 0",

@@ -22,7 +22,7 @@ pub struct MufasaMonitorSettings {
     pub requester: MufasaRequesterParameters,
     /// The nominal period of the remote's results in nanoseconds, at least 1,000,000 (1 ms). `requester.dt_max_ns` has to be above it:
     /// at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
-    /// the paper's; at 10 Hz choose a larger one.)
+    /// the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in seconds, in the hardened profile.
     pub period_ns: i64,
     /// At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
     /// numbered on from here, so that no message of an earlier life fits.
@@ -82,6 +82,7 @@ pub(super) fn refused(error: MonitorError) -> MufasaStatus {
         MonitorError::TimeTooShort { .. } => MufasaStatus::TimeTooShort,
         MonitorError::MaxAgeBelowLMax { .. } => MufasaStatus::MaxAgeBelowLMax,
         MonitorError::DtMaxNotAbovePeriod { .. } => MufasaStatus::DtMaxNotAbovePeriod,
+        MonitorError::TauNotAbovePeriod { .. } => MufasaStatus::TauNotAbovePeriod,
         MonitorError::Memory { .. } => MufasaStatus::MemoryTooSmall,
     }
 }

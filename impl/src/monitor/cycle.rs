@@ -146,16 +146,15 @@ impl Monitor<'_> {
 
         let max_age_ns = self.settings.stages.max_age_ns;
         let current = |stamp_ns| is_current(stamp_ns, now_ns, max_age_ns);
-        let has_current = |group| match group {
-            Group::Mot => tracks.is_some_and(|list| current(list.stamp_ns)),
-            Group::Plan => trajectory.is_some_and(|it| current(it.stamp_ns)),
-        };
-        for group in Group::ALL {
-            self.served.get_mut(group).cycle(now_ns, has_current(group), dt_max_ns);
+        let tracks = tracks.filter(|list| current(list.stamp_ns));
+        let trajectory = trajectory.filter(|it| current(it.stamp_ns));
+        let has_current = [tracks.is_some(), trajectory.is_some()];
+        for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
+            self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        let tracks = tracks.filter(|list| is_safe && mot.is_some() && current(list.stamp_ns));
+        let tracks = tracks.filter(|_| is_safe && mot.is_some());
         let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
-        let trajectory = trajectory.filter(|it| is_checked && current(it.stamp_ns));
+        let trajectory = trajectory.filter(|_| is_checked);
         let used = |used: bool, running: Option<Running>| running.filter(|_| used);
         let sessions = Sessions {
             mot: used(tracks.is_some(), mot).map(|running| running.session),

@@ -175,6 +175,10 @@ impl Monitor<'_> {
             }
         }
         let actions = self.requester.step(&Event { t_ns, kind })?;
+        if matches!(kind, EventKind::Verdict { safe: true, .. }) {
+            // Begins and ends no session.
+            return Ok(actions);
+        }
         for group in Group::ALL {
             let session = match self.requester.state(group) {
                 GroupState::Local | GroupState::Requested { .. } => None,

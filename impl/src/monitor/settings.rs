@@ -26,7 +26,8 @@ pub struct Settings {
     /// Times of the requester.
     pub requester: requester::Parameters,
     /// The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
-    /// at equality one nanosecond of jitter ends the session.
+    /// at equality one nanosecond of jitter ends the session; and in the hardened profile `stages.tau` has to
+    /// be above it.
     pub period: Duration,
     /// At least the last session of the monitor's earlier lives, >= 0: sessions of this one are
     /// numbered on from there, so that no message of an earlier life fits. A number stored at the last
@@ -69,6 +70,10 @@ impl Settings {
         if u128::try_from(dt_max_ns).is_ok_and(|dt_max_ns| dt_max_ns <= self.period.as_nanos()) {
             return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
         }
+        let tau = self.stages.tau;
+        if self.profile == Profile::Hardened && tau <= self.period.as_secs_f64() {
+            return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
+        }
         if self.sessions_before < 0 {
             return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
         }
@@ -105,7 +110,7 @@ fn least_ns(field: &str) -> i64 {
 }
 
 /// Why a monitor could not be made. Source: `spec/5-interfaces.md#monitor`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MonitorError {
     /// A parameter of the stages is outside its domain.
     Stages(InvalidInput),
@@ -133,6 +138,13 @@ pub enum MonitorError {
     DtMaxNotAbovePeriod {
         /// Largest inter-arrival time that is no violation, ns.
         dt_max_ns: i64,
+        /// The nominal period.
+        period: Duration,
+    },
+    /// `stages.tau` is not above the nominal period, in the hardened profile.
+    TauNotAbovePeriod {
+        /// Longest time from the measurement of pose and speed to full braking, s.
+        tau: f64,
         /// The nominal period.
         period: Duration,
     },
@@ -176,6 +188,12 @@ impl fmt::Display for MonitorError {
                 "settings.requester.dt_max_ns = {dt_max_ns} is not above settings.period = {} ns, \
                  so that any jitter ends the session; give the period and its largest jitter",
                 period.as_nanos()
+            ),
+            Self::TauNotAbovePeriod { tau, period } => write!(
+                f,
+                "settings.stages.tau = {tau} s is not above settings.period = {} s: the next cycle is \
+                 the first that can fail; give the period, and the time from that cycle to full braking",
+                period.as_secs_f64()
             ),
             Self::SessionsBefore { sessions_before } => write!(
                 f,

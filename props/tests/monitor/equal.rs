@@ -313,6 +313,9 @@ fn as_the_plain_calls(profile: Profile) {
         let Start { base, closed, cross_sections, now_ns, stages } = start(draw, profile);
         let mut buffers = Buffers::new(600, cross_sections.len());
         let mut settings = Settings { profile, stages, ..settings() };
+        if stages.tau <= settings.period.as_secs_f64() {
+            settings.stages.tau += 0.25;
+        }
         settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };

@@ -21,7 +21,8 @@ fn refused(settings: Settings) -> (MonitorError, String) {
 #[test]
 fn a_dt_max_that_is_not_above_the_period_is_refused() {
     let period = Duration::from_millis(100);
-    let at_10_hz = Settings::new(period);
+    let mut at_10_hz = Settings::new(period);
+    at_10_hz.stages.tau = 0.25;
     let (error, words) = refused(at_10_hz);
     assert_eq!(error, MonitorError::DtMaxNotAbovePeriod { dt_max_ns: 100 * MS, period });
     assert!(words.contains("dt_max_ns = 100000000") && words.contains("jitter"), "{words}");
@@ -32,6 +33,26 @@ fn a_dt_max_that_is_not_above_the_period_is_refused() {
     assert_eq!(refused(Settings::new(Duration::ZERO)).0, MonitorError::NoPeriod);
     let forever = MonitorError::DtMaxNotAbovePeriod { dt_max_ns: 100 * MS, period: Duration::MAX };
     assert_eq!(refused(Settings::new(Duration::MAX)).0, forever);
+}
+
+/// `spec/5-interfaces.md#monitor.6`: equality is refused, in the hardened profile alone.
+#[test]
+fn a_tau_that_is_not_above_the_period_is_refused() {
+    let period = Duration::from_millis(100);
+    let with = |profile, tau| {
+        let mut settings = Settings { profile, ..settings() };
+        settings.stages.tau = tau;
+        settings
+    };
+    for tau in [0.1, 0.0] {
+        let (error, words) = refused(with(Profile::Hardened, tau));
+        assert_eq!(error, MonitorError::TauNotAbovePeriod { tau, period });
+        assert!(words.contains(&format!("tau = {tau} s")) && words.contains("0.1 s:"), "{words}");
+        assert!(Buffers::new(16, 40).monitor(with(Profile::Paper, tau)).is_ok());
+    }
+    assert!(Buffers::new(16, 40).monitor(with(Profile::Hardened, 0.1_f64.next_up())).is_ok());
+    let default = Settings::new(Duration::from_millis(100) - Duration::from_nanos(1));
+    assert!(Buffers::new(16, 40).monitor(default).is_ok());
 }
 
 /// `spec/5-interfaces.md#monitor.6`: "or a parameter outside its domain".

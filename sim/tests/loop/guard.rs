@@ -8,6 +8,7 @@ use mufasa_props::lent::Lent;
 use mufasa_sim::cav::guard::{Guard, Local, Variant};
 use mufasa_sim::cav::sensing::{Sensors, ego};
 use mufasa_sim::map::streets::town;
+use mufasa_sim::run::TAU_S;
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::services::detectors::Errors;
 use mufasa_sim::world::World;
@@ -53,7 +54,7 @@ fn nothing_of_an_ended_session_is_used() {
         let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
         let mut guard = Guard::new(
             variant,
-            mufasa::input::parameters::Parameters::default(),
+            mufasa::input::parameters::Parameters { tau: TAU_S, ..Default::default() },
             requester,
             PERIOD.unsigned_abs(),
             &mut table,
