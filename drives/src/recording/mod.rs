@@ -24,7 +24,7 @@ use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, add, cross, direction, mix, mix_angle, scale, sub};
 use crate::options::{Options, Sensor, Tail};
 use crate::recording::lead::{Cav, leading_vehicle};
-use crate::recording::nearby::{MARGIN, WHOLE, nearby};
+use crate::recording::nearby::{MARGIN, WHOLE, part_near};
 use crate::recording::object::{Motion, Object, Seen, State, state_before};
 use crate::recording::sensor::{grid, scan};
 
@@ -91,7 +91,7 @@ pub(crate) fn drive(mut recording: Recording, options: &Options, every: usize) -
         ));
     }
     let is_outside = |state: &&State| {
-        let route = nearby(&recording.route, &[state.position]);
+        let route = part_near(&recording.route, &[state.position]);
         !in_corridor(&route, state.position)
     };
     let outside = recording.ego.iter().filter(is_outside).count();
@@ -199,7 +199,7 @@ impl Maker {
             }),
             detections: Some(self.scan(i, 0)),
             lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.lead_range_m),
-            route: nearby(route, &driven),
+            route: part_near(route, &driven),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
             detection_history: self.history(i),
         }

@@ -12,7 +12,7 @@ pub(super) const MARGIN: f64 = 100.0;
 
 /// The route from its first to its last cross section near these points (where it comes by again later, all until then),
 /// and one more on either side.
-pub(super) fn nearby(route: &Route, points: &[Point]) -> Route {
+pub(super) fn part_near(route: &Route, points: &[Point]) -> Route {
     let all = &route.cross_sections;
     if all.len() <= WHOLE || route.closed {
         return route.clone();
