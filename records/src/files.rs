@@ -86,7 +86,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("mufasa-links-{}", std::process::id()));
         prepare(&folder).unwrap();
         let [file, link, gone] = ["file", "link", "gone"].map(|name| folder.join(name));
-        fs::write(&file, "old").unwrap();
+        fs::write(&file, "longer than what comes").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
         std::os::unix::fs::symlink(folder.join("nowhere"), &gone).unwrap();
         write(&link, "new").unwrap();
