@@ -1,10 +1,12 @@
 //! The command line: commands, exit codes, and quiet ends when nobody reads on.
 
 mod arguments;
+mod codes;
 mod conform;
 pub(crate) mod link;
 #[cfg(test)]
 mod tests;
+mod written;
 
 use std::env;
 use std::ffi::OsString;
@@ -22,8 +24,10 @@ use mufasa_model::input::cycle::Profile;
 
 use self::arguments::{
     CheckArguments, CompletionsArguments, ComposeArguments, DemoArguments, ExploreArguments,
-    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments, folder_or,
+    ManArguments, OracleArguments, ProveArguments, SchemasArguments, VectorsArguments, file_or,
+    folder_or,
 };
+use self::codes::{BAD_INPUT, CLOSED_PIPE, refused};
 use self::conform::{ConformArguments, MergeCommand};
 use self::link::{StationArguments, VehicleArguments};
 use crate::compose;
@@ -34,20 +38,11 @@ use crate::evaluate::merge::MergeArguments;
 use crate::explore;
 use crate::parameters_file;
 use crate::prove;
-use crate::schemas;
 use mufasa_conform as kit;
 use mufasa_conform::reference as oracle;
-use mufasa_conform::vectors;
 use mufasa_drives::check::{self, Format, Settings, complain};
 use mufasa_drives::{self as drive, inject, progress};
 use mufasa_records::files;
-
-/// Bad input or arguments.
-const BAD_INPUT: u8 = 2;
-/// Model and text, or model and implementation, disagree.
-const DISAGREE: u8 = 3;
-/// As a shell says that a program was ended by a closed pipe.
-const CLOSED_PIPE: u8 = 141;
 
 /// MUFASA's five validation stages, as an exact model and as an implementation, side by side.
 ///
@@ -136,7 +131,7 @@ pub fn main() -> ExitCode {
         Command::Conform(arguments) => conform(arguments, &mut out),
         Command::Compose(arguments) => compose(&arguments, &mut out),
         Command::Vectors(VectorsArguments { out: folder }) => {
-            vectors(&folder_or(folder, "vectors"), &mut out)
+            written::vectors(&folder_or(folder, "vectors"), &mut out)
         }
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
@@ -149,11 +144,10 @@ pub fn main() -> ExitCode {
             Ok(linked(|stop| crate::link::station(&arguments, stop, &mut out)))
         }
         Command::Completions(CompletionsArguments { shell }) => {
-            clap_complete::generate(shell, &mut command(), "mufasa", &mut out);
-            Ok(0)
+            written::completions(shell, command(), &mut out)
         }
-        Command::Man(it) => man(&folder_or(it.out, "man"), &mut out),
-        Command::Schemas(it) => schemas(&folder_or(it.out, "schemas"), &mut out),
+        Command::Man(it) => written::man(&folder_or(it.out, "man"), command(), &mut out),
+        Command::Schemas(it) => written::schemas(&folder_or(it.out, "schemas"), &mut out),
     };
     let code = match result.and_then(|code| out.flush().map(|()| code)) {
         Ok(code) => code,
@@ -180,6 +174,14 @@ fn tip(error: &clap::Error, mut given: impl Iterator<Item = OsString>) -> Option
 }
 
 fn check(arguments: &CheckArguments, out: &mut impl Write) -> io::Result<u8> {
+    let stdin = Path::new(parameters_file::STDIN);
+    if arguments.parameters.as_deref() == Some(stdin)
+        && arguments.files.iter().any(|it| it == stdin)
+    {
+        let message =
+            "--parameters -: standard input is one of FILES, too, and comes once; name a file";
+        return Ok(refused(message));
+    }
     let parameters = match arguments.parameters.as_deref().map(parameters_file::read).transpose() {
         Ok(parameters) => parameters.unwrap_or_default(),
         Err(error) => return Ok(refused(&error.to_string())),
@@ -258,9 +260,13 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
 
 fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
     let settings = prove::Settings {
+        // The usual file holds all claims, so that a run of some writes only where it is told.
+        out: match arguments.out {
+            None if arguments.names.is_empty() => Some(file_or(None, prove::FILE)),
+            out => out,
+        },
         names: arguments.names,
         cbmc: arguments.cbmc,
-        out: arguments.out,
         markdown: arguments.markdown,
         sources: arguments.sources,
         into: arguments.into,
@@ -343,47 +349,6 @@ fn interrupts() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     Ok(stop)
 }
 
-fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
-    let contents = match vectors::contents() {
-        Ok(contents) => contents,
-        Err(refused) => {
-            for vector in refused {
-                complain(&mut io::stderr(), &vector.to_string());
-            }
-            return Ok(DISAGREE);
-        }
-    };
-    if let Err(error) = vectors::write(folder, &contents) {
-        return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
-    }
-    let lines = |(name, text): (&String, &String)| {
-        if Path::new(name).extension().is_some_and(|kind| kind == "jsonl") {
-            text.lines().count()
-        } else {
-            0
-        }
-    };
-    let count: usize = contents.iter().map(lines).sum();
-    writeln!(out, "{}: {} files, {count} vectors", folder.display(), contents.len())?;
-    Ok(0)
-}
-
-fn man(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
-    let written = files::prepare(folder).and_then(|()| clap_mangen::generate_to(command(), folder));
-    if let Err(error) = written {
-        return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
-    }
-    writeln!(out, "{}: the manual pages; read one by man -l", folder.display())?;
-    Ok(0)
-}
-
-fn schemas(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
-    match schemas::write(folder) {
-        Ok(count) => writeln!(out, "{}: {count} schemas", folder.display()).map(|()| 0),
-        Err(error) => Ok(refused(&format!("{}: cannot be written: {error}", folder.display()))),
-    }
-}
-
 /// The commands; a number below 0 is a value and no option, so that its limits are said.
 fn command() -> clap::Command {
     let signed = |argument: Arg| {
@@ -391,9 +356,4 @@ fn command() -> clap::Command {
         argument.allow_negative_numbers(is_number)
     };
     Cli::command().mut_subcommands(|command| command.mut_args(signed))
-}
-
-fn refused(message: &str) -> u8 {
-    complain(&mut io::stderr(), message);
-    BAD_INPUT
 }

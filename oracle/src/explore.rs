@@ -78,6 +78,12 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
     let Some(worlds) = worlds(settings.bounds, settings.world.as_deref(), err) else {
         return Ok(End::BadInput);
     };
+    if let Err(message) =
+        document::has_place(settings.into.as_deref(), &table_name(settings.bounds))
+    {
+        complain(err, &message);
+        return Ok(End::BadInput);
+    }
     if let Err(error) = files::prepare(&settings.folder) {
         complain(err, &format!("{}: cannot be written to: {error}", settings.folder.display()));
         return Ok(End::BadInput);

@@ -3,16 +3,21 @@
 
 use std::fmt;
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
+use mufasa::monitor::{self, MonitorError};
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::offloading::requester;
+use mufasa_props::bridge;
 use mufasa_records::record::parameters;
 use mufasa_records::record::value::Number;
 use serde_json::{Map, Value, json};
 use toml::de::{DeTable, DeValue};
+
+use crate::spelling::near;
 
 /// The parameters of the stages and of the requester.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,10 +58,15 @@ impl fmt::Display for ParametersError {
 
 impl std::error::Error for ParametersError {}
 
-/// Reads a file of lines `name = value`. Errors: an unreadable file, an unknown name, a value of
+/// Reads a file of lines `name = value`, or standard input where it is `-`. Errors: an unreadable file, an unknown name, a value of
 /// the wrong type or outside the domain of `spec/4-arithmetic.md#domain`.
 pub fn read(file: &Path) -> Result<Settings, ParametersError> {
-    let text = fs::read_to_string(file).map_err(|error| ParametersError {
+    let text = if file == Path::new(STDIN) {
+        io::read_to_string(io::stdin())
+    } else {
+        fs::read_to_string(file)
+    };
+    let text = text.map_err(|error| ParametersError {
         file: file.to_path_buf(),
         line: None,
         field: String::new(),
@@ -70,6 +80,11 @@ pub fn read(file: &Path) -> Result<Settings, ParametersError> {
     Ok(Settings { note, ..settings })
 }
 
+/// Standard input, as programs are told to read it.
+pub const STDIN: &str = "-";
+/// Where all names are.
+const LISTED: &str = "all are in spec/3-stages.md and spec/2-offloading.md, and by name in what `mufasa schemas` \
+                      writes (parameters in cycle.schema.json and offloading.schema.json)";
 /// Of a file of blanks and comments.
 const NONE: &str = "no parameter in it; the defaults hold (a line is `name = value`)";
 
@@ -106,10 +121,11 @@ fn settings(text: &str) -> Result<Settings, Problem> {
             error.message.strip_prefix(&error.field).unwrap_or(&error.message).trim_start();
         let field = error.field.strip_prefix("parameters.").unwrap_or(&error.field).to_owned();
         let name = table.get_ref().keys().find(|name| name.get_ref() == field.as_str());
-        let message = match name.is_some().then(|| near(&field)).flatten() {
+        let message = match near(&field, parameters::names()) {
             Some(known) if message.contains("no field") => {
                 format!("is no parameter; is {known} meant?")
             }
+            None if message.contains("no field") => format!("is no parameter; {LISTED}"),
             _ if is_fraction(&table, &field) && field.ends_with("_ns") => {
                 format!("{message}; it is in nanoseconds: 0.2 s are 200_000_000")
             }
@@ -117,7 +133,8 @@ fn settings(text: &str) -> Result<Settings, Problem> {
         };
         Problem { at: name.map(toml::Spanned::span), message, field }
     })?;
-    let note = table.get_ref().is_empty().then(|| String::from(NONE));
+    let nothing = table.get_ref().is_empty().then(|| String::from(NONE));
+    let note = nothing.or_else(|| slip(&stages, &requester));
     Ok(Settings { stages, requester, note })
 }
 
@@ -126,11 +143,20 @@ fn is_fraction(table: &toml::Spanned<DeTable<'_>>, name: &str) -> bool {
     table.get_ref().get(name).is_some_and(|it| matches!(it.get_ref(), DeValue::Float(_)))
 }
 
-/// The parameter whose name is nearly this one.
-fn near(name: &str) -> Option<String> {
-    let likeness = |known: &String| strsim::jaro_winkler(known, name);
-    let names = parameters::names().into_iter().filter(|known| likeness(known) > 0.8);
-    names.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))
+/// The time that the monitor of a vehicle takes for one in another unit, or that is below another; it
+/// refuses what is judged here all the same. What depends on the period is left out: nothing says it here.
+fn slip(stages: &Parameters, requester: &requester::Parameters) -> Option<String> {
+    let settings = monitor::Settings {
+        stages: bridge::cycle_parameters(stages),
+        requester: bridge::parameters_to_impl(requester),
+        ..monitor::Settings::new(Duration::from_millis(1))
+    };
+    match settings.check() {
+        Err(error @ (MonitorError::TimeTooShort { .. } | MonitorError::MaxAgeBelowLMax { .. })) => {
+            Some(format!("a vehicle's monitor refuses this: {error}"))
+        }
+        _ => None,
+    }
 }
 
 /// A value as records write it.
@@ -187,7 +213,13 @@ mod tests {
     fn errors_name_line_and_parameter() {
         let misspelled = failure("n = 4\nthetatr = 1.0\n");
         assert_eq!(misspelled, "p.toml:2: thetatr: is no parameter; is theta_tr meant?");
-        assert!(failure("speed = 1").starts_with("p.toml:1: speed: is no field"));
+        for (line, meant) in [("A_max = 1", "a_max"), ("A_B = 8", "a_b"), ("a-b = 3", "a_b")] {
+            let told = format!("is no parameter; is {meant} meant?");
+            assert!(failure(line).ends_with(&told), "{}", failure(line));
+        }
+        let unknown = failure("speed = 1");
+        assert!(unknown.starts_with("p.toml:1: speed: is no parameter; "), "{unknown}");
+        assert!(unknown.contains("spec/3-stages.md") && !unknown.contains("remove"), "{unknown}");
         assert!(failure("n = 4.0").starts_with("p.toml:1: n: must be an integer from"));
         assert!(failure("\n\na_b = 'nan'").starts_with("p.toml:3: a_b: must be a number"));
         assert!(failure("n = 99999999999999999999").contains("64 bits"));

@@ -13,11 +13,15 @@ use std::path::Path;
 use indicatif::ProgressBar;
 
 use crate::document;
+use crate::spelling::near;
 use claim::{Claim, Status};
 use engines::ClaimSource;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 pub use settings::Settings;
+
+/// Where the claims are written if all are judged and nobody names another file.
+pub const FILE: &str = "target/proofs/prove.json";
 
 /// Name of the table in a document.
 pub const TABLE_NAME: &str = "mufasa prove";
@@ -47,6 +51,12 @@ impl End {
 /// Runs the engines, writes the table to `out` and what is wrong to `err`. Errors are those of
 /// writing to `out`.
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
+    let is_known = known(&settings.names)
+        .and_then(|()| document::has_place(settings.into.as_deref(), TABLE_NAME));
+    if let Err(message) = is_known {
+        complain(err, &message);
+        return Ok(End::BadInput);
+    }
     let mut lines = Vec::new();
     let mut end = End::default();
     for source in ClaimSource::ALL {
@@ -57,10 +67,6 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
                 end = End::BadInput;
             }
         }
-    }
-    if lines.is_empty() {
-        complain(err, &format!("{}: nothing has such a name", settings.names.join(", ")));
-        return Ok(End::BadInput);
     }
     if lines.iter().any(|line| matches!(line.answer.status, Status::Refuted | Status::Unknown)) {
         end = end.max(End::NotProved);
@@ -73,11 +79,36 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         complain(err, &format!("{}: cannot be written: {error}", path.display()));
         end = End::BadInput;
     }
-    if let Err(error) = write_lines(settings, &lines) {
-        complain(err, &format!("{}: cannot be written: {error}", settings.out.display()));
+    if let Some(path) = &settings.out
+        && let Err(error) = write_lines(path, &lines)
+    {
+        complain(err, &format!("{}: cannot be written: {error}", path.display()));
         end = End::BadInput;
     }
     Ok(end)
+}
+
+/// Whether something has each of these names. Errors, in words: the first that nothing has, with the one that is near.
+fn known(names: &[String]) -> Result<(), String> {
+    if names.is_empty() {
+        return Ok(());
+    }
+    let mut all = Vec::new();
+    for source in ClaimSource::ALL {
+        let claims = source.claims().map_err(|error| format!("{}: {error}", source.name()))?;
+        all.push((source, claims));
+    }
+    let means = |name: &str| {
+        all.iter().any(|(source, claims)| claims.iter().any(|it| source.is_meant(name, it)))
+    };
+    let Some(name) = names.iter().find(|name| !means(name)) else { return Ok(()) };
+    let engines = ClaimSource::ALL.map(|it| it.name().to_owned());
+    let ids = all.iter().flat_map(|(_, claims)| claims).map(|claim| claim.id.clone());
+    let advice = match near(name, ids.chain(engines)) {
+        Some(near) => format!("is {near} meant?"),
+        None => "docs/proofs.md lists all claims, --help the engines".to_owned(),
+    };
+    Err(format!("{name}: nothing has such a name; {advice}"))
 }
 
 /// All claims, of which nothing was asked. Errors are those of reading the lists of them.
@@ -94,16 +125,16 @@ fn write_document(path: &Path, settings: &Settings, lines: &[Claim]) -> io::Resu
     document::write(path, TABLE_NAME, &table)
 }
 
-fn write_lines(settings: &Settings, lines: &[Claim]) -> io::Result<()> {
+fn write_lines(path: &Path, lines: &[Claim]) -> io::Result<()> {
     let mut text = String::new();
     for line in lines {
         text.push_str(&serde_json::to_string(line)?);
         text.push('\n');
     }
-    if let Some(folder) = settings.out.parent() {
+    if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)?;
     }
-    files::write(&settings.out, &text)
+    files::write(path, &text)
 }
 
 fn bar(source: ClaimSource) -> ProgressBar {

@@ -151,7 +151,7 @@ fn parameters_files_are_read_and_their_errors_name_the_line() {
     assert_eq!(code(&output), 1);
     assert!(stdout(&output).contains("wait until 0.2 s"), "{}", stdout(&output));
     for (text, problem) in [
-        ("\nspeed = 3", ":2: speed: is no field"),
+        ("\nspeed = 3", ":2: speed: is no parameter; "),
         ("theta_tr = -1.0", ":1: theta_tr: "),
         ("t_wait_ns = 1.5", ":1: t_wait_ns: must be an integer"),
         ("= 3", ":1: is not TOML"),

@@ -38,6 +38,10 @@ fn numbers_that_are_refused_say_their_limits() {
         (&["conform", "--seed", "-7", "--", "x"], "must be a whole number from 0 to "),
         (&["conform", "--time-limit", "0", "--", "x"], "must be a whole number from 1 to 3600000"),
         (&["explore", "--threads", "many"], "must be a whole number from 0 to 1024"),
+        (&["evaluate", "--scenarios", "0"], "must be a whole number from 1 to 10000"),
+        (&["evaluate", "rules", "--vehicles", "-1"], "must be a whole number from 0 to 200"),
+        (&["evaluate", "falsify", "--rounds", "x"], "must be a whole number from 1 to 1000000"),
+        (&["evaluate", "replay", "--route", "2"], "must be a whole number from 0 to 1"),
     ] {
         let output = output(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -320,9 +324,14 @@ fn a_broken_solution_is_no_reason_to_drive_another_way() {
 fn a_document_without_the_place_is_refused_first() {
     let folder = folder("no-place");
     fs::write(folder.join("page.md"), "# A page\n").expect("written");
-    for experiment in ["failures", "falsify"] {
+    for arguments in [
+        &["evaluate", "failures"][..],
+        &["evaluate", "falsify"],
+        &["explore", "--out", "tables"],
+        &["prove", "--out", "prove.json"],
+    ] {
         for file in ["page.md", "gone.md"] {
-            let mut command = mufasa(["evaluate", experiment, "--into", file]);
+            let mut command = mufasa([arguments, &["--into", file]].concat());
             let output = command.current_dir(&folder).output().expect("the program starts");
             assert_eq!(output.status.code(), Some(2));
             // Nothing was made.
@@ -331,6 +340,7 @@ fn a_document_without_the_place_is_refused_first() {
             assert!(text(&output.stderr).starts_with(&told), "{}", text(&output.stderr));
         }
     }
+    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 1);
 }
 
 /// A record that `check` reads.

@@ -3,8 +3,9 @@
 #[path = "kit/folders.rs"]
 mod folders;
 
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use folders::folder;
 use mufasa_mutants::Engine;
@@ -102,9 +103,16 @@ fn the_document_has_a_row_for_every_claim() {
         before.rsplit([',', ':']).next().unwrap_or_default().trim().to_owned()
     };
     let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    // Of what was proved of compiled code alone nothing is proved where `scripts/prove-wasm` was not run.
+    let rows = || table.lines().filter(|row| row.starts_with("| `"));
+    let is_wasm =
+        |row: &&str| row.contains("-wasm | ") && row.contains(" | proved; sampling tested");
+    let wasm = rows().filter(is_wasm).count();
+    assert_eq!(wasm, 60);
     for said in [
         format!("Of {} claims {} are proved", claims.len(), number(" proved")),
         format!(" {} tested", number(" tested")),
+        format!("{wasm} of them after `scripts/prove-wasm`"),
     ] {
         assert!(readme.contains(&said), "the README does not say: {said}");
     }
@@ -124,9 +132,66 @@ fn the_document_is_of_these_sources_or_that_is_said() {
     }
 }
 
+/// Before anything is run, with what may be meant.
 #[test]
 fn a_name_of_nothing_is_bad_input() {
-    assert_eq!(prove(&["no such name"], None, &folder("prove-none")).status.code(), Some(2));
+    for (names, said) in [
+        (&["no such name"][..], "no such name: nothing has such a name; "),
+        (
+            &["z3", "s_b_growz_with_v"],
+            "s_b_growz_with_v: nothing has such a name; is s_b_grows_with_v meant?",
+        ),
+        (&["gapa"], "gapa: nothing has such a name; is gappa meant?"),
+    ] {
+        let output = prove(names, Some(""), &folder("prove-none"));
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
+        assert!(told.starts_with(&format!("mufasa: {said}")), "{told}");
+    }
+}
+
+/// Whatever the table prints can be given back.
+#[test]
+fn names_are_taken_as_the_table_prints_them() {
+    let folder = folder("prove-printed");
+    for name in ["s b grows with v", "s_b_grows_with_v"] {
+        let output = prove(&[name], Some(""), &folder);
+        let text = String::from_utf8(output.stdout).expect("text");
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        assert!(text.lines().nth(1).is_some_and(|row| row.contains("s b grows with v")), "{text}");
+        assert!(text.contains(" 2 not run"), "{text}");
+    }
+}
+
+/// What a few names give is not the whole that such a file holds.
+#[test]
+fn a_run_of_names_writes_where_it_is_told_only() {
+    let folder = folder("prove-some");
+    let run = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+        let command = command.args(["prove", "gappa"]).args(more).env("PATH", "");
+        let output = command.current_dir(&folder).output().expect("the program runs");
+        assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0), "{output:?}");
+        std::fs::read_dir(&folder).expect("a folder").count()
+    };
+    assert_eq!(run(&[]), 0);
+    assert_eq!(run(&["--out", "gappa.json"]), 1);
+}
+
+#[test]
+fn a_run_of_all_says_first_where_it_writes() {
+    let folder = folder("prove-all");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let command = command.arg("prove").env("PATH", "").current_dir(&folder);
+    let mut all = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it runs");
+    let mut first = String::new();
+    let stderr = all.stderr.take().expect("it is piped");
+    let read = BufReader::new(stderr).read_line(&mut first);
+    all.kill().expect("it can be ended");
+    all.wait().expect("it ends");
+    read.expect("there is a line");
+    let said = "mufasa: writes into target/proofs/prove.json; --out names another file\n";
+    assert_eq!(first, said);
 }
 
 #[test]

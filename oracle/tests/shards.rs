@@ -140,6 +140,11 @@ fn what_is_no_whole_is_refused() {
     let (name, renamed) = ("\"failures/hardened", "\"failures/harder");
     fs::write(folder.join(&one), text.replace(name, renamed)).expect("it can be written");
     let two = part(&folder, &SIZE, "2/2");
+    refused(
+        &folder,
+        &["merge", &one, &two, "--into", "gone.md"],
+        "gone.md: no table can be put there",
+    );
     refused(&folder, &["merge", &one, &two], "is in none of the parts");
     fs::write(folder.join(&one), "{}").expect("it can be written");
     refused(&folder, &["merge", &one, &two], "no part of an experiment");
@@ -167,6 +172,8 @@ fn a_search_in_parts_is_byte_for_byte_the_search() {
     }
     let parts = ["parts/falsify.2-of-2.part.json", "parts/falsify.1-of-2.part.json"];
     refused(&folder, &["merge", parts[0]], "part 1 of 2 is missing");
+    let nowhere = ["merge", parts[0], parts[1], "--into", "gone.md"];
+    refused(&folder, &nowhere, "gone.md: no table can be put there");
     let merged = run(&folder, &["merge", "--out", "merged", parts[0], parts[1]]);
     assert_eq!(merged.status.code(), Some(0), "{merged:?}");
     let written = names(&folder.join("whole"));

@@ -7,6 +7,8 @@ use std::str::Utf8Error;
 pub(crate) const GZ: &[u8] = b"\x1f\x8b";
 
 const UNPACK: &str = "unpack it and give what is in it; of packed files only gz is read";
+/// What stands at this byte of a tar archive.
+const TAR: (usize, &[u8]) = (257, b"ustar");
 const RECORDS: &str =
     "write its cycles as JSON Lines, a record of spec/5-interfaces.md#cycle on every line";
 const UTF_16: &str = "write it as UTF-8, as `iconv -f UTF-16 -t UTF-8 FILE` does";
@@ -14,7 +16,7 @@ const UTF_32: &str = "write it as UTF-8, as `iconv -f UTF-32 -t UTF-8 FILE` does
 const XML: &str = "write it as XML, as CommonRoadFileWriter of commonroad-io does";
 
 /// First bytes, what they are of, and what to do; the longer ones of two that start alike come first.
-const KNOWN: [(&[u8], &str, &str); 22] = [
+const KNOWN: [(&[u8], &str, &str); 25] = [
     (GZ, "a gz file within a gz file", UNPACK),
     (b"PK\x03\x04", "a zip archive", UNPACK),
     (b"PK\x05\x06", "an empty zip archive", UNPACK),
@@ -25,6 +27,9 @@ const KNOWN: [(&[u8], &str, &str); 22] = [
     (b"SQLite format 3\x00", "an SQLite database, such as a rosbag of ROS 2", RECORDS),
     (b"\x89HDF\r\n", "an HDF5 file", RECORDS),
     (b"PAR1", "a Parquet file", RECORDS),
+    (b"\x89PNG\r\n\x1a\n", "a picture (PNG)", READ),
+    (b"\xff\xd8\xff", "a picture (JPEG)", READ),
+    (b"%PDF-", "a PDF", READ),
     (b"\xff\xfe\x00\x00", "text in UTF-32", UTF_32),
     (b"\x00\x00\xfe\xff", "text in UTF-32", UTF_32),
     (b"<\x00\x00\x00", "text in UTF-32", UTF_32),
@@ -58,6 +63,13 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<String> {
     let (name, advice) = match known {
         Some((_, name, advice)) => (*name, *advice),
         None if bytes.is_empty() => ("an empty file", READ),
+        None if bytes.get(TAR.0..).is_some_and(|it| it.starts_with(TAR.1)) => {
+            ("a tar archive", UNPACK)
+        }
+        None if is_html(bytes) => (
+            "an HTML page",
+            "it may be what a server answered in place of the file; get the file itself",
+        ),
         None if is_protobuf(bytes) => ("a CommonRoad scenario as protobuf", XML),
         None if bytes.starts_with(b"[") => (
             "one JSON array",
@@ -96,6 +108,21 @@ fn declared_encoding(bytes: &[u8]) -> Option<&str> {
     let (name, _) = value[1..].split_once(quote)?;
     let is_name = |c: char| c.is_ascii_alphanumeric() || "._:-".contains(c);
     (!name.is_empty() && name.chars().all(is_name)).then_some(name)
+}
+
+/// Whether a text begins as HTML or XHTML does, whatever its encoding.
+fn is_html(bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    let declared = text.strip_prefix(b"<?xml").and_then(|it| {
+        let end = it.windows(2).take(256).position(|it| it == b"?>")?;
+        Some(it[end + 2..].trim_ascii_start())
+    });
+    let text = declared.unwrap_or(text);
+    [&b"<!doctype html"[..], b"<html"].iter().any(|start| {
+        let head = text.get(..start.len());
+        let ends = text.get(start.len()).is_none_or(|it| !it.is_ascii_alphanumeric());
+        head.is_some_and(|head| head.eq_ignore_ascii_case(start)) && ends
+    })
 }
 
 /// Whether a message begins with another one that holds the version of `CommonRoad`.

@@ -7,8 +7,8 @@ use crate::readers::lanes::{Change, Lanelet, Network, Run};
 use crate::readers::sides::Inversion;
 use crate::readers::xml::Element;
 
-/// Ids that a note names.
-const NAMED_MAX: usize = 8;
+/// Lanelets that a note names.
+pub(crate) const NAMED_MAX: usize = 8;
 
 /// A lanelet that is no part of the network.
 pub(crate) struct LeftOut {

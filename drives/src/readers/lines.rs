@@ -20,6 +20,9 @@ use crate::temporary::{lost, unkept};
 const DOCUMENT: usize = 16 << 20;
 /// Bytes of a line that is no cycle and longer than what is looked at for being something else.
 const KNOWN: usize = 1 << 20;
+/// What to do with a line that is longer than any that is read.
+const TOO_LONG: &str =
+    "; a record of a cycle is shorter: if the line holds several, write each on a line of its own";
 const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// The cycles of JSON Lines as one drive, after the error of the lines that are none.
@@ -77,7 +80,10 @@ impl Lines<'_> {
             }
             let read = match length {
                 Length::Fits => cycle_from_line(&line, number),
-                Length::TooLong => Err(too_long(number)),
+                Length::TooLong => {
+                    let LineError { message, .. } = too_long(number);
+                    Err(LineError::whole(number, message + TOO_LONG))
+                }
             };
             if let Err(error) = read {
                 self.is_none(error, &line);

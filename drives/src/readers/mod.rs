@@ -60,8 +60,7 @@ pub fn streams(paths: &[PathBuf], options: &Options) -> Vec<Result<Stream, ReadE
     // The scenario last read, and whether a drive was made of it.
     let mut scenario: Option<(PathBuf, Scenario, bool)> = None;
     let spool = Arc::new(Spool::default());
-    let sources = paths.iter().map(|path| Source::new(path)).collect();
-    for mut source in order::solutions_behind_scenarios(sources) {
+    for mut source in order::solutions_behind_scenarios(Source::all(paths)) {
         let is_solution = order::is_solution(&mut source);
         let content = source.open().and_then(|bytes| Content::of(&source.path, bytes));
         let path = &source.path;

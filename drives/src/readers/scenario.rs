@@ -53,7 +53,8 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
         return Err(first.error.clone());
     }
     parts.root(|root| distinct_ids(root, objects))?;
-    let notes = left_out::note(left_out).into_iter().chain(reader.notes()).collect();
+    let notes = left_out::note(left_out).into_iter().chain(reader.dangling()).chain(reader.notes());
+    let notes = notes.collect();
     let Reader { lanelets, left_out, objects, .. } = reader;
     Ok(Scenario { name, version, dt_ns, network: Network { lanelets }, left_out, objects, notes })
 }
@@ -152,6 +153,24 @@ impl Reader {
             notes.push(format!("{count} left out, of environment or phantoms"));
         }
         notes
+    }
+
+    /// What is said of successors that are no other lanelet of the file; `None` where there are none.
+    fn dangling(&self) -> Option<String> {
+        let is_other = |from: i64, to: i64| {
+            from != to && (self.lanelets.contains_key(&to) || self.ids_left_out.contains(&to))
+        };
+        let all = self.lanelets.values().map(AsRef::as_ref);
+        let links = all.flat_map(|it: &Lanelet| it.successors.iter().map(|to| (it.id, *to)));
+        let wrong: Vec<_> = links.filter(|(from, to)| !is_other(*from, *to)).collect();
+        let (first, _) = wrong.split_at(wrong.len().min(left_out::NAMED_MAX));
+        let names: Vec<_> = first.iter().map(|(from, to)| format!("{from} -> {to}")).collect();
+        let more = if wrong.len() > names.len() { ", ..." } else { "" };
+        let count = counted(wrong.len(), "successor");
+        let names = names.join(", ");
+        (!wrong.is_empty()).then(|| {
+            format!("{count} of lanelets not in this file, or the lanelet itself: {names}{more}")
+        })
     }
 
     /// Takes a child of the root.

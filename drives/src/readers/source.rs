@@ -18,6 +18,9 @@ use crate::readers::formats;
 const UNPACKED_MAX: u64 = 1 << 30;
 /// Standard input, as programs are told to read it.
 const STDIN: &str = "-";
+const DEV_STDIN: &str = "/dev/stdin";
+const AGAIN: &str =
+    "`-` stands here a second time, and standard input comes once; name a file in its place";
 /// Bytes that are looked at to recognise a format.
 const HEAD: usize = 4096;
 
@@ -30,9 +33,18 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    pub(crate) fn new(path: &Path) -> Self {
+    /// The files named; standard input has its bytes for the first of those that are it.
+    pub(crate) fn all(paths: &[PathBuf]) -> Vec<Self> {
+        let mut sources: Vec<Self> = paths.iter().map(|path| Self::new(path)).collect();
+        for again in sources.iter_mut().filter(|it| it.path == Path::new(DEV_STDIN)).skip(1) {
+            again.opened = Some(Err(io::Error::other(AGAIN)));
+        }
+        sources
+    }
+
+    fn new(path: &Path) -> Self {
         let is_stdin = path == Path::new(STDIN);
-        let path = if is_stdin { Path::new("/dev/stdin") } else { path };
+        let path = if is_stdin { Path::new(DEV_STDIN) } else { path };
         Self { path: path.to_owned(), is_stdin, opened: None }
     }
 

@@ -7,7 +7,11 @@ use roxmltree::{Document, Error, Node};
 use crate::geometry::Point;
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::xml_limits::exceeded;
+use crate::readers::xml_marks::{Kind, Marks};
 
+const CUT_OFF: &str = "cut off: it ends here, within its root element; get the file again";
+const NO_TYPE: &str = "a document type (`<!DOCTYPE`) is not read, because its entities can make a small \
+                       file endless; no CommonRoad file needs one: remove it";
 /// Positions of `spec/4-arithmetic.md#domain`, m.
 const POSITION_MAX: f64 = 16_777_216.0;
 
@@ -32,17 +36,22 @@ pub(crate) fn with_part<T>(
     read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
 ) -> Result<T, ReadError> {
     let document = Document::parse(text).map_err(|e| {
-        let rows = text.lines().count();
-        let cut_off = matches!(e, Error::UnclosedRootNode);
-        let row = if cut_off { u32::try_from(rows).unwrap_or(u32::MAX) } else { e.pos().row };
-        let message = if cut_off {
-            String::from("cut off: it ends here, within its root element; get the file again")
-        } else {
-            format!("not well-formed XML: {e}")
+        let (row, message) = match e {
+            Error::UnclosedRootNode => (text.lines().count(), String::from(CUT_OFF)),
+            Error::DtdDetected => (row_of_type(text), String::from(NO_TYPE)),
+            _ => (e.pos().row as usize, format!("not well-formed XML: {e}")),
         };
+        let row = u32::try_from(row).unwrap_or(u32::MAX);
         ReadError::file(file, message).line(line(before, row))
     })?;
     read(Element { file, before, node: document.root_element() })
+}
+
+/// The row of a document type, from 1: it is the first mark that is none.
+fn row_of_type(text: &str) -> usize {
+    let broken = Marks::of(text).find(|mark| mark.kind == Kind::Broken);
+    let start = broken.map_or(0, |mark| mark.range.start);
+    1 + text[..start].matches('\n').count()
 }
 
 /// The line of a file of a row of a part.

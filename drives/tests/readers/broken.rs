@@ -139,6 +139,24 @@ fn files_of_no_known_kind_are_refused() {
     assert!(one(&[own("no such file")], &Options::default()).is_err());
 }
 
+/// It was once called not well-formed.
+#[test]
+fn a_document_type_is_refused_as_such_with_what_to_do() {
+    let folder = Scratch::new();
+    let scenario = text("readers/small-2018b.xml");
+    let (declaration, rest) = scenario.split_once("?>").expect("a declaration");
+    for kind in ["<!DOCTYPE commonRoad SYSTEM 'commonRoad.dtd'>", "<!DOCTYPE a [<!ENTITY b 'c'>]>"]
+    {
+        let path = folder.write("s.xml", format!("{declaration}?>\n{kind}{rest}"));
+        let error = one(&[path], &Options::default()).unwrap_err();
+        assert_eq!(error.line, Some(2));
+        assert!(!error.message.contains("well-formed"), "{error}");
+        for part in ["document type (`<!DOCTYPE`)", "entities", "remove it"] {
+            assert!(error.message.contains(part), "{error}");
+        }
+    }
+}
+
 /// Files of a few megabytes that a parser would ponder for minutes.
 #[test]
 fn attributes_and_namespaces_without_end_are_refused_by_their_limit() {

@@ -67,6 +67,29 @@ fn a_lanelet_whose_bounds_swap_on_the_way_is_left_out_from_there() {
     assert_eq!(notes(beside(&left, &right)), [""; 0]);
 }
 
+/// A network with holes is read, and the holes are told.
+#[test]
+fn a_lanelet_that_leads_to_none_or_to_itself_is_noted() {
+    let links = |refs: &[u32]| -> String {
+        let link = |it| format!("<successor ref=\"{it}\"/>");
+        refs.iter().map(link).collect::<Vec<_>>().concat()
+    };
+    let inverted = lanelet(2, [0.0, 120.0], [3.5, 7.0], "");
+    let of = |refs: &[u32]| {
+        let road = lanelet(1, [0.0, 120.0], [0.0, -3.5], &links(refs));
+        let behind = lanelet(3, [120.0, 130.0], [0.0, -3.5], &links(&[1]));
+        solved(&[road, behind, inverted.clone()]).unwrap()
+    };
+    let notes = |refs: &[u32]| {
+        let all = of(refs).notes.into_iter();
+        all.filter(|it| it.contains("successor")).collect::<Vec<_>>()
+    };
+    assert_eq!(notes(&[3, 2]), [""; 0]);
+    let said = "2 successors of lanelets not in this file, or the lanelet itself: 1 -> 99, 1 -> 1";
+    assert_eq!(notes(&[3, 99, 1]), [said]);
+    assert_eq!(of(&[3, 99, 1]).cycles, of(&[3]).cycles);
+}
+
 #[test]
 fn a_lanelet_that_the_route_needs_is_refused() {
     let next = "<successor ref=\"3\"/>";

@@ -1,9 +1,7 @@
 //! The arguments of every command, and how their values are read.
 
-use std::fmt::Display;
 use std::io;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -14,6 +12,8 @@ use mufasa_model::services::configuration::Configuration;
 use mufasa_drives::check::complain;
 use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
 use mufasa_records::names;
+
+use crate::limits::{number, whole};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -27,7 +27,7 @@ pub(super) struct CheckArguments {
     /// Profile of recorded drives; records name their own.
     #[arg(long, default_value = "hardened", value_parser = profile(), ignore_case = true)]
     pub(super) profile: Profile,
-    /// Parameters as lines `name = value` (TOML); records name their own of the stages.
+    /// Parameters as lines `name = value` (TOML); records name their own of the stages; - is standard input.
     #[arg(long, value_name = "FILE")]
     pub(super) parameters: Option<PathBuf>,
     /// Which groups of a recorded drive are remote.
@@ -109,6 +109,8 @@ pub(super) struct DemoArguments {
 }
 
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 every line was answered, a bad one with an error, 2 standard input or output fails.")]
 pub(super) struct OracleArguments {
     /// Answer with the implementation in place of the exact model: fast and cautious, without the
     /// strict and the lax verdict, and without compositions.
@@ -130,9 +132,10 @@ pub(super) struct ComposeArguments {
     pub(super) svg: Option<PathBuf>,
 }
 
-/// Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model
-/// and implementation disagree, or the two engines do.
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 all properties that the profile claims hold, 1 one fails, 2 bad input, 3 model and
+implementation disagree, or the two engines do.")]
 pub(super) struct ExploreArguments {
     /// Profile; by default both.
     #[arg(long, value_parser = profile(), ignore_case = true)]
@@ -157,13 +160,16 @@ pub(super) struct ExploreArguments {
     pub(super) serve: Option<String>,
 }
 
-/// Exit codes: 0 whatever was run is proved, 1 something is refuted or not known, 2 bad input or an
-/// engine broke down. Engines: z3 (theorems over the reals), gappa (rounding errors), exploration
-/// (the protocol), cbmc-wasm (compiled code, by scripts/prove-wasm); those that are not here are
-/// listed as not run.
 #[derive(Args)]
+#[command(after_help = "\
+Engines: z3 (theorems over the reals), gappa (rounding errors), bitwuzla (ranges in doubles), exploration
+(the protocol), laws (finite domains), harnesses (of impl; most are proved only where scripts/prove-wasm
+was run before, else tested); those that are not here are listed as not run.
+
+Exit codes: 0 whatever was run is proved, or tested where no engine proves it, 1 something is refuted or
+not known, 2 bad input or an engine broke down.")]
 pub(super) struct ProveArguments {
-    /// Only claims with such a name, or of such an engine.
+    /// Only claims whose id contains one of these, or of such an engine.
     pub(super) names: Vec<String>,
     /// What scripts/prove-wasm wrote.
     #[arg(long, value_name = "FILE", default_value = "target/proofs/cbmc.json")]
@@ -171,9 +177,9 @@ pub(super) struct ProveArguments {
     /// The checkout whose compiled code that has to be about.
     #[arg(long, value_name = "DIR", default_value = ".")]
     pub(super) sources: PathBuf,
-    /// Write the claims with their verdicts as JSON Lines.
-    #[arg(long, value_name = "FILE", default_value = "target/proofs/prove.json")]
-    pub(super) out: PathBuf,
+    /// Write the claims with their verdicts as JSON Lines [default: target/proofs/prove.json; with NAMES none].
+    #[arg(long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
     /// Put the table into a document, between the lines that mark its place.
     #[arg(long, value_name = "FILE", conflicts_with = "names")]
     pub(super) into: Option<PathBuf>,
@@ -182,8 +188,9 @@ pub(super) struct ProveArguments {
     pub(super) markdown: bool,
 }
 
-/// Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.
 #[derive(Args)]
+#[command(after_help = "\
+Exit codes: 0 written, 2 the folder cannot be written, 3 the vectors contradict the model.")]
 pub(super) struct VectorsArguments {
     /// Folder; files of other names there stay [default: vectors].
     #[arg(long, value_name = "DIR")]
@@ -196,16 +203,16 @@ pub(super) struct CompletionsArguments {
     pub(super) shell: clap_complete::Shell,
 }
 
-/// Exit codes: 0 written, 2 the folder cannot be written.
 #[derive(Args)]
+#[command(after_help = "Exit codes: 0 written, 2 the folder cannot be written.")]
 pub(super) struct ManArguments {
     /// Folder of the pages, one for each command [default: man].
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
 }
 
-/// Exit codes: 0 written, 2 the folder cannot be written.
 #[derive(Args)]
+#[command(after_help = "Exit codes: 0 written, 2 the folder cannot be written.")]
 pub(super) struct SchemasArguments {
     /// Folder of the schemas [default: schemas].
     #[arg(long, value_name = "DIR")]
@@ -265,55 +272,18 @@ pub(super) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
     })
 }
 
-/// A number within limits; NaN is in none.
-pub(super) fn number(
-    low: f64,
-    high: f64,
-) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
-    move |text| match f64::from_str(text) {
-        Ok(number) if (low..=high).contains(&number) => Ok(number),
-        Ok(_) | Err(_) => Err(format!("must be a number from {low} to {high}")),
-    }
-}
-
-/// A whole number within limits.
-pub(super) fn whole<T>(low: T, high: T) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync
-where
-    T: Copy + PartialOrd + Display + FromStr + Send + Sync,
-{
-    move |text| match T::from_str(text) {
-        Ok(number) if (low..=high).contains(&number) => Ok(number),
-        Ok(_) | Err(_) => Err(format!("must be a whole number from {low} to {high}")),
-    }
-}
-
 /// The folder that is to be written, which is said first where nobody named it.
 pub(super) fn folder_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
-    named.unwrap_or_else(|| {
-        let note = format!("writes into {usual}/; --out names another folder");
-        complain(&mut io::stderr(), &note);
-        PathBuf::from(usual)
-    })
+    named.unwrap_or_else(|| unnamed(usual, "/", "folder"))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// The same of a file.
+pub(super) fn file_or(named: Option<PathBuf>, usual: &str) -> PathBuf {
+    named.unwrap_or_else(|| unnamed(usual, "", "file"))
+}
 
-    #[test]
-    fn numbers_outside_their_limits_are_refused() {
-        for text in ["nan", "inf", "-1", "2", "", "x", "1e999"] {
-            assert!(number(0.0, 1.0)(text).is_err(), "{text}");
-        }
-        assert_eq!(number(0.0, 1.0)("0.5"), Ok(0.5));
-    }
-
-    #[test]
-    fn whole_numbers_say_their_limits() {
-        for text in ["abc", "-1", "1.5", "", "5", "99999999999999999999"] {
-            let error = whole(0_u16, 4)(text).unwrap_err();
-            assert_eq!(error, "must be a whole number from 0 to 4", "{text}");
-        }
-        assert_eq!(whole(0_u16, 4)("4"), Ok(4));
-    }
+fn unnamed(usual: &str, end: &str, kind: &str) -> PathBuf {
+    let note = format!("writes into {usual}{end}; --out names another {kind}");
+    complain(&mut io::stderr(), &note);
+    PathBuf::from(usual)
 }

@@ -7,7 +7,8 @@ use clap::{Args, Subcommand};
 use mufasa_conform::Kind;
 use mufasa_model::input::cycle::Profile;
 
-use super::arguments::{number, one_of, profile, whole};
+use super::arguments::{one_of, profile};
+use crate::limits::{number, whole};
 
 /// What a program under test has to do, and what the exit codes say.
 const CONFORM_HELP: &str = "\

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::*;
+use crate::schemas;
 use mufasa_drives::Options;
 
 #[test]

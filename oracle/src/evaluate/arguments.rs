@@ -2,13 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand, value_parser};
+use clap::{Args, Subcommand};
 use mufasa_sim::experiment::job::Options;
 use mufasa_sim::experiment::select::Shard;
 
 use super::falsify::FalsifyArguments;
 use super::parts::shard;
 use super::replay::ReplayArguments;
+use crate::limits::whole;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
 ///
@@ -60,13 +61,13 @@ pub enum Experiment {
 pub struct SizeArguments {
     /// Scenarios of each combination, on each of two routes [default: failures, combinations and rules 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,
     /// Other vehicles in the town [default: 15]; of `stages`: at most [default: 30].
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(0_u16, 200), allow_negative_numbers = true)]
     pub vehicles: Option<u16>,
     /// Seed of the first scenario; the others follow.
-    #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = whole(0_u64, 1_000_000_000), allow_negative_numbers = true)]
     pub seed: u64,
     /// Drive on the map in this folder, not in the town: that of uulm-mrm/tpl's `data`, Ulm-Lehr.
     #[arg(long, value_name = "FOLDER")]
@@ -82,7 +83,7 @@ pub struct SizeArguments {
     #[arg(long)]
     pub check_all: bool,
     /// Threads [default: all processors]. The results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1_u16, 1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Write into this folder: table and runs as CSV and JSON, charts as SVG, replays of runs that failed (each
     /// of the hardened profile, of others those of the first three scenarios on a route), and all of it in

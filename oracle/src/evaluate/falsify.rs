@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, value_parser};
 use indicatif::ProgressBar;
 use mufasa_drives::check::complain;
 use mufasa_drives::progress;
@@ -38,6 +38,7 @@ use super::report::{self, FailedRun, Section};
 use super::tables::{self, Rows};
 use super::text::{csv, json, said};
 use crate::document;
+use crate::limits::whole;
 
 /// Runs if nothing is said.
 const RUNS: u64 = 400;
@@ -53,13 +54,13 @@ Exit codes: 0 done, 1 a collision was found in the hardened profile with all rul
 cannot be written.")]
 pub struct FalsifyArguments {
     /// Runs with attacks [default: 400, without --minutes]. The same seed gives the same then.
-    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..=100_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1_u64, 100_000_000), allow_negative_numbers = true)]
     pub runs: Option<u64>,
     /// Goes on for so long.
-    #[arg(long, value_name = "M", conflicts_with = "runs", value_parser = value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", conflicts_with = "runs", value_parser = whole(1_u32, 100_000), allow_negative_numbers = true)]
     pub minutes: Option<u32>,
     /// Whole rounds, each of at most 376 runs: what can be made in parts.
-    #[arg(long, value_name = "N", conflicts_with_all = ["runs", "minutes"], value_parser = value_parser!(u64).range(1..=1_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", conflicts_with_all = ["runs", "minutes"], value_parser = whole(1_u64, 1_000_000), allow_negative_numbers = true)]
     pub rounds: Option<u64>,
     /// Only one of N parts of the rounds, such as 2/8, for other machines to make the others; `mufasa merge` puts
     /// the parts together.
@@ -78,13 +79,13 @@ pub struct FalsifyArguments {
     #[arg(long, value_name = "FOLDER")]
     pub map: Option<PathBuf>,
     /// Other vehicles in the town.
-    #[arg(long, value_name = "N", default_value = "15", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value = "15", value_parser = whole(0_u16, 200), allow_negative_numbers = true)]
     pub vehicles: u16,
     /// Of the scenarios and of what is drawn.
-    #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = whole(0_u64, 1_000_000_000), allow_negative_numbers = true)]
     pub seed: u64,
     /// Threads [default: all processors]. With --runs the results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(1_u16, 1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Write table and collisions as JSON and CSV into this folder, a chart as SVG, all of it into report.html, and
     /// each collision into its folder found.
@@ -154,6 +155,7 @@ pub(super) fn merge(
     let made = parts::read(&arguments.parts).and_then(|whole: Part<Options>| {
         prepared(places[0])?;
         let town = maps::same(arguments.map.as_deref(), whole.options.map, "the parts")?;
+        document::has_place(places[1], &command(&whole.options))?;
         let mut made = Falsified::nothing(whole.options);
         for number in 0..made.options.rounds.unwrap_or(0) {
             let id = id(number);

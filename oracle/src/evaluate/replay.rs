@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, value_parser};
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_sim::attack::{Attack, Kind};
@@ -22,6 +22,7 @@ use super::codes::BAD_INPUT;
 use super::log::Log;
 use super::maps;
 use super::text::said;
+use crate::limits::whole;
 
 /// Other vehicles if nothing is said.
 const VEHICLES: usize = 15;
@@ -39,10 +40,10 @@ pub struct ReplayArguments {
     #[arg(long, value_name = "ID", conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
     pub run: Option<String>,
     /// Scenarios of the experiment [default: that of the experiment].
-    #[arg(long, value_name = "N", requires = "run", value_parser = value_parser!(u64).range(1..=10_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", requires = "run", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,
     /// Seed of the experiment's first scenario.
-    #[arg(long, value_name = "SEED", requires = "run", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "SEED", requires = "run", default_value = "0", value_parser = whole(0_u64, 1_000_000_000), allow_negative_numbers = true)]
     pub seed: u64,
     /// Drive on the map in this folder, not in the town; as it was given to the experiment, or to the search.
     #[arg(long, value_name = "FOLDER")]
@@ -54,16 +55,16 @@ pub struct ReplayArguments {
     #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
     pub variant: Variant,
     /// Which of the CAV's routes.
-    #[arg(long, value_name = "N", default_value = "0", value_parser = value_parser!(u8).range(0..=1), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole(0_u8, 1), allow_negative_numbers = true)]
     pub route: u8,
     /// Seed of the scenario, of noise and of the link.
-    #[arg(long, value_name = "SEED", default_value = "0", value_parser = value_parser!(u64).range(0..=1_000_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = whole(0_u64, 1_000_000_000), allow_negative_numbers = true)]
     pub scenario: u64,
     /// Other vehicles in the town [default: 15, or that of the experiment].
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(0..=200), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole(0_u16, 200), allow_negative_numbers = true)]
     pub vehicles: Option<u16>,
     /// Start of the attack, s; it goes on to the end.
-    #[arg(long, value_name = "S", default_value = "5", value_parser = value_parser!(u16), allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value = "5", value_parser = whole(0, u16::MAX), allow_negative_numbers = true)]
     pub from: u16,
     /// The page; by default its name says which run it is.
     #[arg(long, value_name = "FILE")]

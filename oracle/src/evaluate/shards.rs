@@ -14,8 +14,9 @@ use super::codes::BAD_INPUT;
 use super::merge::MergeArguments;
 use super::{
     EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared,
-    tell,
+    table_name, tell,
 };
+use crate::document;
 
 /// Writes what was kept of the runs of a part, as a file that cannot be taken for the whole.
 pub(super) fn write(
@@ -69,6 +70,7 @@ pub fn merge(
     let made = named.and_then(|named| {
         let task = Task { sized: &|_| options, select: &select };
         let town = maps::same(arguments.map.as_deref(), options.map, "the parts")?;
+        document::has_place(arguments.into.as_deref(), &table_name(named.name, town.id))?;
         in_threads(None, &town, &task, named.make)
     });
     let made = made.map(|results| (results, select));

@@ -78,13 +78,18 @@ impl ClaimSource {
         Ok(lines)
     }
 
+    /// Whether a name means this claim: it is that of its source or engine, or in its id, with blanks as
+    /// the table prints it or without.
+    pub fn is_meant(self, name: &str, claim: &Claim) -> bool {
+        [self.name(), claim.answer.engine].contains(&name)
+            || claim.id.contains(&name.replace(' ', "_"))
+    }
+
     /// The claims that are wanted, judged. Errors are those of talking to the engines.
     pub fn lines(self, settings: &Settings, bar: &ProgressBar) -> io::Result<Vec<Claim>> {
         let names = &settings.names;
-        let is_wanted = |line: &Claim| {
-            names.is_empty()
-                || names.iter().any(|name| line.id.contains(name) || self.name() == name)
-        };
+        let is_wanted =
+            |line: &Claim| names.is_empty() || names.iter().any(|name| self.is_meant(name, line));
         let claims: Vec<Claim> = self.claims()?.into_iter().filter(is_wanted).collect();
         if claims.is_empty() {
             return Ok(claims);

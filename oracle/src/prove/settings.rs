@@ -5,14 +5,14 @@ use std::path::PathBuf;
 /// What is run and where the answers go.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Only lines whose id or engine contains one of these; all without any.
+    /// Only lines whose id contains one of these, or of such an engine; all without any.
     pub names: Vec<String>,
     /// JSON Lines of the proofs on compiled code, as `scripts/prove-wasm` writes them.
     pub cbmc: PathBuf,
     /// The checkout that these have to be about.
     pub sources: PathBuf,
     /// Where the lines are written as JSON Lines.
-    pub out: PathBuf,
+    pub out: Option<PathBuf>,
     /// Print the table as Markdown.
     pub markdown: bool,
     /// A document whose table is replaced.

@@ -1,0 +1,104 @@
+//! Mistakes on the command line and what is said of them: outputs that nobody reads, inputs named twice, units
+//! forgotten, help that was looked for.
+
+#[path = "kit/folders.rs"]
+mod folders;
+
+use folders::folder;
+use std::fs::{self, File, OpenOptions};
+use std::process::{Command, Output, Stdio};
+
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../drives/data/readers/");
+
+fn mufasa(arguments: &[&str], input: Stdio, output: Stdio) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let command = command.args(arguments).stdin(input).stdout(output).stderr(Stdio::piped());
+    command.spawn().expect("the program starts").wait_with_output().expect("it ends")
+}
+
+/// What was refused, with standard input as said.
+fn refusal(arguments: &[&str], input: Stdio) -> String {
+    let output = mufasa(arguments, input, Stdio::null());
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    String::from_utf8(output.stderr).expect("UTF-8")
+}
+
+#[test]
+fn a_full_disk_or_a_closed_pipe_ends_completions_as_other_outputs() {
+    for shell in ["bash", "zsh", "fish"] {
+        let full = OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+        let ended = mufasa(&["completions", shell], Stdio::null(), full.into());
+        let told = String::from_utf8(ended.stderr).expect("UTF-8");
+        assert_eq!(ended.status.code(), Some(2), "{told}");
+        assert!(told.starts_with("mufasa: standard input or output: "), "{told}");
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let ended = mufasa(&["completions", shell], Stdio::null(), writer.into());
+        assert_eq!((ended.status.code(), ended.stderr), (Some(141), Vec::new()));
+    }
+}
+
+#[test]
+fn commands_with_results_say_their_exit_codes() {
+    for command in ["check", "compose", "conform", "demo", "explore", "oracle", "prove"] {
+        let help = mufasa(&[command, "--help"], Stdio::null(), Stdio::piped()).stdout;
+        let help = String::from_utf8(help).expect("UTF-8");
+        assert!(help.contains("\nExit codes: 0 "), "{command}: {help}");
+    }
+}
+
+fn scenario() -> Stdio {
+    File::open(format!("{DATA}small-2018b.xml")).expect("a scenario").into()
+}
+
+/// Two readers of one input would each get a part of it.
+#[test]
+fn standard_input_is_read_by_one() {
+    let second = "`-` stands here a second time, and standard input comes once";
+    for files in [["-", "-"], ["-", "/dev/stdin"]] {
+        let told = refusal(&["check", "--summary", files[0], files[1]], scenario());
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert!(told.contains(second), "{told}");
+    }
+    let told = refusal(&["check", "--parameters", "-", "-"], scenario());
+    assert!(told.starts_with("mufasa: --parameters -: standard input is one of FILES"), "{told}");
+}
+
+#[test]
+fn parameters_come_from_standard_input_too() {
+    let file = folder("parameters-piped").join("p.toml");
+    fs::write(&file, "a_b = 6\nthetatr = 1\n").expect("written");
+    let given = File::open(&file).expect("written").into();
+    let told = refusal(&["check", "x", "--parameters", "-"], given);
+    assert_eq!(told, "mufasa: -:2: thetatr: is no parameter; is theta_tr meant?\n");
+}
+
+/// A time that no vehicle has, or one that drops what is in time, ends no check; the monitor would refuse it.
+#[test]
+fn a_time_in_another_unit_is_noted() {
+    let folder = folder("units");
+    let [scenario, solution] =
+        ["small-2018b.xml", "small.KS2.solution.xml"].map(|it| format!("{DATA}{it}"));
+    let noted = |line: &str| {
+        let file = folder.join("p.toml");
+        fs::write(&file, line).expect("written");
+        let file = file.to_str().expect("a plain name");
+        let arguments = ["check", "--summary", &scenario, &solution, "--parameters", file];
+        let ended = mufasa(&arguments, Stdio::null(), Stdio::null());
+        assert_ne!(ended.status.code(), Some(2));
+        String::from_utf8(ended.stderr).expect("UTF-8")
+    };
+    for (line, said) in [
+        ("t_wait_ns = 10", "t_wait_ns = 10 ns is below 1 s; is it in another unit?"),
+        ("l_max_ns = 50", "l_max_ns = 50 ns is below 1 ms"),
+        ("max_age_ns = 100", "max_age_ns = 100 ns is below 1 ms"),
+        ("max_age_ns = 40_000_000", "max_age_ns = 40000000 is below "),
+    ] {
+        let told = noted(line);
+        assert!(told.contains("p.toml: a vehicle's monitor refuses this: "), "{told}");
+        assert!(told.contains(said), "{told}");
+    }
+    for line in ["t_wait_ns = 1_000_000_000", "t_wait_ns = 0", "dt_max_ns = 1_000_000", "tau = 0"] {
+        assert_eq!(noted(line), "", "{line}");
+    }
+}
