@@ -84,8 +84,11 @@ fn the_relation_holds_between_the_numbers_as_they_are_printed() {
     );
 }
 
-/// Sentences about invalid input, each with the numbers in it, and whether they are as it says.
-const SENTENCES: [(&str, fn(&[&str]) -> bool); 10] = [
+/// A sentence with numbers in it, and whether they are as it says.
+type Sentence = (&'static str, fn(&[&str]) -> bool);
+
+/// What is said of invalid input.
+const SENTENCES: [Sentence; 10] = [
     ("{} is not a number from {} to {}", |it| {
         !(number(it[1])..=number(it[2])).contains(&number(it[0]))
     }),

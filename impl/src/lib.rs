@@ -124,7 +124,7 @@
 //!   one while a safe decision has none and the local planner is stopped, and the local planner's
 //!   otherwise; a braking manoeuvre with `a_b` is within reach of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
-//! * A verdict is as good as the method: six findings are open in the hardened profile
+//! * A verdict is as good as the method: seven findings are open in the hardened profile
 //!   (`findings/README.md`). Nothing here is certified.
 //!
 //! # Where things are

@@ -7,7 +7,7 @@ macro_rules! files {
 }
 
 /// The vectors, by the name of the file that they are published in.
-pub const FILES: [(&str, &str); 86] = files![
+pub const FILES: [(&str, &str); 87] = files![
     "findings/F-01",
     "findings/F-02",
     "findings/F-03",
@@ -52,6 +52,7 @@ pub const FILES: [(&str, &str); 86] = files![
     "findings/F-43",
     "findings/F-44",
     "findings/F-45",
+    "findings/F-46",
     "hardened/H-01",
     "hardened/H-02",
     "hardened/H-03",

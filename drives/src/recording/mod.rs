@@ -11,6 +11,7 @@
 
 mod history;
 pub mod lead;
+mod nearby;
 pub mod object;
 pub mod sensor;
 
@@ -23,6 +24,7 @@ use crate::drive::{DriveCycle, Stream};
 use crate::geometry::{Point, add, cross, direction, mix, mix_angle, scale, sub};
 use crate::options::{Options, Sensor, Tail};
 use crate::recording::lead::{Cav, leading_vehicle};
+use crate::recording::nearby::{MARGIN, WHOLE, part_near};
 use crate::recording::object::{Motion, Object, Seen, State, state_before};
 use crate::recording::sensor::{grid, scan};
 
@@ -83,8 +85,16 @@ pub(crate) fn drive(mut recording: Recording, options: &Options, every: usize) -
             "the history begins before the first cycle: the recording has the other objects there",
         ));
     }
-    let outside = recording.ego.iter().filter(|s| !in_corridor(&recording.route, s.position));
-    let outside = outside.count();
+    if recording.route.cross_sections.len() > WHOLE && !recording.route.closed {
+        notes.push(format!(
+            "the route of each cycle is the part within {MARGIN} m of the CAV and its trajectory"
+        ));
+    }
+    let is_outside = |state: &&State| {
+        let route = part_near(&recording.route, &[state.position]);
+        !in_corridor(&route, state.position)
+    };
+    let outside = recording.ego.iter().filter(is_outside).count();
     if outside > 0 {
         notes.push(format!(
             "{outside} of {} positions of the CAV are outside the corridor of its route",
@@ -164,6 +174,9 @@ impl Maker {
         };
         let track_ns = now_ns - options.track_age_ns;
         let grid_ns = now_ns - GRID_AGE_NS;
+        let points = self.plan(i, now_ns);
+        let driven: Vec<Point> =
+            points.iter().map(|it| [it.x, it.y]).chain([state.position]).collect();
         Cycle {
             profile: options.profile,
             parameters: options.parameters.clone(),
@@ -179,17 +192,14 @@ impl Maker {
                 width: size[1],
                 center_offset: 0.0,
             },
-            trajectory: Some(Trajectory {
-                stamp_ns: now_ns - TRAJECTORY_AGE_NS,
-                points: self.plan(i, now_ns),
-            }),
+            trajectory: Some(Trajectory { stamp_ns: now_ns - TRAJECTORY_AGE_NS, points }),
             tracks: Some(TrackList {
                 stamp_ns: track_ns,
                 items: self.objects(state.step, options.track_age_ns).iter().map(track).collect(),
             }),
             detections: Some(self.scan(i, 0)),
             lead: leading_vehicle(route, grid_ns, &cav, &recent, options.sensor.lead_range_m),
-            route: route.clone(),
+            route: part_near(route, &driven),
             grid: Some(grid(options.grid, grid_ns, state.position, state.heading, &recent)),
             detection_history: self.history(i),
         }
