@@ -76,12 +76,12 @@ impl Reproduction<'_> {
 
     /// Why nothing more is tried, if that is so.
     fn over(&self) -> Option<NotShrunk> {
-        let is_over = self.limits.is_over() || self.subject.is_interrupted();
         let may_break = self.class.breach.is_broken();
-        match (is_over, self.limits.restarts) {
-            (true, _) => Some(NotShrunk::Time),
-            (false, 0) if may_break => Some(NotShrunk::Limit),
-            (false, _) => None,
+        match self.limits.restarts {
+            _ if self.subject.is_interrupted() => Some(NotShrunk::Interrupted),
+            _ if self.limits.is_over() => Some(NotShrunk::Time),
+            0 if may_break => Some(NotShrunk::Limit),
+            _ => None,
         }
     }
 

@@ -65,7 +65,7 @@ pub fn ask_and_compare(
     let (expected, answered) = subject.ask(&question.line(id), || expect(id, question))?;
     let compared = match &answered {
         Ok(line) => answer::object(line, question.id(id), question.kind() != Kind::Line)
-            .and_then(|object| compare(question, &expected, &object))
+            .and_then(|object| Ok((compare(question, &expected, &object)?, object)))
             .map_err(|broken| subject.broke(broken)),
         Err(broken) => Err(broken.clone()),
     };
@@ -79,9 +79,9 @@ pub fn ask_and_compare(
         scale,
     };
     Ok(match compared {
-        Ok(None) => Examined { expected, answered, class: None, tolerated: false },
-        Ok(Some(differs)) => {
-            let explains = |margin| is_explained(question, &differs, margin);
+        Ok((None, _)) => Examined { expected, answered, class: None, tolerated: false },
+        Ok((Some(differs), object)) => {
+            let explains = |margin| is_explained(question, &differs, &object, margin);
             let tolerated = tolerance.is_some_and(explains);
             let scale = if explains(ROUNDING_M) { Scale::Threshold } else { Scale::Clear };
             let class = class(differs.breach, differs.place, profile, configuration, scale);
@@ -127,22 +127,26 @@ impl Differs {
     }
 }
 
-/// Whether a margin explains a difference, or the rounding of the norm of a direction does.
-fn is_explained(question: &Question, differs: &Differs, margin_m: f64) -> bool {
-    match (question, differs.said) {
-        (Question::Cycle(cycle), Some(said)) => {
-            is_within(cycle, said, margin_m)
-                || norm::either_side(cycle)
-                    .is_some_and(|sides| sides.iter().any(|it| conforms(it, said, margin_m)))
-        }
-        (_, _) => false,
-    }
+/// Whether a margin explains a difference, or the rounding of the norms of directions does.
+fn is_explained(
+    question: &Question,
+    differs: &Differs,
+    object: &Map<String, Value>,
+    margin_m: f64,
+) -> bool {
+    let (Question::Cycle(cycle), Some(said)) = (question, differs.said) else { return false };
+    let conforms = |cycle: Cycle| {
+        let exact = check(&cycle, Reading::Exact);
+        compare_cycle(&cycle, &exact, said, object)
+            .is_none_or(|differs| is_moved(&cycle, &differs, margin_m))
+    };
+    is_moved(cycle, differs, margin_m) || norm::either_way(cycle).any(conforms)
 }
 
-/// Whether an answer to a cycle is right within a margin.
-fn conforms(cycle: &Cycle, said: Said, margin_m: f64) -> bool {
-    compare_cycle(cycle, &check(cycle, Reading::Exact), said).is_none()
-        || is_within(cycle, said, margin_m)
+/// Whether a margin explains a difference in the answer to a cycle: it moves no bound of a domain.
+fn is_moved(cycle: &Cycle, differs: &Differs, margin_m: f64) -> bool {
+    let is_of_input = differs.breach == Breach::Input;
+    !is_of_input && differs.said.is_some_and(|said| is_within(cycle, said, margin_m))
 }
 
 fn compare(
@@ -152,12 +156,7 @@ fn compare(
 ) -> Result<Option<Differs>, Broken> {
     match (question, expected) {
         (Question::Cycle(cycle), Expected::Cycle(exact)) => {
-            let said = answer::said(object)?;
-            if is_too_much(exact) {
-                return Ok(None);
-            }
-            let differs = compare_cycle(cycle, exact, said);
-            Ok(differs.or_else(|| compare_place(exact, object)))
+            Ok(compare_cycle(cycle, exact, answer::said(object)?, object))
         }
         (Question::Offloading(trace), Expected::Offloading(expected)) => {
             compare_states(trace, expected, object)
@@ -173,7 +172,19 @@ fn compare(
     }
 }
 
-fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
+fn compare_cycle(
+    cycle: &Cycle,
+    exact: &Answer,
+    said: Said,
+    object: &Map<String, Value>,
+) -> Option<Differs> {
+    if is_too_much(exact) {
+        return None;
+    }
+    compare_verdict(cycle, exact, said).or_else(|| compare_place(exact, said, object))
+}
+
+fn compare_verdict(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
     let input = |place| Some(Differs { breach: Breach::Input, place, said: Some(said) });
     let (report, said) = match (exact, said) {
         (Err(_), Said::Error) => return None,
@@ -216,13 +227,14 @@ fn compare_cycle(cycle: &Cycle, exact: &Answer, said: Said) -> Option<Differs> {
 }
 
 /// Invalid input: an answer that names a place must name the right one.
-fn compare_place(exact: &Answer, object: &Map<String, Value>) -> Option<Differs> {
+fn compare_place(exact: &Answer, said: Said, object: &Map<String, Value>) -> Option<Differs> {
     let (key, problem) = match exact {
         Err(problem) => ("error", problem),
         Ok(report) => ("input", report.input.as_ref()?),
     };
     let wrong = names_another(object.get(key), &problem.field, problem.index);
-    wrong.then(|| Differs::new(Breach::Input, format!("{} at another place", part(problem))))
+    let place = || format!("{} at another place", part(problem));
+    wrong.then(|| Differs { breach: Breach::Input, place: place(), said: Some(said) })
 }
 
 /// Whether a place is named in an answer, but not this one.
@@ -324,68 +336,4 @@ fn compare_errors(
 }
 
 #[cfg(test)]
-mod tests {
-    use mufasa_model::input::cycle::Profile;
-
-    use super::*;
-    use crate::cases::generate::Generator;
-
-    /// A cycle with a valid ego.
-    fn valid() -> Cycle {
-        let generator = Generator { seed: 0, profile: Profile::Paper, kinds: vec![Kind::Cycle] };
-        let cycles = (0..100).filter_map(|case| match generator.question(case) {
-            Question::Cycle(cycle) => Some(*cycle),
-            Question::Offloading(_)
-            | Question::Composition(_)
-            | Question::Line(_)
-            | Question::Text(_) => None,
-        });
-        cycles.into_iter().find(|it| check(it, Reading::Exact).is_ok()).expect("a valid cycle")
-    }
-
-    /// Whether a margin explains this answer to the cycle, which differs from the exact one.
-    fn explained(cycle: &Cycle, said: Said) -> bool {
-        let exact = check(cycle, Reading::Exact);
-        let differs = compare_cycle(cycle, &exact, said).expect("a difference");
-        is_explained(&Question::Cycle(Box::new(cycle.clone())), &differs, ROUNDING_M)
-    }
-
-    /// Class `work`: what the model has too much to compute for is left out, whatever is answered.
-    #[test]
-    fn a_cycle_too_large_for_the_model_is_left_out() {
-        let cycle = Question::Cycle(Box::new(valid()));
-        let compared = |field: &str, answer: &str| {
-            let (field, message) = (field.to_owned(), String::new());
-            let exact = Err(InvalidInput { field, index: None, message });
-            let object = serde_json::from_str(answer).expect("an object");
-            compare(&cycle, &Expected::Cycle(Box::new(exact)), &object)
-        };
-        let safe = r#"{"verdict": "safe", "failed_stage": null}"#;
-        let error = r#"{"verdict": "error", "failed_stage": null, "error": {"field": "work", "index": null}}"#;
-        assert!([safe, error].iter().all(|it| matches!(compared("work", it), Ok(None))));
-        assert!(matches!(compared("ego.x", safe), Ok(Some(_))));
-        assert!(compared("work", "{}").is_err());
-    }
-
-    #[test]
-    fn a_norm_within_rounding_of_its_bound_is_explained_and_no_other() {
-        let mut cycle = valid();
-        let right = check(&cycle, Reading::Exact).expect("valid").failed_stage;
-        assert!(!explained(&cycle, Said::Error), "a direction of length 1 was refused");
-        let border = (1.0_f64 + 1e-6).sqrt();
-        (cycle.ego.cos, cycle.ego.sin) = (0.0, border);
-        let inside = |cycle: &Cycle| check(cycle, Reading::Exact).is_ok();
-        while !inside(&cycle) {
-            cycle.ego.sin = cycle.ego.sin.next_down();
-        }
-        assert!(explained(&cycle, Said::Error), "the last valid direction");
-        while inside(&cycle) {
-            cycle.ego.sin = cycle.ego.sin.next_up();
-        }
-        let [inner, _] = norm::either_side(&cycle).expect("a direction at the bound");
-        let turned = check(&inner, Reading::Exact).expect("valid").failed_stage;
-        assert!(explained(&cycle, Said::Verdict(turned)), "the first direction too long");
-        cycle.ego.sin = border + 1e-9;
-        assert!(!explained(&cycle, Said::Verdict(right)), "a direction that is clearly too long");
-    }
-}
+mod tests;

@@ -73,7 +73,8 @@ fn rules(summary: &Summary) -> Vec<(Kind, Breach)> {
 }
 
 /// One class of each rule, in the order in which to mend them: what gives no answer, then what
-/// rounding does not explain, cycles before other records, what was made small, the commonest, the smallest.
+/// rounding does not explain, cycles before other records, what is unsound, what was made small, the commonest, the
+/// smallest.
 pub fn order(summary: &Summary) -> Vec<&Found> {
     let mut classes: Vec<&Found> = summary.classes.iter().collect();
     classes.sort_by_key(|found| {
@@ -91,7 +92,8 @@ pub fn order(summary: &Summary) -> Vec<&Found> {
 
 /// What is to be mended before others: the lower.
 pub fn urgency(class: &Class) -> impl Ord {
-    (!class.breach.is_broken(), class.scale == Scale::Threshold, class.kind)
+    let is_sound = class.breach != Breach::Soundness;
+    (!class.breach.is_broken(), class.scale == Scale::Threshold, class.kind, is_sound)
 }
 
 /// Whether so many answers are wrong that one record says more than several.

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 use crate::judge::class::Class;
@@ -62,8 +63,10 @@ pub enum NotShrunk {
     NotAlone,
     /// Other classes of the same rule were.
     Limit,
-    /// The time for it was over, or the campaign was interrupted.
+    /// The time for it was over.
     Time,
+    /// The campaign was interrupted.
+    Interrupted,
 }
 
 impl Found {
@@ -80,16 +83,21 @@ impl Found {
 
     /// The margin that the record sets itself, m, as it is written there (`parameters.delta`).
     pub fn delta(&self) -> Option<String> {
-        let record: serde_json::Value = serde_json::from_str(self.record.get()).ok()?;
+        let record: Value = serde_json::from_str(self.record.get()).ok()?;
         record.pointer("/parameters/delta").map(ToString::to_string)
     }
 
     /// How many of the CAV's earlier detections are in the record (`detection_history`); `size` does not count them.
     pub fn history(&self) -> usize {
-        let record: serde_json::Value = serde_json::from_str(self.record.get()).unwrap_or_default();
-        let lists = record.get("detection_history").and_then(serde_json::Value::as_array);
-        let items = |list: &serde_json::Value| list["items"].as_array().map_or(0, Vec::len);
+        let record: Value = serde_json::from_str(self.record.get()).unwrap_or_default();
+        let lists = record.get("detection_history").and_then(Value::as_array);
+        let items = |list: &Value| list["items"].as_array().map_or(0, Vec::len);
         lists.map_or(0, |lists| lists.iter().map(items).sum())
+    }
+
+    /// An integer in the record that no double is, the first.
+    pub fn rounded(&self) -> Option<i64> {
+        rounded(&serde_json::from_str(self.record.get()).ok()?)
     }
 
     /// Whether no further case of its class is tried.
@@ -123,6 +131,20 @@ impl Found {
     pub fn sequence(&self) -> Option<String> {
         let lines = self.before.iter().cloned().chain([self.line()]);
         (!self.before.is_empty()).then(|| lines.map(|line| line + "\n").collect())
+    }
+}
+
+fn rounded(value: &Value) -> Option<i64> {
+    match value {
+        Value::Number(number) => number.as_i64().filter(|it| {
+            #[expect(clippy::cast_precision_loss, clippy::cast_possible_truncation)]
+            // it is asked whether
+            let read = *it as f64 as i128;
+            read != i128::from(*it)
+        }),
+        Value::Array(items) => items.iter().find_map(rounded),
+        Value::Object(fields) => fields.values().find_map(rounded),
+        Value::Null | Value::Bool(_) | Value::String(_) => None,
     }
 }
 

@@ -47,11 +47,17 @@ fn found(found: &Found, out: &mut impl Write) -> io::Result<()> {
     if let Some(delta) = found.delta() {
         writeln!(out, "  delta    {delta} m, the record's own margin (parameters.delta)")?;
     }
+    if let Some(integer) = found.rounded().filter(|_| found.shrunk) {
+        writeln!(
+            out,
+            "  hint     {integer} is beyond 2^53: who reads it as a double has another number"
+        )?;
+    }
     let how = match (why, before.is_empty()) {
         (None, _) => "shrunk from",
         (Some(_), false) => "does not occur alone;",
         (Some(NotShrunk::NotAlone), true) => "was not shown again;",
-        (Some(NotShrunk::Limit | NotShrunk::Time), true) => "not shrunk;",
+        (Some(NotShrunk::Limit | NotShrunk::Time | NotShrunk::Interrupted), true) => "not shrunk;",
     };
     let what = if about.is_empty() { "case" } else { "vector" };
     let plural = if *size == 1 { "" } else { "s" };
@@ -102,8 +108,9 @@ fn wrong(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
 /// How many classes were not made small, and why.
 fn not_shrunk(summary: &Summary, out: &mut impl Write) -> io::Result<()> {
     let reasons = [
-        (NotShrunk::Limit, "others of the same rule were, which come first"),
+        (NotShrunk::Limit, "of each rule only a few are, those to mend first"),
         (NotShrunk::Time, "there was no more time for it (--shrinking)"),
+        (NotShrunk::Interrupted, "it was interrupted"),
     ];
     for (why, words) in reasons {
         let count = summary.classes.iter().filter(|found| found.why == Some(why)).count();
@@ -350,5 +357,17 @@ mod tests {
         );
         assert!(!printed(r#"{"parameters": {"theta_tr": 0.1}}"#).contains("delta"));
         assert!(!printed(r#""no record""#).contains("delta"));
+    }
+
+    #[test]
+    fn an_integer_that_no_double_is_has_one_hint() {
+        let far = printed(r#"{"now_ns": 9223371966854775807, "stamps": [9223371966854775805]}"#);
+        let hint = "\n  hint     9223371966854775807 is beyond 2^53: ";
+        assert!(far.contains(hint) && far.matches("2^53").count() == 1, "{far}");
+        assert!(
+            printed(r#"{"items": [{"id": -9007199254740993}]}"#).contains(" -9007199254740993 is")
+        );
+        let same = printed(r#"{"now_ns": 9007199254740992, "x": 1e300, "id": "9007199254740993"}"#);
+        assert!(!same.contains("2^53"), "{same}");
     }
 }

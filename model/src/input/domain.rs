@@ -142,7 +142,13 @@ impl At<'_> {
         if (&one - &tolerance..=&one + &tolerance).contains(&norm) {
             return Ok(());
         }
-        Err(self.problem("cos", format!("({cos}, {sin}) is not of length 1 within 1e-6")))
+        // Beyond the bound by less than doubles tell apart, or beyond all doubles, it is not printed.
+        let by = match (norm - one).abs().to_f64() {
+            excess if excess > 1e-6 && excess.is_finite() => format!("{excess:?}, more than 1e-6"),
+            _ => "more than 1e-6".into(),
+        };
+        let message = format!("cos^2 + sin^2 of ({cos:?}, {sin:?}) differs from 1 by {by}");
+        Err(self.problem("cos", message))
     }
 
     fn stamp(self, name: &str, t: i64, now: i64, is_remote: bool) -> Result<(), InvalidInput> {

@@ -8,6 +8,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use mufasa_conform::NotShrunk;
+
 use crate::{MUFASA, folder, summary, text};
 
 /// A campaign on its way, in a group of its own.
@@ -82,6 +84,14 @@ fn an_interrupted_campaign_says_what_the_vectors_found() {
     assert!(!wrong.is_empty() && wrong.iter().all(|id| id.starts_with("collision")), "{told}");
     assert!(told.contains("\nmend first:\nDISAGREES  cycle soundness"), "{told}");
     assert!(told.contains(" not shrunk; vector collision"), "{told}");
+    let (count, why) = (known.classes.len(), Some(NotShrunk::Interrupted));
+    assert!(known.classes.iter().all(|found| found.why == why), "{told}");
+    let why = format!("\n{count} of {count} classes not shrunk: it was interrupted\n");
+    assert!(told.contains(&why) && !told.contains("--shrinking"), "{told}");
+    let mut merge = Command::new(MUFASA);
+    let merged = merge.args(["conform", "merge"]).arg(out.join("summary.json")).output();
+    let merged = text(&merged.expect("mufasa runs"));
+    assert!(merged.contains(&why) && !merged.contains("--shrinking"), "{merged}");
     let words = format!("vectors asked: {} DISAGREE: collision", wrong.len());
     assert!(told.contains(&words), "{told}");
     assert!(told.contains(" cases asked, INTERRUPTED: no disagreement so far"), "{told}");
