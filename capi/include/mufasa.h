@@ -99,7 +99,8 @@ typedef uint32_t MufasaStatus;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// The verdict. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
+// The verdict. Compare it with SAFE: UNSAFE and ERROR are not 0 either, so that `if (report.verdict)` is taken
+// for all of them. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
 enum MufasaVerdict
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : uint32_t
@@ -454,26 +455,36 @@ typedef struct MufasaMonitor MufasaMonitor;
 typedef struct MufasaRequester MufasaRequester;
 
 // A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
-// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`.
+// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`. A bare
+// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
+// compile with `-Werror=missing-braces`.
 typedef struct MufasaTime {
   // Nanoseconds after the clock's start.
   int64_t ns;
 } MufasaTime;
 
-// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`.
+// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. Bare
+// numbers are as with MufasaTime.
 typedef struct MufasaGap {
   // m, from the front edge of the CAV's rectangle to the nearest point of the leading vehicle, along
   // the reference path.
   double between_bumpers;
 } MufasaGap;
 
-// A detected object.
+// A detected object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
+// centre of its rectangle, (cos, sin) its direction.
 typedef struct MufasaDetection {
+  // Centre of the rectangle, m.
   double x;
+  // Centre of the rectangle, m.
   double y;
+  // cos of the direction.
   double cos;
+  // sin of the direction.
   double sin;
+  // Of the rectangle, along the direction, m.
   double length;
+  // Of the rectangle, across, m.
   double width;
 } MufasaDetection;
 
@@ -554,24 +565,38 @@ typedef struct MufasaParameters {
   double delta;
 } MufasaParameters;
 
-// Pose, speed and size of the CAV: x, y is its reference point (the rear axle, or up to length/2 ahead of it), and the
-// centre of its rectangle is `center_offset` ahead of that.
+// Pose, speed and size of the CAV, in the right-handed frame of the cycle, which stands still. x, y is its reference
+// point (the rear axle, or up to length/2 ahead of it), and the centre of its rectangle is `center_offset` ahead of that.
+// (cos, sin) is the direction that it heads in, as an angle from x towards y.
 typedef struct MufasaEgo {
+  // Place of the reference point, m.
   double x;
+  // Place of the reference point, m.
   double y;
+  // cos of the direction.
   double cos;
+  // sin of the direction.
   double sin;
+  // Not below 0, m/s.
   double speed;
+  // Of the rectangle, along the direction, m.
   double length;
+  // Of the rectangle, across, m.
   double width;
+  // From the reference point forward to the centre of the rectangle (negative: back), m.
   double center_offset;
 } MufasaEgo;
 
-// One cross section of a route.
+// One cross section of a route, in the right-handed frame of the cycle, which stands still. x, y is its point of the
+// reference path; the left boundary is to the left of the driving direction (cos, sin), on the side of (-sin, cos).
 typedef struct MufasaCrossSection {
+  // Point of the reference path, m.
   double x;
+  // Point of the reference path, m.
   double y;
+  // x and y of the left boundary, m.
   double left[2];
+  // x and y of the right boundary, m.
   double right[2];
 } MufasaCrossSection;
 
@@ -585,16 +610,23 @@ typedef struct MufasaRoute {
   size_t cross_sections_len;
 } MufasaRoute;
 
-// One pose of a trajectory.
+// One pose of a trajectory: x, y is the place of the CAV's reference point (that of MufasaEgo, not the centre of its
+// rectangle), (cos, sin) the direction that it heads in, in the right-handed frame of the cycle, which stands still.
 typedef struct MufasaTrajectoryPoint {
+  // When the CAV is to be there.
   struct MufasaTime t;
+  // Place of the reference point, m.
   double x;
+  // Place of the reference point, m.
   double y;
+  // cos of the direction.
   double cos;
+  // sin of the direction.
   double sin;
 } MufasaTrajectoryPoint;
 
-// The planned trajectory. Points are places of the reference point that MufasaEgo names.
+// The planned trajectory. Points are places of the CAV's reference point (that of MufasaEgo), in the right-handed frame of
+// the cycle, which stands still.
 //
 // In the hardened profile stage ii asks of the points, over their whole length:
 // * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
@@ -613,16 +645,26 @@ typedef struct MufasaTrajectory {
   size_t points_len;
 } MufasaTrajectory;
 
-// A tracked object.
+// A tracked object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
+// centre of its rectangle, (cos, sin) its direction; its velocity is over ground in the same frame.
 typedef struct MufasaTrack {
+  // Identity over time.
   int64_t id;
+  // Centre of the rectangle, m.
   double x;
+  // Centre of the rectangle, m.
   double y;
+  // cos of the direction.
   double cos;
+  // sin of the direction.
   double sin;
+  // Velocity along the frame's x, m/s.
   double vx;
+  // Velocity along the frame's y, m/s.
   double vy;
+  // Of the rectangle, along the direction, m.
   double length;
+  // Of the rectangle, across, m.
   double width;
 } MufasaTrack;
 
@@ -636,42 +678,51 @@ typedef struct MufasaTrackList {
   size_t items_len;
 } MufasaTrackList;
 
-// The leading vehicle.
+// The leading vehicle: its free distance and speed along the reference path, the former bumper to bumper.
 typedef struct MufasaLead {
+  // Time of measurement.
   struct MufasaTime stamp;
+  // From bumper to bumper, in metres.
   struct MufasaGap gap;
+  // Speed of the leading vehicle over ground along the reference path, not below 0, m/s.
   double speed;
 } MufasaLead;
 
-// An occupancy grid map.
+// An occupancy grid map. x, y is its origin, a corner (not the centre), in the right-handed frame of the cycle, which
+// stands still; columns count from there in the direction (cos, sin), rows in (-sin, cos), to the left of it. The cell of
+// column i and row k is the square from (i, k) to (i + 1, k + 1) times `resolution`.
 typedef struct MufasaGrid {
   // Time of measurement.
   struct MufasaTime stamp;
-  // Origin.
+  // The origin, m.
   double x;
-  // Origin.
+  // The origin, m.
   double y;
-  // Direction of the rows.
+  // cos of the direction.
   double cos;
-  // Direction of the rows.
+  // sin of the direction.
   double sin;
-  // Side of a cell.
+  // Side of a cell, m.
   double resolution;
   // Columns.
   int64_t width;
   // Rows.
   int64_t height;
-  // Bit row * width + column, least significant bit of each byte first.
+  // Bit row * width + column, least significant bit of each byte first; 1 is occupied.
   const uint8_t *occupied;
   // Bytes of `occupied`: (width * height + 7) / 8.
   size_t occupied_len;
-  // The same form, or null.
+  // The same form, 1 is unknown, or null; a cell both occupied and unknown is occupied.
   const uint8_t *unknown;
   // Bytes of `unknown`.
   size_t unknown_len;
 } MufasaGrid;
 
 // One cycle. A null pointer is a missing input.
+//
+// All places are in one right-handed frame of the road plane that stands still (UTM, or any other); lengths in m,
+// speeds in m/s. A direction (cos, sin) is that of an angle from x towards y; to the left of it is (-sin, cos). Times
+// are of the CAV's monotonic clock.
 typedef struct MufasaCycle {
   // A MufasaProfile.
   uint32_t profile;
@@ -759,7 +810,7 @@ typedef struct MufasaInvalidInput {
 
 // The answer to one cycle.
 typedef struct MufasaReport {
-  // The verdict.
+  // The verdict: to be compared with SAFE, as none of its values is 0.
   MufasaVerdict verdict;
   // What made the cycle unsafe.
   MufasaFailedStage failed_stage;
@@ -860,9 +911,10 @@ typedef struct MufasaMonitorSettings {
   struct MufasaParameters stages;
   // Times of the requester.
   struct MufasaRequesterParameters requester;
-  // The nominal period of the remote's results in nanoseconds, at least 1,000,000 (1 ms). `requester.dt_max_ns` has to be above it:
-  // at equality one nanosecond of jitter ends the session. (The default of `dt_max_ns`, 100 ms, is
-  // the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in seconds, in the hardened profile.
+  // The nominal period of the cycles and of the remote's results in nanoseconds, at least 1,000,000 (1 ms).
+  // `requester.dt_max_ns` has to be above it: at equality one nanosecond of jitter ends the session. (The
+  // default of `dt_max_ns`, 100 ms, is the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in
+  // seconds, in the hardened profile.
   int64_t period_ns;
   // At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
@@ -913,9 +965,12 @@ typedef struct MufasaTrajectoryMessage {
   struct MufasaTrajectory trajectory;
 } MufasaTrajectoryMessage;
 
-// What the CAV knows when a cycle begins; times on its monotonic clock, units and frames as in
-// MufasaCycle. Profile, parameters, configuration, route, the station's data and earlier detections are
-// not among it: the monitor has them.
+// What the CAV knows when a cycle begins. Profile, parameters, configuration, route, the station's data and
+// earlier detections are not among it: the monitor has them.
+//
+// All places, those of the route and of stations' messages, too, are in one right-handed frame of the road plane that
+// stands still (UTM, or any other); lengths in m, speeds in m/s. A direction (cos, sin) is that of an angle from x towards
+// y; to the left of it is (-sin, cos). Times are of the CAV's monotonic clock.
 typedef struct MufasaMonitorInputs {
   // The CAV.
   struct MufasaEgo ego;
@@ -934,8 +989,8 @@ typedef struct MufasaMonitorInputs {
 // The end of a cycle. Remote data come out here alone, in memory of the monitor, and may be read until
 // its next call.
 typedef struct MufasaDecision {
-  // The verdict and its reasons; the requester has been told. Anything but SAFE has made every group
-  // local.
+  // The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
+  // has made every group local.
   struct MufasaReport report;
   // Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
   const struct MufasaTrackList *tracks;

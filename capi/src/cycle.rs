@@ -28,35 +28,49 @@ pub enum MufasaConfiguration {
     PlanRemote = 4,
 }
 
-/// Pose, speed and size of the CAV: x, y is its reference point (the rear axle, or up to length/2 ahead of it), and the
-/// centre of its rectangle is `center_offset` ahead of that.
+/// Pose, speed and size of the CAV, in the right-handed frame of the cycle, which stands still. x, y is its reference
+/// point (the rear axle, or up to length/2 ahead of it), and the centre of its rectangle is `center_offset` ahead of that.
+/// (cos, sin) is the direction that it heads in, as an angle from x towards y.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaEgo {
+    /// Place of the reference point, m.
     pub x: f64,
+    /// Place of the reference point, m.
     pub y: f64,
+    /// cos of the direction.
     pub cos: f64,
+    /// sin of the direction.
     pub sin: f64,
+    /// Not below 0, m/s.
     pub speed: f64,
+    /// Of the rectangle, along the direction, m.
     pub length: f64,
+    /// Of the rectangle, across, m.
     pub width: f64,
+    /// From the reference point forward to the centre of the rectangle (negative: back), m.
     pub center_offset: f64,
 }
 
-/// One pose of a trajectory.
+/// One pose of a trajectory: x, y is the place of the CAV's reference point (that of MufasaEgo, not the centre of its
+/// rectangle), (cos, sin) the direction that it heads in, in the right-handed frame of the cycle, which stands still.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaTrajectoryPoint {
+    /// When the CAV is to be there.
     pub t: MufasaTime,
+    /// Place of the reference point, m.
     pub x: f64,
+    /// Place of the reference point, m.
     pub y: f64,
+    /// cos of the direction.
     pub cos: f64,
+    /// sin of the direction.
     pub sin: f64,
 }
 
-/// The planned trajectory. Points are places of the reference point that MufasaEgo names.
+/// The planned trajectory. Points are places of the CAV's reference point (that of MufasaEgo), in the right-handed frame of
+/// the cycle, which stands still.
 ///
 /// In the hardened profile stage ii asks of the points, over their whole length:
 /// * start: the first within `max_age_ns` of now and `start_tolerance` of the CAV's reference point (plus what it
@@ -77,19 +91,28 @@ pub struct MufasaTrajectory {
     pub points_len: usize,
 }
 
-/// A tracked object.
+/// A tracked object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
+/// centre of its rectangle, (cos, sin) its direction; its velocity is over ground in the same frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaTrack {
+    /// Identity over time.
     pub id: i64,
+    /// Centre of the rectangle, m.
     pub x: f64,
+    /// Centre of the rectangle, m.
     pub y: f64,
+    /// cos of the direction.
     pub cos: f64,
+    /// sin of the direction.
     pub sin: f64,
+    /// Velocity along the frame's x, m/s.
     pub vx: f64,
+    /// Velocity along the frame's y, m/s.
     pub vy: f64,
+    /// Of the rectangle, along the direction, m.
     pub length: f64,
+    /// Of the rectangle, across, m.
     pub width: f64,
 }
 
@@ -105,16 +128,22 @@ pub struct MufasaTrackList {
     pub items_len: usize,
 }
 
-/// A detected object.
+/// A detected object, in the right-handed frame of the cycle, which stands still (not relative to the CAV). x, y is the
+/// centre of its rectangle, (cos, sin) its direction.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaDetection {
+    /// Centre of the rectangle, m.
     pub x: f64,
+    /// Centre of the rectangle, m.
     pub y: f64,
+    /// cos of the direction.
     pub cos: f64,
+    /// sin of the direction.
     pub sin: f64,
+    /// Of the rectangle, along the direction, m.
     pub length: f64,
+    /// Of the rectangle, across, m.
     pub width: f64,
 }
 
@@ -130,24 +159,30 @@ pub struct MufasaDetectionList {
     pub items_len: usize,
 }
 
-/// The leading vehicle.
+/// The leading vehicle: its free distance and speed along the reference path, the former bumper to bumper.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaLead {
+    /// Time of measurement.
     pub stamp: MufasaTime,
+    /// From bumper to bumper, in metres.
     pub gap: MufasaGap,
+    /// Speed of the leading vehicle over ground along the reference path, not below 0, m/s.
     pub speed: f64,
 }
 
-/// One cross section of a route.
+/// One cross section of a route, in the right-handed frame of the cycle, which stands still. x, y is its point of the
+/// reference path; the left boundary is to the left of the driving direction (cos, sin), on the side of (-sin, cos).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-#[allow(missing_docs, reason = "the names are those of spec/5-interfaces.md")]
 pub struct MufasaCrossSection {
+    /// Point of the reference path, m.
     pub x: f64,
+    /// Point of the reference path, m.
     pub y: f64,
+    /// x and y of the left boundary, m.
     pub left: [f64; 2],
+    /// x and y of the right boundary, m.
     pub right: [f64; 2],
 }
 
@@ -163,37 +198,43 @@ pub struct MufasaRoute {
     pub cross_sections_len: usize,
 }
 
-/// An occupancy grid map.
+/// An occupancy grid map. x, y is its origin, a corner (not the centre), in the right-handed frame of the cycle, which
+/// stands still; columns count from there in the direction (cos, sin), rows in (-sin, cos), to the left of it. The cell of
+/// column i and row k is the square from (i, k) to (i + 1, k + 1) times `resolution`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaGrid {
     /// Time of measurement.
     pub stamp: MufasaTime,
-    /// Origin.
+    /// The origin, m.
     pub x: f64,
-    /// Origin.
+    /// The origin, m.
     pub y: f64,
-    /// Direction of the rows.
+    /// cos of the direction.
     pub cos: f64,
-    /// Direction of the rows.
+    /// sin of the direction.
     pub sin: f64,
-    /// Side of a cell.
+    /// Side of a cell, m.
     pub resolution: f64,
     /// Columns.
     pub width: i64,
     /// Rows.
     pub height: i64,
-    /// Bit row * width + column, least significant bit of each byte first.
+    /// Bit row * width + column, least significant bit of each byte first; 1 is occupied.
     pub occupied: *const u8,
     /// Bytes of `occupied`: (width * height + 7) / 8.
     pub occupied_len: usize,
-    /// The same form, or null.
+    /// The same form, 1 is unknown, or null; a cell both occupied and unknown is occupied.
     pub unknown: *const u8,
     /// Bytes of `unknown`.
     pub unknown_len: usize,
 }
 
 /// One cycle. A null pointer is a missing input.
+///
+/// All places are in one right-handed frame of the road plane that stands still (UTM, or any other); lengths in m,
+/// speeds in m/s. A direction (cos, sin) is that of an angle from x towards y; to the left of it is (-sin, cos). Times
+/// are of the CAV's monotonic clock.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaCycle {

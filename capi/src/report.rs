@@ -6,7 +6,8 @@ use mufasa::report::{
     FailedStage, Input, InvalidInput, Outcome, Problem, Reason, Report, Rule, Stage, Witness,
 };
 
-/// The verdict. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
+/// The verdict. Compare it with SAFE: UNSAFE and ERROR are not 0 either, so that `if (report.verdict)` is taken
+/// for all of them. 0 is none of them, so that memory nobody wrote to is not a safe cycle.
 #[repr(u32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MufasaVerdict {
@@ -184,7 +185,7 @@ pub struct MufasaInvalidInput {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaReport {
-    /// The verdict.
+    /// The verdict: to be compared with SAFE, as none of its values is 0.
     pub verdict: MufasaVerdict,
     /// What made the cycle unsafe.
     pub failed_stage: MufasaFailedStage,

@@ -1,9 +1,13 @@
-//! Times and gaps, of which a bare number cannot be taken for one.
+//! Times and gaps. To assign a bare number to one, or to give it as an argument, is an error in C and C++. An
+//! initialiser of the struct around it takes one when the inner braces are left out; `-Werror=missing-braces` finds
+//! that. (A constructor would forbid it in C++ alone, and would change how some compilers return the type.)
 
 use mufasa::monitor::Time;
 
 /// A point in time on the CAV's one monotonic clock, that of the remote's stamps after conversion, too. A type
-/// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`.
+/// of its own, so that microseconds are not taken for nanoseconds: make it with `mufasa_time_from_...`. A bare
+/// number assigned or given as an argument is an error; in an initialiser without inner braces it is none, unless you
+/// compile with `-Werror=missing-braces`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MufasaTime {
@@ -11,7 +15,8 @@ pub struct MufasaTime {
     pub ns: i64,
 }
 
-/// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`.
+/// A distance between two vehicles, from bumper to bumper: make it with `mufasa_gap_between_bumpers`. Bare
+/// numbers are as with MufasaTime.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MufasaGap {

@@ -8,7 +8,7 @@ use std::{env, fs};
 
 /// What Rust's standard library needs, on Linux.
 const SYSTEM_LIBRARIES: [&str; 4] = ["-lpthread", "-ldl", "-lm", "-lc"];
-const WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wmissing-braces"];
 
 fn here() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -105,10 +105,28 @@ fn a_status_that_is_not_looked_at_does_not_compile() {
     }
 }
 
+/// Compiles these lines as C and as C++, and gives for either what the compiler says against them.
+fn complaints(name: &str, lines: &str, flags: &[&str]) -> Vec<Option<String>> {
+    let c = (["cc", "gcc", "clang"], ["-std=c11", "-xc"]);
+    let cpp = (["c++", "g++", "clang++"], ["-std=c++17", "-xc++"]);
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&source, lines).expect("a source can be written");
+    let include = here().join("include");
+    let mut all = Vec::new();
+    for (names, language) in [c, cpp] {
+        let Some(compiler) = compiler(&names) else { continue };
+        let mut arguments: Vec<&OsStr> = language.iter().chain(flags).map(OsStr::new).collect();
+        arguments.extend(["-fsyntax-only", "-I"].map(OsStr::new));
+        arguments.extend([include.as_os_str(), source.as_os_str()]);
+        let output = run(compiler, &arguments).expect("a compiler that starts");
+        all.push((!output.status.success()).then(|| text(&output)));
+    }
+    all
+}
+
 /// The same lines compile when each number says what it counts.
 #[test]
-fn a_bare_number_is_no_time_and_no_gap() {
-    let Some(cc) = compiler(&["cc", "gcc", "clang"]) else { return };
+fn a_bare_number_assigned_or_given_is_no_time_and_no_gap() {
     let program = |[now, stamp, gap]: [&str; 3]| {
         format!(
             "#include \"mufasa.h\"\nint main(void) {{\n\
@@ -119,25 +137,55 @@ fn a_bare_number_is_no_time_and_no_gap() {
     };
     let good = ["mufasa_time_from_microseconds(5)"; 2];
     let good = [good[0], good[1], "mufasa_gap_between_bumpers(5)"];
-    let with = |i: usize, bad| {
+    for said in complaints("bare", &program(good), &[]) {
+        assert_eq!(said, None);
+    }
+    for (i, bad) in [(0, "5000"), (1, "5000"), (2, "5.0")] {
         let mut lines = good;
         lines[i] = bad;
-        program(lines)
+        for said in complaints("bare", &program(lines), &[]) {
+            let said = said.expect("an error");
+            let words = ["incompatible type", "could not convert", "no match for", "no viable"];
+            assert!(words.iter().any(|word| said.contains(word)), "{said}");
+        }
+    }
+}
+
+/// An initialiser that leaves out the inner braces takes one; the flag that README.md advises finds it, and lets
+/// pass the one that has them.
+#[test]
+fn a_bare_number_in_an_initialiser_is_an_error_with_the_advised_flag() {
+    const FLAG: [&str; 1] = ["-Werror=missing-braces"];
+    let program = |line: &str| {
+        format!(
+            "#include \"mufasa.h\"\nvoid f(int64_t now_us);\nvoid f(int64_t now_us) {{\n\
+             struct MufasaTime now = mufasa_time_from_microseconds(now_us);\n\
+             struct MufasaGap gap = mufasa_gap_between_bumpers(25.0);\n\
+             {line}\n (void)now, (void)gap, (void)m;\n}}\n"
+        )
     };
-    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bare.c");
-    let include = here().join("include");
-    for (lines, compiles) in [
-        (program(good), true),
-        (with(0, "5000"), false),
-        (with(1, "5000"), false),
-        (with(2, "5.0"), false),
+    for (bad, good) in [
+        (
+            "struct MufasaTrackMessage m = {1, 2, now_us, {now_us, NULL, 0}};",
+            "struct MufasaTrackMessage m = {1, 2, now, {now, NULL, 0}};",
+        ),
+        (
+            "struct MufasaTrackMessage m = {1, 2, now, {now_us, NULL, 0}};",
+            "struct MufasaTrackMessage m = {1, 2, {now.ns}, {{now.ns}, NULL, 0}};",
+        ),
+        (
+            "struct MufasaLead m = {now_us, 25.0, 10.0};",
+            "struct MufasaLead m = {{now.ns}, {25.0}, 10.0};",
+        ),
+        ("struct MufasaLead m = {now, 25.0, 10.0};", "struct MufasaLead m = {now, gap, 10.0};"),
     ] {
-        fs::write(&source, &lines).expect("a source can be written");
-        let mut arguments = ["-std=c11", "-S", "-o", "/dev/null", "-I"].map(OsStr::new).to_vec();
-        arguments.extend([include.as_os_str(), source.as_os_str()]);
-        let output = run(cc, &arguments).expect("a compiler that starts");
-        assert_eq!(output.status.success(), compiles, "{lines}{}", text(&output));
-        assert!(compiles || text(&output).contains("incompatible type"), "{}", text(&output));
+        for said in complaints("braces", &program(bad), &FLAG) {
+            let said = said.expect("an error");
+            assert!(said.contains("missing-braces"), "{said}");
+        }
+        for said in complaints("braces", &program(good), &FLAG) {
+            assert_eq!(said, None);
+        }
     }
 }
 

@@ -88,3 +88,69 @@ fn the_header_is_the_one_of_the_sources() {
         line.map(|line| line + 1),
     );
 }
+
+const FRAME: &str = "right-handed frame";
+/// No frame of the CAV, which moves.
+const STILL: &str = "stands still";
+/// Structs with places and distances, and what the comment above each has to name: the frame, and what x and y
+/// are of.
+const PLACES: [(&str, &[&str]); 10] = [
+    ("MufasaCycle", &[FRAME, STILL, "x towards y", "left of it is (-sin, cos)", "m/s"]),
+    ("MufasaMonitorInputs", &[FRAME, STILL, "x towards y", "left of it is (-sin, cos)", "m/s"]),
+    (
+        "MufasaEgo",
+        &[FRAME, STILL, "x, y", "reference point", "rear axle", "centre", "center_offset"],
+    ),
+    ("MufasaTrajectoryPoint", &[FRAME, STILL, "x, y", "reference point"]),
+    ("MufasaTrajectory", &[FRAME, STILL, "reference point"]),
+    ("MufasaTrack", &[FRAME, STILL, "x, y", "centre", "over ground"]),
+    ("MufasaDetection", &[FRAME, STILL, "x, y", "centre"]),
+    ("MufasaLead", &["reference path", "bumper to bumper"]),
+    ("MufasaCrossSection", &[FRAME, STILL, "x, y", "reference path", "left", "driving direction"]),
+    ("MufasaGrid", &[FRAME, STILL, "x, y", "origin", "corner", "column", "row", "(-sin, cos)"]),
+];
+/// Those of their `double` fields; a direction has none.
+const UNITS: [&str; 4] = [", m.", ", m/s.", "cos of the direction.", "sin of the direction."];
+
+fn committed() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/mufasa.h");
+    fs::read_to_string(path).expect("the header")
+}
+
+/// The comment that ends this text, in one line.
+fn comment_before(text: &str) -> String {
+    let lines = text.lines().rev().map_while(|line| line.trim().strip_prefix("//"));
+    let mut lines: Vec<&str> = lines.map(str::trim).collect();
+    lines.reverse();
+    lines.join(" ")
+}
+
+#[test]
+fn the_header_names_frame_reference_point_and_units() {
+    let header = committed();
+    for (name, words) in PLACES {
+        let start = format!("typedef struct {name} {{\n");
+        let (before, after) = header.split_once(&start).expect(name);
+        let above = comment_before(before);
+        for word in words {
+            assert!(above.contains(word), "{name}: {word:?} is not in {above:?}");
+        }
+        let (body, _) = after.split_once('}').expect(name);
+        let lines: Vec<&str> = body.lines().map(str::trim).collect();
+        for pair in lines.windows(2).filter(|pair| pair[1].starts_with("double ")) {
+            let has_unit = UNITS.iter().any(|unit| pair[0].ends_with(unit));
+            assert!(pair[0].starts_with("// ") && has_unit, "{name}: the unit of {:?}", pair[1]);
+        }
+    }
+}
+
+/// None of its values is 0, so that each is true in C.
+#[test]
+fn the_header_says_that_a_verdict_is_compared_with_safe() {
+    let header = committed();
+    for what in ["enum MufasaVerdict\n", "  MufasaVerdict verdict;"] {
+        let (before, _) = header.split_once(what).expect(what);
+        let above = comment_before(before);
+        assert!(above.contains("with SAFE"), "{what}: {above:?}");
+    }
+}

@@ -69,8 +69,8 @@ pub struct MufasaActions {
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaDecision {
-    /// The verdict and its reasons; the requester has been told. Anything but SAFE has made every group
-    /// local.
+    /// The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
+    /// has made every group local.
     pub report: MufasaReport,
     /// Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
     pub tracks: *const MufasaTrackList,

@@ -23,9 +23,12 @@ use crate::memory::{Arena, put, required};
 use crate::status::MufasaStatus;
 use crate::time::MufasaTime;
 
-/// What the CAV knows when a cycle begins; times on its monotonic clock, units and frames as in
-/// MufasaCycle. Profile, parameters, configuration, route, the station's data and earlier detections are
-/// not among it: the monitor has them.
+/// What the CAV knows when a cycle begins. Profile, parameters, configuration, route, the station's data and
+/// earlier detections are not among it: the monitor has them.
+///
+/// All places, those of the route and of stations' messages, too, are in one right-handed frame of the road plane that
+/// stands still (UTM, or any other); lengths in m, speeds in m/s. A direction (cos, sin) is that of an angle from x towards
+/// y; to the left of it is (-sin, cos). Times are of the CAV's monotonic clock.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaMonitorInputs {
