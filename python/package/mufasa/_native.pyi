@@ -121,7 +121,7 @@ class Actions:
 
 @final
 class VerifiedTracks:
-    """Tracks of a station that a safe cycle has checked. Everything raises ``Expired`` from the
+    """Tracks of a station that a safe cycle has compared with what the CAV sees. Everything raises ``Expired`` from the
     monitor's next call on."""
 
     @property
