@@ -66,7 +66,8 @@ enum MufasaStatus
   MUFASA_STATUS_MEMORY_TOO_SMALL = 4,
   // The array for actions has fewer than MUFASA_MAX_ACTIONS places.
   MUFASA_STATUS_TOO_FEW_ACTIONS = 5,
-  // A parameter of the requester, or a number of sessions, is below 0.
+  // A parameter of the requester, or a number of sessions, is below 0, or the latter 2^63 - 1, after which
+  // there is no session.
   MUFASA_STATUS_NEGATIVE_PARAMETER = 6,
   // An event names a station below 1.
   MUFASA_STATUS_INVALID_STATION = 7,
@@ -916,7 +917,7 @@ typedef struct MufasaMonitorSettings {
   // default of `dt_max_ns`, 100 ms, is the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in
   // seconds, in the hardened profile.
   int64_t period_ns;
-  // At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
+  // At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
   // numbered on from here, so that no message of an earlier life fits.
   int64_t sessions_before;
   // Stations that ever offer something, at least 1.
@@ -992,7 +993,9 @@ typedef struct MufasaDecision {
   // The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
   // has made every group local.
   struct MufasaReport report;
-  // Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
+  // Of a safe cycle the tracks of the station, while MOT is remote, they are current, and stage i ran: they were
+  // compared with what the CAV sees; an object that is not among them may still exist. Else null, so while the CAV
+  // has no current detections, too.
   const struct MufasaTrackList *tracks;
   // Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
   // of the station, or while MOT alone is remote that of the CAV's own planner; else null.

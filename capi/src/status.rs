@@ -19,7 +19,8 @@ pub enum MufasaStatus {
     MemoryTooSmall = 4,
     /// The array for actions has fewer than MUFASA_MAX_ACTIONS places.
     TooFewActions = 5,
-    /// A parameter of the requester, or a number of sessions, is below 0.
+    /// A parameter of the requester, or a number of sessions, is below 0, or the latter 2^63 - 1, after which
+    /// there is no session.
     NegativeParameter = 6,
     /// An event names a station below 1.
     InvalidStation = 7,

@@ -72,7 +72,9 @@ pub struct MufasaDecision {
     /// The verdict (to be compared with SAFE) and its reasons; the requester has been told. Anything but SAFE
     /// has made every group local.
     pub report: MufasaReport,
-    /// Of a safe cycle the tracks of the station, while MOT is remote and they are current; else null.
+    /// Of a safe cycle the tracks of the station, while MOT is remote, they are current, and stage i ran: they were
+    /// compared with what the CAV sees; an object that is not among them may still exist. Else null, so while the CAV
+    /// has no current detections, too.
     pub tracks: *const MufasaTrackList,
     /// Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
     /// of the station, or while MOT alone is remote that of the CAV's own planner; else null.

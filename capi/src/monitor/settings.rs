@@ -25,7 +25,7 @@ pub struct MufasaMonitorSettings {
     /// default of `dt_max_ns`, 100 ms, is the paper's; at 10 Hz choose a larger one.) So has `stages.tau`, in
     /// seconds, in the hardened profile.
     pub period_ns: i64,
-    /// At least the last session of the monitor's earlier lives; 0 for a first life. Sessions are
+    /// At least the last session of the monitor's earlier lives; 0 for a first life, at most 2^63 - 2. Sessions are
     /// numbered on from here, so that no message of an earlier life fits.
     pub sessions_before: i64,
     /// Stations that ever offer something, at least 1.
