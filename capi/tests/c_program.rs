@@ -94,12 +94,13 @@ fn a_status_that_is_not_looked_at_does_not_compile() {
         )
     };
     let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("status.c");
+    let assembly = source.with_extension("s");
     let include = here().join("include");
     for (lines, complaints) in [(calls(["", ""]), 3), (calls(["if (", ") return 1"]), 0)] {
         fs::write(&source, lines).expect("a source can be written");
-        let mut arguments =
-            ["-std=c11", "-S", "-Wall", "-o", "/dev/null", "-I"].map(OsStr::new).to_vec();
+        let mut arguments = ["-std=c11", "-S", "-Wall", "-I"].map(OsStr::new).to_vec();
         arguments.extend([include.as_os_str(), source.as_os_str()]);
+        arguments.extend(["-o".as_ref(), assembly.as_os_str()]);
         let said = text(&run(cc, &arguments).expect("a compiler that starts"));
         assert_eq!(said.matches("-Wunused-result").count(), complaints, "{said}");
     }
