@@ -100,7 +100,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
         ),
         MonitorError::SessionsBefore { .. } => report::wrong(
             "sessions_before",
-            "below 0; give the last session of earlier lives, or 0",
+            "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0",
         ),
         MonitorError::Memory { field, .. } => report::wrong(field, AT_LEAST_1),
     };

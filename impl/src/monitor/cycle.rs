@@ -9,8 +9,8 @@ use crate::input::indexes::Indexes;
 use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
-use crate::report::{InvalidInput, Problem, Report};
-use crate::services::configuration::{Configuration, Group};
+use crate::report::{InvalidInput, Outcome, Problem, Report};
+use crate::services::configuration::Group;
 use crate::stages::check_with;
 use crate::stages::given::is_current;
 
@@ -138,7 +138,7 @@ impl Monitor<'_> {
             let since_ns = now_ns.checked_sub(tick.as_nanoseconds());
             since_ns.is_some_and(|it| (0..=dt_max_ns).contains(&it))
         });
-        if !is_ticked && report.is_ok() && remote.iter().any(Option::is_some) {
+        if !is_ticked && report.is_ok() && (mot.is_some() || plan.is_some()) {
             // Nobody looked for silence.
             report = Err(InvalidInput { field: "tick", index: None, problem: Problem::NoTick });
         }
@@ -152,8 +152,10 @@ impl Monitor<'_> {
         for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        let tracks = tracks.filter(|_| is_safe && mot.is_some());
-        let is_checked = is_safe && self.requester.configuration() != Configuration::Local;
+        let was_compared =
+            report.as_ref().is_ok_and(|report| matches!(report.stages, [Outcome::Passed, ..]));
+        let tracks = tracks.filter(|_| is_safe && was_compared && mot.is_some());
+        let is_checked = is_safe && (mot.is_some() || plan.is_some());
         let trajectory = trajectory.filter(|_| is_checked);
         let used = |used: bool, running: Option<Running>| running.filter(|_| used);
         let sessions = Sessions {
@@ -233,7 +235,8 @@ fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
 fn last_used<'c, T>(running: &Running, element: Option<Element<'c, T>>) -> Option<Element<'c, T>> {
     element.filter(|it| {
         let generated_ns = it.generated.as_nanoseconds();
-        (Some(generated_ns), it.session) == (running.last_used_ns, running.session)
+        let Running { station, session, last_used_ns, .. } = *running;
+        (it.station, it.session, Some(generated_ns)) == (station, session, last_used_ns)
     })
 }
 

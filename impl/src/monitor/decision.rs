@@ -16,8 +16,9 @@ use crate::report::{InvalidInput, Report};
 pub enum Decision<'m> {
     /// No stage failed. The requester has been told.
     Safe {
-        /// The tracks of the station, while MOT is remote and they are current. What is there was
-        /// compared with what the CAV sees; an object that is not there may still exist.
+        /// The tracks of the station, while MOT is remote, they are current, and stage i ran: what is there
+        /// was compared with what the CAV sees; an object that is not there may still exist. `None`, too,
+        /// while the CAV has no current detections.
         tracks: Option<Verified<'m, TrackList<'m>>>,
         /// The trajectory that was checked, while a group is remote and it is current: that of the
         /// station, or in MotRemote that of the CAV's own planner. `None` in Local, where nothing is

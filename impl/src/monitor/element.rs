@@ -23,7 +23,8 @@ pub struct Message<L> {
 }
 
 /// An element that the requester used: what it holds is out of reach until a cycle has checked it, and
-/// only the monitor makes one.
+/// only the monitor makes one. It is for the monitor that made it: another one takes it only if it runs a session of
+/// the same station and number and its own last element was generated at the same time.
 ///
 /// ```compile_fail,E0616
 /// # use mufasa::{input::cycle::Track, monitor::Accepted};
@@ -35,13 +36,14 @@ pub struct Message<L> {
 /// ```compile_fail,E0451
 /// # use mufasa::{input::cycle::Track, monitor::{Accepted, Time}};
 /// fn forged(items: Vec<Track>, now: Time) -> Accepted<Vec<Track>> {
-///     Accepted { session: 1, generated: now, stamp: now, items }
+///     Accepted { station: 1, session: 1, generated: now, stamp: now, items }
 /// }
 /// ```
 ///
 /// Source: `spec/5-interfaces.md#monitor`.
 #[must_use = "an element that was accepted has to be checked in a cycle"]
 pub struct Accepted<L> {
+    pub(super) station: i64,
     pub(super) session: i64,
     pub(super) generated: Time,
     pub(super) stamp: Time,
@@ -118,6 +120,7 @@ impl fmt::Display for DropReason {
 /// An accepted element as a cycle sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element<'c, T> {
+    pub(super) station: i64,
     pub(super) session: i64,
     pub(super) generated: Time,
     pub(super) stamp: Time,
@@ -129,7 +132,7 @@ impl<L> Accepted<L> {
     where
         L: AsRef<[T]>,
     {
-        let Self { session, generated, stamp, ref items } = *self;
-        Element { session, generated, stamp, items: items.as_ref() }
+        let Self { station, session, generated, stamp, ref items } = *self;
+        Element { station, session, generated, stamp, items: items.as_ref() }
     }
 }

@@ -136,7 +136,7 @@ impl Monitor<'_> {
         let data = EventKind::Data { station, group, session: named, generated_ns };
         let actions = self.step(now, data)?;
         if !actions.contains(&Action::Drop(group)) {
-            let element = Accepted { session, generated, stamp, items };
+            let element = Accepted { station, session, generated, stamp, items };
             return Ok((Arrival::Accepted(element), actions));
         }
         let why = if is_too_long {
@@ -175,8 +175,13 @@ impl Monitor<'_> {
             }
         }
         let actions = self.requester.step(&Event { t_ns, kind })?;
-        if matches!(kind, EventKind::Verdict { safe: true, .. }) {
-            // Begins and ends no session.
+        let goes_on = match kind {
+            EventKind::Verdict { safe, .. } => safe,
+            EventKind::Tick => actions.is_empty(),
+            _ => false,
+        };
+        if goes_on {
+            // No session has begun, and none has ended, which would be a release.
             return Ok(actions);
         }
         for group in Group::ALL {

@@ -25,11 +25,11 @@ pub struct Settings {
     pub stages: Parameters,
     /// Times of the requester.
     pub requester: requester::Parameters,
-    /// The nominal period of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
+    /// The nominal period of the cycles and of the remote's results, above 0. `requester.dt_max_ns` has to be above it:
     /// at equality one nanosecond of jitter ends the session; and in the hardened profile `stages.tau` has to
     /// be above it.
     pub period: Duration,
-    /// At least the last session of the monitor's earlier lives, >= 0: sessions of this one are
+    /// At least the last session of the monitor's earlier lives, from 0 to 2^63 - 2: sessions of this one are
     /// numbered on from there, so that no message of an earlier life fits. A number stored at the last
     /// request will do, or a counter of starts times 2^32; 0 for a first life.
     pub sessions_before: i64,
@@ -74,7 +74,7 @@ impl Settings {
         if self.profile == Profile::Hardened && tau <= self.period.as_secs_f64() {
             return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
         }
-        if self.sessions_before < 0 {
+        if !(0..i64::MAX).contains(&self.sessions_before) {
             return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
         }
         Ok(())
@@ -148,7 +148,7 @@ pub enum MonitorError {
         /// The nominal period.
         period: Duration,
     },
-    /// `sessions_before` is below 0.
+    /// `sessions_before` is below 0, or 2^63 - 1, after which there is no session.
     SessionsBefore {
         /// What was given.
         sessions_before: i64,
@@ -197,8 +197,8 @@ impl fmt::Display for MonitorError {
             ),
             Self::SessionsBefore { sessions_before } => write!(
                 f,
-                "settings.sessions_before = {sessions_before} is below 0; give the last session of \
-                 earlier lives, or 0"
+                "settings.sessions_before = {sessions_before} is not from 0 to 2^63 - 2; give the last \
+                 session of earlier lives, or 0"
             ),
             Self::Memory { field, needed, given } => {
                 write!(f, "memory.{field} has {given} elements; lend at least {needed}")?;

@@ -68,8 +68,12 @@ fn parameters_outside_of_their_domain_are_refused() {
     let field = "t_wait_ns";
     let below = MonitorError::Requester(RequesterError::NegativeParameter { field });
     assert_eq!(refused(wrong).0, below);
-    let wrong = Settings { sessions_before: -1, ..settings() };
-    assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before: -1 });
+    for sessions_before in [-1, i64::MAX] {
+        let wrong = Settings { sessions_before, ..settings() };
+        assert_eq!(refused(wrong).0, MonitorError::SessionsBefore { sessions_before });
+    }
+    let last = Settings { sessions_before: i64::MAX - 1, ..settings() };
+    assert!(Buffers::new(16, 40).monitor(last).is_ok());
 }
 
 /// `spec/5-interfaces.md#monitor.6`: equality is no error, and the defaults are far from it.

@@ -3,6 +3,7 @@
 //! stands in the documentation of `impl/src/monitor`).
 
 mod again;
+mod blind;
 mod dropped;
 mod early;
 mod equal;

@@ -294,3 +294,33 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
         decision => panic!("{decision:?}"),
     }
 }
+
+/// What a monitor accepted of one station is no result of another's session, although number and time are the same.
+#[test]
+fn what_another_monitor_accepted_is_missing() {
+    let cross_sections = road();
+    let [mut mine, mut others] = [(); 2].map(|()| Buffers::new(16, cross_sections.len()));
+    let mut accepted = Vec::new();
+    let world = World::at(0);
+    for (buffers, station) in [(&mut mine, 1), (&mut others, 2)] {
+        let mut monitor = buffers.on(&cross_sections);
+        let _request = monitor.offer(at(0), station, Groups::from(Group::Plan)).expect("a station");
+        let asked = monitor.tick(at(0));
+        assert_eq!(asked.len(), 1, "{asked:?}");
+        let _done = monitor.confirm(at(0), station, Group::Plan, 1).expect("a station");
+        let message = Message { station, ..message(1, at(0), world.points.clone()) };
+        let (arrival, _none) = monitor.trajectory(at(0), message).expect("a station");
+        let Arrival::Accepted(element) = arrival else { panic!("{arrival:?}") };
+        accepted.push(element);
+        let mut given = accepted.iter().map(|it| {
+            let now = at(world.now_ns);
+            let inputs = Inputs::new(now, world.ego).detections(now, &world.detections);
+            let inputs = inputs.remote_trajectory(it);
+            let _none = monitor.tick(now);
+            let (decision, _) = monitor.cycle(&inputs);
+            matches!(decision, Decision::Safe { trajectory: Some(_), .. })
+        });
+        let given: Vec<bool> = given.by_ref().collect();
+        assert_eq!(given, if station == 1 { vec![true] } else { vec![false, true] });
+    }
+}

@@ -248,11 +248,12 @@ impl<'a> Plain<'a> {
             let age_ns = i128::from(own.now_ns) - i128::from(stamp_ns);
             (0..=max_age_ns).contains(&age_ns)
         };
+        let ran_i = own.detections.is_some_and(|it| current(it.0));
         let is_out = |stamp: Option<i64>| safe && stamp.is_some_and(current);
         let arrived = [tracks.map(|it| it.stamp_ns), points.map(|it| it.stamp_ns)];
         self.serve(own.now_ns, arrived.map(|stamp| stamp.is_some_and(current)));
         let verified = [
-            mot && is_out(used_tracks.map(|it| it.0)),
+            mot && ran_i && is_out(used_tracks.map(|it| it.0)),
             (mot || plan) && is_out(used_points.map(|it| it.0)),
         ];
         let sessions = Sessions {

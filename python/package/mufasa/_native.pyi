@@ -121,7 +121,7 @@ class Actions:
 
 @final
 class VerifiedTracks:
-    """Tracks of a station that a safe cycle has checked. Everything raises ``Expired`` from the
+    """Tracks of a station that a safe cycle has compared with what the CAV sees. Everything raises ``Expired`` from the
     monitor's next call on."""
 
     @property
@@ -159,7 +159,8 @@ class Decision:
     def __bool__(self) -> bool: ...
     @property
     def tracks(self) -> VerifiedTracks | None:
-        """The tracks of the station, while MOT is remote and they are current.
+        """The tracks of the station, while MOT is remote, they are current, and the CAV had current
+        detections to compare them with.
 
         Raises ``UnsafeCycle``, and ``Expired`` from the monitor's next call on."""
 
@@ -189,7 +190,7 @@ class Monitor:
     """The monitor of one CAV (``spec/5-interfaces.md#monitor``): events go in, actions come out; remote
     data are handed in and are out of reach until ``cycle`` has checked them.
 
-    ``period``: the nominal period of the remote's results. ``parameters``: overrides of single defaults
+    ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults
     by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to
     be above the period. ``sessions_before``: at least the last session of earlier lives, so that no
     message of one fits. ``most_stations``: that ever offer something.
