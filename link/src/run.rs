@@ -108,7 +108,7 @@ fn until(due_ns: i64, clock: SharedClock) -> Duration {
 
 /// `tau` in periods (A-07 of `docs/assumptions.md`): one until the next cycle, 0.6 until it is decided, the rest until
 /// the brakes act.
-const TAU_PERIODS: f64 = 2.5;
+pub const TAU_PERIODS: f64 = 2.5;
 
 /// The settings of a monitor for a drive: its profile, parameters and period, and the times of the
 /// requester. `tau` is at least [`TAU_PERIODS`] periods: what the CAV needs to brake is the vehicle's, not the

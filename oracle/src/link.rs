@@ -13,7 +13,7 @@ use mufasa_drives::check::complain;
 use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, read};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
-use mufasa_link::run::{self, VehicleRun};
+use mufasa_link::run::{self, TAU_PERIODS, VehicleRun};
 use mufasa_link::station::StationSummary;
 use mufasa_link::traffic::{Counts, Traffic};
 use mufasa_link::transport::Address;
@@ -22,6 +22,7 @@ use mufasa_link::transport::channels::Hub;
 use mufasa_link::transport::disturbed::Disturbed;
 use mufasa_link::vehicle::summary::{Spread, Summary, Tally};
 use mufasa_model::offloading::requester;
+use mufasa_props::bridge;
 use mufasa_records::files;
 use serde::Serialize;
 
@@ -49,6 +50,9 @@ pub fn vehicle(
         ..requester::Parameters::default()
     };
     let settings = run::settings(&driven, &parameters.unwrap_or_else(jitter));
+    if let Some(raised) = raised_tau(&driven, settings.stages.tau) {
+        words(writeln!(out, "{raised}"))?;
+    }
     let run = VehicleRun { id: arguments.id, settings, laps: arguments.laps };
     let mut tally = match &arguments.log {
         Some(file) => Tally::logging_to(Box::new(LineWriter::new(
@@ -127,10 +131,29 @@ fn drive(
     }
 }
 
+/// The drive as a station that attacks offers it: as long as the clean one. The vehicle drives on where an
+/// attacked drive ends with its attack, and is answered with the clean cycles there.
 fn attacked(drive: Drive, injections: &[Injection]) -> Result<Drive, String> {
-    let attacked =
-        injections.iter().try_fold(Stream::from(drive), |drive, it| words(inject(&drive, it)));
-    words(attacked?.collect())
+    injections.iter().try_fold(drive, |drive, injection| {
+        let clean = Stream::from(drive);
+        let mut attacked = words(words(inject(&clean, injection))?.collect())?;
+        for index in attacked.cycles.len()..clean.count() {
+            attacked.cycles.push(words(clean.cycle(index))?);
+        }
+        Ok(attacked)
+    })
+}
+
+/// What is said where `tau` is not that of the drive, s, but the least that its period allows.
+fn raised_tau(driven: &Played, tau_s: f64) -> Option<String> {
+    let asked_s = bridge::cycle_parameters(driven.parameters()).tau;
+    let period_ms = driven.period_ns() / 1_000_000;
+    (tau_s > asked_s).then(|| {
+        format!(
+            "tau is {tau_s} s, not {asked_s} s: at least {TAU_PERIODS} periods, of {period_ms} ms here \
+             (A-07 of docs/assumptions.md)"
+        )
+    })
 }
 
 fn words<T>(result: Result<T, impl ToString>) -> Result<T, String> {
@@ -230,5 +253,35 @@ fn connections(count: u64, last_error: Option<&str>) -> String {
     match last_error {
         Some(error) => format!("{count}; {error}"),
         None => count.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mufasa_drives::Attack;
+
+    use super::*;
+
+    /// In the demo nobody crosses.
+    const WITHOUT_TARGET: [Attack; 1] = [Attack::CrossingStands];
+
+    #[test]
+    fn a_station_that_attacks_offers_the_whole_drive_and_the_clean_one_after_each_attack() {
+        let drive = demo(&Options::default()).unwrap().collect().unwrap();
+        let count = drive.cycles.len();
+        for attack in Attack::ALL {
+            let injections =
+                [[5.0, 6.0], [8.0, 9.0]].map(|[from_s, to_s]| Injection { attack, from_s, to_s });
+            let offered = attacked(drive.clone(), &injections);
+            assert_eq!(offered.is_err(), WITHOUT_TARGET.contains(&attack), "{attack:?}");
+            let Ok(offered) = offered else { continue };
+            assert_eq!(offered.cycles.len(), count, "{attack:?}");
+            let differ = |index: usize| offered.cycles[index].cycle != drive.cycles[index].cycle;
+            let differing: Vec<_> = (0..count).filter(|index| differ(*index)).collect();
+            let in_spans = |index: &usize| (50..=60).contains(index) || (80..=90).contains(index);
+            assert!(differing.iter().all(in_spans), "{attack:?} {differing:?}");
+            assert!(differing.first() <= Some(&60) && differing.last() >= Some(&80), "{attack:?}");
+            Played::new(offered).unwrap();
+        }
     }
 }

@@ -27,6 +27,7 @@ pub(crate) struct VehicleArguments {
     pub(crate) id: i64,
     /// Parameters as lines `name = value` (TOML), of the stages and of the requester. Without it
     /// dt_max_ns is 50 ms above the period of the drive, with it what it says [default there: 100 ms].
+    /// `tau` is raised to 2.5 periods of the drive where it is less, and the output says so.
     #[arg(long, value_name = "FILE")]
     pub(crate) parameters: Option<PathBuf>,
     /// How often the drive is driven; each time the vehicle is started anew.
