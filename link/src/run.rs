@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use mufasa::input::profile::Profile;
 use mufasa::monitor::Settings;
 use mufasa_model::offloading::requester::Parameters;
 use mufasa_props::bridge;
@@ -111,14 +112,17 @@ fn until(due_ns: i64, clock: SharedClock) -> Duration {
 pub const TAU_PERIODS: f64 = 2.5;
 
 /// The settings of a monitor for a drive: its profile, parameters and period, and the times of the
-/// requester. `tau` is at least [`TAU_PERIODS`] periods: what the CAV needs to brake is the vehicle's, not the
+/// requester. `tau`, of the hardened profile alone, is at least [`TAU_PERIODS`] periods: what the CAV needs to brake is the vehicle's, not the
 /// drive's. The sessions are numbered by the vehicle.
 pub fn settings(played: &Played, requester: &Parameters) -> Settings {
     let period = Duration::from_nanos(played.period_ns().unsigned_abs());
     let mut stages = bridge::cycle_parameters(played.parameters());
-    stages.tau = stages.tau.max(TAU_PERIODS * period.as_secs_f64());
+    let profile = bridge::profile_to_impl(played.profile());
+    if profile == Profile::Hardened {
+        stages.tau = stages.tau.max(TAU_PERIODS * period.as_secs_f64());
+    }
     Settings {
-        profile: bridge::profile_to_impl(played.profile()),
+        profile,
         stages,
         requester: bridge::parameters_to_impl(requester),
         period,

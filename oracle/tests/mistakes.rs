@@ -107,17 +107,19 @@ fn a_time_in_another_unit_is_noted() {
 #[test]
 fn a_tau_that_the_vehicle_raises_is_told() {
     let (folder, scenario) = (folder("tau"), format!("{DATA}small-2018b.xml"));
-    let told = |tau: &str| {
+    let told = |tau: &str, profile: &str| {
         let file = folder.join("p.toml");
         fs::write(&file, format!("tau = {tau}\ndt_max_ns = 150_000_000\n")).expect("written");
-        let arguments =
-            ["vehicle", &scenario, "--parameters", file.to_str().expect("a plain name")];
+        let file = file.to_str().expect("a plain name");
+        let arguments = ["vehicle", &scenario, "--parameters", file, "--profile", profile];
         let ended = mufasa(&arguments, Stdio::null(), Stdio::piped());
         let text = String::from_utf8(ended.stdout).expect("UTF-8");
         assert!(text.contains("checked and safe"), "{text}");
         text.lines().find(|line| line.contains("tau")).map(str::to_owned)
     };
     let raised = "tau is 0.25 s, not 0.2 s: at least 2.5 periods, of 100 ms here (A-07 of docs/assumptions.md)";
-    assert_eq!(told("0.2").as_deref(), Some(raised));
-    assert_eq!(told("0.25"), None);
+    assert_eq!(told("0.2", "hardened").as_deref(), Some(raised));
+    assert_eq!(told("0.25", "hardened"), None);
+    // No rule of the paper has a tau.
+    assert_eq!(told("0.2", "paper"), None);
 }

@@ -1,5 +1,7 @@
 //! One run: a scenario, a variant, attacks, and how it ended.
 
+use std::time::Duration;
+
 use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::MonitorError;
@@ -199,9 +201,10 @@ impl Watcher for () {
 
 /// The period that the monitor is told. It refuses a `tau` that is not above it; a run that was kept from before that
 /// is made again with one that is just below.
-const fn nominal_ns(tau: f64) -> u64 {
+fn nominal_ns(tau: f64) -> u64 {
     let period_ns = PERIOD_NS.unsigned_abs();
-    if tau > 0.1 { period_ns } else { period_ns.saturating_sub(1) }
+    let is_above = tau > Duration::from_nanos(period_ns).as_secs_f64();
+    if is_above { period_ns } else { period_ns.saturating_sub(1) }
 }
 
 /// Makes a run. The same arguments give the same outcome on any machine.

@@ -4,7 +4,8 @@
 //! guard is put together here from the functions beneath the monitor, of the requester and of a cycle. In a cycle
 //! that the rule may decide, the stages are put together once more, from the functions of the model and without it
 //! (`stages`); H-08 is a rule of the requester, which is the paper's then. With `Without::Nothing` it decides as the
-//! monitor does (tested: `sim/tests/loop/without.rs`).
+//! monitor does (tested: `sim/tests/loop/without.rs`), but for what cannot happen to this CAV, which ticks before each
+//! cycle and has current detections in each: a cycle without a tick (F-43), and tracks that nothing was compared with (F-18).
 
 pub mod rule;
 pub mod stages;
