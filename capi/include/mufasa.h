@@ -1000,6 +1000,10 @@ typedef struct MufasaDecision {
   // Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
   // of the station, or while MOT alone is remote that of the CAV's own planner; else null.
   const struct MufasaTrajectory *trajectory;
+  // By when control has to brake along the trajectory, with `a_b`, unless a later cycle has given one or there is
+  // a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
+  // the paper profile.
+  struct MufasaTime brake_by;
   // Releases to be sent, and local services that start or stop.
   struct MufasaActions actions;
   // Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to

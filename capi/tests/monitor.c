@@ -102,6 +102,7 @@ static void data_come_out_of_a_safe_cycle_alone(void) {
   EXPECT(decision.tracks->items[0].id == 7 && decision.tracks->items[0].x == 15);
   EXPECT(decision.trajectory != NULL && decision.trajectory->points_len == 3);
   EXPECT(decision.trajectory->points[2].x == 1);
+  EXPECT(decision.brake_by.ns == INT64_MAX); /* the paper profile */
   EXPECT(decision.local_services == 0);
   tracks[0].x = 15;
 
@@ -174,10 +175,29 @@ static void faults_fall_back(void) {
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && is_local(monitor));
   EXPECT(strcmp(decision.report.input.field, "ego.width") == 0);
   inputs.ego.width = 1.9;
-  EXPECT(mufasa_monitor_cycle(monitor, AT(6 * MS), &inputs, NULL) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(mufasa_monitor_cycle(NULL, AT(6 * MS), &inputs, &decision) == MUFASA_STATUS_NULL_POINTER);
   EXPECT(decision.report.verdict == MUFASA_VERDICT_ERROR && decision.actions.len == 0);
   EXPECT(decision.local_services == MUFASA_GROUP_MOT + MUFASA_GROUP_PLAN);
+}
+
+/* Where the decision cannot be written nothing has happened: the tick is not used up, and no action is lost. */
+static void a_decision_that_cannot_be_written_is_none(void) {
+  static char place[sizeof(struct MufasaDecision) + 8];
+  const size_t odd = ((size_t)place & 1) == 0; /* the address is odd then */
+  struct MufasaDecision *const wrong[] = {NULL, (struct MufasaDecision *)(void *)(place + odd)};
+  const MufasaStatus expected[] = {MUFASA_STATUS_NULL_POINTER, MUFASA_STATUS_MISALIGNED};
+  struct MufasaMonitor *monitor = offloading();
+  EXPECT(step(monitor, MUFASA_EVENT_TYPE_TICK, 5 * MS, 0, 0) == MUFASA_STATUS_OK);
+  EXPECT(receive(monitor, 5 * MS, 1, 1) == MUFASA_STATUS_OK);
+  detections.stamp = lead.stamp = own.stamp = AT(5 * MS);
+  for (int i = 0; i < 2; i++) {
+    EXPECT(mufasa_monitor_cycle(monitor, AT(5 * MS), &inputs, wrong[i]) == expected[i] && !is_local(monitor));
+    EXPECT(mufasa_monitor_cycle(monitor, AT(5 * MS), NULL, wrong[i]) == expected[i] && !is_local(monitor));
+    EXPECT(mufasa_monitor_cycle(NULL, AT(5 * MS), &inputs, wrong[i]) == expected[i]);
+  }
+  EXPECT(mufasa_monitor_cycle(monitor, AT(5 * MS), &inputs, &decision) == MUFASA_STATUS_OK);
+  EXPECT(decision.report.verdict == MUFASA_VERDICT_SAFE && !is_local(monitor));
+  EXPECT(decision.tracks != NULL);
 }
 
 static void events_that_are_not_for_the_caller(void) {
@@ -305,6 +325,7 @@ int main(void) {
   results_that_no_cycle_can_use_end_their_session();
   a_cycle_without_a_tick_is_unsafe();
   faults_fall_back();
+  a_decision_that_cannot_be_written_is_none();
   events_that_are_not_for_the_caller();
   settings_that_no_monitor_can_keep();
   a_status_of_the_settings_has_a_field();

@@ -226,6 +226,7 @@ impl<'a> Runner<'a> {
         let settings = self.settings;
         let text = |word: &OsString| word.to_string_lossy().into_owned();
         Campaign {
+            version: settings.version.clone(),
             command: settings.command.iter().map(text).collect(),
             profile: names::profile(settings.profile).to_owned(),
             seed: settings.seed,

@@ -11,6 +11,8 @@ use crate::judge::class::Kind;
 /// What is to be done.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
+    /// The version of the kit: what it asks, and what it takes for right, may change with it.
+    pub version: String,
     /// The program under test and its arguments.
     pub command: Vec<OsString>,
     /// Profile of generated cases and of recorded drives.
@@ -42,6 +44,7 @@ impl Settings {
     /// The vectors and cases of a profile and of these kinds, for no program.
     pub fn of(profile: Profile, kinds: &[Kind]) -> Self {
         Self {
+            version: String::new(),
             command: Vec::new(),
             profile,
             cases: None,

@@ -40,8 +40,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut station = Station::default();
     let (mut driven, mut fallbacks) = (Vec::new(), 0);
-    // The last verified trajectory: followed where a safe cycle has none and the own planner stands.
-    let mut kept = Vec::new();
+    // The last verified trajectory: followed where a safe cycle has none and the own planner stands, until its
+    // `brake_by`: it brakes fully by then, so begins earlier by the build-up of its brakes, which this stand-in does
+    // not have. Control, which runs more often than cycles do, has to look at that time itself.
+    let (mut kept, mut brake_by) = (Vec::new(), None);
     for cycle in 0..CYCLES {
         let now = Time::from_milliseconds(1000 / SECOND * cycle)?;
         let world = World::at(now);
@@ -81,11 +83,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (decision, actions) = monitor.cycle(&inputs);
         match decision {
             Decision::Safe { trajectory: Some(trajectory), .. } => {
-                kept = trajectory.points.to_vec();
+                (kept, brake_by) = (trajectory.points.to_vec(), trajectory.brake_by());
                 driven.push(follow(trajectory));
             }
+            Decision::Safe { trajectory: None, .. } if !station.planner_stands => {
+                driven.push(first(&own_plan));
+            }
             Decision::Safe { trajectory: None, .. } => {
-                driven.push(first(if station.planner_stands { &kept } else { &own_plan }));
+                let brakes = brake_by.is_some_and(|by| by <= now);
+                driven.push(if brakes { None } else { first(&kept) });
             }
             Decision::Unsafe { report } => {
                 let why = report.map(|report| report.failed_stage);

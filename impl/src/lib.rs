@@ -101,7 +101,7 @@
 //!         Decision::Safe { trajectory: None, .. } => {
 //!             // Nothing current was there to be checked. The local planner is followed; where it is
 //!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
-//!             // copy. Where that lasts, the session ends as for silence.
+//!             // copy, and by its `brake_by` it brakes. Where that lasts, the session ends as for silence.
 //!         }
 //!         Decision::Unsafe { report } => {
 //!             // The local services go on, and nothing of the station is used.
@@ -122,7 +122,8 @@
 //! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.
 //! * Control follows the trajectory of a safe decision until the next one, a copy of the last verified
 //!   one while a safe decision has none and the local planner is stopped, and the local planner's
-//!   otherwise; a braking manoeuvre with `a_b` is within reach of the local services.
+//!   otherwise. Where there is none of these by the `brake_by` of the last verified one, control brakes along
+//!   it with `a_b` (F-47); such a manoeuvre is within its reach and that of the local services.
 //! * Messages come from who they say: signatures are checked before, by whoever receives them.
 //! * A verdict is as good as the method: seven findings are open in the hardened profile
 //!   (`findings/README.md`). Nothing here is certified.

@@ -52,6 +52,7 @@ impl VehicleRun {
             while let Some(due_ns) = vehicle.step(clock.now_ns())? {
                 if stop.load(Ordering::Relaxed) {
                     vehicle.leave(clock.now_ns());
+                    tally.interrupt();
                     return Ok(());
                 }
                 vehicle.wait(until(due_ns, clock));

@@ -96,6 +96,7 @@ enum Command {
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
+    files_may_be_limited();
     let cli = command().try_get_matches();
     let cli = match cli.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
@@ -135,7 +136,7 @@ pub fn main() -> ExitCode {
         }
         Command::Explore(arguments) => explore(arguments, &mut out),
         Command::Prove(arguments) => prove(arguments, &mut out),
-        Command::Evaluate(arguments) => evaluate::run(&arguments, &mut out, &mut io::stderr()),
+        Command::Evaluate(arguments) => evaluate(&arguments, &mut out),
         Command::Merge(arguments) => merge(&arguments, &mut out),
         Command::Vehicle(arguments) => {
             Ok(linked(|stop| crate::link::vehicle(&arguments, stop, &mut out)))
@@ -167,7 +168,8 @@ fn tip(error: &clap::Error, mut given: impl Iterator<Item = OsString>) -> Option
             | ErrorKind::InvalidSubcommand
             | ErrorKind::MissingRequiredArgument
     );
-    let of_conform = given.by_ref().any(|it| it == "conform") && given.all(|it| it != "--");
+    let of_conform =
+        given.by_ref().any(|it| it == "conform") && given.all(|it| it != "--" && it != "merge");
     (is_about && of_conform).then_some(
         "the program under test stands behind `--`: mufasa conform [OPTIONS] -- COMMAND...",
     )
@@ -274,6 +276,15 @@ fn prove(arguments: ProveArguments, out: &mut impl Write) -> io::Result<u8> {
     prove::run(&settings, out, &mut io::stderr()).map(prove::End::code)
 }
 
+/// An experiment. Only a search outlives the first interrupt: of the others nothing is left.
+fn evaluate(arguments: &EvaluateArguments, out: &mut impl Write) -> io::Result<u8> {
+    let stop = if arguments.is_search() { interrupts() } else { Ok(Arc::default()) };
+    match stop {
+        Ok(stop) => evaluate::run(arguments, &stop, out, &mut io::stderr()),
+        Err(error) => Ok(refused(&format!("interrupts: {error}"))),
+    }
+}
+
 fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> {
     let result = match arguments.merge {
         Some(MergeCommand::Merge { files, out: folder }) => {
@@ -281,6 +292,7 @@ fn conform(arguments: ConformArguments, out: &mut impl Write) -> io::Result<u8> 
         }
         None => {
             let settings = kit::Settings {
+                version: env!("MUFASA_VERSION").to_owned(),
                 command: arguments.command,
                 profile: arguments.profile,
                 cases: arguments.cases,
@@ -324,6 +336,19 @@ fn conformed(result: Result<u8, kit::ConformError>, out: &mut impl Write) -> io:
         Err(error) => {
             out.flush()?;
             Ok(refused(&error.to_string()))
+        }
+    }
+}
+
+/// A file that gets longer than a limit of the system (`ulimit -f`) is an error of writing, as on a full disk, and
+/// not the end of this program without a word.
+fn files_may_be_limited() {
+    #[cfg(unix)]
+    {
+        let reached = Arc::new(AtomicBool::new(false));
+        let registered = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, reached);
+        if let Err(error) = registered {
+            complain(&mut io::stderr(), &format!("limits of files: {error}"));
         }
     }
 }

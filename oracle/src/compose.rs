@@ -13,6 +13,7 @@ use mufasa_model::report::InvalidInput;
 use mufasa_model::services::composition::{Composition, Link};
 use mufasa_model::services::orchestrator::{Answer, NoComposition, Task};
 use mufasa_model::services::service::ServiceSet;
+use serde::de::IgnoredAny;
 
 use graph::Graph;
 use mufasa_records::composition_answer::CompositionAnswer;
@@ -32,7 +33,9 @@ pub struct Composed {
 /// Composes the service set of a composition record, which may go over several lines. Errors: the
 /// text is no composition record, or the orchestrator refuses it; each with the line.
 pub fn composed(text: &str) -> Result<Composed, LineError> {
-    let (id, task) = match json::parse(text.as_bytes(), 1)? {
+    let (id, task) = match json::parse(text.as_bytes(), 1)
+        .map_err(|error| one_of_many(text).unwrap_or(error))?
+    {
         Record::Composition { id, task } => (id, task),
         Record::Cycle { id, .. } | Record::Offloading { id, .. } => {
             return Err(LineError::new(
@@ -49,6 +52,17 @@ pub fn composed(text: &str) -> Result<Composed, LineError> {
     let (services, answer) =
         json::compose(&task).map_err(|problem| LineError::new(1, Some(id.clone()), problem))?;
     Ok(Composed { id, task, services, answer })
+}
+
+/// The error of a text of several records, a line each.
+fn one_of_many(text: &str) -> Option<LineError> {
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+    let is_json = serde_json::from_str::<IgnoredAny>(lines.next()?).is_ok();
+    let others = lines.count();
+    (is_json && others > 0).then(|| {
+        let message = format!("one record is composed, and behind the first line are {others} more; give a file with one");
+        LineError::whole(2, message)
+    })
 }
 
 impl Composed {

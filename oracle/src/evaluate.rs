@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
+use std::sync::atomic::AtomicBool;
 
 use indicatif::ProgressBar;
 use mufasa_drives::check::complain;
@@ -29,9 +30,9 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::attacks::Attacks;
 use mufasa_sim::experiment::availability::Availability;
 use mufasa_sim::experiment::checks::Checks;
-use mufasa_sim::experiment::combinations::{self, Combinations};
+use mufasa_sim::experiment::combinations::Combinations;
 use mufasa_sim::experiment::cpu::{self, Cpu};
-use mufasa_sim::experiment::failures::{self, Failures};
+use mufasa_sim::experiment::failures::Failures;
 use mufasa_sim::experiment::job::{Campaign, Job, Options};
 use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
@@ -64,16 +65,17 @@ struct Results {
     failed: Vec<Failed>,
 }
 
-/// Makes an experiment, writes its table to `out` and its files into the folder, if one is given. Its exit
-/// code. Errors: those of writing to `out`.
+/// Makes an experiment, writes its table to `out` and its files into the folder, if one is given. A search ends when
+/// `stop` is set, and says so; nothing else looks at it. Its exit code. Errors: those of writing to `out`.
 pub fn run(
     arguments: &EvaluateArguments,
+    stop: &AtomicBool,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let (size, Named { name, make, .. }) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
-        Some(Experiment::Falsify(it)) => return falsify::run(it, out, err),
+        Some(Experiment::Falsify(it)) => return falsify::run(it, stop, out, err),
         None => (&arguments.size, named::<Failures>()),
         Some(Experiment::Failures(size)) => (size, named::<Failures>()),
         Some(Experiment::Stages(size)) => (size, named::<Stages>()),
@@ -180,9 +182,8 @@ fn code(results: &Results, checks: &Checks) -> u8 {
     if !checks.disagreements.is_empty() {
         return DISAGREES;
     }
-    let is_hit = results.failed.iter().any(|run| run.variant == Variant::Hardened);
-    let is_asked = [failures::NAME, combinations::NAME].contains(&results.name);
-    if is_asked && is_hit { FAILED } else { 0 }
+    let is_hardened = |run: &Failed| run.variant == Variant::Hardened;
+    if results.failed.iter().any(is_hardened) { FAILED } else { 0 }
 }
 
 type Made = Result<Results, String>;

@@ -6,20 +6,22 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use comfy_table::{Table, presets};
+use mufasa_conform::INTERRUPTED;
+use mufasa_drives::check::checked::IGNORED;
 use mufasa_drives::check::complain;
-use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, read};
+use mufasa_drives::{Drive, Injection, Options, Stream, demo, inject, streams};
 use mufasa_link::clock::SharedClock;
 use mufasa_link::play::Played;
 use mufasa_link::run::{self, TAU_PERIODS, VehicleRun};
 use mufasa_link::station::StationSummary;
 use mufasa_link::traffic::{Counts, Traffic};
-use mufasa_link::transport::Address;
 use mufasa_link::transport::amqp::Amqp;
 use mufasa_link::transport::channels::Hub;
 use mufasa_link::transport::disturbed::Disturbed;
+use mufasa_link::transport::{Address, Transport};
 use mufasa_link::vehicle::summary::{Spread, Summary, Tally};
 use mufasa_model::offloading::requester;
 use mufasa_props::bridge;
@@ -32,6 +34,9 @@ use crate::parameters_file;
 /// What `dt_max` is above the period of the drive, unless a file of parameters says otherwise, ns.
 const JITTER_NS: i64 = 50_000_000;
 
+/// How long the first attempt to reach a broker is waited for.
+const FIRST_ATTEMPT: Duration = Duration::from_secs(2);
+
 /// The station in the process of the vehicle.
 const STATION: i64 = 1;
 
@@ -42,6 +47,7 @@ pub fn vehicle(
     out: &mut impl Write,
 ) -> Result<u8, String> {
     let (drive, parameters) = drive(&arguments.drive, arguments.parameters.as_deref())?;
+    prepare(arguments.json.as_deref())?;
     let offered = attacked(drive.clone(), &arguments.inject)?;
     let [driven, offered] = [drive, offered].map(Played::new).map(words);
     let (driven, offered) = (driven?, offered?);
@@ -64,7 +70,9 @@ pub fn vehicle(
     let me = Address::Vehicle(arguments.id);
     let disturb = arguments.disturb.clone();
     let station = if let Some(url) = &arguments.broker {
-        let mut broker = Disturbed::new(words(Amqp::new(url, me))?, disturb);
+        let broker = words(Amqp::new(url, me))?;
+        tell_unless_connected(url, &broker);
+        let mut broker = Disturbed::new(broker, disturb);
         words(run.run(&driven, clock, &mut broker, &mut tally, stop))?;
         None
     } else {
@@ -83,7 +91,7 @@ pub fn vehicle(
             None => Ok(()),
         });
     words(written)?;
-    Ok(code(&summary))
+    Ok(code(&summary).max(never_connected(&summary.traffic)))
 }
 
 /// Serves until it is stopped, and says how it went. `Err` says in words what is wrong with the arguments.
@@ -93,8 +101,10 @@ pub fn station(
     out: &mut impl Write,
 ) -> Result<u8, String> {
     let (drive, _) = drive(&arguments.drive, None)?;
+    prepare(arguments.json.as_deref())?;
     let played = words(Played::new(attacked(drive, &arguments.inject)?))?;
     let mut broker = words(Amqp::new(&arguments.broker, Address::Station(arguments.id)))?;
+    tell_unless_connected(&arguments.broker, &broker);
     if let Some(seconds) = arguments.seconds {
         let stop = Arc::clone(stop);
         thread::spawn(move || {
@@ -106,7 +116,7 @@ pub fn station(
     let summary = words(run::station(arguments.id, &played, clock, &mut broker, stop))?;
     write_json(arguments.json.as_deref(), &summary)?;
     words(writeln!(out, "{}", of_station(&summary).trim_fmt()))?;
-    Ok(0)
+    Ok(never_connected(&summary.traffic))
 }
 
 /// The one drive that is named, or that of the demo, and the parameters of the requester if a file names them.
@@ -124,9 +134,15 @@ fn drive(
     if arguments.files.is_empty() {
         return Ok((words(words(demo(&options))?.collect())?, requester));
     }
-    let mut drives = read(&arguments.files, &options).into_iter();
+    let drives: Result<Vec<_>, _> = streams(&arguments.files, &options).into_iter().collect();
+    let mut drives = words(drives)?.into_iter();
     match (drives.next(), drives.next()) {
-        (Some(drive), None) => Ok((words(drive)?, requester)),
+        (Some(drive), None) => {
+            if drive.ignores_options {
+                complain(&mut io::stderr(), IGNORED);
+            }
+            Ok((words(drive.collect())?, requester))
+        }
         _ => Err("the files are more than one drive, or none; give those of one".to_owned()),
     }
 }
@@ -164,6 +180,36 @@ fn cannot(file: &Path, error: &io::Error) -> String {
     format!("{}: cannot be written: {error}", file.display())
 }
 
+/// Refuses a file that cannot be written before the drive, not after it.
+fn prepare(file: Option<&Path>) -> Result<(), String> {
+    file.map_or(Ok(()), |file| files::prepare_file(file).map_err(|error| cannot(file, &error)))
+}
+
+/// Says when the first attempt to reach the broker fails, or takes long; it is tried again and again.
+fn tell_unless_connected(url: &str, broker: &Amqp) {
+    let host = url.rsplit('@').next().unwrap_or_default();
+    let end = Instant::now() + FIRST_ATTEMPT;
+    while Instant::now() < end {
+        let health = broker.health();
+        if health.connections > 0 {
+            return;
+        }
+        if let Some(error) = health.last_error {
+            let message =
+                format!("the broker at {host} cannot be reached, and is tried again: {error}");
+            return complain(&mut io::stderr(), &message);
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    let message = format!("the broker at {host} does not answer, and is tried again");
+    complain(&mut io::stderr(), &message);
+}
+
+/// Exit code 1 for who never had a connection.
+fn never_connected(traffic: &Traffic) -> u8 {
+    u8::from(traffic.connections == 0)
+}
+
 fn write_json(file: Option<&Path>, summary: &impl Serialize) -> Result<(), String> {
     let Some(file) = file else { return Ok(()) };
     let text = words(serde_json::to_string_pretty(summary))? + "\n";
@@ -171,6 +217,9 @@ fn write_json(file: Option<&Path>, summary: &impl Serialize) -> Result<(), Strin
 }
 
 fn code(summary: &Summary) -> u8 {
+    if summary.interrupted && summary.uncovered.is_empty() {
+        return INTERRUPTED;
+    }
     let lost = summary.left.keys().any(|why| why != "end");
     if summary.uncovered.is_empty() {
         u8::from(lost || !summary.unsafe_by_stage.is_empty())
@@ -184,7 +233,8 @@ fn of_vehicle(summary: &Summary) -> Table {
     let mut row = |name: &str, value: String| {
         table.add_row([name.to_owned(), value]);
     };
-    row("cycles", summary.cycles.to_string());
+    let cycles = if summary.interrupted { "cycles until it was interrupted" } else { "cycles" };
+    row(cycles, summary.cycles.to_string());
     row("  nothing remote, nothing checked", summary.local.to_string());
     row("  checked and safe", summary.safe.to_string());
     row("  unsafe, by what failed", counts(&summary.unsafe_by_stage));

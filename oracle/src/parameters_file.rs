@@ -87,6 +87,8 @@ const LISTED: &str = "all are in spec/3-stages.md and spec/2-offloading.md, and 
                       writes (parameters in cycle.schema.json and offloading.schema.json)";
 /// Of a file of blanks and comments.
 const NONE: &str = "no parameter in it; the defaults hold (a line is `name = value`)";
+/// How a line is written.
+const LINE: &str = "`name = value`, the value a number, or true or false";
 
 /// A place in the file where something is wrong.
 struct Problem {
@@ -105,16 +107,23 @@ fn parse(file: &Path, text: &str) -> Result<Settings, ParametersError> {
 }
 
 fn settings(text: &str) -> Result<Settings, Problem> {
-    let table = DeTable::parse(text).map_err(|error| Problem {
-        at: error.span(),
-        field: String::new(),
-        message: format!("is not TOML: {}", error.message()),
+    let table = DeTable::parse(text).map_err(|error| {
+        let at = error.span();
+        let twice = at.clone().filter(|_| error.message() == "duplicate key");
+        let field = twice.and_then(|at| text.get(at)).unwrap_or_default().to_owned();
+        let message = if field.is_empty() {
+            format!("is not TOML: {}; a line is {LINE}", error.message())
+        } else {
+            String::from("is named twice")
+        };
+        Problem { at, field, message }
     })?;
     let mut object = Map::new();
     for (name, value) in table.get_ref() {
         let problem =
             |message| Problem { at: Some(name.span()), field: name.get_ref().to_string(), message };
-        object.insert(name.get_ref().to_string(), json(value.get_ref()).map_err(problem)?);
+        let value = json(name.get_ref(), value.get_ref()).map_err(problem)?;
+        object.insert(name.get_ref().to_string(), value);
     }
     let (stages, requester) = parameters::settings(object).map_err(|error| {
         let message =
@@ -159,8 +168,8 @@ fn slip(stages: &Parameters, requester: &requester::Parameters) -> Option<String
     }
 }
 
-/// A value as records write it.
-fn json(value: &DeValue<'_>) -> Result<Value, String> {
+/// The value of this name as records write it.
+fn json(name: &str, value: &DeValue<'_>) -> Result<Value, String> {
     match value {
         DeValue::Boolean(value) => Ok(Value::from(*value)),
         DeValue::Float(number) => {
@@ -173,7 +182,10 @@ fn json(value: &DeValue<'_>) -> Result<Value, String> {
         DeValue::Table(_) => Err(String::from(
             "parameters stand in no table: strike its head out, and keep its lines",
         )),
-        other => Err(format!("must be a number, true or false, not a {}", other.type_str())),
+        other => {
+            let wanted = if name == "qos_hold" { "true or false" } else { "a number" };
+            Err(format!("must be {wanted}, not a {}", other.type_str()))
+        }
     }
 }
 
@@ -224,6 +236,10 @@ mod tests {
         assert!(failure("\n\na_b = 'nan'").starts_with("p.toml:3: a_b: must be a number"));
         assert!(failure("n = 99999999999999999999").contains("64 bits"));
         assert!(failure("n = \n").starts_with("p.toml:1: is not TOML"));
+        assert!(failure("qos_hold = yes\n").ends_with("the value a number, or true or false"));
+        assert_eq!(failure("a_b = 6\na_b = 7\n"), "p.toml:2: a_b: is named twice");
+        assert!(failure("a_b = \"six\"\n").ends_with("must be a number, not a string"));
+        assert!(failure("qos_hold = \"yes\"\n").ends_with("must be true or false, not a string"));
         assert!(failure("qos_hold = 1").contains("true or false"));
         assert!(failure("dt_max_ns = 0.2").ends_with("in nanoseconds: 0.2 s are 200_000_000"));
         assert!(!failure("n = 0.2").contains("nanoseconds"));

@@ -23,6 +23,9 @@ pub use settings::Settings;
 /// Where the claims are written if all are judged and nobody names another file.
 pub const FILE: &str = "target/proofs/prove.json";
 
+/// Where `scripts/prove-wasm` writes what it found.
+pub const CBMC: &str = "target/proofs/cbmc.json";
+
 /// Name of the table in a document.
 pub const TABLE_NAME: &str = "mufasa prove";
 
@@ -52,7 +55,8 @@ impl End {
 /// writing to `out`.
 pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> io::Result<End> {
     let is_known = known(&settings.names)
-        .and_then(|()| document::has_place(settings.into.as_deref(), TABLE_NAME));
+        .and_then(|()| document::has_place(settings.into.as_deref(), TABLE_NAME))
+        .and_then(|()| files_are_there(settings));
     if let Err(message) = is_known {
         complain(err, &message);
         return Ok(End::BadInput);
@@ -86,6 +90,20 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
         end = End::BadInput;
     }
     Ok(end)
+}
+
+/// Whether the file of the compiled proofs is there if it is not the usual one, and the other can be written.
+fn files_are_there(settings: &Settings) -> Result<(), String> {
+    let Settings { cbmc, out, .. } = settings;
+    if cbmc != Path::new(CBMC) && !cbmc.exists() {
+        return Err(format!("{}: is not there; scripts/prove-wasm writes {CBMC}", cbmc.display()));
+    }
+    let Some(out) = out else { return Ok(()) };
+    let cannot = |error| format!("{}: cannot be written: {error}", out.display());
+    if let Some(folder) = out.parent() {
+        std::fs::create_dir_all(folder).map_err(cannot)?;
+    }
+    files::prepare_file(out).map_err(cannot)
 }
 
 /// Whether something has each of these names. Errors, in words: the first that nothing has, with the one that is near.
@@ -130,9 +148,6 @@ fn write_lines(path: &Path, lines: &[Claim]) -> io::Result<()> {
     for line in lines {
         text.push_str(&serde_json::to_string(line)?);
         text.push('\n');
-    }
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)?;
     }
     files::write(path, &text)
 }

@@ -5,8 +5,11 @@
 mod folders;
 
 use folders::folder;
+use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../drives/data/readers/");
 
@@ -122,4 +125,125 @@ fn a_tau_that_the_vehicle_raises_is_told() {
     assert_eq!(told("0.25", "hardened"), None);
     // No rule of the paper has a tau.
     assert_eq!(told("0.2", "paper"), None);
+}
+
+/// Records name the parameters of their stages; those of the requester are the file's.
+#[test]
+fn parameters_that_recorded_cycles_ignore_are_told() {
+    let folder = folder("ignored");
+    let vectors = include_str!("../../vectors/findings/F-30.jsonl");
+    let mut vector: Value =
+        serde_json::from_str(vectors.lines().next().expect("one")).expect("JSON");
+    let cycle = &mut vector["input"];
+    let lines = [0, 1, 2].map(|index: i64| {
+        cycle["now_ns"] = (1_000_000_000 + index * 100_000_000).into();
+        cycle.to_string()
+    });
+    let [file, of_stages, of_requester] = [
+        ("drive.jsonl", lines.join("\n")),
+        ("stages.toml", String::from("theta_tr = 0.3\ndt_max_ns = 150_000_000\n")),
+        ("requester.toml", String::from("dt_max_ns = 150_000_000\n")),
+    ]
+    .map(|(name, text)| {
+        let file = folder.join(name);
+        fs::write(&file, text).expect("written");
+        file.to_str().expect("a plain name").to_owned()
+    });
+    let told = |arguments: &[&str]| {
+        let ended =
+            mufasa(&[&["vehicle", &file], arguments].concat(), Stdio::null(), Stdio::null());
+        assert_ne!(ended.status.code(), Some(2));
+        let said = String::from_utf8(ended.stderr).expect("UTF-8");
+        said.contains("each cycle has its own profile, configuration and parameters")
+    };
+    assert!(told(&["--parameters", &of_stages]));
+    assert!(told(&["--profile", "paper"]));
+    assert!(!told(&["--parameters", &of_requester]));
+    assert!(!told(&[]));
+}
+
+#[test]
+fn what_cannot_be_written_or_read_is_refused_before_the_work() {
+    let folder = folder("refused");
+    let [place, gone] = ["", "gone"].map(|name| folder.join(name).display().to_string());
+    for (arguments, said) in [
+        (vec!["vehicle", "--json", &place], "it is a folder; name a file"),
+        (vec!["station", "--broker", "amqp://127.0.0.1:1", "--json", &place], "it is a folder"),
+        (vec!["prove", "--out", &place, "gappa"], "it is a folder"),
+        (vec!["prove", "--cbmc", &gone, "gappa"], "gone: is not there; scripts/prove-wasm writes"),
+        (vec!["evaluate", "replay", "--out", &place], "it is a folder"),
+    ] {
+        let told = refusal(&arguments, Stdio::null());
+        assert!(told.contains(said) && told.lines().count() == 1, "{told}");
+    }
+}
+
+/// As a full disk.
+#[cfg(unix)]
+#[test]
+fn a_limit_of_file_sizes_is_told() {
+    let folder = folder("limit");
+    let command =
+        format!("ulimit -f 8; exec {} vectors --out vectors", env!("CARGO_BIN_EXE_mufasa"));
+    let ended = Command::new("sh").args(["-c", &command]).current_dir(&folder).output();
+    let ended = ended.expect("a shell is there");
+    assert_eq!(ended.status.code(), Some(2), "{ended:?}");
+    let told = String::from_utf8(ended.stderr).expect("UTF-8");
+    assert!(told.contains("cannot be written") && told.contains("large"), "{told}");
+}
+
+#[test]
+fn hints_are_about_what_was_asked() {
+    let mixed = folder("mixed").join("mixed.jsonl");
+    let vector = include_str!("../../vectors/findings/F-30.jsonl").lines().next().expect("one");
+    let vector: Value = serde_json::from_str(vector).expect("JSON");
+    fs::write(&mixed, format!("{}\n{{\"kind\": 3}}\n", vector["input"])).expect("written");
+    let told = refusal(&["vehicle", mixed.to_str().expect("plain")], Stdio::null());
+    assert!(told.contains("mixed.jsonl:2") && told.contains("kind"), "{told}");
+    let told = refusal(&["conform", "merge"], Stdio::null());
+    assert!(told.contains("required") && !told.contains("behind `--`"), "{told}");
+    let told = refusal(&["conform", "./program"], Stdio::null());
+    assert!(told.contains("behind `--`"), "{told}");
+    let two = concat!(env!("CARGO_MANIFEST_DIR"), "/../vectors/services/composition.jsonl");
+    let told = refusal(&["compose", two], Stdio::null());
+    assert!(
+        told.contains("one record is composed") && told.contains("more; give a file with one"),
+        "{told}"
+    );
+}
+
+/// A broker that is not there is tried again and again; who never had it did not what was asked.
+#[test]
+fn a_broker_that_is_never_reached_is_told() {
+    let scenario = format!("{DATA}small-2018b.xml");
+    let vehicle = ["vehicle", &scenario, "--broker", "amqp://guest:guest@127.0.0.1:1"];
+    let station =
+        ["station", &scenario, "--broker", "amqp://guest:guest@127.0.0.1:1", "--seconds", "1"];
+    for arguments in [&vehicle[..], &station] {
+        let ended = mufasa(arguments, Stdio::null(), Stdio::null());
+        assert_eq!(ended.status.code(), Some(1));
+        let told = String::from_utf8(ended.stderr).expect("UTF-8");
+        assert!(
+            told.contains("the broker at 127.0.0.1:1 cannot be reached, and is tried again"),
+            "{told}"
+        );
+    }
+}
+
+/// What was counted until then is written, and says so.
+#[cfg(unix)]
+#[test]
+fn a_vehicle_that_is_interrupted_says_so() {
+    let file = folder("interrupted").join("vehicle.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let command = command.args(["vehicle", "--quiet", "--json"]).arg(&file);
+    let mut vehicle = command.stdout(Stdio::null()).spawn().expect("the program starts");
+    thread::sleep(Duration::from_secs(1));
+    let killed = Command::new("kill").args(["-INT", &vehicle.id().to_string()]).status();
+    assert!(killed.expect("kill is there").success());
+    assert_eq!(vehicle.wait().expect("it ends").code(), Some(130));
+    let summary: Value =
+        serde_json::from_str(&fs::read_to_string(&file).expect("written")).expect("JSON");
+    assert_eq!(summary["interrupted"], true);
+    assert!(summary["cycles"].as_u64().expect("a count") < 188);
 }

@@ -85,8 +85,11 @@ fn every_experiment_has_charts_that_are_svg() {
     let only = |id: &'static str| {
         [&["evaluate", id.split('/').next().unwrap_or_default(), "--only", id], &size[..]].concat()
     };
-    let ids = ["attacks/hardened/ghosts", "availability/paper", "cpu/hardened"];
-    for id in ids.into_iter().chain(["combinations/sofof/both", "rules/hardened/all"]) {
+    // Where the CAV detects nothing its tracks are compared with nothing (F-39): it stops for ghosts, and is late.
+    done(&folder, 1, &only("attacks/hardened/ghosts"));
+    let ids =
+        ["availability/paper", "cpu/hardened", "combinations/sofof/both", "rules/hardened/all"];
+    for id in ids {
         done(&folder, 0, &only(id));
     }
     let search = [
@@ -111,6 +114,15 @@ fn every_experiment_has_charts_that_are_svg() {
         assert!(marks.iter().sum::<usize>() > 3, "{name}: {marks:?}");
         assert!(document.descendants().all(|it| it.attribute("d").is_none()), "{name}");
     }
+    // No name of a column is drawn over that of the scale, and the defaults are those of the runs.
+    let chart = text(&folder, "results/attacks.svg");
+    let chart = Document::parse(&chart).expect("SVG");
+    let at = |word: &str| {
+        let node = chart.descendants().find(|it| it.text() == Some(word)).expect(word);
+        node.attribute("y").and_then(|it| it.parse::<f64>().ok()).expect("a place")
+    };
+    assert!(at("cycles until it is detected") - at("missed") > 14.0);
+    assert!(text(&folder, "results/availability.svg").contains("loss, %: 0.1; t_wait, s: 10."));
     let search =
         serde_json::from_str::<Value>(&text(&folder, "results/falsify.json")).expect("JSON");
     assert_eq!(search["tries"].as_array().map(Vec::len), Some(12));
@@ -202,12 +214,26 @@ fn a_run_as_a_log_is_read_back() {
 fn a_run_is_drawn_by_its_id() {
     let folder = folder("id");
     let id = "failures/sofof/tracks-empty/0/0";
-    let said = done(&folder, 0, &["evaluate", "replay", "--run", id, "--vehicles", "8"]);
+    let replay = ["evaluate", "replay", "--run", id, "--vehicles", "8"];
+    let told = String::from_utf8(run(&folder, &replay).stderr).expect("UTF-8");
+    let file = "failures-sofof-tracks-empty-0-0.html";
+    assert!(told.contains(&format!("writes into {file}; --out names another file")), "{told}");
+    let said = done(&folder, 0, &replay);
     assert!(said.starts_with(&format!("{id}: ")), "{said}");
-    assert!(text(&folder, "failures-sofof-tracks-empty-0-0.html").contains(id));
+    assert!(text(&folder, file).contains(id));
     for wrong in ["failures/sofof/tracks-empty/0/99", "nothing", "failures/sofof"] {
         let output = run(&folder, &["evaluate", "replay", "--run", wrong]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && said.contains("no run of"), "{said}");
     }
+}
+
+/// A run of F-45: it is late, and no stage asks for that.
+#[test]
+fn a_run_that_fails_in_the_hardened_profile_is_the_exit_code_of_any_experiment() {
+    let folder = folder("code");
+    let only = |id| ["evaluate", "attacks", "--only", id];
+    done(&folder, 1, &only("attacks/hardened/into-lead/plan/1/0"));
+    done(&folder, 0, &only("attacks/hardened/into-lead/plan/1/1"));
+    done(&folder, 0, &only("attacks/sofof/into-lead/plan/1/0"));
 }

@@ -129,6 +129,29 @@ fn what_disagreed_in_a_part_is_said_of_the_whole() {
 }
 
 #[test]
+fn a_part_of_another_program_is_refused() {
+    let folder = folder("version");
+    let [one, two] = ["1/2", "2/2"].map(|shard| part(&folder, &SIZE, shard));
+    let said = String::from_utf8(run(&folder, &["--version"]).stdout).expect("UTF-8");
+    let version = said.trim().strip_prefix("mufasa ").expect("a name");
+    let text = fs::read_to_string(folder.join(&two)).expect("it is there");
+    let mut part: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(part["version"], version);
+    part["version"] = json!("0.1.0 (commit 0123456789)");
+    fs::write(folder.join(&two), part.to_string()).expect("it can be written");
+    let why =
+        format!("{two}: it was made by mufasa 0.1.0 (commit 0123456789), and this is {version}");
+    refused(&folder, &["merge", &one, &two], &why);
+    part.as_object_mut().expect("an object").remove("version");
+    fs::write(folder.join(&two), part.to_string()).expect("it can be written");
+    refused(
+        &folder,
+        &["merge", &one, &two],
+        &format!("{two}: it does not say which mufasa made it"),
+    );
+}
+
+#[test]
 fn what_is_no_whole_is_refused() {
     let folder = folder("refused");
     let [one, two] = ["1/2", "2/2"].map(|shard| part(&folder, &SIZE, shard));

@@ -83,6 +83,7 @@ def main() -> None:
         if decision.safe and decision.trajectory is not None:
             driven.append(follow(decision.trajectory))
         else:
+            # While the own planner has no plan: a copy of the last verified trajectory; by its brake_by it brakes fully.
             driven.append(own_plan[0])
         if not decision.safe:
             report = decision.report

@@ -1,5 +1,6 @@
 //! What has to be done about an event or a cycle.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use mufasa::monitor::DropReason;
@@ -10,42 +11,55 @@ use mufasa_records::names;
 use pyo3::prelude::*;
 use pyo3::types::{PyIterator, PyList};
 
-/// Actions in the order in which they are to be taken. They count as taken when they are iterated over
-/// or indexed; a monitor takes no further call before.
-#[pyclass(frozen, module = "mufasa")]
-pub struct Actions {
+/// What has to be done about a call, kept by the monitor before anything of Python runs: whatever is raised
+/// then, the next call has them.
+pub struct ToDo {
     items: Vec<Action>,
     /// Why the element that arrived is of no use, if there is one.
     why: Option<DropReason>,
     taken: AtomicBool,
 }
 
-impl Actions {
-    pub fn new(actions: &[NativeAction], why: Option<DropReason>) -> Self {
+impl ToDo {
+    pub fn new(actions: &[NativeAction], why: Option<DropReason>) -> Arc<Self> {
         let items: Vec<Action> = actions.iter().copied().map(bridge::action_from_impl).collect();
-        Self { taken: AtomicBool::new(items.is_empty()), items, why }
+        Arc::new(Self { taken: AtomicBool::new(items.is_empty()), items, why })
     }
 
     pub fn are_taken(&self) -> bool {
         self.taken.load(Ordering::Relaxed)
     }
+}
+
+/// Actions in the order in which they are to be taken. They count as taken when they are iterated over
+/// or indexed; a monitor takes no further call before.
+#[pyclass(frozen, module = "mufasa")]
+pub struct Actions {
+    to_do: Arc<ToDo>,
+}
+
+impl Actions {
+    pub const fn new(to_do: Arc<ToDo>) -> Self {
+        Self { to_do }
+    }
 
     fn list<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let actions = self.items.iter().map(|it| action(py, it, self.why));
+        let actions = self.to_do.items.iter().map(|it| action(py, it, self.to_do.why));
         let actions: PyResult<Vec<_>> = actions.collect();
         PyList::new(py, actions?)
     }
 
     fn take<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        self.taken.store(true, Ordering::Relaxed);
-        self.list(py)
+        let list = self.list(py)?;
+        self.to_do.taken.store(true, Ordering::Relaxed);
+        Ok(list)
     }
 }
 
 #[pymethods]
 impl Actions {
     fn __len__(&self) -> usize {
-        self.items.len()
+        self.to_do.items.len()
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {

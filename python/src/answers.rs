@@ -6,23 +6,24 @@ use mufasa_records::answer::CycleAnswer;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::errors::{invalid, word};
+use crate::arguments::{Line, OneProfile};
+use crate::errors::invalid;
 
 /// Checks the record of a cycle, given as a line.
 ///
 /// Errors: `InvalidInput`: no record of a cycle, or invalid local input.
 #[pyfunction]
-pub fn check<'py>(
-    py: Python<'py>,
-    record: &str,
-    profile: Option<&str>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (id, mut cycle) = mufasa_records::cycle_from_line(record, 1).map_err(|error| {
+pub fn check(
+    py: Python<'_>,
+    record: Line,
+    profile: Option<OneProfile>,
+) -> PyResult<Bound<'_, PyAny>> {
+    let (id, mut cycle) = mufasa_records::cycle_from_line(&record.0, 1).map_err(|error| {
         let (field, index, message) = (error.field, error.index, error.message);
         invalid(InvalidInput { field, index, message })
     })?;
     if let Some(profile) = profile {
-        cycle.profile = word("profile", profile).map_err(invalid)?;
+        cycle.profile = profile.0;
     }
     let report = py.detach(|| bridge::check_impl(&cycle)).map_err(invalid)?;
     verdict(py, id, report)

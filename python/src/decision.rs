@@ -1,11 +1,12 @@
 //! What a cycle ends in.
 
+use std::sync::Arc;
+
 use mufasa::monitor::Decision as NativeDecision;
-use mufasa::offloading::requester::Actions as NativeActions;
 use mufasa_props::bridge;
 use pyo3::prelude::*;
 
-use crate::actions::Actions;
+use crate::actions::{Actions, ToDo};
 use crate::answers::verdict;
 use crate::errors::{UnsafeCycle, invalid};
 use crate::verified::{Call, Calls, VerifiedTracks, VerifiedTrajectory};
@@ -30,10 +31,11 @@ impl Decision {
     pub fn new(
         py: Python<'_>,
         calls: &Calls,
-        (decision, to_do): &(NativeDecision<'_>, NativeActions),
+        decision: &NativeDecision<'_>,
+        to_do: Arc<ToDo>,
     ) -> PyResult<Self> {
         let call = || calls.current();
-        let actions = Py::new(py, Actions::new(to_do, None))?;
+        let actions = Py::new(py, Actions::new(to_do))?;
         let report = |report| {
             let report = bridge::report_from_impl(report);
             verdict(py, String::new(), report).map(Bound::unbind)

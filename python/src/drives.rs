@@ -6,7 +6,8 @@ use mufasa_drives::{Injection, Options, ReadError as Refused, Sensor, Tail};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
-use crate::errors::{ReadError, invalid, word, wrong};
+use crate::arguments::{AttackName, EgoId, Horizon, OneConfiguration, OneProfile, Seed};
+use crate::errors::{ReadError, invalid, wrong};
 
 /// The cycles of a drive, each made when it is asked for.
 #[pyclass(frozen, module = "mufasa._native")]
@@ -54,9 +55,9 @@ impl Stream {
     }
 
     /// The same drive under attack. Errors: `InvalidInput`: no attack, or one that changes nothing.
-    fn attacked(&self, py: Python<'_>, attack: &str) -> PyResult<Self> {
+    fn attacked(&self, py: Python<'_>, attack: AttackName) -> PyResult<Self> {
         let wrong = |error: String| invalid(wrong("attack", error));
-        let injection: Injection = attack.parse().map_err(|it| wrong(format!("{it}")))?;
+        let injection: Injection = attack.0.parse().map_err(|it| wrong(format!("{it}")))?;
         let attacked = py.detach(|| mufasa_drives::inject(&self.stream, &injection));
         Ok(Self { stream: attacked.map_err(|error| wrong(error.to_string()))? })
     }
@@ -67,20 +68,20 @@ impl Stream {
 pub fn streams(
     py: Python<'_>,
     paths: Vec<PathBuf>,
-    profile: &str,
-    configuration: &str,
-    ego: Option<i64>,
-    horizon_s: f64,
+    profile: OneProfile,
+    configuration: OneConfiguration,
+    ego: Option<EgoId>,
+    horizon_s: Horizon,
     keep_tail: bool,
-    seed: u64,
+    seed: Seed,
 ) -> PyResult<Vec<Stream>> {
     let options = Options {
-        profile: word("profile", profile).map_err(invalid)?,
-        configuration: word("configuration", configuration).map_err(invalid)?,
-        ego,
-        horizon_s,
+        profile: profile.0,
+        configuration: configuration.0,
+        ego: ego.map(|it| it.0),
+        horizon_s: horizon_s.0,
         tail: if keep_tail { Tail::Keep } else { Tail::Stop },
-        sensor: Sensor { seed, ..Sensor::default() },
+        sensor: Sensor { seed: seed.0, ..Sensor::default() },
         ..Options::default()
     };
     let drives = py.detach(|| mufasa_drives::streams(&paths, &options));

@@ -10,6 +10,7 @@
 
 mod actions;
 mod answers;
+mod arguments;
 mod decision;
 mod drives;
 mod errors;

@@ -1,6 +1,6 @@
 //! `mufasa::monitor::Monitor` as a Python object (`spec/5-interfaces.md#monitor`).
 
-use std::time::Duration;
+use std::sync::Arc;
 
 use mufasa::input::cycle::{CrossSection, Route, Track, TrajectoryPoint};
 use mufasa::monitor::{
@@ -8,20 +8,27 @@ use mufasa::monitor::{
     Time as NativeTime,
 };
 use mufasa::offloading::requester::{Action, Actions as NativeActions, Groups, RequesterError};
-use mufasa_model::offloading::requester::Group;
+use mufasa_model::input::cycle::Profile;
 use mufasa_props::bridge;
 use mufasa_records::{names, record};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-use crate::actions::Actions;
+use crate::actions::{Actions, ToDo};
+use crate::arguments::{
+    MostStations, OneGroup, OneOfGroups, OneProfile, Period, Session, SessionsBefore, Station,
+    in_domain,
+};
 use crate::decision::Decision;
-use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, word, wrong};
+use crate::errors::{ActionsNotTaken, UnreadableInputs, invalid, wrong};
 use crate::inputs::{Given, Own};
 use crate::items;
 use crate::place::Place;
 use crate::quantities::Time;
 use crate::verified::{Calls, VerifiedTracks, VerifiedTrajectory};
+
+/// No CAV meets more stations; memory of 5 MB.
+const MOST_STATIONS: usize = 65_536;
 
 /// The monitor of one CAV: events go in, actions come out; remote data come out of `cycle` alone.
 #[pyclass(module = "mufasa")]
@@ -32,7 +39,7 @@ pub struct Monitor {
     tracks: Option<Accepted<Vec<Track>>>,
     trajectory: Option<Accepted<Vec<TrajectoryPoint>>>,
     /// Of the last call.
-    to_do: Option<Py<Actions>>,
+    to_do: Option<Arc<ToDo>>,
     last: NativeTime,
 }
 
@@ -40,26 +47,35 @@ pub struct Monitor {
 impl Monitor {
     #[new]
     #[pyo3(signature = (
-        period, *, profile = "hardened", parameters = None, sessions_before = 0, most_stations = 64
-    ))]
+        period, *, profile = OneProfile(Profile::Hardened), parameters = None,
+        sessions_before = SessionsBefore(0), most_stations = MostStations(64)
+    ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64)")]
     fn new(
-        period: Duration,
-        profile: &str,
+        period: Period,
+        profile: OneProfile,
         parameters: Option<&Bound<'_, PyAny>>,
-        sessions_before: i64,
-        most_stations: usize,
+        sessions_before: SessionsBefore,
+        most_stations: MostStations,
     ) -> PyResult<Self> {
-        let mut settings = Settings { sessions_before, ..Settings::new(period) };
-        settings.profile = bridge::profile_to_impl(word("profile", profile).map_err(invalid)?);
+        let sessions_before = sessions_before.0;
+        let mut settings = Settings { sessions_before, ..Settings::new(period.0) };
+        settings.profile = bridge::profile_to_impl(profile.0);
         if let Some(parameters) = parameters {
-            let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,))?;
+            let json = parameters.py().import("json")?.getattr("dumps")?.call1((parameters,));
+            let json = json.map_err(|error| in_domain(parameters, "parameters", error))?;
             let object = serde_json::from_str(&json.extract::<String>()?)
                 .map_err(|error| invalid(wrong("parameters", error.to_string())))?;
             let (stages, requester) = record::parameters::settings(object).map_err(invalid)?;
             settings.stages = bridge::cycle_parameters(&stages);
             settings.requester = bridge::parameters_to_impl(&requester);
         }
-        let place = Place::with(settings, most_stations).map_err(no_monitor)?;
+        if most_stations.0 > MOST_STATIONS {
+            return Err(invalid(wrong(
+                "most_stations",
+                format!("must be at most {MOST_STATIONS}"),
+            )));
+        }
+        let place = Place::with(settings, most_stations.0).map_err(no_monitor)?;
         let (tracks, trajectory, to_do) = (None, None, None);
         let last = NativeTime::from_nanoseconds(0);
         Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })
@@ -86,21 +102,21 @@ impl Monitor {
         &mut self,
         py: Python<'_>,
         now: Time,
-        station: i64,
-        groups: Vec<String>,
+        station: Station,
+        groups: Vec<OneOfGroups>,
     ) -> PyResult<Py<Actions>> {
-        let groups = set(&groups)?;
-        self.event(py, now, |monitor, now| monitor.offer(now, station, groups))
+        let groups = set(&groups);
+        self.event(py, now, |monitor, now| monitor.offer(now, station.0, groups))
     }
 
     /// A station withdraws its offer.
-    fn withdraw(&mut self, py: Python<'_>, now: Time, station: i64) -> PyResult<Py<Actions>> {
-        self.event(py, now, |monitor, now| monitor.withdraw(now, station))
+    fn withdraw(&mut self, py: Python<'_>, now: Time, station: Station) -> PyResult<Py<Actions>> {
+        self.event(py, now, |monitor, now| monitor.withdraw(now, station.0))
     }
 
     /// A station can no longer be reached.
-    fn lost(&mut self, py: Python<'_>, now: Time, station: i64) -> PyResult<Py<Actions>> {
-        self.event(py, now, |monitor, now| monitor.lost(now, station))
+    fn lost(&mut self, py: Python<'_>, now: Time, station: Station) -> PyResult<Py<Actions>> {
+        self.event(py, now, |monitor, now| monitor.lost(now, station.0))
     }
 
     /// A station confirms a session.
@@ -108,12 +124,12 @@ impl Monitor {
         &mut self,
         py: Python<'_>,
         now: Time,
-        station: i64,
-        group: &str,
-        session: i64,
+        station: Station,
+        group: OneGroup,
+        session: Session,
     ) -> PyResult<Py<Actions>> {
-        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
-        self.event(py, now, |monitor, now| monitor.confirm(now, station, group, session))
+        let group = bridge::group_to_impl(group.0);
+        self.event(py, now, |monitor, now| monitor.confirm(now, station.0, group, session.0))
     }
 
     /// A station rejects a session.
@@ -121,17 +137,22 @@ impl Monitor {
         &mut self,
         py: Python<'_>,
         now: Time,
-        station: i64,
-        group: &str,
-        session: i64,
+        station: Station,
+        group: OneGroup,
+        session: Session,
     ) -> PyResult<Py<Actions>> {
-        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
-        self.event(py, now, |monitor, now| monitor.reject(now, station, group, session))
+        let group = bridge::group_to_impl(group.0);
+        self.event(py, now, |monitor, now| monitor.reject(now, station.0, group, session.0))
     }
 
     /// From now on these groups may be offloaded (CODM).
-    fn area(&mut self, py: Python<'_>, now: Time, groups: Vec<String>) -> PyResult<Py<Actions>> {
-        let groups = set(&groups)?;
+    fn area(
+        &mut self,
+        py: Python<'_>,
+        now: Time,
+        groups: Vec<OneOfGroups>,
+    ) -> PyResult<Py<Actions>> {
+        let groups = set(&groups);
         self.event(py, now, |monitor, now| Ok(monitor.area(now, groups)))
     }
 
@@ -146,8 +167,8 @@ impl Monitor {
         &mut self,
         py: Python<'_>,
         now: Time,
-        station: i64,
-        session: i64,
+        station: Station,
+        session: Session,
         generated: Time,
         stamp: Time,
         items: &Bound<'_, PyAny>,
@@ -155,6 +176,7 @@ impl Monitor {
         self.begin(py)?;
         let items = items::list(items, "tracks.items").map_err(invalid)?;
         let (generated, stamp) = (generated.time, stamp.time);
+        let (station, session) = (station.0, session.0);
         let message = Message { station, session, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.tracks(now.time, message));
         let (to_do, why) = take(arrival.map_err(refused)?, &mut self.tracks);
@@ -167,8 +189,8 @@ impl Monitor {
         &mut self,
         py: Python<'_>,
         now: Time,
-        station: i64,
-        session: i64,
+        station: Station,
+        session: Session,
         generated: Time,
         stamp: Time,
         points: &Bound<'_, PyAny>,
@@ -176,6 +198,7 @@ impl Monitor {
         self.begin(py)?;
         let items = items::list(points, "trajectory.points").map_err(invalid)?;
         let (generated, stamp) = (generated.time, stamp.time);
+        let (station, session) = (station.0, session.0);
         let message = Message { station, session, generated, stamp, items };
         let arrival = self.place.with_dependent_mut(|_, it| it.trajectory(now.time, message));
         let (to_do, why) = take(arrival.map_err(refused)?, &mut self.trajectory);
@@ -203,7 +226,8 @@ impl Monitor {
         match Own::read(&given) {
             Ok(own) => self.decide(py, &own),
             Err(problem) => {
-                let unsafe_cycle = self.decide(py, &Own::nowhere(self.last))?;
+                let now = now.cast::<Time>().map_or(self.last, |now| now.get().time);
+                let unsafe_cycle = self.decide(py, &Own::nowhere(now))?;
                 let actions = unsafe_cycle.get().to_do(py).clone().unbind();
                 let (field, index, message) = (problem.field, problem.index, problem.message);
                 Err(UnreadableInputs::new_err((field, index, message, actions)))
@@ -235,14 +259,18 @@ impl Monitor {
     }
 
     /// The station whose results of a group may reach control; 0 is the CAV.
-    fn source(&self, group: &str) -> PyResult<i64> {
-        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
-        Ok(self.place.with_dependent(|_, monitor| monitor.source(group).station()))
+    fn source(&self, group: OneGroup) -> i64 {
+        let group = bridge::group_to_impl(group.0);
+        self.place.with_dependent(|_, monitor| monitor.source(group).station())
     }
 
     /// The running session of a group that is remote.
-    fn session_of<'py>(&self, py: Python<'py>, group: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let group = bridge::group_to_impl(word("group", group).map_err(invalid)?);
+    fn session_of<'py>(
+        &self,
+        py: Python<'py>,
+        group: OneGroup,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let group = bridge::group_to_impl(group.0);
         let running = self.place.with_dependent(|_, it| it.requester().session_of(group));
         let class = || py.import("mufasa._types")?.getattr("Session");
         running.map(|it| class()?.call1((it.station, it.session))).transpose()
@@ -267,8 +295,9 @@ impl Monitor {
     fn begin(&mut self, py: Python<'_>) -> PyResult<()> {
         self.calls.begin();
         match &self.to_do {
-            Some(actions) if !actions.get().are_taken() => {
-                Err(ActionsNotTaken::new_err((actions.clone_ref(py),)))
+            Some(to_do) if !to_do.are_taken() => {
+                let actions = Py::new(py, Actions::new(Arc::clone(to_do)))?;
+                Err(ActionsNotTaken::new_err((actions,)))
             }
             _ => Ok(()),
         }
@@ -294,18 +323,21 @@ impl Monitor {
         why: Option<DropReason>,
     ) -> PyResult<Py<Actions>> {
         self.last = now;
-        let actions = Py::new(py, Actions::new(to_do, why))?;
-        self.to_do = Some(actions.clone_ref(py));
-        Ok(actions)
+        let to_do = ToDo::new(to_do, why);
+        self.to_do = Some(Arc::clone(&to_do));
+        Py::new(py, Actions::new(to_do))
     }
 
     fn decide(&mut self, py: Python<'_>, own: &Own) -> PyResult<Py<Decision>> {
         self.last = own.now();
-        let Self { place, calls, tracks, trajectory, .. } = self;
+        let Self { place, calls, tracks, trajectory, to_do, .. } = self;
         let inputs = own.with(tracks.as_ref(), trajectory.as_ref());
-        let decision = place
-            .with_dependent_mut(|_, monitor| Decision::new(py, calls, &monitor.cycle(&inputs)))?;
-        self.to_do = Some(decision.to_do(py).clone().unbind());
+        let decision = place.with_dependent_mut(|_, monitor| {
+            let (decision, actions) = monitor.cycle(&inputs);
+            let actions = ToDo::new(&actions, None);
+            *to_do = Some(Arc::clone(&actions));
+            Decision::new(py, calls, &decision, actions)
+        })?;
         Py::new(py, decision)
     }
 }
@@ -325,13 +357,12 @@ fn take<L>(
     (actions.to_vec(), why)
 }
 
-fn set(groups: &[String]) -> PyResult<Groups> {
+fn set(groups: &[OneOfGroups]) -> Groups {
     let mut set = Groups::NONE;
     for group in groups {
-        let group: Group = word("groups", group).map_err(invalid)?;
-        set = set.with(bridge::group_to_impl(group));
+        set = set.with(bridge::group_to_impl(group.0));
     }
-    Ok(set)
+    set
 }
 
 fn refused(error: RequesterError) -> PyErr {

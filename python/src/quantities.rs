@@ -3,6 +3,7 @@
 use mufasa::monitor::{Gap as NativeGap, Time as NativeTime, TimeError};
 use pyo3::prelude::*;
 
+use crate::arguments::{Metres, Microseconds, Milliseconds, Nanoseconds, Seconds};
 use crate::errors::{invalid, wrong};
 use crate::items;
 
@@ -22,26 +23,26 @@ fn of(time: Result<NativeTime, TimeError>) -> PyResult<Time> {
 impl Time {
     /// So many nanoseconds after the clock's start.
     #[staticmethod]
-    fn from_nanoseconds(ns: i64) -> Self {
-        Self { time: NativeTime::from_nanoseconds(ns) }
+    fn from_nanoseconds(ns: Nanoseconds) -> Self {
+        Self { time: NativeTime::from_nanoseconds(ns.0) }
     }
 
     /// So many microseconds after the clock's start.
     #[staticmethod]
-    fn from_microseconds(us: i64) -> PyResult<Self> {
-        of(NativeTime::from_microseconds(us))
+    fn from_microseconds(us: Microseconds) -> PyResult<Self> {
+        of(NativeTime::from_microseconds(us.0))
     }
 
     /// So many milliseconds after the clock's start.
     #[staticmethod]
-    fn from_milliseconds(ms: i64) -> PyResult<Self> {
-        of(NativeTime::from_milliseconds(ms))
+    fn from_milliseconds(ms: Milliseconds) -> PyResult<Self> {
+        of(NativeTime::from_milliseconds(ms.0))
     }
 
     /// So many seconds after the clock's start, to about the nearest nanosecond.
     #[staticmethod]
-    fn from_seconds(seconds: f64) -> PyResult<Self> {
-        of(NativeTime::from_seconds(seconds))
+    fn from_seconds(seconds: Seconds) -> PyResult<Self> {
+        of(NativeTime::from_seconds(seconds.0))
     }
 
     /// Nanoseconds after the clock's start.
@@ -66,15 +67,15 @@ pub struct Gap {
 impl Gap {
     /// Measured from the CAV's front bumper to the rear bumper of the leading vehicle, m.
     #[staticmethod]
-    fn between_bumpers(metres: f64) -> Self {
-        Self { gap: NativeGap::between_bumpers(metres) }
+    fn between_bumpers(metres: Metres) -> Self {
+        Self { gap: NativeGap::between_bumpers(metres.0) }
     }
 
     /// Measured from the CAV's reference point to the rear bumper of the leading vehicle, m.
     #[staticmethod]
-    fn from_reference_point(metres: f64, ego: &Bound<'_, PyAny>) -> PyResult<Self> {
+    fn from_reference_point(metres: Metres, ego: &Bound<'_, PyAny>) -> PyResult<Self> {
         let ego = items::item(ego, "ego").map_err(invalid)?;
-        Ok(Self { gap: NativeGap::from_reference_point(metres, &ego) })
+        Ok(Self { gap: NativeGap::from_reference_point(metres.0, &ego) })
     }
 
     /// m.

@@ -56,7 +56,10 @@ impl Call {
 }
 
 macro_rules! verified {
-    ($($(#[$doc:meta])* $name:ident of $list:ident { $items:ident: $item:ident($($field:ident),*) })*) => {$(
+    ($($(#[$doc:meta])* $name:ident of $list:ident {
+        $items:ident: $item:ident($($field:ident),*)
+        $({ $field_of_own:ident: $type_of_own:ty; $($method:tt)* })?
+    })*) => {$(
         $(#[$doc])*
         #[pyclass(frozen, module = "mufasa")]
         pub struct $name {
@@ -64,13 +67,15 @@ macro_rules! verified {
             stamp: Time,
             station: i64,
             items: Vec<$item>,
+            $($field_of_own: $type_of_own,)?
         }
 
         impl $name {
             pub fn new(call: Call, data: &Verified<'_, $list<'_>>) -> Self {
                 let stamp = Time { time: NativeTime::from_nanoseconds(data.stamp_ns) };
                 let (station, items) = (data.source().station(), data.$items.to_vec());
-                Self { call, stamp, station, items }
+                $(let $field_of_own = data.$field_of_own().map(|time| Time { time });)?
+                Self { call, stamp, station, items, $($field_of_own)? }
             }
         }
 
@@ -97,6 +102,8 @@ macro_rules! verified {
                 let items: PyResult<Vec<_>> = self.items.iter().map(item).collect();
                 PyList::new(py, items?)
             }
+
+            $($($method)*)?
         }
     )*};
 }
@@ -106,5 +113,17 @@ verified! {
     VerifiedTracks of TrackList { items: Track(id, x, y, cos, sin, vx, vy, length, width) }
 
     /// A trajectory that a safe cycle has checked.
-    VerifiedTrajectory of Trajectory { points: TrajectoryPoint(t_ns, x, y, cos, sin) }
+    VerifiedTrajectory of Trajectory {
+        points: TrajectoryPoint(t_ns, x, y, cos, sin)
+        {
+            brake_by: Option<Time>;
+
+            /// By when control has to brake along it, unless a later cycle has given one or there is a plan of
+            /// the CAV's own.
+            #[getter]
+            fn brake_by(&self) -> PyResult<Option<Time>> {
+                self.call.is_last().map(|()| self.brake_by)
+            }
+        }
+    }
 }

@@ -45,6 +45,15 @@ def test_a_safe_cycle_gives_what_the_station_sent(scene: Scene) -> None:
     assert (decision.trajectory.station, decision.trajectory.stamp) == (1, at(10))
 
 
+def test_a_verified_trajectory_says_by_when_to_brake(scene: Scene) -> None:
+    decision = scene.safe(scene.offloading(), 10)
+    assert decision.trajectory is not None
+    assert decision.trajectory.brake_by == at(10 + 250)
+    parameters = {"dt_max_ns": 150_000_000}
+    decision = scene.safe(scene.offloading(profile="paper", parameters=parameters), 10)
+    assert decision.trajectory is not None and decision.trajectory.brake_by is None
+
+
 def test_local_cycles_verify_nothing(scene: Scene) -> None:
     decision = scene.decide(scene.monitor(), 10)
     assert decision.safe and decision.tracks is None and decision.trajectory is None
@@ -235,6 +244,85 @@ def test_inputs_that_cannot_be_read_end_in_the_fallback(scene: Scene) -> None:
     assert not monitor.tick(at(30))
 
 
+def test_a_cycle_that_cannot_be_read_falls_back_at_its_own_time(scene: Scene) -> None:
+    for ms in (20, 500):
+        monitor = scene.offloading()
+        with pytest.raises(mufasa.UnreadableInputs) as error:
+            monitor.cycle(at(ms), {"x": 0.0})
+        assert list(error.value.actions)
+        assert monitor.hold_until == at(ms + 10_000)
+    # The time itself cannot be read: that of the last call.
+    monitor = scene.offloading()
+    list(monitor.tick(at(30)))
+    with pytest.raises(mufasa.UnreadableInputs) as error:
+        monitor.cycle(40, scene.ego)  # type: ignore[arg-type]
+    assert error.value.field == "now" and list(error.value.actions)
+    assert monitor.hold_until == at(30 + 10_000)
+
+
+def test_actions_outlive_what_python_raises(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A signal handler may raise anywhere in Python: after a decision its actions are still there."""
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monitor = scene.offloading()
+    scene.safe(monitor, 10)
+    scene.send(monitor, 20, tracks=scene.aside)
+    list(monitor.tick(at(20)))
+    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+        patched.setattr("mufasa._verdict.of_answer", interrupted)
+        monitor.cycle(at(20), scene.ego, detections=Detections(at(20), scene.parked))
+    assert monitor.configuration == "Local"
+    with pytest.raises(mufasa.ActionsNotTaken) as left:
+        monitor.tick(at(30))
+    actions = left.value.actions
+    # Nor are they taken when they cannot be made.
+    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+        patched.setattr("mufasa._types.Release", interrupted)
+        list(actions)
+    with pytest.raises(mufasa.ActionsNotTaken):
+        monitor.tick(at(30))
+    assert [it.group for it in actions if isinstance(it, Release)] == ["mot", "plan"]
+    assert not monitor.tick(at(30))
+
+
+HUGE: dict[str, tuple[Callable[[Monitor], object], str]] = {
+    "confirm": (lambda it: it.confirm(at(1), 1, "mot", 2**70), "session"),
+    "reject": (lambda it: it.reject(at(1), -(2**70), "mot", 1), "station"),
+    "offer": (lambda it: it.offer(at(1), 2**63, ["mot"]), "station"),
+    "group": (lambda it: it.confirm(at(1), 1, "\ud800", 1), "group"),  # type: ignore[arg-type]
+    "groups": (lambda it: it.area(at(1), ["\ud800"]), "groups"),  # type: ignore[list-item]
+    "tracks": (
+        lambda it: it.tracks(at(1), station=1, session=2**70, generated=at(1), stamp=at(1), items=[]),
+        "session",
+    ),
+    "trajectory": (
+        lambda it: it.trajectory(at(1), station=2**70, session=1, generated=at(1), stamp=at(1), points=[]),
+        "station",
+    ),
+    "nanoseconds": (lambda _: Time.from_nanoseconds(2**70), "nanoseconds"),
+    "microseconds": (lambda _: Time.from_microseconds(2**70), "microseconds"),
+    "milliseconds": (lambda _: Time.from_milliseconds(2**62), "milliseconds"),
+    "seconds": (lambda _: Time.from_seconds(10**400), "seconds"),
+    "gap": (lambda _: Gap.between_bumpers(10**400), "gap"),
+    "record": (lambda _: mufasa.check("\ud800"), ""),
+    "ego": (lambda _: mufasa.read_drives("x", ego=2**70), "ego"),
+    "seed": (lambda _: mufasa.read_drives("x", seed=-1), "seed"),
+}
+
+
+@pytest.mark.parametrize("name", HUGE)
+def test_numbers_of_any_size_are_invalid_input(scene: Scene, name: str) -> None:
+    """Who decodes a forged number catches ``MufasaError`` as for any other."""
+    call, field = HUGE[name]
+    monitor = scene.offloading()
+    with pytest.raises(InvalidInput) as error:
+        call(monitor)
+    assert error.value.field == field
+    assert monitor.configuration == "AllRemote"
+
+
 @pytest.mark.parametrize(
     ("settings", "field"),
     [
@@ -248,7 +336,10 @@ def test_inputs_that_cannot_be_read_end_in_the_fallback(scene: Scene) -> None:
         ({"parameters": {"a_b": 0.0}}, "parameters.a_b"),
         ({"parameters": {"theta_tr": "wide"}}, "theta_tr"),
         ({"sessions_before": -1}, "sessions_before"),
+        ({"sessions_before": 2**70}, "sessions_before"),
         ({"most_stations": 0}, "most_stations"),
+        ({"most_stations": -1}, "most_stations"),
+        ({"most_stations": 2**40}, "most_stations"),
         ({"profile": "lax"}, "profile"),
     ],
 )
@@ -261,6 +352,9 @@ def test_settings_that_no_monitor_can_keep(settings: dict[str, Any], field: str)
 def test_a_period_is_a_time_above_0() -> None:
     with pytest.raises(InvalidInput) as error:
         mufasa.Monitor(timedelta(0))
+    assert error.value.field == "period"
+    with pytest.raises(InvalidInput) as error:
+        mufasa.Monitor(-PERIOD)
     assert error.value.field == "period"
     with pytest.raises(TypeError):
         mufasa.Monitor(0.1)  # type: ignore[arg-type]

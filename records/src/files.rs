@@ -19,6 +19,29 @@ pub fn prepare(folder: &Path) -> io::Result<()> {
     }
 }
 
+/// Whether `write` can write a file there, which is asked before long work. Nothing is left behind, and the file stays.
+pub fn prepare_file(file: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(file) {
+        Ok(there) if there.is_symlink() => prepare_file(&fs::canonicalize(file)?),
+        Ok(there) if there.is_dir() => {
+            Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder; name a file"))
+        }
+        Ok(there) if !there.is_file() => Ok(()),
+        Ok(_) | Err(_) => {
+            let temporary = beside(file);
+            fs::write(&temporary, [])?;
+            fs::remove_file(&temporary)
+        }
+    }
+}
+
+/// The name under which a file is written.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = file.as_os_str().to_owned();
+    name.push(".tmp");
+    PathBuf::from(name)
+}
+
 /// Writes a file of text at once.
 pub fn write(file: &Path, content: &str) -> io::Result<()> {
     write_bytes(file, content.as_bytes())
@@ -37,9 +60,7 @@ pub fn write_bytes(file: &Path, content: &[u8]) -> io::Result<()> {
         }
         Ok(_) | Err(_) => {}
     }
-    let mut name = file.as_os_str().to_owned();
-    name.push(".tmp");
-    let temporary = PathBuf::from(name);
+    let temporary = beside(file);
     let written = fs::write(&temporary, content).and_then(|()| fs::rename(&temporary, file));
     if written.is_err() {
         // What is left of it must not stay; that it cannot be removed is no news.
@@ -93,6 +114,14 @@ mod tests {
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read_to_string(&file).unwrap(), "new");
         write(&gone, "new").unwrap_err();
+        prepare_file(&gone).unwrap_err();
+        prepare_file(&folder).unwrap_err();
+        prepare_file(&folder.join("none/file")).unwrap_err();
+        for fine in [&link, &file, &folder.join("another")] {
+            prepare_file(fine).unwrap();
+        }
+        assert!(!folder.join("another").exists());
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
         let device = Path::new("/dev/null");
         write(device, "new").unwrap();
         assert!(!fs::symlink_metadata(device).unwrap().is_file());

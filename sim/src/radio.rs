@@ -53,6 +53,15 @@ impl Radio {
         self.launch(now_ns, to, bytes, 0);
     }
 
+    /// The same for a message that somebody holds back for so long, ns; none: for ever. The fate of all other messages
+    /// stays as it is.
+    pub fn hold(&mut self, now_ns: i64, held_ns: Option<i64>, to: To, bytes: Vec<u8>) {
+        match held_ns {
+            Some(held_ns) => self.launch(now_ns + held_ns, to, bytes, 0),
+            None => self.sent[0] += 1,
+        }
+    }
+
     /// The same by somebody else, which leaves the fate of all other messages as it is: runs with and
     /// without an attack have the same link.
     pub fn forge(&mut self, now_ns: i64, to: To, bytes: Vec<u8>) {

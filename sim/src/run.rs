@@ -44,6 +44,10 @@ pub struct Settings {
     pub variant: Variant,
     /// Of the hardened variant: a rule that is left out.
     pub without: Option<Without>,
+    /// Whether control drives on along what was verified however long nothing newer comes (F-47).
+    pub drives_on: bool,
+    /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
+    pub has_no_lead: bool,
     /// What the station offers.
     pub offers: Groups,
     /// Where along the route each group may be offloaded, m.
@@ -73,6 +77,8 @@ impl Settings {
         Self {
             variant,
             without: None,
+            drives_on: false,
+            has_no_lead: false,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
             attacks: Vec::new(),
@@ -239,7 +245,9 @@ pub fn simulate(
     };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
-    let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard);
+    let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)
+        .driving_on(settings.drives_on)
+        .without_lead(settings.has_no_lead);
     let mut station = Station::new((town, route), frame, settings.offers, noise);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);

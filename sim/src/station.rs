@@ -173,13 +173,16 @@ impl<'a> Station<'a> {
         let mut results = Results { stamp_ns, tracks, points: points.unwrap_or_default() };
         attacker.results(ego, &mut results);
         let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns();
+        let held_ns = attacker.held_ns();
         let Results { stamp_ns, tracks, points } = results;
         attacker.saw(sessions);
         if let Some(session) = sessions[0] {
-            self.send(done_ns, requester, Payload::Tracks { session, stamp_ns, tracks }, radio);
+            let payload = Payload::Tracks { session, stamp_ns, tracks };
+            self.send_held(done_ns, held_ns, (requester, payload), radio);
         }
         if let Some(session) = sessions[1] {
-            self.send(done_ns, requester, Payload::Trajectory { session, stamp_ns, points }, radio);
+            let payload = Payload::Trajectory { session, stamp_ns, points };
+            self.send_held(done_ns, held_ns, (requester, payload), radio);
         }
     }
 
@@ -246,11 +249,22 @@ impl<'a> Station<'a> {
     }
 
     fn send(&self, now_ns: i64, vehicle: i64, payload: Payload, radio: &mut Radio) {
+        self.send_held(now_ns, Some(0), (vehicle, payload), radio);
+    }
+
+    /// Sends what is held back on the link for so long, ns; none: for ever.
+    fn send_held(
+        &self,
+        now_ns: i64,
+        held_ns: Option<i64>,
+        (vehicle, payload): (i64, Payload),
+        radio: &mut Radio,
+    ) {
         let message =
             Message { sender: ids::STATION, receiver: vehicle, generated_ns: now_ns, payload };
         // What the formats cannot hold is not sent: the link is silent then.
         if let Ok(bytes) = message::encode(&message, &self.frame) {
-            radio.send(now_ns, To::Vehicle, bytes);
+            radio.hold(now_ns, held_ns, To::Vehicle, bytes);
         }
     }
 }

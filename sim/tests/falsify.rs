@@ -1,5 +1,8 @@
 //! The search for collisions: that it finds what is there, by what it looks for, and the same each time.
 
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
+
 use mufasa_sim::attack::means::{Lists, Means};
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
@@ -9,7 +12,7 @@ use mufasa_sim::experiment::falsify::danger::{Danger, FREE_S};
 use mufasa_sim::experiment::falsify::found::{Case, Found};
 use mufasa_sim::experiment::falsify::genome::{Clean, GENES, KINDS, decode};
 use mufasa_sim::experiment::falsify::shrink::shrunk;
-use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, experiment};
+use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, Progress, experiment};
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{End, TAU_S};
@@ -20,6 +23,21 @@ struct Backwards;
 impl Caller for Backwards {
     fn worth(&self, time_left_s: f64) -> f64 {
         -time_left_s
+    }
+}
+
+/// Interrupts after so many runs.
+struct Interrupts(AtomicU64);
+
+impl Caller for Interrupts {
+    fn tell(&self, progress: Progress) {
+        if progress == Progress::Run {
+            let _ = self.0.try_update(Relaxed, Relaxed, |left| left.checked_sub(1));
+        }
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.0.load(Relaxed) == 0
     }
 }
 
@@ -70,6 +88,24 @@ fn a_known_hole_is_found_and_not_by_a_search_for_the_opposite() {
     assert_eq!(json(&in_threads(1)), json(&made));
 }
 
+/// Neither in the random points nor among the generations is another run begun, or anything shrunk.
+#[test]
+fn an_interrupt_ends_the_search_and_leaves_what_was_found() {
+    let town = town();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
+    for runs in [50, 70] {
+        let caller = Interrupts(AtomicU64::new(runs));
+        let made = pool.install(|| experiment(&town, known_hole(), &caller)).expect("it can be");
+        assert!(made.interrupted && (runs..runs + 4).contains(&made.runs), "{runs} {}", made.runs);
+        assert!(made.collided > 0 && !made.found.is_empty(), "{runs}");
+        assert_eq!((made.shrinking_runs, made.rounds), (0, 1), "{runs}");
+        assert_eq!(u64::try_from(made.tries.len()).expect("few"), made.runs);
+        for found in &made.found {
+            assert_eq!(found.case.collision(&town).expect("it can be").as_ref(), Some(found));
+        }
+    }
+}
+
 #[test]
 fn what_is_found_is_shrunk_to_what_matters() {
     let town = town();
@@ -81,6 +117,8 @@ fn what_is_found_is_shrunk_to_what_matters() {
         variant: Variant::Sofof,
         without: None,
         tau_s: TAU_S,
+        drives_on: false,
+        has_no_lead: false,
         offered: Offered::Both,
         route: 0,
         scenario: 0,
@@ -89,7 +127,7 @@ fn what_is_found_is_shrunk_to_what_matters() {
         map: MapId::Town,
     };
     let found = case.collision(&town).expect("it can be").expect("a collision");
-    let (small, runs) = shrunk(&town, &found).expect("it can be");
+    let (small, runs) = shrunk(&town, &found, &()).expect("it can be");
     assert!(runs > 3);
     let [attack] = &small.case.attacks[..] else { panic!("{small:?}") };
     assert_eq!(attack.kind, Kind::OneRemoved);
@@ -158,6 +196,8 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
         variant: Variant::Sofof,
         without: None,
         tau_s: TAU_S,
+        drives_on: false,
+        has_no_lead: false,
         offered: Offered::Both,
         route: 0,
         scenario: 0,
@@ -177,6 +217,30 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     let (end, attacked) = time_left(&case);
     assert_eq!(end, End::Collided);
     assert!(attacked < 0.3, "{attacked}");
+}
+
+/// A group that is remote and has nothing current is of no use: the last use is before that.
+#[test]
+fn a_cycle_in_which_nothing_is_current_is_no_use() {
+    let town = town();
+    let case = Case {
+        variant: Variant::Hardened,
+        without: None,
+        tau_s: TAU_S,
+        offered: Offered::Plan,
+        route: 0,
+        scenario: 0,
+        vehicles: 15,
+        attacks: vec![Attack::new(Kind::StampsAhead, 5.0, 1e3, 0)],
+        drives_on: false,
+        has_no_lead: false,
+        map: MapId::Town,
+    };
+    let mut danger = Danger::default();
+    case.run(&town, &mut danger).expect("it can be");
+    let last = danger.last_use().expect("one before the attack").t_s;
+    let idle = danger.remote_times().into_iter().filter(|t| *t > last).count();
+    assert!((4.9..5.2).contains(&last) && idle > 3, "{last} {idle}");
 }
 
 /// The collisions that are kept with the project. When something about a run changes, `UPDATE_FOUND=1` writes
@@ -201,8 +265,8 @@ fn what_was_found_still_collides_and_only_under_attack() {
         assert_eq!(found.is_after(), is_after, "{}", file.display());
         let clean = Case { attacks: Vec::new(), ..found.case.clone() };
         assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
-        // Nor with all rules, or with the time that the CAV takes.
-        let whole = Case { without: None, tau_s: TAU_S, ..found.case.clone() };
+        // Nor with all rules, with the time that the CAV takes, or with control that brakes when it has to.
+        let whole = Case { without: None, tau_s: TAU_S, drives_on: false, ..found.case.clone() };
         if whole != found.case {
             assert_eq!(whole.collision(&town).expect("it can be"), None, "{}", file.display());
         }

@@ -144,14 +144,15 @@ pub unsafe extern "C" fn mufasa_monitor_cycle(
     inputs: *const MufasaMonitorInputs,
     decision: *mut MufasaDecision,
 ) -> MufasaStatus {
+    // That it can be written is known before anything is done.
     // SAFETY: the caller's duty, here and below.
+    if let Err(status) = unsafe { put(decision, nothing_decided()) } {
+        return status;
+    }
+    // SAFETY: as above.
     let monitor = match unsafe { required_mut(monitor) } {
         Ok(monitor) => monitor,
-        Err(status) => {
-            // SAFETY: as above.
-            return unsafe { put(decision, nothing_decided()) }
-                .map_or_else(|_| status, |()| status);
-        }
+        Err(status) => return status,
     };
     // SAFETY: as above.
     let (status, told) = match unsafe { cycle(monitor, now, inputs) } {

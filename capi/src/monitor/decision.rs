@@ -3,7 +3,7 @@
 use core::ptr::null;
 
 use mufasa::input::cycle::{Track, TrackList, Trajectory, TrajectoryPoint};
-use mufasa::monitor::{Decision, DropReason, Inputs, Monitor, Verified};
+use mufasa::monitor::{Decision, DropReason, Inputs, Monitor, Time, Verified};
 use mufasa::offloading::requester::{Action, Actions, Group, Source};
 
 use crate::cycle::{MufasaTrack, MufasaTrackList, MufasaTrajectory, MufasaTrajectoryPoint};
@@ -79,12 +79,19 @@ pub struct MufasaDecision {
     /// Of a safe cycle the trajectory that was checked, while a group is remote and it is current: that
     /// of the station, or while MOT alone is remote that of the CAV's own planner; else null.
     pub trajectory: *const MufasaTrajectory,
+    /// By when control has to brake along the trajectory, with `a_b`, unless a later cycle has given one or there is
+    /// a plan of the CAV's own: what was examined covers no more. INT64_MAX ns where there is no trajectory, and in
+    /// the paper profile.
+    pub brake_by: MufasaTime,
     /// Releases to be sent, and local services that start or stop.
     pub actions: MufasaActions,
     /// Sum of MufasaGroup: the groups whose local services have to run from now on. Who sets his services to
     /// it in each period has started them even when he lost an action.
     pub local_services: u32,
 }
+
+/// No time by which to brake.
+const NEVER: MufasaTime = MufasaTime { ns: i64::MAX };
 
 /// All are local.
 const EVERY_GROUP: u32 = MufasaGroup::Mot as u32 | MufasaGroup::Plan as u32;
@@ -117,6 +124,7 @@ impl Verdicts {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
+                brake_by: trajectory.and_then(|it| it.brake_by()).map_or(NEVER, time),
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
             },
@@ -127,6 +135,7 @@ impl Verdicts {
                 },
                 tracks: null(),
                 trajectory: null(),
+                brake_by: NEVER,
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
             },
@@ -162,6 +171,7 @@ pub(super) fn nothing_decided() -> MufasaDecision {
         report: report::error(None),
         tracks: null(),
         trajectory: null(),
+        brake_by: NEVER,
         actions: actions_of(&[]),
         local_services: EVERY_GROUP,
     }
@@ -182,6 +192,10 @@ pub(super) fn actions_of(actions: &[Action]) -> MufasaActions {
         told.len = told.len.saturating_add(1);
     }
     told
+}
+
+const fn time(it: Time) -> MufasaTime {
+    MufasaTime { ns: it.as_nanoseconds() }
 }
 
 fn track(it: &Track) -> MufasaTrack {

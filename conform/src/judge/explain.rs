@@ -197,7 +197,7 @@ fn strictly(
     let what = format!(
         "passes; with a margin of {margin_m} m it would fail at {}: {}",
         name(Some(stage)),
-        words::witness(witness)
+        words::witness_with_margin(witness)
     );
     Some((witness.clone(), Some(margin_m), what))
 }

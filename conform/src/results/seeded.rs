@@ -152,6 +152,7 @@ mod tests {
 
     fn campaign(profile: &str, kinds: &[Kind], vectors: u64, cases: u64) -> Campaign {
         Campaign {
+            version: String::new(),
             command: Vec::new(),
             profile: profile.to_owned(),
             seed: 0,

@@ -51,6 +51,9 @@ pub struct Summary {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Campaign {
+    /// The version of the kit, as `mufasa --version` has it; empty: one that did not say.
+    #[serde(default)]
+    pub version: String,
     /// The program under test and its arguments.
     pub command: Vec<String>,
     /// `paper` or `hardened`.
@@ -142,7 +145,7 @@ impl Summary {
 
     fn with(mut self, other: Self, path: &Path) -> Result<Self, ConformError> {
         if self.campaign != other.campaign {
-            let what = "belongs to another campaign: command, profile, seed, cases, vectors, kinds, \
+            let what = "belongs to another campaign: version of mufasa, command, profile, seed, cases, vectors, kinds, \
                         drives, time limit, tolerance and number of shards must be the same";
             return Err(ConformError::file(path, what));
         }

@@ -49,9 +49,9 @@ pub struct Checked {
     profiles: BTreeSet<&'static str>,
 }
 
-/// What is said where the cycles of a drive ignore options.
-const IGNORED: &str = "each cycle has its own profile, configuration and parameters: options of recorded drives, \
-                       --profile, --configuration and parameters of the stages change nothing";
+/// What is said where the cycles of a drive ignore options ([`Stream::ignores_options`]).
+pub const IGNORED: &str = "each cycle has its own profile, configuration and parameters: options of recorded drives, \
+                           --profile, --configuration and parameters of the stages change nothing";
 
 /// A cycle with a breach of conformance.
 #[derive(Clone, Debug, PartialEq)]

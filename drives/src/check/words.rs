@@ -91,6 +91,14 @@ pub fn witness(witness: &Witness) -> String {
     }
 }
 
+/// A witness of a reading with a margin in words: the two numbers without a relation, which holds with the
+/// margin alone.
+pub fn witness_with_margin(witness: &Witness) -> String {
+    let (what, unit, _) = phrase(witness);
+    let [left, right] = numbers(witness.compared).map(|number| with_unit(&number, unit));
+    format!("{what} ({left} against {right})")
+}
+
 /// What happened, the unit of the numbers compared, and how they compare.
 fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
     let point = witness.point.map_or("the trajectory".to_owned(), |index| format!("point {index}"));
@@ -219,6 +227,9 @@ mod tests {
             compared: [4.1, 5.0],
         };
         assert_eq!(witness(&found), "point 4 meets track 7 (4.1 m < 5 m)");
+        // With a margin of 1 m a distance of 5.5 m counts as near.
+        let near = Witness { compared: [5.5, 5.0], ..found.clone() };
+        assert_eq!(witness_with_margin(&near), "point 4 meets track 7 (5.5 m against 5 m)");
         let moving = Witness {
             rule: Rule::CollisionMoving,
             track: None,

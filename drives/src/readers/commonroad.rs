@@ -41,6 +41,7 @@ pub(crate) fn solved(
             quoted(&scenario.version)
         ));
     }
+    notes.extend(solution.speed_notes(scenario.dt_ns));
     if let Some(ego) = options.ego {
         notes.push(format!("--ego {ego} is not used: the CAV is that of the solution"));
     }

@@ -17,6 +17,15 @@ use crate::readers::npy;
 use crate::recording::object::State;
 use crate::recording::{self, Recording};
 
+/// The columns of a map.
+const COLUMNS: [&str; 6] = [
+    "x (m)",
+    "y (m)",
+    "distance of the left bound (m)",
+    "distance of the right bound (m)",
+    "speed limit (m/s)",
+    "altitude (m, not used)",
+];
 /// Length and width of the test vehicle in the scenarios that come with the maps, m.
 const SIZE: [f64; 2] = [5.1, 1.89];
 /// Control points nearer than this to the last cross section are passed over, m. Maps have one every
@@ -47,7 +56,7 @@ const BEGIN: f64 = 1.0;
 /// The drive along a map.
 pub(crate) fn drive(file: &Path, bytes: &[u8], options: &Options) -> Result<Stream, ReadError> {
     let mut notes = Vec::new();
-    let rows = npy::table::<6>(file, bytes)?;
+    let rows = npy::table(file, bytes, COLUMNS)?;
     checked(file, rows.clone())?;
     let (points, closed) = cross_sections(file, &rows.map(Control::new), &mut notes)?;
     let path = ReferencePath::new(&points, closed);

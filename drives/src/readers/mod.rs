@@ -42,8 +42,9 @@ use spool::Spool;
 
 /// Reads drives from files, each recognised by its content: a `CommonRoad` scenario (2018b,
 /// 2020a), a solution of the scenario before it, a map of control points, or cycles as JSON Lines or in an MCAP
-/// log (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, up to
-/// 1 GiB unpacked, and may be a pipe. Cycles are read line by line and kept in a temporary file.
+/// log (`spec/5-interfaces.md#cycle`; the options do not touch them); each may be packed as gz, and may be a
+/// pipe; what is packed, and all but lines, is read up to 1 GiB. Cycles are read line by line and kept in a
+/// temporary file.
 ///
 /// A scenario directly followed by solutions gives one drive for each of them, a scenario alone
 /// one drive of a recorded vehicle; a solution named elsewhere goes to the scenario of its benchmark

@@ -9,10 +9,11 @@ use crate::readers::error::{ReadError, quoted};
 /// First bytes of every such file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Reads a table of `N` columns; the rows are not copied, a map of 100 MB is there once.
+/// Reads a table of `N` columns with these names; the rows are not copied, a map of 100 MB is there once.
 pub(crate) fn table<'a, const N: usize>(
     file: &Path,
     bytes: &'a [u8],
+    names: [&str; N],
 ) -> Result<impl ExactSizeIterator<Item = [f64; N]> + Clone + use<'a, N>, ReadError> {
     let error = |field: &str, message: String| ReadError::file(file, message).at("header", field);
     let broken = || error("", String::from("the header is cut off or broken"));
@@ -45,7 +46,10 @@ pub(crate) fn table<'a, const N: usize>(
         return Err(error("shape", format!("two sizes are needed: {}", quoted(&header))));
     };
     if columns != N {
-        return Err(error("shape", format!("{columns} columns; {N} are needed")));
+        return Err(error(
+            "shape",
+            format!("{columns} columns; {N} are needed: {}", names.join(", ")),
+        ));
     }
     let body = &bytes[end..];
     let (cells, rest) = body.as_chunks::<8>();
@@ -61,6 +65,8 @@ pub(crate) fn table<'a, const N: usize>(
 mod tests {
     use super::*;
 
+    const NAMES: [&str; 3] = ["x", "y", "z"];
+
     fn file(header: &str, cells: &[f64]) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend([1, 0, u8::try_from(header.len()).unwrap(), 0]);
@@ -73,7 +79,7 @@ mod tests {
     fn a_table_is_read_row_by_row() {
         let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }\n";
         let bytes = file(header, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        let rows = table::<3>(Path::new("m.npy"), &bytes).unwrap();
+        let rows = table(Path::new("m.npy"), &bytes, NAMES).unwrap();
         assert_eq!(rows.collect::<Vec<_>>(), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     }
 
@@ -81,17 +87,20 @@ mod tests {
     fn a_header_that_does_not_fit_the_file_is_refused() {
         let of = |shape: &str, descr: &str, order: &str| {
             let h = format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}");
-            table::<3>(Path::new("m.npy"), &file(&h, &[0.0; 6])).err().unwrap().field
+            table(Path::new("m.npy"), &file(&h, &[0.0; 6]), NAMES).err().unwrap().field
         };
         assert_eq!(of("(3, 3)", "<f8", "False"), "shape");
         assert_eq!(of("(6148914691236517206, 3)", "<f8", "False"), "shape");
         assert_eq!(of("(1, 6)", "<f8", "False"), "shape");
+        let six = file("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 6), }", &[0.0; 6]);
+        let error = table(Path::new("m.npy"), &six, NAMES).err().unwrap();
+        assert!(error.to_string().ends_with("6 columns; 3 are needed: x, y, z"), "{error}");
         assert_eq!(of("(6,)", "<f8", "False"), "shape");
         assert_eq!(of("(2, 3)", "<f4", "False"), "descr");
         assert_eq!(of("(2, 3)", "<f8", "True"), "fortran_order");
         for cut in 0..60 {
             let whole = file("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }", &[]);
-            assert!(table::<3>(Path::new("m.npy"), &whole[..cut]).is_err());
+            assert!(table(Path::new("m.npy"), &whole[..cut], NAMES).is_err());
         }
     }
 }

@@ -7,6 +7,7 @@
 
 use std::path::Path;
 
+use crate::geometry::distance;
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::xml::{Element, with_root};
 use crate::recording::object::State;
@@ -29,6 +30,9 @@ pub(crate) struct Solution {
 /// Vanagon), m.
 const VEHICLES: [(char, [f64; 2]); 3] =
     [('1', [4.298, 1.674]), ('2', [4.508, 1.610]), ('3', [4.569, 1.844])];
+
+/// Of velocities along a shorter way nothing is said, m.
+const LEAST_M: f64 = 5.0;
 
 /// Reads a solution from the text of a file.
 pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
@@ -56,6 +60,35 @@ pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
             states: states(trajectory)?,
         })
     })
+}
+
+impl Solution {
+    /// What is odd about the velocities of the states, which are `dt_ns` apart.
+    pub fn speed_notes(&self, dt_ns: i64) -> Vec<String> {
+        let states = &self.states;
+        let mut notes = Vec::new();
+        let backwards = states.iter().filter(|state| state.speed < 0.0).count();
+        if backwards > 0 {
+            let count = states.len();
+            notes.push(format!(
+                "{backwards} of {count} velocities are below 0, which is backwards: cycles have their amounts"
+            ));
+        }
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "a step of a scenario, and for people to read"
+        )]
+        let dt_s = dt_ns as f64 / 1e9;
+        let way: f64 =
+            states.windows(2).map(|pair| distance(pair[0].position, pair[1].position)).sum();
+        let told: f64 = states.windows(2).map(|pair| pair[0].speed.abs() * dt_s).sum();
+        if told.max(way) > LEAST_M && !(0.5..=2.0).contains(&(told / way)) {
+            notes.push(format!(
+                "its velocities make a way of {told:.1} m, its places one of {way:.1} m: velocities are in m/s"
+            ));
+        }
+        notes
+    }
 }
 
 fn size(model: &str) -> Option<[f64; 2]> {
@@ -99,6 +132,36 @@ fn states(trajectory: Element<'_>) -> Result<Vec<State>, ReadError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn odd_velocities_are_told() {
+        let noted = |factor: f64| {
+            let state = |step: i32| State {
+                step: step.into(),
+                position: [f64::from(step), 0.0],
+                heading: 0.0,
+                speed: 10.0 * factor,
+                slip: 0.0,
+            };
+            let solution = Solution {
+                scenario: String::new(),
+                version: String::new(),
+                model: String::new(),
+                size: [4.0, 2.0],
+                states: (0..20).map(state).collect(),
+            };
+            solution.speed_notes(100_000_000)
+        };
+        assert_eq!(noted(1.0), [""; 0]);
+        let told =
+            ["20 of 20 velocities are below 0, which is backwards: cycles have their amounts"];
+        assert_eq!(noted(-1.0), told);
+        let told = [
+            "its velocities make a way of 68.4 m, its places one of 19.0 m: velocities are in m/s",
+        ];
+        assert_eq!(noted(3.6), told);
+        assert_eq!(noted(0.2).len(), 1);
+    }
 
     #[test]
     fn the_vehicle_is_named_by_the_model() {

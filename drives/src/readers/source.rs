@@ -16,6 +16,8 @@ use crate::readers::formats;
 
 /// Most bytes that a gz file may unpack to: 1 GiB. A small file can claim any size.
 const UNPACKED_MAX: u64 = 1 << 30;
+/// Most bytes of a file that is read as a whole, as all but lines are: 1 GiB. A device may have no end.
+const WHOLE_MAX: u64 = 1 << 30;
 /// Standard input, as programs are told to read it.
 const STDIN: &str = "-";
 const DEV_STDIN: &str = "/dev/stdin";
@@ -23,6 +25,8 @@ const AGAIN: &str =
     "`-` stands here a second time, and standard input comes once; name a file in its place";
 /// Bytes that are looked at to recognise a format.
 const HEAD: usize = 4096;
+/// Of which no more than this are blanks.
+const BLANKS_MAX: usize = 1 << 26;
 
 /// A file that was named.
 pub(crate) struct Source {
@@ -112,10 +116,13 @@ impl Unpacked {
         &self.head
     }
 
-    /// The first bytes, so many that one is no blank where there is one.
+    /// The first bytes, so many that one is no blank where there is one within the first 32 MiB.
     pub(crate) fn peek_text(&mut self) -> &[u8] {
         let mut most = HEAD;
-        while self.peek(most).len() == most && self.head.trim_ascii().is_empty() {
+        while most < BLANKS_MAX
+            && self.peek(most).len() == most
+            && self.head.trim_ascii().is_empty()
+        {
             most *= 2;
         }
         &self.head
@@ -128,9 +135,20 @@ impl Unpacked {
 
     /// All bytes at once.
     pub(crate) fn bytes(self) -> io::Result<Vec<u8>> {
+        self.bytes_up_to(WHOLE_MAX)
+    }
+
+    fn bytes_up_to(self, most: u64) -> io::Result<Vec<u8>> {
         let mut bytes = self.head;
-        bytes.reserve_exact(self.length.saturating_sub(bytes.len()));
-        { self.rest }.read_to_end(&mut bytes)?;
+        let length = self.length.min(usize::try_from(most).unwrap_or(usize::MAX));
+        bytes.reserve_exact(length.saturating_sub(bytes.len()));
+        let rest = most.saturating_sub(bytes.len() as u64);
+        self.rest.take(rest.saturating_add(1)).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > most {
+            return Err(io::Error::other(format!(
+                "has more than {most} bytes, the most that is read of a file that is no JSON Lines"
+            )));
+        }
         Ok(bytes)
     }
 }
@@ -231,6 +249,20 @@ mod tests {
         assert_eq!(cut.peek(1 << 20), text);
         let error = cut.bytes().unwrap_err().to_string();
         assert!(error.contains("cut off or broken"), "{error}");
+    }
+
+    #[test]
+    fn a_file_without_an_end_is_read_up_to_the_limit() {
+        let endless = || Unpacked::of(io::repeat(1), 0, 0).unwrap();
+        let error = endless().bytes_up_to(1000).unwrap_err().to_string();
+        assert!(error.contains("has more than 1000 bytes"), "{error}");
+        let mut looked_at = endless();
+        looked_at.peek(2000);
+        assert!(looked_at.bytes_up_to(1000).is_err());
+        let whole = Unpacked::of(io::repeat(1).take(1000), 1 << 60, 0).unwrap();
+        assert_eq!(whole.bytes_up_to(1000).unwrap(), [1; 1000]);
+        let mut blanks = Unpacked::of(io::repeat(b' '), 0, 0).unwrap();
+        assert!((BLANKS_MAX / 2..=BLANKS_MAX).contains(&blanks.peek_text().len()));
     }
 
     #[test]

@@ -86,7 +86,7 @@ impl Monitor<'_> {
     /// }
     /// ```
     ///
-    /// Nor can the actions alone: a decision is not to be had without them.
+    /// Nor can the actions alone, unless in sight, as by `.0` or `_`: they come beside each decision.
     ///
     /// ```compile_fail,E0308
     /// # use mufasa::monitor::{Decision, Inputs, Monitor};
@@ -167,8 +167,9 @@ impl Monitor<'_> {
         match report {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);
-                let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot));
-                let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan));
+                let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot, None));
+                let brake_by = self.settings.brake_by(now_ns);
+                let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan, brake_by));
                 (Decision::Safe { tracks, trajectory, report }, actions)
             }
             report => (Decision::Unsafe { report }, actions),

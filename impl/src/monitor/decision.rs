@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 use core::ops::Deref;
 
+use super::time::Time;
 use crate::input::cycle::{TrackList, Trajectory};
 use crate::offloading::requester::Source;
 use crate::report::{InvalidInput, Report};
@@ -24,8 +25,9 @@ pub enum Decision<'m> {
         /// station, or in MotRemote that of the CAV's own planner. `None` in Local, where nothing is
         /// checked and the local planner is followed; and while nothing current was there to check:
         /// a message is missing, or is stamped ahead of the cycle. The local planner may be stopped
-        /// then: what is followed is a copy of the last verified trajectory, and in MotRemote no own
-        /// plan that is older than `max_age_ns`. Where this lasts, the session ends as for silence, at
+        /// then: what is followed is a copy of the last verified trajectory, along which control brakes by
+        /// the time that it names ([`Verified::brake_by`]), and in MotRemote no own plan that is older
+        /// than `max_age_ns`. Where this lasts, the session ends as for silence, at
         /// the latest 2 dt_max and two periods after the last cycle that had something current (F-43).
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
@@ -55,7 +57,8 @@ pub enum Decision<'m> {
 /// # use mufasa::{input::cycle::Trajectory, monitor::Verified};
 /// # use mufasa::offloading::requester::Source;
 /// fn forged(value: Trajectory<'_>) -> Verified<'_, Trajectory<'_>> {
-///     Verified { value, source: Source::Local, until_the_next_cycle: Default::default() }
+///     let until_the_next_cycle = Default::default();
+///     Verified { value, source: Source::Local, brake_by: None, until_the_next_cycle }
 /// }
 /// ```
 ///
@@ -73,18 +76,29 @@ pub enum Decision<'m> {
 pub struct Verified<'m, T> {
     value: T,
     source: Source,
+    brake_by: Option<Time>,
     until_the_next_cycle: PhantomData<&'m T>,
 }
 
 impl<T> Verified<'_, T> {
     /// Of data that a safe cycle used.
-    pub(super) const fn of_safe_cycle(value: T, source: Source) -> Self {
-        Self { value, source, until_the_next_cycle: PhantomData }
+    pub(super) const fn of_safe_cycle(value: T, source: Source, brake_by: Option<Time>) -> Self {
+        Self { value, source, brake_by, until_the_next_cycle: PhantomData }
     }
 
     /// Where they were computed. Source: `spec/1-services.md#configuration`.
     pub const fn source(&self) -> Source {
         self.source
+    }
+}
+
+impl Verified<'_, Trajectory<'_>> {
+    /// The time by which control has to brake along it, with `a_b`, unless a later cycle has given a
+    /// trajectory or there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
+    /// covers no more (H-04), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
+    /// the paper profile, which has no `tau`. Source: `spec/5-interfaces.md#monitor`.
+    pub const fn brake_by(&self) -> Option<Time> {
+        self.brake_by
     }
 }
 

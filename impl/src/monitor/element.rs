@@ -118,13 +118,21 @@ impl fmt::Display for DropReason {
 }
 
 /// An accepted element as a cycle sees it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Element<'c, T> {
     pub(super) station: i64,
     pub(super) session: i64,
     pub(super) generated: Time,
     pub(super) stamp: Time,
     pub(super) items: &'c [T],
+}
+
+impl<T> fmt::Debug for Element<'_, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Element");
+        text.field("session", &self.session).field("generated", &self.generated);
+        text.finish_non_exhaustive()
+    }
 }
 
 impl<L> Accepted<L> {

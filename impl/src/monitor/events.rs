@@ -174,15 +174,16 @@ impl Monitor<'_> {
                 }
             }
         }
-        let actions = self.requester.step(&Event { t_ns, kind })?;
-        let goes_on = match kind {
-            EventKind::Verdict { safe, .. } => safe,
-            EventKind::Tick => actions.is_empty(),
-            _ => false,
+        let answer = self.requester.step(&Event { t_ns, kind });
+        let goes_on = match (&answer, kind) {
+            (Err(_), _) => true,
+            (Ok(_), EventKind::Verdict { safe, .. }) => safe,
+            (Ok(actions), EventKind::Tick) => actions.is_empty(),
+            (Ok(_), _) => false,
         };
         if goes_on {
             // No session has begun, and none has ended, which would be a release.
-            return Ok(actions);
+            return answer;
         }
         for group in Group::ALL {
             let session = match self.requester.state(group) {
@@ -198,7 +199,7 @@ impl Monitor<'_> {
             }
             *self.served.get_mut(group) = Served::since(t_ns, session);
         }
-        Ok(actions)
+        answer
     }
 
     /// The group returns to local now: its session may have been of no use for long, and the next one

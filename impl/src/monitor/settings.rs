@@ -3,6 +3,7 @@
 use core::fmt;
 use core::time::Duration;
 
+use super::time::Time;
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
@@ -82,6 +83,14 @@ impl Settings {
 }
 
 impl Settings {
+    /// Until when what a cycle examines covers the CAV: `tau` after it, which the paper profile does not have.
+    #[allow(clippy::cast_possible_truncation, reason = "rounded down; times saturate")]
+    pub(super) fn brake_by(&self, now_ns: i64) -> Option<Time> {
+        let tau_ns = (self.stages.tau * 1e9) as i64;
+        let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
+        (self.profile == Profile::Hardened).then(by)
+    }
+
     /// The nominal period of the remote's results, saturated.
     pub(super) fn period_ns(&self) -> i64 {
         i64::try_from(self.period.as_nanos()).unwrap_or(i64::MAX)

@@ -1,9 +1,10 @@
 //! AMQP 1.0 over a broker. A thread of its own keeps the connection, and makes it again when it ends.
 //!
 //! All publish to one exchange of kind topic, with the address as the subject, which the broker takes
-//! for the routing key; each who listens has a queue that goes with its connection. Messages are sent
-//! settled, that is once or never, and the broker keeps them for at most a second: a result that is
-//! late is worth nothing.
+//! for the routing key; each who listens has two queues (its own and that of all) for each connection,
+//! which RabbitMQ keeps when that has ended until a policy of the broker ends them (`docs/link.md`). Messages
+//! are sent settled, that is once or never, and the broker keeps them for at most a second: a result that
+//! is late is worth nothing.
 
 use std::error::Error;
 use std::fmt;

@@ -33,6 +33,8 @@ impl fmt::Debug for Tally {
 /// What a vehicle did.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
+    /// Whether it was ended before the drives had, as by Ctrl-C: what follows is of the time until then.
+    pub interrupted: bool,
     /// Drives begun.
     pub drives: u64,
     /// Cycles decided.
@@ -113,6 +115,11 @@ impl Tally {
             monitor: Spread::of(&self.monitor_ns),
             ..self.summary.clone()
         }
+    }
+
+    /// It ends before its drives do.
+    pub fn interrupt(&mut self) {
+        self.summary.interrupted = true;
     }
 
     pub(super) fn began(&mut self, now_ns: i64) {

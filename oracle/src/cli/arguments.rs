@@ -14,6 +14,7 @@ use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
 use mufasa_records::names;
 
 use crate::limits::{number, whole};
+use crate::prove;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -172,7 +173,7 @@ pub(super) struct ProveArguments {
     /// Only claims whose id contains one of these, or of such an engine.
     pub(super) names: Vec<String>,
     /// What scripts/prove-wasm wrote.
-    #[arg(long, value_name = "FILE", default_value = "target/proofs/cbmc.json")]
+    #[arg(long, value_name = "FILE", default_value = prove::CBMC)]
     pub(super) cbmc: PathBuf,
     /// The checkout whose compiled code that has to be about.
     #[arg(long, value_name = "DIR", default_value = ".")]

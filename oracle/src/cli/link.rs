@@ -14,8 +14,8 @@ use crate::limits::whole;
 /// or over a broker.
 #[derive(Args)]
 #[command(after_help = "\
-Exit codes: 0 every cycle safe and offloading never lost, 1 not so, 2 bad input, 3 a remote result was used
-that no safe decision covers.")]
+Exit codes: 0 every cycle safe and offloading never lost, 1 not so, or the broker never reached, 2 bad
+input, 3 a remote result was used that no safe decision covers, 130 interrupted.")]
 pub(crate) struct VehicleArguments {
     #[command(flatten)]
     pub(crate) drive: DriveArguments,
@@ -25,7 +25,7 @@ pub(crate) struct VehicleArguments {
     /// Id of the vehicle.
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole(1_i64, 4_294_967_295))]
     pub(crate) id: i64,
-    /// Parameters as lines `name = value` (TOML), of the stages and of the requester. Without it
+    /// Parameters as lines `name = value` (TOML), of the stages (records name their own) and of the requester. Without it
     /// dt_max_ns is 50 ms above the period of the drive, with it what it says [default there: 100 ms].
     /// `tau` is raised to 2.5 periods of the drive where it is less, and the output says so.
     #[arg(long, value_name = "FILE")]
@@ -49,7 +49,7 @@ pub(crate) struct VehicleArguments {
 
 /// Serves vehicles over a broker, with stand-in services that replay the drive, until it is interrupted.
 #[derive(Args)]
-#[command(after_help = "Exit codes: 0 it has served, 2 bad input.")]
+#[command(after_help = "Exit codes: 0 it has served, 1 it never reached the broker, 2 bad input.")]
 pub(crate) struct StationArguments {
     #[command(flatten)]
     pub(crate) drive: DriveArguments,

@@ -20,7 +20,7 @@ use crate::limits::whole;
     after_help = "\
 Of the cycles that the stages decide one in a hundred is checked by the exact model, too (not of `cpu`).
 
-Exit codes: 0 done, 1 a run of `failures` or `combinations` that was checked by the hardened profile failed, 2 bad input or a
+Exit codes: 0 done, 1 a run that was checked by the hardened profile (of `rules` also without a rule) failed (a collision, or too late), 2 bad input or a
 file cannot be written, 3 model and implementation disagree."
 )]
 pub struct EvaluateArguments {
@@ -30,6 +30,13 @@ pub struct EvaluateArguments {
     /// How large it is, if it is not named.
     #[command(flatten)]
     pub size: SizeArguments,
+}
+
+impl EvaluateArguments {
+    /// Whether it is the search for collisions, which may take hours and keeps what it has when it is interrupted.
+    pub const fn is_search(&self) -> bool {
+        matches!(self.experiment, Some(Experiment::Falsify(_)))
+    }
 }
 
 /// The experiments.

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use indicatif::ProgressBar;
 use mufasa_drives::check::complain;
 use mufasa_drives::progress;
@@ -27,13 +27,13 @@ use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{End, RunError};
 use serde::Deserialize;
 
-use super::codes::{BAD_INPUT, FAILED};
+use super::codes::{BAD_INPUT, FAILED, INTERRUPTED};
 use super::maps;
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
 use super::plots::figures::Figure;
 use super::plots::search;
-use super::replay::{kind, variant};
+use super::replay::{kind, variant, without};
 use super::report::{self, FailedRun, Section};
 use super::tables::{self, Rows};
 use super::text::{csv, json, said};
@@ -47,11 +47,15 @@ const RUNS: u64 = 400;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 An attack is a point of a cube; random points come first, then CMA-ES goes on from the best. What is sought
-is little time left to react. Every collision that the same run does not have without the attacks is shrunk;
-`mufasa evaluate replay FILE` draws it.
+is little time left to react. Counted is every collision that the same run does not have without the attacks;
+shrunk and kept is one of each explanation: one that has all kinds of attacks of a kept one, offered the same, is
+only counted. `mufasa evaluate replay FILE` draws a kept one.
+
+An interrupt ends the search: what was found until then is written and called interrupted, and no document is
+changed. A second one ends it at once.
 
 Exit codes: 0 done, 1 a collision was found in the hardened profile with all rules, 2 bad input or a file
-cannot be written.")]
+cannot be written, 130 interrupted.")]
 pub struct FalsifyArguments {
     /// Runs with attacks [default: 400, without --minutes]. The same seed gives the same then.
     #[arg(long, value_name = "N", value_parser = whole(1_u64, 100_000_000), allow_negative_numbers = true)]
@@ -97,18 +101,19 @@ pub struct FalsifyArguments {
 }
 
 /// Shows how far it is, and says when the time is over.
-struct Bar {
-    bar: ProgressBar,
+struct Bar<'a> {
+    shown: ProgressBar,
     until: Option<Instant>,
+    stop: &'a AtomicBool,
 }
 
-impl Caller for Bar {
+impl Caller for Bar<'_> {
     fn tell(&self, progress: Progress) {
         match progress {
-            Progress::Run => self.bar.inc(1),
+            Progress::Run => self.shown.inc(1),
             Progress::Looked(least, collisions) => {
                 let text = format!("least time left {least:.1} s, {collisions} collisions");
-                self.bar.set_message(text);
+                self.shown.set_message(text);
             }
         }
     }
@@ -116,11 +121,17 @@ impl Caller for Bar {
     fn goes_on(&self) -> bool {
         self.until.is_none_or(|until| Instant::now() < until)
     }
+
+    fn is_interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
 }
 
-/// Searches, writes the table to `out`, and files. The exit code. Errors: those of writing to `out`.
+/// Searches until `stop` is set at the latest, writes the table to `out`, and files. The exit code. Errors: those of
+/// writing to `out`.
 pub fn run(
     arguments: &FalsifyArguments,
+    stop: &AtomicBool,
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
@@ -129,16 +140,20 @@ pub fn run(
         return Ok(BAD_INPUT);
     }
     if let Some(shard) = arguments.shard {
-        let made = search(arguments, |town, options, caller| part(town, options, shard, caller));
+        let made = search(arguments, stop, |town, options, caller| {
+            let rounds = part(town, options, shard, caller)?;
+            Ok((rounds, caller.is_interrupted()))
+        });
         return match made {
-            Ok((_, options, rounds)) => write_part(arguments, options, shard, &rounds, out, err),
+            Ok((_, options, made)) => write_part(arguments, options, shard, &made, out, err),
             Err(message) => {
                 complain(err, &message);
                 Ok(BAD_INPUT)
             }
         };
     }
-    let made = search(arguments, |town, options, caller| experiment(town, options.clone(), caller));
+    let made =
+        search(arguments, stop, |town, options, caller| experiment(town, options.clone(), caller));
     let places = [&arguments.out, &arguments.into].map(Option::as_deref);
     ended(made.map(|(town, _, made)| (town, made)), places, out, err)
 }
@@ -163,7 +178,7 @@ pub(super) fn merge(
                 whole.runs.get(&id).ok_or_else(|| format!("{id} is in none of the parts"))?;
             let round = Round::deserialize(round)
                 .map_err(|error| format!("{id}: {error}; write the part anew"))?;
-            made.add(&town, round).map_err(said)?;
+            made.add(&town, round, &()).map_err(said)?;
         }
         Ok((town, made))
     });
@@ -199,6 +214,12 @@ fn ended(
         made.shrinking_runs,
         made.found.len()
     )?;
+    if made.interrupted {
+        writeln!(
+            out,
+            "INTERRUPTED: this is what was found until then, perhaps not shrunk to its end; no document was changed"
+        )?;
+    }
     for found in &made.found {
         let Found { case, t_s, with, speed_mps, last_use } = found;
         let name = case.name();
@@ -212,6 +233,9 @@ fn ended(
         writeln!(out, "{name}: with {with} at {t_s:.2} s, CAV at {speed_mps:.1} m/s; {last}")?;
     }
     names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
+    if made.interrupted {
+        return Ok(INTERRUPTED);
+    }
     let is_whole = made.options.variant == Variant::Hardened && made.options.without.is_none();
     Ok(if is_whole && !made.found.is_empty() { FAILED } else { 0 })
 }
@@ -219,7 +243,8 @@ fn ended(
 /// What the search makes in a pool of threads, with its map and its options.
 fn search<M: Send>(
     arguments: &FalsifyArguments,
-    make: impl FnOnce(&Town, &Options, &Bar) -> Result<M, RunError> + Send,
+    stop: &AtomicBool,
+    make: impl FnOnce(&Town, &Options, &Bar<'_>) -> Result<M, RunError> + Send,
 ) -> Result<(Town, Options, M), String> {
     let &FalsifyArguments { profile, without, vehicles, seed, minutes, rounds, .. } = arguments;
     prepared(arguments.out.as_deref())?;
@@ -235,11 +260,11 @@ fn search<M: Send>(
     let bar = progress::bar(runs.unwrap_or(0), template);
     bar.set_prefix(NAME);
     let until = minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
-    let caller = Bar { bar, until };
+    let caller = Bar { shown: bar, until, stop };
     let threads = usize::from(arguments.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
     let made = pool.install(|| make(&town, &options, &caller)).map_err(said);
-    caller.bar.finish_and_clear();
+    caller.shown.finish_and_clear();
     Ok((town, options, made?))
 }
 
@@ -259,16 +284,26 @@ fn write_part(
     arguments: &FalsifyArguments,
     options: Options,
     shard: Shard,
-    rounds: &BTreeMap<u64, Round>,
+    (rounds, interrupted): &(BTreeMap<u64, Round>, bool),
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
     let value = |(number, round): (&u64, &Round)| Ok((id(*number), serde_json::to_value(round)?));
     let runs = rounds.iter().map(value).collect::<Result<_, serde_json::Error>>();
     let (experiment, runs) = (NAME.to_owned(), runs.map_err(io::Error::other)?);
-    let part = Part { experiment, options, shard, runs, checks: Checks::default() };
+    let (interrupted, checks) = (*interrupted, Checks::default());
+    let version = parts::version();
+    let part = Part { version, experiment, options, shard, interrupted, runs, checks };
     let folder = arguments.out.as_deref().unwrap_or(Path::new("."));
-    parts::write(folder, &part, "rounds", out, err)
+    let code = parts::write(folder, &part, "rounds", out, err)?;
+    if !interrupted || code != 0 {
+        return Ok(code);
+    }
+    writeln!(
+        out,
+        "INTERRUPTED: what was found until then is there, and merge refuses it as a part"
+    )?;
+    Ok(INTERRUPTED)
 }
 
 /// The names of the files, each there completely or not at all.
@@ -304,7 +339,7 @@ fn write_files(
         report::write(folder, &section).map_err(|error| say(&file, error))?;
         names.push(file);
     }
-    if let Some(file) = document {
+    if let Some(file) = document.filter(|_| !made.interrupted) {
         let table = tables::falsified(made).markdown();
         document::write(file, &command(&made.options), &table).map_err(|error| say(file, error))?;
         names.push(file.to_owned());
@@ -349,6 +384,7 @@ fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Sect
             ("Other vehicles", vehicles.to_string()),
             ("seed", seed.to_string()),
             ("map", map.to_string()),
+            ("interrupted", String::from(if made.interrupted { "yes" } else { "no" })),
             ("runs with attacks", made.runs.to_string()),
             ("of them collided", made.collided.to_string()),
             ("collided at random", made.collided_at_random.to_string()),
@@ -359,10 +395,4 @@ fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Sect
         failed: made.found.iter().map(failed).collect(),
         checks: None,
     }
-}
-
-fn without() -> impl TypedValueParser<Value = Without> {
-    PossibleValuesParser::new(Without::ALL.map(Without::name)).try_map(|given| {
-        Without::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown rule")
-    })
 }

@@ -14,6 +14,11 @@ use serde::de::DeserializeOwned;
 
 use super::codes::{BAD_INPUT, DISAGREES};
 
+/// This program, as `mufasa --version` has it.
+pub(super) fn version() -> String {
+    env!("MUFASA_VERSION").to_owned()
+}
+
 /// I/N with I from 1 to N.
 pub(super) fn shard(text: &str) -> Result<Shard, String> {
     let parts = text
@@ -53,6 +58,17 @@ where
     let mut from: BTreeMap<u32, &Path> = BTreeMap::new();
     for file in files {
         let part = part(file).map_err(|why| format!("{}: {why}", file.display()))?;
+        if part.version != version() {
+            let by = match part.version.as_str() {
+                "" => "does not say which mufasa made it".to_owned(),
+                other => format!("was made by mufasa {other}"),
+            };
+            let this = version();
+            let file = file.display();
+            return Err(format!(
+                "{file}: it {by}, and this is {this}; merge with the program that made all parts"
+            ));
+        }
         let first = whole.get_or_insert_with(|| Part {
             runs: BTreeMap::new(),
             checks: Checks::default(),
@@ -98,8 +114,16 @@ where
 fn part<O: DeserializeOwned>(file: &Path) -> Result<Part<O>, String> {
     let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
     let part: Part<O> = serde_json::from_str(&text).map_err(|error| {
-        format!("no part of an experiment: {error}; give files named *.part.json")
+        format!("no part of an experiment: {error}; give files named *.part.json (summaries of conform: mufasa conform merge)")
     })?;
+    if part.interrupted {
+        let Shard { index, of } = part.shard;
+        return Err(format!(
+            "it was interrupted, and is no part; make it by `mufasa evaluate {} --shard {index}/{of}` with the same \
+             options",
+            part.experiment
+        ));
+    }
     if !(1..=part.shard.of).contains(&part.shard.index) {
         return Err(format!("shard: part {} of {}", part.shard.index, part.shard.of));
     }

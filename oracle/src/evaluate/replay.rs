@@ -11,6 +11,7 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::cav::recorder::Share;
+use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::job::{Job, Options, kind_name};
 use mufasa_sim::map::Town;
@@ -174,7 +175,15 @@ fn write(
 ) -> Result<(String, Outcome, Vec<PathBuf>), String> {
     let name = job.id.clone();
     let file = arguments.out.clone();
-    let file = file.unwrap_or_else(|| PathBuf::from(format!("{}.html", name.replace('/', "-"))));
+    let file = file.unwrap_or_else(|| {
+        let usual = format!("{}.html", name.replace('/', "-"));
+        complain(&mut io::stderr(), &format!("writes into {usual}; --out names another file"));
+        PathBuf::from(usual)
+    });
+    for file in [Some(&file), arguments.mcap.as_ref()].into_iter().flatten() {
+        let cannot = |error| format!("{}: cannot be written: {error}", file.display());
+        files::prepare_file(file).map_err(cannot)?;
+    }
     let mut both = Both { replay: Replay::default(), log: None };
     let mut job = job.clone();
     if arguments.mcap.is_some() {
@@ -222,5 +231,12 @@ pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {
 pub(super) fn variant() -> impl TypedValueParser<Value = Variant> {
     PossibleValuesParser::new(Variant::ALL.map(Variant::name)).try_map(|given| {
         Variant::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown variant")
+    })
+}
+
+/// The names of the rules that can be left out.
+pub(super) fn without() -> impl TypedValueParser<Value = Without> {
+    PossibleValuesParser::new(Without::ALL.map(Without::name)).try_map(|given| {
+        Without::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown rule")
     })
 }

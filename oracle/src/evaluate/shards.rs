@@ -36,7 +36,15 @@ pub(super) fn write(
         complain(err, &format!("{}: cannot be written to: {error}", folder.display()));
         return Ok(BAD_INPUT);
     }
-    let part = Part { experiment, options, shard, runs, checks };
+    let part = Part {
+        version: parts::version(),
+        experiment,
+        options,
+        shard,
+        interrupted: false,
+        runs,
+        checks,
+    };
     parts::write(folder, &part, "runs", out, err)
 }
 

@@ -66,8 +66,21 @@ fn shards_are_disjoint_and_merge_to_the_whole() {
     let twice = merge(&["0", "0", "1"], &folder("twice"));
     assert_eq!(twice.status.code(), Some(2), "{}", text(&twice));
     assert!(text(&twice).contains("shard 0 is given twice"), "{}", text(&twice));
-    let part = merge(&["0", "1"], &folder("part"));
-    assert!(text(&part).contains("INCOMPLETE: shard 2 missing"), "{}", text(&part));
+    // What another version asked, and took for right, is no part of it.
+    let file = parts.join("summary.1-of-3.json");
+    let other = fs::read_to_string(&file).expect("it is there").replacen(
+        "\"version\": \"",
+        "\"version\": \"0.",
+        1,
+    );
+    fs::write(&file, other).expect("it can be written");
+    let mixed = text(&merge(&["0", "1", "2"], &folder("mixed")));
+    assert!(
+        mixed.contains("summary.1-of-3.json") && mixed.contains("version of mufasa"),
+        "{mixed}"
+    );
+    let part = merge(&["0", "2"], &folder("part"));
+    assert!(text(&part).contains("INCOMPLETE: shard 1 missing"), "{}", text(&part));
 }
 
 /// The files of a right program, and of one that is wrong in few classes and answers each line the same whatever

@@ -1,4 +1,4 @@
-//! Before the history reaches back no station is asked (`spec/5-interfaces.md#monitor.11`).
+//! Before the history reaches back no station is asked (`spec/5-interfaces.md#monitor.12`).
 
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Inputs, Monitor, Settings};

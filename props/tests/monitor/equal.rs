@@ -209,6 +209,7 @@ impl Pair<'_, '_, '_> {
                         }
                     };
                     assert_eq!((out.stamp_ns, out.points), expected);
+                    assert_eq!(out.brake_by(), self.plain.brake_by(own.now_ns).map(at));
                 }
             }
             Decision::Unsafe { report } => {

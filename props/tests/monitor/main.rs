@@ -4,6 +4,7 @@
 
 mod again;
 mod blind;
+mod brake_by;
 mod dropped;
 mod early;
 mod equal;

@@ -163,7 +163,7 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
 }
 
 /// Detections that were not current are no history: in the same drive with late scans until its last cycle
-/// no station is asked. `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.11`.
+/// no station is asked. `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.12`.
 #[test]
 fn detections_that_were_not_current_are_not_kept() {
     let (end_ns, cross_sections) = (1_100 * MS, road());

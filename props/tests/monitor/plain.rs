@@ -98,6 +98,13 @@ impl<'a> Plain<'a> {
         Self { settings, requester, last, service, kept, tick_ns: None, waits: Waits::default() }
     }
 
+    /// By when control has to brake along what a cycle at this time verified, ns.
+    pub fn brake_by(&self, now_ns: i64) -> Option<i64> {
+        let tau_ns = format!("{:.0}", (self.settings.stages.tau * 1e9).floor());
+        let by_ns = now_ns.saturating_add(tau_ns.parse().expect("in the domain"));
+        (self.settings.profile == Profile::Hardened).then_some(by_ns)
+    }
+
     /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
     /// starved, the requester hears no session.
     pub fn data<T>(

@@ -242,7 +242,7 @@ fn after_every_end_of_a_session_nine_periods_less_its_use_are_waited() {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.12`: a loop that ticks only when something came would never notice that a station
+/// `spec/5-interfaces.md#monitor.13`: a loop that ticks only when something came would never notice that a station
 /// is silent. With ticks the session ends; without, the next cycle says what was forgotten.
 #[test]
 fn who_ticks_only_when_something_came_is_told() {
@@ -267,7 +267,7 @@ fn who_ticks_only_when_something_came_is_told() {
     assert_eq!(silent(&mut monitor, last_ns + 2 * PERIOD_NS), None);
 }
 
-/// `spec/5-interfaces.md#monitor.12`: a tick whose time is not that of the cycle notices no silence in time.
+/// `spec/5-interfaces.md#monitor.13`: a tick whose time is not that of the cycle notices no silence in time.
 #[test]
 fn a_tick_of_another_time_is_none() {
     let dt_max_ns = settings().requester.dt_max_ns;

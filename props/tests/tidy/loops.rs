@@ -17,8 +17,8 @@ const ADVICE: (&str, [&str; 2]) =
 const SAID: [(&str, &str); 4] = [
     ("capi/README.md", "take(&decision.actions);"),
     ("python/README.md", "take(decision.actions)"),
-    ("impl/README.md", "](../docs/assumptions.md)"),
-    ("impl/README.md", "](../docs/configuration.md)"),
+    ("impl/README.md", "`docs/assumptions.md`"),
+    ("impl/README.md", "`docs/configuration.md`"),
 ];
 
 /// Loops with another period than the documents advise.

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class MufasaError(Exception):
-    """Any error of this package but a wrong type of an argument, which is a ``TypeError``."""
+    """Any error that this package raises, but ``TypeError``, ``AttributeError`` and ``IndexError``."""
 
 
 class InvalidInput(MufasaError, ValueError):

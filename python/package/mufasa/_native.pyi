@@ -148,6 +148,10 @@ class VerifiedTrajectory:
 
     @property
     def points(self) -> list[TrajectoryPoint]: ...
+    @property
+    def brake_by(self) -> Time | None:
+        """By when control has to brake along it, with ``a_b``, unless a later cycle has given one or there is a
+        plan of the CAV's own: what was examined covers no more. None in the paper profile."""
 
 @final
 class Decision:
@@ -193,7 +197,7 @@ class Monitor:
     ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults
     by the names of ``spec/`` (``theta_tr``, ``dt_max_ns``, ...); ``dt_max_ns``, 100 ms by default, has to
     be above the period. ``sessions_before``: at least the last session of earlier lives, so that no
-    message of one fits. ``most_stations``: that ever offer something.
+    message of one fits. ``most_stations``: that ever offer something, at most 65,536.
 
     Raises ``InvalidInput`` for settings that no monitor can keep. Every call raises ``ActionsNotTaken``
     when the one before gave actions that nobody has looked at, and ends what was verified before. An
@@ -273,7 +277,7 @@ class Monitor:
         in each period, offloading or not. What is not given is missing.
 
         Raises ``UnreadableInputs`` when something is of the wrong kind; the monitor has fallen back then,
-        and the error has the actions."""
+        at ``now`` (of the wrong kind itself: at the time of the last call), and the error has the actions."""
 
     def own(self, verified: _Verified) -> _Verified:
         """The same data or decision, if they are of this monitor's last call.

@@ -41,7 +41,7 @@ pub enum Kind {
     Swerve,
     /// A standing object 15 m ahead in every list.
     MadeUpLead,
-    /// Everything later by 30 ms, which is below `l_max`.
+    /// Results are made 30 ms later, and say so: the latency on the link stays what it was, what they are of is older.
     Delay,
     /// Numbers that are no numbers.
     NotFinite,
@@ -49,11 +49,17 @@ pub enum Kind {
     Flood,
     /// Lists as long as the formats allow.
     Slow,
+    /// Results are stamped 1 s ahead of what they are of, so that no cycle can use them (F-43).
+    StampsAhead,
+    /// No results are sent.
+    Silent,
+    /// Results are made in time, and held back on the link for 100 ms, which is above `l_max`.
+    Late,
 }
 
 impl Kind {
     /// All.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 23] = [
         Self::MapReplaced,
         Self::TracksEmpty,
         Self::Ghosts,
@@ -74,6 +80,9 @@ impl Kind {
         Self::NotFinite,
         Self::Flood,
         Self::Slow,
+        Self::StampsAhead,
+        Self::Silent,
+        Self::Late,
     ];
 
     /// Those of the paper.
@@ -102,6 +111,9 @@ impl Kind {
             Self::NotFinite => "not-finite",
             Self::Flood => "flood",
             Self::Slow => "slow",
+            Self::StampsAhead => "stamps-ahead",
+            Self::Silent => "silent",
+            Self::Late => "late",
         }
     }
 }

@@ -39,7 +39,7 @@ pub struct Means {
     pub factor: f64,
     /// ... and turned left by this, rad; `drift`: the direction, from the left of the CAV on.
     pub turn_rad: f64,
-    /// `delay`, `starts-late` and `replay`: how much later, s.
+    /// `delay`, `starts-late`, `replay` and `late`: how much later, s; `stamps-ahead`: how far ahead.
     pub late_s: f64,
     /// `into-lead`: acceleration from the present speed on, m/s^2.
     pub acceleration_mps2: f64,
@@ -68,8 +68,9 @@ impl Means {
             Kind::Drift => means.speed_mps = 0.1,
             Kind::MadeUpLead => means.ahead_m = 15.0,
             Kind::Replay => means.late_s = 3.0,
-            Kind::StartsLate => means.late_s = 1.0,
+            Kind::StartsLate | Kind::StampsAhead => means.late_s = 1.0,
             Kind::Delay => means.late_s = 0.03,
+            Kind::Late => means.late_s = 0.1,
             Kind::IntoLead => means.speed_mps = 5.0,
             Kind::Swerve => (means.left_m, means.ahead_m) = (1.5, 15.0),
             Kind::MapReplaced
@@ -82,7 +83,8 @@ impl Means {
             | Kind::Backwards
             | Kind::NotFinite
             | Kind::Flood
-            | Kind::Slow => {}
+            | Kind::Slow
+            | Kind::Silent => {}
         }
         means
     }

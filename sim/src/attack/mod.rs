@@ -148,6 +148,7 @@ impl<'a> Attacker<'a> {
         for attack in self.attacks.iter().filter(|it| it.is_on(self.now_ns)) {
             trajectory::spoil(attack, ego, points);
         }
+        *stamp_ns += self.means(Kind::StampsAhead).map_or(0, |means| nanoseconds(means.late_s));
     }
 
     fn lie(&self, stamp_ns: i64, ego: &Ego, whose: Lists, list: &mut Vec<Track>) {
@@ -158,9 +159,15 @@ impl<'a> Attacker<'a> {
         }
     }
 
-    /// How much later everything is sent, ns.
+    /// How much later results are made and sent, ns.
     pub fn delay_ns(&self) -> i64 {
         self.means(Kind::Delay).map_or(0, |means| nanoseconds(means.late_s))
+    }
+
+    /// How long the link holds back results that were made in time, ns; none: for ever.
+    pub fn held_ns(&self) -> Option<i64> {
+        let held_ns = self.means(Kind::Late).map_or(0, |means| nanoseconds(means.late_s));
+        (!self.does(Kind::Silent)).then_some(held_ns)
     }
 
     /// The sessions of the CAV, which the attacker reads from the link.

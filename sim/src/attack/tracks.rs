@@ -90,7 +90,10 @@ pub(super) fn spoil(
         | Kind::Swerve
         | Kind::Delay
         | Kind::NotFinite
-        | Kind::Flood => {}
+        | Kind::Flood
+        | Kind::StampsAhead
+        | Kind::Silent
+        | Kind::Late => {}
     }
     list.truncate(MOST_TRACKS);
 }

@@ -44,7 +44,10 @@ pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint
         | Kind::MadeUpLead
         | Kind::Delay
         | Kind::NotFinite
-        | Kind::Flood => {}
+        | Kind::Flood
+        | Kind::StampsAhead
+        | Kind::Silent
+        | Kind::Late => {}
     }
 }
 

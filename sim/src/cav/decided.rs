@@ -17,6 +17,8 @@ pub struct Decided {
     /// The trajectory that control may follow. None in `Local` where something is checked: there the
     /// CAV's own is not.
     pub trajectory: Option<Vec<TrajectoryPoint>>,
+    /// By when control has to brake along it where nothing newer has come, ns (F-47).
+    pub brake_by_ns: Option<i64>,
     /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
     pub tracks: Option<(i64, Vec<Track>)>,
     /// What is to be done.

@@ -232,6 +232,9 @@ impl<'a> Guard<'a> {
                         is_safe: true,
                         report: Some(Ok(report)),
                         is_overruled: false,
+                        brake_by_ns: trajectory
+                            .and_then(|it| it.brake_by())
+                            .map(Time::as_nanoseconds),
                         trajectory: trajectory.map(|it| it.points.to_vec()),
                         tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
                         actions: actions.to_vec(),
@@ -242,6 +245,7 @@ impl<'a> Guard<'a> {
                         report: Some(report),
                         is_overruled: false,
                         trajectory: None,
+                        brake_by_ns: None,
                         tracks: None,
                         actions: actions.to_vec(),
                         record,
@@ -280,8 +284,16 @@ fn unchecked(
     let tracks = tracks.map(|it| (it.stamp.as_nanoseconds(), it.items.clone()));
     let actions =
         requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
-    let (is_safe, is_overruled) = (true, false);
-    Decided { is_safe, report: None, is_overruled, trajectory, tracks, actions, record: None }
+    Decided {
+        is_safe: true,
+        report: None,
+        is_overruled: false,
+        trajectory,
+        brake_by_ns: None,
+        tracks,
+        actions,
+        record: None,
+    }
 }
 
 fn keep<T>(

@@ -63,6 +63,12 @@ pub struct Cav<'a> {
     own: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
     /// What control follows.
     points: Vec<TrajectoryPoint>,
+    /// By when it brakes along it where nothing newer has come, ns (F-47).
+    brake_by_ns: Option<i64>,
+    /// Whether it does not.
+    drives_on: bool,
+    /// Whether nothing measures the gap to the leading vehicle.
+    has_no_lead: bool,
     cost: Cost,
     /// What the CAV counts.
     pub counts: Counts,
@@ -92,9 +98,24 @@ impl<'a> Cav<'a> {
             tracks: None,
             own: None,
             points: Vec::new(),
+            brake_by_ns: None,
+            drives_on: false,
+            has_no_lead: false,
             cost: Cost::default(),
             counts: Counts::default(),
         }
+    }
+
+    /// The same; whether control drives on along what was verified however long nothing newer comes (F-47).
+    pub fn driving_on(mut self, drives_on: bool) -> Self {
+        self.drives_on = drives_on;
+        self
+    }
+
+    /// The same; whether nothing measures the gap to the leading vehicle.
+    pub fn without_lead(mut self, has_no_lead: bool) -> Self {
+        self.has_no_lead = has_no_lead;
+        self
     }
 
     /// What guards the link.
@@ -131,7 +152,8 @@ impl<'a> Cav<'a> {
 
     /// Measures, and tells the stations that compute for it.
     pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
-        let sensed = self.sensors.sense(truth, self.route, &self.body, now_ns);
+        let mut sensed = self.sensors.sense(truth, self.route, &self.body, now_ns);
+        sensed.lead = sensed.lead.filter(|_| !self.has_no_lead);
         for group in Group::ALL {
             if let GroupState::Remote { station, session } = self.guard.state(group) {
                 self.send(now_ns, station, Payload::Alive { group, session }, radio);
@@ -219,8 +241,10 @@ impl<'a> Cav<'a> {
         self.sensed = Some(sensed);
         // In `Local` nothing is checked, and after an unsafe cycle everything is local.
         let is_own = decided.report.is_some() && decided.trajectory.is_none() && self.is_own();
+        // No cycle covers its own plan, which takes the place of whatever it had.
+        let brake_by_ns = decided.brake_by_ns.filter(|_| !is_own);
         if let Some(points) = if is_own { points } else { decided.trajectory.take() } {
-            self.points = points;
+            (self.points, self.brake_by_ns) = (points, brake_by_ns);
         }
         Some(decided)
     }
@@ -228,7 +252,9 @@ impl<'a> Cav<'a> {
     /// What control wants now.
     pub fn command(&mut self, now_ns: i64, truth: &Snapshot) -> Command {
         let ego = ego(truth, &self.body);
-        self.controller.command(&ego, &self.points, now_ns)
+        let has_ended = self.brake_by_ns.is_some_and(|by_ns| by_ns <= now_ns) && !self.drives_on;
+        // Without points it brakes along those that it had.
+        self.controller.command(&ego, if has_ended { &[] } else { &self.points }, now_ns)
     }
 
     /// Whether the CAV's own planner is the source of its trajectories.

@@ -217,7 +217,11 @@ impl<'a> Rules<'a> {
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(t_ns, kind).unwrap_or_default();
         let report = Some(report);
-        Decided { is_safe, report, is_overruled, trajectory, tracks, actions, record: None }
+        #[expect(clippy::cast_possible_truncation, reason = "tau of seconds")]
+        let tau_ns = (self.fixed.parameters.tau * 1e9) as i64;
+        let brake_by_ns = trajectory.as_ref().map(|_| t_ns + tau_ns);
+        let record = None;
+        Decided { is_safe, report, is_overruled, trajectory, brake_by_ns, tracks, actions, record }
     }
 }
 

@@ -19,7 +19,7 @@ use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "attacks";
-/// A few scenarios of each of 180 combinations.
+/// A few scenarios of each of 216 combinations.
 pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
 
 /// What the station offers.

@@ -3,6 +3,7 @@
 //! One setting at a time differs from the defaults. Settings of the detectors are those of the CAV and of the
 //! station alike.
 
+use mufasa::services::configuration::Groups;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -65,6 +66,19 @@ impl Factor {
             Self::JitterMs => &[0.0, 2.0, 5.0, 10.0],
             Self::Loss => &[0.0, 0.001, 0.01, 0.05, 0.1],
             Self::TWaitS => &[1.0, 10.0, 60.0],
+        }
+    }
+
+    /// What it is where nothing sets it.
+    pub fn of_default(self) -> f64 {
+        let settings = Settings::new(Variant::Hardened, Groups::ALL, 0);
+        match self {
+            Self::Missed => settings.errors.missed,
+            Self::Clutter => settings.errors.clutter,
+            Self::PositionM => settings.errors.position,
+            Self::JitterMs => 1e3 * seconds(settings.radio.jitter_ns),
+            Self::Loss => settings.radio.loss,
+            Self::TWaitS => seconds(settings.requester.t_wait_ns),
         }
     }
 

@@ -48,12 +48,18 @@ impl Shard {
 /// The runs of a part, as a file holds them until all are there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Part<O = Options> {
+    /// The program that made it, as `mufasa --version` has it; empty: one that did not say.
+    #[serde(default)]
+    pub version: String,
     /// Of which experiment.
     pub experiment: String,
     /// How large it is, with all parts.
     pub options: O,
     /// Which part it is.
     pub shard: Shard,
+    /// Whether a search was ended by an interrupt: no part then, but what was found until then.
+    #[serde(default)]
+    pub interrupted: bool,
     /// What is kept of each run, by its id.
     pub runs: BTreeMap<String, Value>,
     /// What was checked of its cycles; in a search none is.

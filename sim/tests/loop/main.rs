@@ -4,6 +4,7 @@
 mod attacks;
 mod digest;
 mod guard;
+mod late;
 mod lies;
 mod radio;
 mod records;

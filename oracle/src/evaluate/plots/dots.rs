@@ -61,8 +61,10 @@ pub(super) fn draw(dots: &Dots<'_>) -> String {
         let left = MARGIN + dots.left + (wide + APART) * nth(index);
         one(&mut page, dots, panel, ([left, left + wide], [top, bottom]));
     }
-    page.text([MARGIN + dots.left + all / 2.0, bottom + 40.0], "middle", dots.unit);
-    page.ends(bottom + 56.0);
+    // Below the name of the column beside the scale.
+    let below = bottom + if dots.off.is_some() { 56.0 } else { 40.0 };
+    page.text([MARGIN + dots.left + all / 2.0, below], "middle", dots.unit);
+    page.ends(below + 16.0);
     page.svg()
 }
 

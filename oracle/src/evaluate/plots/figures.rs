@@ -218,7 +218,7 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
         let names = rows().filter(|row| row.variant == Variant::Paper);
         Small {
             name: words_of(factor).to_owned(),
-            names: names.map(said_of).collect(),
+            names: names.map(|row| said(row.factor, row.value)).collect(),
             lines: [Variant::Paper, Variant::Hardened].map(line).into(),
         }
     };
@@ -246,10 +246,12 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
             charts: charts(|row| row.fallbacks_per_hour),
         },
     ];
-    let about = [
-        "No attack. One setting at a time differs from the defaults: 0.01 missed, no clutter, 0.05 m, 2 ms, no loss, 10 s.",
-        "The paper gives no such figures.",
-    ];
+    let one =
+        |factor: Factor| format!("{}: {}", words_of(factor), said(factor, factor.of_default()));
+    let defaults = Factor::ALL.map(one).join("; ");
+    let defaults =
+        format!("No attack. One setting at a time differs from its default: {defaults}.");
+    let about = [defaults.as_str(), "The paper gives no such figures."];
     let key = [Series::PAPER, Series::HARDENED];
     let svg = lines::draw("What the checks cost without an attack", &about, &key, &rows);
     vec![figure(availability::NAME, svg)]
@@ -281,9 +283,9 @@ pub fn rules(of: &Rules) -> Vec<Figure> {
 }
 
 /// The value that is set, short enough to stand beside others.
-fn said_of(row: &availability::Row) -> String {
-    let percent = if row.factor == Factor::Loss { 100.0 } else { 1.0 };
-    (percent * row.value).to_string()
+fn said(factor: Factor, value: f64) -> String {
+    let percent = if factor == Factor::Loss { 100.0 } else { 1.0 };
+    (percent * value).to_string()
 }
 
 const fn words_of(factor: Factor) -> &'static str {

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use mufasa::report::{Outcome as StageOutcome, Stage};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +34,8 @@ const PER_SPEED: f64 = 0.02;
 /// Farther away nobody is looked at, m.
 const FAR: f64 = 80.0;
 
-/// When remote results were used for the last time.
+/// When remote results were used for the last time: the last safe cycle in which one was current. Control may follow it
+/// for some cycles more.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LastUse {
@@ -69,11 +71,14 @@ struct Moment {
 }
 
 impl Watcher for Danger {
-    fn cycle(&mut self, truth: &Snapshot, _: &Cav<'_>, _: &Decided, cycle: &Cycle) {
+    fn cycle(&mut self, truth: &Snapshot, _: &Cav<'_>, decided: &Decided, cycle: &Cycle) {
         self.last_speed = truth.ego.speed;
         let moment = Moment::new(truth, cycle.t);
         let (nearest, is_remote) = (cycle.nearest, cycle.remote != 0);
-        let is_used = is_remote && cycle.failed == 0;
+        // A group can be remote and have nothing current: then nothing of it is used (F-43).
+        let [mot, plan] = [0, 1].map(|bit| cycle.remote >> bit & 1 == 1);
+        let has = (mot && ran(decided, Stage::I)) || (plan && ran(decided, Stage::Ii));
+        let is_used = has && cycle.failed == 0;
         self.moments.push(Moment { nearest, is_remote, is_used, ..moment });
     }
 
@@ -110,7 +115,7 @@ impl Danger {
         self.moments.iter().filter(|it| it.is_remote).map(|it| it.t).collect()
     }
 
-    /// The last cycle whose remote results were used.
+    /// The last safe cycle in which something remote was current.
     pub fn last_use(&self) -> Option<LastUse> {
         let moment = self.moments.iter().rfind(|it| it.is_used)?;
         Some(LastUse { t_s: moment.t, speed_mps: moment.ego.speed })
@@ -176,6 +181,18 @@ impl Danger {
         }
         let hit = touches(&braking(0.0)).map_or(0, |it| it.0);
         -PER_SPEED * (speed - A_B * PERIOD_S * f64::from(hit)).max(0.0)
+    }
+}
+
+/// Whether a stage looked at something; always, where nothing is checked.
+fn ran(decided: &Decided, stage: Stage) -> bool {
+    match decided.report {
+        None => true,
+        Some(Err(_)) => false,
+        Some(Ok(report)) => {
+            let outcome = report.stages[stage as usize];
+            matches!(outcome, StageOutcome::Passed | StageOutcome::Failed(_))
+        }
     }
 }
 

@@ -28,6 +28,12 @@ pub struct Case {
     pub without: Option<Without>,
     /// `tau` of the hardened profile, s; less than `TAU_S` is less than A-07 asks for.
     pub tau_s: f64,
+    /// Whether control drives on along what was verified however long nothing newer comes (F-47).
+    #[serde(default)]
+    pub drives_on: bool,
+    /// Whether nothing measures the gap to the leading vehicle.
+    #[serde(default)]
+    pub has_no_lead: bool,
     /// What the station offers.
     pub offered: Offered,
     /// Which of the ego's routes, from 0.
@@ -47,7 +53,7 @@ pub struct Case {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Found {
-    /// The run, shrunk.
+    /// The run; shrunk, where the search was not interrupted before.
     pub case: Case,
     /// When it collides, s.
     pub t_s: f64,
@@ -82,6 +88,8 @@ impl Case {
         settings.attacks.clone_from(&self.attacks);
         settings.without = self.without;
         settings.stages.tau = self.tau_s;
+        settings.drives_on = self.drives_on;
+        settings.has_no_lead = self.has_no_lead;
         settings.requester.t_wait_ns = T_WAIT_NS;
         settings.errors.position = POSITION_M;
         let (what, id, watched_from) = ((), self.name(), 0.0);

@@ -20,7 +20,7 @@ const GENES_OF_ATTACK: usize = 8;
 
 /// What the search attacks with: all but what an attacker gets nothing from (`flood` and `slow` cost time
 /// that a run does not know).
-pub const KINDS: [Kind; 18] = [
+pub const KINDS: [Kind; 21] = [
     Kind::MapReplaced,
     Kind::TracksEmpty,
     Kind::Ghosts,
@@ -39,6 +39,9 @@ pub const KINDS: [Kind; 18] = [
     Kind::MadeUpLead,
     Kind::Delay,
     Kind::NotFinite,
+    Kind::StampsAhead,
+    Kind::Silent,
+    Kind::Late,
 ];
 
 /// What the attacker knows of a run without an attack.
@@ -102,7 +105,8 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         }
         Kind::Drift => Means { speed_mps: 3.0 * a * a, turn_rad: turn(b), ..none },
         Kind::Replay => Means { late_s: between(a, 0.1, 8.0), ..none },
-        Kind::StartsLate => Means { late_s: between(a, 0.02, 2.0), ..none },
+        Kind::StartsLate | Kind::StampsAhead => Means { late_s: between(a, 0.02, 2.0), ..none },
+        Kind::Late => Means { late_s: between(a, 0.005, 0.3), ..none },
         Kind::Delay => Means { late_s: between(a, 0.005, 0.1), ..none },
         Kind::EndsEarly => Means { ahead_m: between(a, 0.0, 6.0), ..none },
         Kind::IntoLead => Means {
@@ -120,7 +124,8 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         | Kind::Backwards
         | Kind::NotFinite
         | Kind::Flood
-        | Kind::Slow => none,
+        | Kind::Slow
+        | Kind::Silent => none,
     }
 }
 

@@ -9,6 +9,7 @@
 //! are made, and runs are looked at in their order. Rounds do not know of each other (`rounds`): other machines can
 //! make some of them.
 
+pub mod caller;
 pub mod cma;
 pub mod danger;
 pub mod found;
@@ -20,6 +21,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
+pub use self::caller::{Caller, Progress};
 use self::cma::{Cma, anywhere};
 use self::danger::Danger;
 use self::found::{Case, Found};
@@ -47,34 +49,6 @@ const NEAR: f64 = 30.0;
 /// A collision is lower than any time left, s.
 const COLLISION: f64 = -1.0;
 
-/// How far it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress {
-    /// A run with attacks was made.
-    Run,
-    /// Runs were looked at: least time left up to now, s, and collisions.
-    Looked(f64, u64),
-}
-
-/// Who is told how far it is, and says whether it is to go on.
-pub trait Caller: Sync {
-    /// How far it is.
-    fn tell(&self, _: Progress) {}
-
-    /// Asked between two batches of runs.
-    fn goes_on(&self) -> bool {
-        true
-    }
-
-    /// What the search takes for the least: the time left, s, and less than any for a collision.
-    fn worth(&self, time_left_s: f64) -> f64 {
-        time_left_s
-    }
-}
-
-/// Nobody is told.
-impl Caller for () {}
-
 /// Searches.
 ///
 /// Errors: a town that cannot be.
@@ -84,14 +58,16 @@ pub fn experiment(
     caller: &impl Caller,
 ) -> Result<Falsified, RunError> {
     let mut made = Falsified::nothing(options);
-    while made.left() > 0 && caller.goes_on() {
+    while made.left() > 0 && caller.goes_on() && !caller.is_interrupted() {
         let round = Search::new(town, &made, made.rounds, caller).round()?;
-        made.add(town, round)?;
+        made.add(town, round, caller)?;
     }
+    made.interrupted = caller.is_interrupted();
     Ok(made)
 }
 
-/// The rounds of a part of so many rounds, each with its number from 0, for other machines to make the others.
+/// The rounds of a part of so many rounds, each with its number from 0, for other machines to make the others. Those
+/// up to an interrupt, the last one perhaps in part.
 ///
 /// Errors: a town that cannot be.
 pub fn part(
@@ -104,7 +80,7 @@ pub fn part(
     let numbers = 0..options.rounds.unwrap_or(0);
     let mine = numbers.filter(|it| shard.has(usize::try_from(*it).unwrap_or(usize::MAX)));
     let one = |number| Ok((number, Search::new(town, &nothing, number, caller).round()?));
-    mine.map(one).collect()
+    mine.take_while(|_| !caller.is_interrupted()).map(one).collect()
 }
 
 /// A scenario in which attacks are tried.
@@ -153,7 +129,7 @@ impl<'a, C: Caller> Search<'a, C> {
     }
 
     fn has_budget(&self) -> bool {
-        self.left() > 0 && self.caller.goes_on()
+        self.left() > 0 && self.caller.goes_on() && !self.caller.is_interrupted()
     }
 
     fn options(&self) -> &'a Options {
@@ -178,6 +154,9 @@ impl<'a, C: Caller> Search<'a, C> {
         let points: Vec<Point> = (0..count).map(random).collect();
         let tried = self.batch(&starts, &points, true)?;
         self.result.collided_at_random += self.result.collided;
+        if !self.has_budget() {
+            return Ok(());
+        }
         let mut best: Vec<usize> = (0..tried.len()).filter(|&it| !tried[it].1).collect();
         best.sort_by(|&a, &b| tried[a].0.total_cmp(&tried[b].0));
         best.truncate(SEARCHES);
@@ -208,6 +187,9 @@ impl<'a, C: Caller> Search<'a, C> {
             points.extend(cma.ask(GENERATION).into_iter().map(|genes| Point { start, genes }));
         }
         let tried = self.batch(starts, &points, false)?;
+        if self.caller.is_interrupted() {
+            return Ok(());
+        }
         let mut kept = Vec::new();
         let parts = points.chunks(GENERATION).zip(tried.chunks(GENERATION));
         for ((start, mut cma), (points, tried)) in searches.drain(..).zip(parts) {
@@ -226,25 +208,40 @@ impl<'a, C: Caller> Search<'a, C> {
     /// The scenarios of a round, and what the attacker learns from their runs without an attack.
     fn starts(&mut self) -> Result<Vec<Start>, RunError> {
         let &Options { variant, without, vehicles, seed, .. } = self.options();
-        let (town, round) = (self.town, self.number);
+        let (town, round, caller) = (self.town, self.number, self.caller);
         let one = |index: u64| {
+            if caller.is_interrupted() {
+                return Ok(None);
+            }
             let route = usize::from(index % 2 == 1);
             let scenario = seed.wrapping_add(round * STARTS / 2 + index / 2);
             let offered = Offered::Both;
+            let (drives_on, has_no_lead) = (false, false);
             let (tau_s, attacks, map) = (TAU_S, Vec::new(), town.id);
-            let case =
-                Case { variant, without, tau_s, offered, route, scenario, vehicles, attacks, map };
+            let case = Case {
+                variant,
+                without,
+                tau_s,
+                drives_on,
+                has_no_lead,
+                offered,
+                route,
+                scenario,
+                vehicles,
+                attacks,
+                map,
+            };
             let mut danger = Danger::default();
             let outcome = case.run(town, &mut danger)?;
             let clean =
                 Clean { remote: danger.remote_times(), near: danger.near(NEAR), seed: scenario };
             let collided = case.found(&outcome, &danger).map(|it| it.is_after());
             let time_left = danger.least_time_left(&town.routes[case.ego_route(town)], 0.0);
-            Ok((Start { case, clean }, collided, time_left, danger.least_distance(0.0)))
+            Ok(Some((Start { case, clean }, collided, time_left, danger.least_distance(0.0))))
         };
         let made: Vec<_> = (0..STARTS).into_par_iter().map(one).collect::<Result<_, _>>()?;
         let mut starts = Vec::new();
-        for (start, collided, time_left, distance) in made {
+        for (start, collided, time_left, distance) in made.into_iter().flatten() {
             self.count(None, collided, time_left, distance);
             self.result.clean_collided += u64::from(collided.is_some());
             if collided.is_none() {
@@ -255,7 +252,7 @@ impl<'a, C: Caller> Search<'a, C> {
     }
 
     /// Makes the runs of points, as far as there is budget: what each is worth, and whether it ends its search by a
-    /// collision.
+    /// collision. Of an interrupted batch these are fewer, and of any of its points.
     fn batch(
         &mut self,
         starts: &[Start],
@@ -266,12 +263,17 @@ impl<'a, C: Caller> Search<'a, C> {
         let (town, caller) = (self.town, self.caller);
         let kinds = &self.options().kinds;
         let one = |point: &Point| {
+            if caller.is_interrupted() {
+                return Ok(None);
+            }
             let tried = try_point(town, &starts[point.start], kinds, &point.genes)?;
             caller.tell(Progress::Run);
-            Ok(tried)
+            Ok(Some(tried))
         };
-        let tried: Vec<Tried> = points[..count].par_iter().map(one).collect::<Result<_, _>>()?;
-        self.result.runs += u64::try_from(count).unwrap_or(0);
+        let made: Vec<Option<Tried>> =
+            points[..count].par_iter().map(one).collect::<Result<_, _>>()?;
+        let tried: Vec<Tried> = made.into_iter().flatten().collect();
+        self.result.runs += u64::try_from(tried.len()).unwrap_or(0);
         for it in &tried {
             let mut kinds: Vec<Kind> = it.case.attacks.iter().map(|it| it.kind).collect();
             kinds.sort_unstable();

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::caller::Caller;
 use super::found::Found;
 use super::shrink::shrunk;
 use crate::attack::Kind;
@@ -41,6 +42,9 @@ pub struct Options {
 pub struct Falsified {
     /// What was searched.
     pub options: Options,
+    /// Whether it was ended by an interrupt: what was found until then, not all of it shrunk to its end, and no number of
+    /// runs gives the same.
+    pub interrupted: bool,
     /// Rounds, the last one perhaps in part.
     pub rounds: u64,
     /// Runs with attacks.
@@ -114,6 +118,7 @@ impl Falsified {
     pub fn nothing(options: Options) -> Self {
         Self {
             options,
+            interrupted: false,
             rounds: 0,
             runs: 0,
             collided: 0,
@@ -135,10 +140,11 @@ impl Falsified {
         }
     }
 
-    /// Takes the next round: shrinks its collisions, and keeps those that are new then, too.
+    /// Takes the next round: shrinks its collisions that are new, and keeps those that are new then, too. New is one
+    /// that no kept one explains ([`explains`]).
     ///
     /// Errors: those of a run.
-    pub fn add(&mut self, town: &Town, round: Round) -> Result<(), RunError> {
+    pub fn add(&mut self, town: &Town, round: Round, caller: &impl Caller) -> Result<(), RunError> {
         let Round { runs, collided, collided_at_random, clean_collided, rows, tries, found } =
             round;
         self.rounds += 1;
@@ -156,7 +162,7 @@ impl Falsified {
         let is_new = |it: &&Found| !self.found.iter().any(|old| explains(old, it));
         let new: Vec<&Found> = found.iter().filter(is_new).collect();
         let small: Vec<(Found, u64)> =
-            new.into_par_iter().map(|it| shrunk(town, it)).collect::<Result<_, _>>()?;
+            new.into_par_iter().map(|it| shrunk(town, it, caller)).collect::<Result<_, _>>()?;
         for (found, runs) in small {
             self.shrinking_runs += runs;
             if !self.found.iter().any(|old| explains(old, &found)) {

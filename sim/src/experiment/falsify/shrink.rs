@@ -1,5 +1,6 @@
 //! A collision made small: fewer attacks, shorter, by less, and still a collision.
 
+use super::caller::Caller;
 use super::found::{Case, Found};
 use crate::attack::means::{Lists, Means};
 use crate::attack::{Attack, Kind};
@@ -9,11 +10,12 @@ use crate::run::RunError;
 /// Steps by which a number comes nearer to its neutral value, each by half.
 const HALVINGS: u32 = 5;
 
-/// The smallest that is found by leaving out and halving one thing after the other, and the runs that it took.
+/// The smallest that is found by leaving out and halving one thing after the other, and the runs that it took; after an
+/// interrupt, the smallest until then.
 ///
 /// Errors: those of a run.
-pub fn shrunk(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
-    let mut shrinking = Shrinking { town, best: found.clone(), runs: 0 };
+pub fn shrunk(town: &Town, found: &Found, caller: &impl Caller) -> Result<(Found, u64), RunError> {
+    let mut shrinking = Shrinking { town, caller, best: found.clone(), runs: 0 };
     shrinking.fewer()?;
     for index in 0..shrinking.best.case.attacks.len() {
         shrinking.shorter(index)?;
@@ -23,15 +25,19 @@ pub fn shrunk(town: &Town, found: &Found) -> Result<(Found, u64), RunError> {
     Ok((shrinking.best, shrinking.runs))
 }
 
-struct Shrinking<'a> {
+struct Shrinking<'a, C> {
     town: &'a Town,
+    caller: &'a C,
     best: Found,
     runs: u64,
 }
 
-impl Shrinking<'_> {
+impl<C: Caller> Shrinking<'_, C> {
     /// Takes a smaller one if it collides, too.
     fn offer(&mut self, case: &Case) -> Result<bool, RunError> {
+        if self.caller.is_interrupted() {
+            return Ok(false);
+        }
         self.runs += 1;
         let found = case.collision(self.town)?;
         // One while remote results were used is not shrunk to one long after.
