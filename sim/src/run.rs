@@ -6,7 +6,7 @@ use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
-use mufasa::report::{FailedStage, Outcome as StageOutcome, Stage};
+use mufasa::report::Outcome as StageOutcome;
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, EncodeError, Frame};
 use mufasa_props::lent::Lent;
@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::attack::{Attack, Attacker};
 use crate::cav::guard::{Decided, Guard, Variant};
+use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
 use crate::cav::without::{Rules, Without};
 use crate::cav::{Areas, Cav};
@@ -48,6 +49,8 @@ pub struct Settings {
     pub drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
     pub has_no_lead: bool,
+    /// Whether the CAV examines its own plans, and brakes where one fails (F-48).
+    pub examines_own: bool,
     /// What the station offers.
     pub offers: Groups,
     /// Where along the route each group may be offloaded, m.
@@ -79,6 +82,7 @@ impl Settings {
             without: None,
             drives_on: false,
             has_no_lead: false,
+            examines_own: false,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
             attacks: Vec::new(),
@@ -247,7 +251,8 @@ pub fn simulate(
     let noise = (settings.seed, settings.errors);
     let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)
         .driving_on(settings.drives_on)
-        .without_lead(settings.has_no_lead);
+        .without_lead(settings.has_no_lead)
+        .examining(settings.examines_own.then(|| OwnPlans::new(stages, &corridor)));
     let mut station = Station::new((town, route), frame, settings.offers, noise);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);
@@ -363,7 +368,7 @@ impl Outcome {
                 counts[1] += u64::from(failed);
             }
         }
-        let failed = code(decided.failed_stage());
+        let failed = decided.code();
         self.other_failures += u64::from(failed > 5);
         self.false_alarms += u64::from(failed > 0 && !attacked);
         let nearest = world.nearest().map(|(distance, _)| distance);
@@ -381,18 +386,5 @@ impl Outcome {
             attacked,
             off_road,
         }
-    }
-}
-
-fn code(failed: Option<FailedStage>) -> u8 {
-    match failed {
-        None => 0,
-        Some(FailedStage::Stage(Stage::I)) => 1,
-        Some(FailedStage::Stage(Stage::Ii)) => 2,
-        Some(FailedStage::Stage(Stage::Iii)) => 3,
-        Some(FailedStage::Stage(Stage::Iv)) => 4,
-        Some(FailedStage::Stage(Stage::V)) => 5,
-        Some(FailedStage::NoObstacleCheck) => 6,
-        Some(FailedStage::Input) => 7,
     }
 }

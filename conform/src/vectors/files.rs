@@ -7,7 +7,7 @@ macro_rules! files {
 }
 
 /// The vectors, by the name of the file that they are published in.
-pub const FILES: [(&str, &str); 88] = files![
+pub const FILES: [(&str, &str); 89] = files![
     "findings/F-01",
     "findings/F-02",
     "findings/F-03",
@@ -54,6 +54,7 @@ pub const FILES: [(&str, &str); 88] = files![
     "findings/F-45",
     "findings/F-46",
     "findings/F-47",
+    "findings/F-48",
     "hardened/H-01",
     "hardened/H-02",
     "hardened/H-03",

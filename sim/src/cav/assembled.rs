@@ -8,7 +8,7 @@ use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::Message;
 use mufasa::offloading::requester::{Requester, Running};
-use mufasa::services::configuration::Group;
+use mufasa::services::configuration::{Configuration, Group};
 
 use super::decided::Local;
 use super::sensing::Sensed;
@@ -61,7 +61,7 @@ fn used<'m, T>(running: &Running, kept: Option<&'m Message<Vec<T>>>) -> Option<S
 /// The cycle of a time, ns.
 pub(super) fn cycle<'c>(
     fixed: &'c Fixed,
-    requester: &Requester<'_>,
+    configuration: Configuration,
     (now_ns, ego): (i64, Ego),
     sensed: &'c Sensed,
     chosen: Chosen<'c>,
@@ -73,7 +73,7 @@ pub(super) fn cycle<'c>(
         profile: fixed.profile,
         parameters: fixed.parameters,
         now_ns,
-        configuration: requester.configuration(),
+        configuration,
         ego,
         trajectory: chosen.points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
         tracks: chosen.tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),

@@ -2,7 +2,7 @@
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::offloading::requester::Action;
-use mufasa::report::{FailedStage, InvalidInput, Report};
+use mufasa::report::{FailedStage, InvalidInput, Report, Stage};
 use mufasa_model::input::cycle::Cycle;
 
 /// What a cycle lets control have.
@@ -34,6 +34,21 @@ impl Decided {
             Some(Ok(report)) => report.failed_stage,
             Some(Err(_)) => Some(FailedStage::Input),
             None => None,
+        }
+    }
+
+    /// That as a number: 0 for nothing found, or nothing checked; 1 to 5 for the stage that failed; 6 for no
+    /// obstacle check; 7 for the input.
+    pub fn code(&self) -> u8 {
+        match self.failed_stage() {
+            None => 0,
+            Some(FailedStage::Stage(Stage::I)) => 1,
+            Some(FailedStage::Stage(Stage::Ii)) => 2,
+            Some(FailedStage::Stage(Stage::Iii)) => 3,
+            Some(FailedStage::Stage(Stage::Iv)) => 4,
+            Some(FailedStage::Stage(Stage::V)) => 5,
+            Some(FailedStage::NoObstacleCheck) => 6,
+            Some(FailedStage::Input) => 7,
         }
     }
 }

@@ -5,6 +5,7 @@ pub mod cost;
 pub mod decided;
 pub mod guard;
 pub mod local;
+pub mod own_plans;
 pub mod recorder;
 mod seen;
 pub mod sensing;
@@ -19,6 +20,7 @@ use mufasa_link::message::{self, Frame, Message, Payload};
 use self::cost::{Cost, Part};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
+use self::own_plans::OwnPlans;
 use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
 use crate::map::Town;
@@ -69,6 +71,8 @@ pub struct Cav<'a> {
     drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle.
     has_no_lead: bool,
+    /// What its own plans are examined with, if they are (F-48).
+    own_plans: Option<OwnPlans>,
     cost: Cost,
     /// What the CAV counts.
     pub counts: Counts,
@@ -101,6 +105,7 @@ impl<'a> Cav<'a> {
             brake_by_ns: None,
             drives_on: false,
             has_no_lead: false,
+            own_plans: None,
             cost: Cost::default(),
             counts: Counts::default(),
         }
@@ -116,6 +121,17 @@ impl<'a> Cav<'a> {
     pub fn without_lead(mut self, has_no_lead: bool) -> Self {
         self.has_no_lead = has_no_lead;
         self
+    }
+
+    /// The same; with what its own plans are examined, if they are (F-48).
+    pub fn examining(mut self, own_plans: Option<OwnPlans>) -> Self {
+        self.own_plans = own_plans;
+        self
+    }
+
+    /// How many of its own plans were examined, and how many of them failed.
+    pub fn examined(&self) -> [u64; 2] {
+        self.own_plans.as_ref().map_or([0, 0], |it| it.counts)
     }
 
     /// What guards the link.
@@ -238,14 +254,24 @@ impl<'a> Cav<'a> {
         self.tracks = decided.tracks.take();
         self.own = own.map(|(stamp_ns, tracks)| (stamp_ns, tracks.to_vec()));
         self.act(now_ns, &decided.actions, radio);
-        self.sensed = Some(sensed);
         // In `Local` nothing is checked, and after an unsafe cycle everything is local.
         let is_own = decided.report.is_some() && decided.trajectory.is_none() && self.is_own();
         // No cycle covers its own plan, which takes the place of whatever it had.
         let brake_by_ns = decided.brake_by_ns.filter(|_| !is_own);
-        if let Some(points) = if is_own { points } else { decided.trajectory.take() } {
-            (self.points, self.brake_by_ns) = (points, brake_by_ns);
+        let new = if is_own { points } else { decided.trajectory.take() };
+        let fails = self.own_plans.as_mut().is_some_and(|own_plans| {
+            let examined = new.as_deref().filter(|_| is_own);
+            let fails =
+                examined.is_some_and(|it| !own_plans.passes((now_ns, ego), &sensed, own, it));
+            own_plans.see(&sensed);
+            fails
+        });
+        if let Some(points) = new {
+            // Without points control brakes along those that it had.
+            self.points = if fails { Vec::new() } else { points };
+            self.brake_by_ns = brake_by_ns;
         }
+        self.sensed = Some(sensed);
         Some(decided)
     }
 

@@ -73,7 +73,8 @@ impl Recorder {
             Profile::Paper => Vec::new(),
             Profile::Hardened => self.seen.history(sensed.stamp_ns),
         };
-        let cycle = assembled::cycle(fixed, requester, moment, sensed, chosen, &history);
+        let cycle =
+            assembled::cycle(fixed, requester.configuration(), moment, sensed, chosen, &history);
         Some(Box::new(bridge::from_impl(&cycle)))
     }
 

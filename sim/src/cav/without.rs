@@ -184,8 +184,14 @@ impl<'a> Rules<'a> {
         let Chosen { tracks, points } = chosen;
         let history = self.seen.history(sensed.stamp_ns);
         let moment = (t_ns, ego);
-        let cycle =
-            assembled::cycle(&self.fixed, &self.requester, moment, sensed, chosen, &history);
+        let cycle = assembled::cycle(
+            &self.fixed,
+            self.requester.configuration(),
+            moment,
+            sensed,
+            chosen,
+            &history,
+        );
         let scratch = &mut Scratch::new(&mut self.rows, &mut self.columns);
         let (report, is_overruled) = report(self.without, &cycle, scratch);
         let is_safe = report.as_ref().is_ok_and(|report| report.failed_stage.is_none());

@@ -1,0 +1,76 @@
+//! The CAV's own plans, examined (F-48): `Settings::examines_own`.
+
+use std::path::Path;
+
+use mufasa::services::configuration::Groups;
+use mufasa_sim::cav::Cav;
+use mufasa_sim::cav::decided::Decided;
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::falsify::found::Found;
+use mufasa_sim::map::streets;
+use mufasa_sim::run::{Cycle, End, Settings, Watcher, simulate};
+use mufasa_sim::scenario::Scenario;
+use mufasa_sim::snapshot::Snapshot;
+
+/// How many own plans were examined, and how many of them failed.
+#[derive(Default)]
+struct Examined([u64; 2]);
+
+impl Watcher for Examined {
+    fn cycle(&mut self, _: &Snapshot, cav: &Cav<'_>, _: &Decided, _: &Cycle) {
+        self.0 = cav.examined();
+    }
+}
+
+/// Kept collisions that were found in time, and came of what the CAV's own planner did then.
+const OWN: [&str; 7] = [
+    "hardened-both-delay-and-tracks-empty-0-1018",
+    "hardened-both-silent-and-tracks-empty-0-1018",
+    "hardened-both-not-finite-0-1094-after",
+    "hardened-mot-tracks-empty-1-2-after",
+    "hardened-plan-delay-0-1094-after",
+    "hardened-plan-replay-1-1004-after",
+    "hardened-plan-starts-late-1-1004-after",
+];
+
+#[test]
+fn what_came_of_the_own_planner_does_not_collide_when_its_plans_are_examined() {
+    let town = streets::town();
+    for name in OWN {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("found/{name}.json"));
+        let text = std::fs::read_to_string(file).expect(name);
+        let found: Found = serde_json::from_str(&text).expect(name);
+        let mut job = found.case.job();
+        let end = |outcome: mufasa_sim::run::Outcome| outcome.end;
+        let mut examined = Examined::default();
+        assert_eq!(job.run(&town, &mut examined).map(end).expect(name), End::Collided, "{name}");
+        assert_eq!(examined.0, [0, 0], "{name}");
+        job.settings.examines_own = true;
+        let now = job.run(&town, &mut examined).map(end).expect(name);
+        assert_ne!(now, End::Collided, "{name}");
+        assert!(examined.0[1] > 0, "{name}: no plan failed");
+    }
+}
+
+/// Of 20 clean drives with its own services alone all arrive, though some plans fail.
+#[test]
+fn clean_drives_arrive_though_own_plans_are_examined() {
+    let town = streets::town();
+    let mut all = [0, 0];
+    for route in town.ego_routes() {
+        for seed in 0..10 {
+            let scenario = Scenario::draw(&town, route, 15, seed);
+            let settings = Settings {
+                examines_own: true,
+                ..Settings::new(Variant::Hardened, Groups::NONE, seed)
+            };
+            let mut examined = Examined::default();
+            let outcome = simulate(&town, &scenario, &settings, &mut examined).expect("it can be");
+            assert_eq!(outcome.end, End::Arrived, "{route} {seed}");
+            assert_eq!(examined.0[0], outcome.cycles, "in `Local` each plan is examined");
+            all = [all[0] + examined.0[0], all[1] + examined.0[1]];
+        }
+    }
+    // The others brake for nothing: that is the price.
+    assert!(all[1] > 0 && all[1] * 10 < all[0], "{all:?}");
+}
