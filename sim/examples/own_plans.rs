@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let argument = |at: usize, default| arguments.get(at).copied().unwrap_or(default);
     let (scenarios, first, vehicles) = (argument(0, 10), argument(1, 0), argument(2, 15));
     let town = streets::town();
-    println!("own plans     | runs | arrived | collided | late | mean, s | plans that fail");
+    println!("own plans     | runs | arrived | collided | late | mean end, s | plans that fail");
     for examines_own in [false, true] {
         let runs: Vec<(usize, u64)> = town
             .ego_routes()
@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             outcomes.iter().fold([0, 0], |[all, bad], (_, _, it)| [all + it[0], bad + it[1]]);
         let name = if examines_own { "examined" } else { "not examined" };
         println!(
-            "{name:13} | {:4} | {:7} | {:8} | {:4} | {mean:7.2} | {failed} of {examined}",
+            "{name:13} | {:4} | {:7} | {:8} | {:4} | {mean:11.2} | {failed} of {examined}",
             outcomes.len(),
             ended(End::Arrived),
             ended(End::Collided),
@@ -68,7 +68,7 @@ fn drive(
 ) -> Result<(End, f64, [u64; 2]), Box<dyn Error + Send + Sync>> {
     let scenario = Scenario::draw(town, route, vehicles, seed);
     let mut settings = Settings::new(Variant::Hardened, Groups::NONE, seed);
-    settings.examines_own = examines_own;
+    settings.examines_own = examines_own.then_some(0.0);
     let mut examined = Examined::default();
     let outcome =
         simulate(town, &scenario, &settings, &mut examined).map_err(|error| error.to_string())?;

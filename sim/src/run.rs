@@ -49,8 +49,8 @@ pub struct Settings {
     pub drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
     pub has_no_lead: bool,
-    /// Whether the CAV examines its own plans, and brakes where one fails (F-48).
-    pub examines_own: bool,
+    /// From when on the CAV examines its own plans in `Local`, and brakes where one fails, s (F-48). Not in `Sofof`.
+    pub examines_own: Option<f64>,
     /// What the station offers.
     pub offers: Groups,
     /// Where along the route each group may be offloaded, m.
@@ -82,7 +82,7 @@ impl Settings {
             without: None,
             drives_on: false,
             has_no_lead: false,
-            examines_own: false,
+            examines_own: None,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
             attacks: Vec::new(),
@@ -252,7 +252,7 @@ pub fn simulate(
     let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)
         .driving_on(settings.drives_on)
         .without_lead(settings.has_no_lead)
-        .examining(settings.examines_own.then(|| OwnPlans::new(stages, &corridor)));
+        .examining(settings.examines_own.map(|from| OwnPlans::new(stages, &corridor, from)));
     let mut station = Station::new((town, route), frame, settings.offers, noise);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);

@@ -22,32 +22,34 @@ impl Watcher for Examined {
     }
 }
 
-/// Kept collisions that were found in time, and came of what the CAV's own planner did then.
-const OWN: [&str; 7] = [
-    "hardened-both-delay-and-tracks-empty-0-1018",
-    "hardened-both-silent-and-tracks-empty-0-1018",
-    "hardened-both-not-finite-0-1094-after",
-    "hardened-mot-tracks-empty-1-2-after",
-    "hardened-plan-delay-0-1094-after",
-    "hardened-plan-replay-1-1004-after",
-    "hardened-plan-starts-late-1-1004-after",
+/// Kept collisions that came of what the CAV's own planner did, and when the stages found them, s: with plans examined
+/// from then on, and not before, each is the same run up to there. How it ends so: those of scenario 1004 stand before a
+/// car that stopped for them, and their plans go on failing.
+const OWN: [(&str, f64, End); 7] = [
+    ("hardened-both-delay-and-tracks-empty-0-1018", 57.84, End::Arrived),
+    ("hardened-both-silent-and-tracks-empty-0-1018", 57.84, End::Arrived),
+    ("hardened-both-not-finite-0-1094-after", 75.04, End::Arrived),
+    ("hardened-mot-tracks-empty-1-2-after", 22.74, End::Arrived),
+    ("hardened-plan-delay-0-1094-after", 75.04, End::Arrived),
+    ("hardened-plan-replay-1-1004-after", 60.84, End::Late),
+    ("hardened-plan-starts-late-1-1004-after", 60.84, End::Late),
 ];
 
 #[test]
 fn what_came_of_the_own_planner_does_not_collide_when_its_plans_are_examined() {
     let town = streets::town();
-    for name in OWN {
+    for (name, found_s, end) in OWN {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("found/{name}.json"));
         let text = std::fs::read_to_string(file).expect(name);
         let found: Found = serde_json::from_str(&text).expect(name);
         let mut job = found.case.job();
-        let end = |outcome: mufasa_sim::run::Outcome| outcome.end;
         let mut examined = Examined::default();
-        assert_eq!(job.run(&town, &mut examined).map(end).expect(name), End::Collided, "{name}");
+        let outcome = job.run(&town, &mut examined).expect(name);
+        assert_eq!(outcome.end, End::Collided, "{name}");
         assert_eq!(examined.0, [0, 0], "{name}");
-        job.settings.examines_own = true;
-        let now = job.run(&town, &mut examined).map(end).expect(name);
-        assert_ne!(now, End::Collided, "{name}");
+        job.settings.examines_own = Some(found_s);
+        let outcome = job.run(&town, &mut examined).expect(name);
+        assert_eq!(outcome.end, end, "{name}");
         assert!(examined.0[1] > 0, "{name}: no plan failed");
     }
 }
@@ -61,7 +63,7 @@ fn clean_drives_arrive_though_own_plans_are_examined() {
         for seed in 0..10 {
             let scenario = Scenario::draw(&town, route, 15, seed);
             let settings = Settings {
-                examines_own: true,
+                examines_own: Some(0.0),
                 ..Settings::new(Variant::Hardened, Groups::NONE, seed)
             };
             let mut examined = Examined::default();
@@ -71,6 +73,6 @@ fn clean_drives_arrive_though_own_plans_are_examined() {
             all = [all[0] + examined.0[0], all[1] + examined.0[1]];
         }
     }
-    // The others brake for nothing: that is the price.
+    // Each plan that fails costs braking, here in drives that arrive without it, too: fewer than one in ten.
     assert!(all[1] > 0 && all[1] * 10 < all[0], "{all:?}");
 }

@@ -37,7 +37,7 @@ impl Decided {
         }
     }
 
-    /// That as a number: 0 for nothing found, or nothing checked; 1 to 5 for the stage that failed; 6 for no
+    /// `failed_stage` as a number: 0 for nothing found, or nothing checked; 1 to 5 for the stage that failed; 6 for no
     /// obstacle check; 7 for the input.
     pub fn code(&self) -> u8 {
         match self.failed_stage() {

@@ -1,7 +1,8 @@
 //! The CAV's own plans, examined as those of a station are: an experiment for finding F-48.
 //!
-//! In `Local` no stage runs, and what follows a fallback is trusted. Here each own plan goes through the hardened
-//! stages as in PlanRemote, with the CAV's own tracks, detections and grid; where one fails, control brakes.
+//! In `Local` no stage runs, and what follows a fallback is trusted. Here each own plan of such a cycle goes through
+//! the hardened stages as in PlanRemote, with the CAV's own tracks, detections and grid; where one fails, control
+//! brakes. Stage iii runs, so that neither iv nor H-13 does: what the own tracker misses the grid alone shows.
 
 use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
@@ -13,11 +14,14 @@ use mufasa::stages::check;
 use super::assembled::{self, Chosen, Fixed, Stamped};
 use super::seen::Seen;
 use super::sensing::Sensed;
+use crate::services::way::seconds;
 
 /// What own plans are examined with.
 #[derive(Debug)]
 pub struct OwnPlans {
     fixed: Fixed,
+    /// Plans before this time pass unexamined, s.
+    from: f64,
     seen: Seen,
     rows: Vec<Row>,
     columns: Vec<Column>,
@@ -26,11 +30,12 @@ pub struct OwnPlans {
 }
 
 impl OwnPlans {
-    /// Nothing seen yet. `route`: the CAV's, whole.
-    pub fn new(parameters: Parameters, route: &Route<'_>) -> Self {
+    /// Nothing seen yet. `route`: the CAV's, whole; `from`: when examining begins, s.
+    pub fn new(parameters: Parameters, route: &Route<'_>, from: f64) -> Self {
         let route = (route.closed, route.cross_sections.to_vec());
         Self {
             fixed: Fixed { profile: Profile::Hardened, parameters, route },
+            from,
             seen: Seen::default(),
             rows: vec![Row::default(); Sizes::MAX.rows],
             columns: vec![Column::default(); Sizes::MAX.columns],
@@ -46,6 +51,9 @@ impl OwnPlans {
         tracks: Option<Stamped<'_, Track>>,
         points: &[TrajectoryPoint],
     ) -> bool {
+        if seconds(moment.0) < self.from {
+            return true;
+        }
         let history = self.seen.history(sensed.stamp_ns);
         let chosen = Chosen { tracks, points: Some((moment.0, points)) };
         let configuration = Configuration::PlanRemote;
