@@ -10,11 +10,12 @@ use pyo3::prelude::*;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Group;
 use mufasa_model::services::configuration::Configuration;
+use mufasa_records::names::Words;
 
 use crate::errors::{invalid, word, wrong};
 
 macro_rules! arguments {
-    ($($(#[$doc:meta])* $name:ident($type:ty) of $field:literal;)*) => {$(
+    (by $by:path; $($(#[$doc:meta])* $name:ident($type:ty) of $field:literal;)*) => {$(
         $(#[$doc])*
         pub struct $name(pub $type);
 
@@ -22,13 +23,13 @@ macro_rules! arguments {
             type Error = PyErr;
 
             fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-                given.extract().map(Self).map_err(|error| in_domain(&given, $field, error))
+                $by(&given, $field).map(Self)
             }
         }
     )*};
 }
 
-arguments! {
+arguments! { by value;
     /// The id of a station.
     Station(i64) of "station";
     /// The number of a session.
@@ -61,24 +62,7 @@ arguments! {
     Line(String) of "";
 }
 
-macro_rules! words {
-    ($($(#[$doc:meta])* $name:ident($type:ty) of $field:literal;)*) => {$(
-        $(#[$doc])*
-        pub struct $name(pub $type);
-
-        impl<'py> FromPyObject<'_, 'py> for $name {
-            type Error = PyErr;
-
-            fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-                let text = given.extract::<String>();
-                let text = text.map_err(|error| in_domain(&given, $field, error))?;
-                word($field, &text).map(Self).map_err(invalid)
-            }
-        }
-    )*};
-}
-
-words! {
+arguments! { by named;
     /// A group by its name.
     OneGroup(Group) of "group";
     /// One of several groups by its name.
@@ -87,6 +71,19 @@ words! {
     OneProfile(Profile) of "profile";
     /// A configuration by its name.
     OneConfiguration(Configuration) of "configuration";
+}
+
+/// A value as its type has it.
+fn value<'py, T>(given: &Bound<'py, PyAny>, field: &str) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py, Error = PyErr>,
+{
+    given.extract().map_err(|error| in_domain(given, field, error))
+}
+
+/// One of several values by its word.
+fn named<T: Words>(given: &Bound<'_, PyAny>, field: &str) -> PyResult<T> {
+    word(field, &value::<String>(given, field)?).map_err(invalid)
 }
 
 /// The error of a value that is of the right kind, and outside what its type can be, as `InvalidInput`.

@@ -2,7 +2,7 @@
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::offloading::requester::Action;
-use mufasa::report::{FailedStage, InvalidInput, Report, Stage};
+use mufasa::report::{FailedStage, InvalidInput, Report};
 use mufasa_model::input::cycle::Cycle;
 
 /// What a cycle lets control have.
@@ -42,11 +42,8 @@ impl Decided {
     pub fn code(&self) -> u8 {
         match self.failed_stage() {
             None => 0,
-            Some(FailedStage::Stage(Stage::I)) => 1,
-            Some(FailedStage::Stage(Stage::Ii)) => 2,
-            Some(FailedStage::Stage(Stage::Iii)) => 3,
-            Some(FailedStage::Stage(Stage::Iv)) => 4,
-            Some(FailedStage::Stage(Stage::V)) => 5,
+            // The stages are declared in their order.
+            Some(FailedStage::Stage(stage)) => 1 + stage as u8,
             Some(FailedStage::NoObstacleCheck) => 6,
             Some(FailedStage::Input) => 7,
         }
