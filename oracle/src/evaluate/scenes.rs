@@ -95,7 +95,8 @@ fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String>
     let options = Options { profile, tau_s: tau, seed, only: arguments.only.clone() };
     document::has_place(arguments.into.as_deref(), &command(&options))?;
     let scenes = arguments.scenes.unwrap_or(SCENES);
-    let until = arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
+    let until =
+        arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
     let bar = progress::bar(
         if until.is_some() { 0 } else { scenes },
         "{prefix} {bar:30} {pos}/{len} scenes, {left} left",

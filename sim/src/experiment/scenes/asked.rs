@@ -9,7 +9,7 @@ use mufasa::input::profile::Profile;
 use mufasa::services::configuration::Configuration;
 
 use super::kinds::{Lie, Remote};
-use super::scene::{Body, Moved, Scene};
+use super::scene::{Body, FARTHEST, Moved, Scene};
 use super::way::MARGIN;
 use crate::pose::{Point, Pose, Rectangle};
 use crate::services::detectors::random::Draws;
@@ -104,9 +104,10 @@ impl<'s> Asked<'s> {
 
     fn points(&self, number: i32) -> Vec<TrajectoryPoint> {
         let scene = self.scene;
-        let Moved { ahead, later, aside, turned, fades } = scene.moved;
+        let Moved { ahead, ahead_s, later, aside, turned, fades } = scene.moved;
         let now = time(number);
-        let start = scene.pace.at(now).0;
+        let (start, speed) = scene.pace.at(now);
+        let ahead = (ahead + ahead_s * speed).min(FARTHEST);
         let mut points = Vec::new();
         let mut index = 0;
         while time(index) <= scene.plan {
@@ -116,8 +117,7 @@ impl<'s> Asked<'s> {
             let slope = turned + aside / fades;
             let offset = (aside + slope * way) * fading;
             let offset = (offset, slope * fading - offset / fades);
-            let Pose { at: Point { x, y }, cos, sin } =
-                scene.way.pose(start + ahead + way, offset);
+            let Pose { at: Point { x, y }, cos, sin } = scene.way.pose(start + ahead + way, offset);
             let t_ns = nanoseconds(now + later + time(index));
             points.push(TrajectoryPoint { t_ns, x, y, cos, sin });
             index += 1;

@@ -80,8 +80,7 @@ pub fn drive(
     let last = hit_going_on.map_or(end, |it| it.t_s);
     let asked = Asked::new(scene, profile, parameters);
     let mut alarms = (0_i32..).take_while(|number| time(*number) < last);
-    let rejected =
-        alarms.find_map(|number| Some((time(number), asked.ask(number, monitor)?)));
+    let rejected = alarms.find_map(|number| Some((time(number), asked.ask(number, monitor)?)));
     let braking = |from: f64| {
         let from = from + parameters.tau;
         let stands = from + scene.pace.at(from).1 / A_B;

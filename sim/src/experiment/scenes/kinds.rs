@@ -47,7 +47,7 @@ kinds! {
         Aside = "aside",
         /// It begins up to 4 m ahead, up to 100 ms ago.
         Old = "old",
-        /// It begins up to 4 m behind, in up to 100 ms.
+        /// It begins up to 1.9 m behind, in up to 100 ms.
         Early = "early",
         /// It changes into another lane, and may begin ahead.
         LaneChange = "lane-change",

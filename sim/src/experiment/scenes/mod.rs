@@ -10,6 +10,8 @@ pub mod kinds;
 mod other;
 mod pace;
 pub mod scene;
+#[cfg(test)]
+mod tests;
 mod way;
 
 use std::collections::BTreeMap;
@@ -55,6 +57,7 @@ pub struct Options {
 
 /// A scene and what came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[expect(clippy::struct_excessive_bools, reason = "columns of a table")]
 pub struct Run {
     /// Its number; with the seed it gives the scene again.
     pub scene: u64,
@@ -244,9 +247,9 @@ impl Run {
             nearest_m: driven.nearest_m,
             is_avoidable: driven.is_avoidable(),
             rejected_s: driven.rejected.map(|(t, _)| t),
-            rejected_by: driven.rejected.map(|(_, Alarm { stage, rule })| {
-                format!("{stage} {rule}").trim_end().to_owned()
-            }),
+            rejected_by: driven
+                .rejected
+                .map(|(_, Alarm { stage, rule })| format!("{stage} {rule}").trim_end().to_owned()),
             collided_s: hit(|it| it.t_s),
             speed_mps: hit(|it| it.speed_mps),
             stood_s: hit(|it| it.stood_s),
@@ -268,14 +271,14 @@ impl Run {
 
 /// Counts by what scenes have in common.
 fn rows(runs: &[Run]) -> Vec<Row> {
-    let mut rows = vec![row("all", "", runs.iter())];
+    let mut rows = vec![row("all", "", &runs.iter().collect::<Vec<_>>())];
     let mut group = |of: &str, kind: &dyn Fn(&Run) -> (usize, String)| {
         let mut kinds: BTreeMap<(usize, String), Vec<&Run>> = BTreeMap::new();
         for run in runs {
             kinds.entry(kind(run)).or_default().push(run);
         }
         for ((_, kind), runs) in kinds {
-            rows.push(row(of, &kind, runs.into_iter()));
+            rows.push(row(of, &kind, &runs));
         }
     };
     group("trajectory, remote", &|run| {
@@ -289,13 +292,13 @@ fn rows(runs: &[Run]) -> Vec<Row> {
     rows
 }
 
-fn row<'r>(of: &str, kind: &str, runs: impl Iterator<Item = &'r Run> + Clone) -> Row {
+fn row(of: &str, kind: &str, runs: &[&Run]) -> Row {
     let count = |which: fn(&Run) -> bool| {
-        u64::try_from(runs.clone().filter(|it| which(it)).count()).unwrap_or(u64::MAX)
+        u64::try_from(runs.iter().filter(|it| which(it)).count()).unwrap_or(u64::MAX)
     };
     let is_alarm: fn(&Run) -> bool = |it| is_clean(it) && it.rejected_s.is_some();
     let mut causes: BTreeMap<&str, u64> = BTreeMap::new();
-    for cause in runs.clone().filter(|it| is_alarm(it)).filter_map(|it| it.rejected_by.as_deref()) {
+    for cause in runs.iter().filter(|it| is_alarm(it)).filter_map(|it| it.rejected_by.as_deref()) {
         *causes.entry(cause).or_default() += 1;
     }
     let mut causes: Vec<_> = causes.into_iter().collect();

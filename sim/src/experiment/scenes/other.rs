@@ -76,10 +76,7 @@ impl Other {
 fn along(pose: Pose, length: f64, curvature: f64) -> Pose {
     let angle = curvature * length;
     let (sin, cos) = libm::sincos(angle);
-    let (ahead, left) = if angle.abs() < 1e-9 {
-        (length, 0.0)
-    } else {
-        (sin / curvature, (1.0 - cos) / curvature)
-    };
+    let (ahead, left) =
+        if angle.abs() < 1e-9 { (length, 0.0) } else { (sin / curvature, (1.0 - cos) / curvature) };
     Pose { at: pose.ahead(ahead, left), ..pose }.turned(cos, sin)
 }

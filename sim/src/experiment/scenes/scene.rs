@@ -46,8 +46,9 @@ pub(super) struct Body {
 /// By how much a trajectory is moved, of which a shift may be nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moved {
-    /// Of the first point, m.
+    /// Of the first point, and how many times the speed, s, are added at most: m.
     pub(super) ahead: f64,
+    pub(super) ahead_s: f64,
     /// Of its time, s.
     pub(super) later: f64,
     /// Of the first point, to the left, m.
@@ -131,8 +132,8 @@ impl Scene {
             center_offset: draws.between(0.0, 1.4),
         };
         let meeting = draws.between(1.0, 6.0);
-        let (way, pace) = driven(draws, &kinds, meeting);
-        let other = other(draws, &kinds, (&way, &pace, body), meeting);
+        let (way, pace) = driven(draws, kinds, meeting);
+        let other = other(draws, kinds, (&way, &pace, body), meeting);
         let moved = moved(draws, kinds.shift, pace.at(meeting).1);
         let (sin, cos) = libm::sincos(draws.between(-1.5, 1.5));
         Self {
@@ -177,7 +178,7 @@ fn scaled(draws: &mut Draws, least: f64, most: f64) -> f64 {
 }
 
 /// The way of the CAV, and how it goes along it.
-fn driven(draws: &mut Draws, kinds: &Kinds, meeting: f64) -> (Way, Pace) {
+fn driven(draws: &mut Draws, kinds: Kinds, meeting: f64) -> (Way, Pace) {
     let is_straight = draws.share() < 0.5;
     let radius = scaled(draws, 15.0, 200.0);
     let fastest = if is_straight { 30.0 } else { (BEND * radius).sqrt().min(30.0) };
@@ -219,7 +220,7 @@ fn driven(draws: &mut Draws, kinds: &Kinds, meeting: f64) -> (Way, Pace) {
 /// Who comes to where the CAV is when they meet.
 fn other(
     draws: &mut Draws,
-    kinds: &Kinds,
+    kinds: Kinds,
     (way, pace, body): (&Way, &Pace, Body),
     meeting: f64,
 ) -> Other {
@@ -279,7 +280,7 @@ fn other(
 }
 
 /// Whether the other is aimed beside the CAV.
-fn is_beside(draws: &mut Draws, kinds: &Kinds) -> bool {
+fn is_beside(draws: &mut Draws, kinds: Kinds) -> bool {
     let share = match (kinds.side, kinds.shift) {
         (_, Shift::LaneChange) | (Side::Crossing | Side::Standing | Side::AheadInLane, _) => 0.0,
         (Side::Adjacent, _) => 0.7,
@@ -289,21 +290,24 @@ fn is_beside(draws: &mut Draws, kinds: &Kinds) -> bool {
     draws.share() < share
 }
 
+/// Farthest that a trajectory begins ahead, m: with a time of its own, and without.
+pub(super) const FARTHEST: f64 = 4.0;
+const NEARER: f64 = 1.9;
+
 /// What the shift does to the trajectory of a CAV of this speed, m/s.
 fn moved(draws: &mut Draws, shift: Shift, speed: f64) -> Moved {
     let none = Moved { fades: (speed * draws.between(0.6, 1.5)).max(3.0), ..Moved::default() };
-    let (size, later) = (draws.share(), draws.between(0.0, 0.1));
-    let farthest = (1.95 + 0.1 * speed).min(4.0);
+    // Near the most, more often than not.
+    let (size, later) = (draws.share().max(draws.share()), draws.between(0.0, 0.1));
+    let ahead = NEARER * size;
     match shift {
         Shift::None | Shift::Ends => none,
-        Shift::Ahead => Moved { ahead: 1.9 * size, ..none },
-        Shift::Aside => Moved {
-            aside: draws.between(-0.49, 0.49),
-            turned: draws.between(-0.16, 0.16),
-            ..none
-        },
-        Shift::Old => Moved { ahead: farthest * size, later: -later, ..none },
-        Shift::Early => Moved { ahead: -farthest * size, later, ..none },
-        Shift::LaneChange => Moved { ahead: if size < 0.5 { 0.0 } else { 1.9 * size }, ..none },
+        Shift::Ahead => Moved { ahead, ..none },
+        Shift::Aside => {
+            Moved { aside: draws.between(-0.49, 0.49), turned: draws.between(-0.16, 0.16), ..none }
+        }
+        Shift::Old => Moved { ahead, ahead_s: later * size, later: -later, ..none },
+        Shift::Early => Moved { ahead: -ahead, later, ..none },
+        Shift::LaneChange => Moved { ahead: if draws.share() < 0.5 { 0.0 } else { ahead }, ..none },
     }
 }
