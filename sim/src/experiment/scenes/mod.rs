@@ -1,11 +1,11 @@
 //! A search for avoidable collisions, of the kind that found W1 to W18: one other, straight ways and bends, every kind
 //! of lie, trajectories that begin elsewhere, at another time, or end in the way.
 //!
-//! Each scene is drawn, driven in a closed loop with the monitor (`drive`), and counted. What it asks the monitor are
+//! Each scene is drawn, driven in a closed loop with the monitor (`closed_loop`), and counted. What it asks the monitor are
 //! cycles (`asked`); of the rules it knows nothing.
 
 mod asked;
-pub mod drive;
+pub mod closed_loop;
 pub mod kinds;
 mod other;
 mod pace;
@@ -28,7 +28,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use self::drive::{Alarm, Driven, Hit, drive};
+use self::closed_loop::{Alarm, Driven, Hit, drive};
 use self::kinds::{Drive, Lie, Motion, Remote, Shift, Side};
 use self::scene::{Kinds, Scene};
 use crate::cav::guard::Variant;
