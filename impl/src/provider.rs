@@ -119,9 +119,10 @@ impl<'s> Precheck<'s> {
         Self { rows, columns }
     }
 
-    /// Which of the tracks of this stamp to send in this cycle, whose own tracks and trajectory do not matter.
-    /// All, in their order, if they pass; else one after the other is added, the nearest to a detection first,
-    /// and left out when the cycle would fail with it: of T tracks the stages are asked T + 2 times at most.
+    /// Which of the tracks of this stamp to send in this cycle, whose own tracks and trajectory do not matter:
+    /// those that pass alone, so that none depends on what else is in the list; and if they do not pass
+    /// together, one after the other is added, the nearest to a detection first, and left out when the
+    /// cycle would fail with it. Of T tracks the stages are asked at most 2 T + 2 times.
     /// `None`: not even an empty list passes. The tracks that are left out are told with the reason, and stand
     /// behind the others afterwards.
     ///
@@ -133,13 +134,41 @@ impl<'s> Precheck<'s> {
         tracks: &'t mut [Track],
         mut left_out: impl FnMut(&Track, Failure),
     ) -> Result<Option<Kept<'t>>, InvalidInput> {
-        if self.tracks_failure(cycle, stamp_ns, tracks)?.is_none() {
-            return Ok(Some(Kept { tracks: TrackList { stamp_ns, items: tracks }, left_out: 0 }));
-        }
+        // The memory has to hold all of them, whichever are kept.
+        Scratch::new(self.rows, self.columns)
+            .fits(&Cycle { tracks: Some(TrackList { stamp_ns, items: tracks }), ..*cycle })?;
         if let Some(why) = self.tracks_failure(cycle, stamp_ns, &[])? {
             tracks.iter().for_each(|track| left_out(track, why));
             return Ok(None);
         }
+        let mut kept = 0_usize;
+        for index in 0..tracks.len() {
+            let alone = tracks.get(index..=index).unwrap_or_default();
+            if let (Some(why), [track]) = (self.tracks_failure(cycle, stamp_ns, alone)?, alone) {
+                left_out(track, why);
+            } else {
+                tracks.swap(kept, index);
+                kept = kept.saturating_add(1);
+            }
+        }
+        let pass_alone = tracks.get_mut(..kept).unwrap_or_default();
+        if self.tracks_failure(cycle, stamp_ns, pass_alone)?.is_some() {
+            kept = self.together(cycle, stamp_ns, pass_alone, left_out)?;
+        }
+        let items = tracks.get(..kept).unwrap_or_default();
+        let left_out = tracks.len().saturating_sub(items.len());
+        Ok(Some(Kept { tracks: TrackList { stamp_ns, items }, left_out }))
+    }
+
+    /// How many of the tracks pass together when the nearest to a detection are taken first; they come to the
+    /// front.
+    fn together(
+        &mut self,
+        cycle: &Cycle<'_>,
+        stamp_ns: i64,
+        tracks: &mut [Track],
+        mut left_out: impl FnMut(&Track, Failure),
+    ) -> Result<usize, InvalidInput> {
         let detections = cycle.detections.map_or(&[][..], |list| list.items);
         let nearest = |track: &Track| {
             let away = detections.iter().map(|it| apart_squared([track.x, track.y], [it.x, it.y]));
@@ -157,9 +186,7 @@ impl<'s> Precheck<'s> {
                 (None, _) | (_, None) => kept = kept.saturating_add(1),
             }
         }
-        let items = tracks.get(..kept).unwrap_or_default();
-        let left_out = tracks.len().saturating_sub(items.len());
-        Ok(Some(Kept { tracks: TrackList { stamp_ns, items }, left_out }))
+        Ok(kept)
     }
 
     /// The first of the candidates of this stamp with which this cycle is safe, and which it is; the cycle has the

@@ -22,6 +22,7 @@ use crate::services::detectors::scan::Sweep;
 use crate::services::detectors::scene::Scene;
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
 use crate::services::mot::{Settings, Tracker};
+use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 
 /// How long its services compute, ns.
@@ -256,19 +257,21 @@ impl<'a> Station<'a> {
     fn with_those_of_cav(&self, known: &Known<'_>, tracks: &[Track]) -> Vec<Track> {
         let mut all = tracks.to_vec();
         if let Some(own) = self.of_cav(known) {
+            let dt = seconds(known.now_ns - own.stamp_ns);
+            let moved = |it: &Track| Track { x: it.x + it.vx * dt, y: it.y + it.vy * dt, ..*it };
             let at = |it: &Track| Point::new(it.x, it.y);
-            let is_new = |it: &&Track| tracks.iter().all(|own| at(own).distance(at(it)) > MERGE_M);
-            all.extend(own.items.iter().filter(is_new));
+            let is_new = |it: &Track| tracks.iter().all(|own| at(own).distance(at(it)) > MERGE_M);
+            all.extend(own.items.iter().map(moved).filter(is_new));
         }
         all
     }
 
-    /// The CAV's own tracks of the same time, which stage iii compares with in `PlanRemote`.
+    /// The CAV's own tracks, which stage iii compares with in `PlanRemote`; where those of this moment are still under
+    /// way, the ones before.
     fn of_cav(&self, known: &Known<'_>) -> Option<TrackList<'_>> {
         let (stamp_ns, items) = self.of_cav.as_ref()?;
         let is_used = known.configuration == Configuration::PlanRemote;
-        let is_of_now = *stamp_ns == known.detections.stamp_ns;
-        (is_used && is_of_now).then_some(TrackList { stamp_ns: *stamp_ns, items })
+        is_used.then_some(TrackList { stamp_ns: *stamp_ns, items })
     }
 
     /// ENV and TPL. With a station that asks: the first plan that passes beside the tracks that are sent, or none;
