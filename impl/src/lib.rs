@@ -133,6 +133,7 @@
 //! | `spec/` | here |
 //! |---|---|
 //! | `5-interfaces.md#monitor` | [`monitor`] |
+//! | `5-interfaces.md#precheck` | [`provider`] |
 //! | `3-stages.md#schedule` | [`stages`] |
 //! | stage i to stage v | `stages::{i_track_validation, .., v_grid_map}` |
 //! | `3-stages.md#distances`, LLCC | `stages::{distances, horizon, llcc}` |
@@ -176,6 +177,7 @@ pub mod offloading;
 #[cfg(feature = "parts")]
 #[doc(hidden)]
 pub mod parts;
+pub mod provider;
 pub mod report;
 pub mod services;
 pub mod stages;

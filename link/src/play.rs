@@ -194,7 +194,7 @@ impl Played {
 }
 
 /// The CAV so much later, ns, if it drives straight on.
-fn driven_on(ego: Ego, later_ns: i64) -> Ego {
+pub(crate) fn driven_on(ego: Ego, later_ns: i64) -> Ego {
     #[allow(clippy::cast_precision_loss, reason = "some tens of milliseconds")]
     let way_m = ego.speed * later_ns as f64 * 1e-9;
     Ego { x: ego.x + way_m * ego.cos, y: ego.y + way_m * ego.sin, ..ego }

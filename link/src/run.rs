@@ -64,15 +64,22 @@ impl VehicleRun {
 
 /// Runs a station until `stop` is set.
 ///
+/// It replays the `offered` drive, which may be attacked; of what that and the clean one have in common it asks
+/// the stages before, with the settings of the vehicle, if they are given.
+///
 /// Errors: a drive too far from the origin of its frame.
 pub fn station(
     id: i64,
-    played: &Played,
+    [clean, offered]: [&Played; 2],
+    asks: Option<&Settings>,
     clock: SharedClock,
     transport: &mut impl Transport,
     stop: &AtomicBool,
 ) -> Result<StationSummary, EncodeError> {
-    let mut station = Station::new(id, played, transport)?;
+    let mut station = Station::new(id, offered, transport)?;
+    if let Some(settings) = asks {
+        station = station.asking(clean, settings);
+    }
     while !stop.load(Ordering::Relaxed) {
         let due_ns = station.step(clock.now_ns());
         station.wait(until(due_ns, clock));
@@ -81,12 +88,13 @@ pub fn station(
 }
 
 /// Vehicle and station in one process, each on its own thread and transport, until the drive has ended.
-/// `offered`: the drive as the station, whose id is given, replays it; it may be attacked.
+/// `offered`: the drive as the station, whose id is given, replays it; it may be attacked. `asks`: whether it
+/// asks before it sends.
 ///
 /// Errors: those of the vehicle and of the station.
 pub fn both(
     run: &VehicleRun,
-    station_id: i64,
+    (station_id, asks): (i64, bool),
     [driven, offered]: [&Played; 2],
     clock: SharedClock,
     (of_vehicle, of_station): (&mut impl Transport, &mut (impl Transport + Send)),
@@ -95,7 +103,10 @@ pub fn both(
 ) -> Result<StationSummary, VehicleError> {
     let has_ended = AtomicBool::new(false);
     thread::scope(|scope| {
-        let serving = scope.spawn(|| station(station_id, offered, clock, of_station, &has_ended));
+        let serving = scope.spawn(|| {
+            let asks = asks.then_some(&run.settings);
+            station(station_id, [driven, offered], asks, clock, of_station, &has_ended)
+        });
         let driven = run.run(driven, clock, of_vehicle, tally, stop);
         has_ended.store(true, Ordering::Relaxed);
         let served = serving.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));

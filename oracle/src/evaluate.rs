@@ -307,9 +307,10 @@ fn page_of(id: &str) -> PathBuf {
 
 /// The name of the report. Runs are linked whose pages are there.
 fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result<PathBuf> {
-    let Options { scenarios, vehicles, seed, map } = results.options;
+    let Options { scenarios, vehicles, seed, map, without_precheck } = results.options;
     let on = maps::option(map);
-    let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}{on}");
+    let asks = if without_precheck { " --without-precheck" } else { "" };
+    let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}{on}{asks}");
     let failed = |run: &Failed| {
         let page = page_of(&run.id);
         let page = folder.join(&page).exists().then(|| page.display().to_string());

@@ -81,7 +81,15 @@ pub fn vehicle(
         let mut of_station = hub.join(Address::Station(STATION));
         let channels = (&mut of_vehicle, &mut of_station);
         let plays = [&driven, &offered];
-        Some(words(run::both(&run, STATION, plays, clock, channels, &mut tally, stop))?)
+        Some(words(run::both(
+            &run,
+            (STATION, !arguments.without_precheck),
+            plays,
+            clock,
+            channels,
+            &mut tally,
+            stop,
+        ))?)
     };
     let summary = tally.summary();
     write_json(arguments.json.as_deref(), &summary)?;
@@ -102,7 +110,11 @@ pub fn station(
 ) -> Result<u8, String> {
     let (drive, _) = drive(&arguments.drive, None)?;
     prepare(arguments.json.as_deref())?;
-    let played = words(Played::new(attacked(drive, &arguments.inject)?))?;
+    let offered = attacked(drive.clone(), &arguments.inject)?;
+    let [clean, played] = [drive, offered].map(Played::new).map(words);
+    let (clean, played) = (clean?, played?);
+    let settings = run::settings(&clean, &requester::Parameters::default());
+    let asks = Some(&settings).filter(|_| !arguments.without_precheck);
     let mut broker = words(Amqp::new(&arguments.broker, Address::Station(arguments.id)))?;
     tell_unless_connected(&arguments.broker, &broker);
     if let Some(seconds) = arguments.seconds {
@@ -113,7 +125,8 @@ pub fn station(
         });
     }
     let clock = words(SharedClock::new())?;
-    let summary = words(run::station(arguments.id, &played, clock, &mut broker, stop))?;
+    let summary =
+        words(run::station(arguments.id, [&clean, &played], asks, clock, &mut broker, stop))?;
     write_json(arguments.json.as_deref(), &summary)?;
     words(writeln!(out, "{}", of_station(&summary).trim_fmt()))?;
     Ok(never_connected(&summary.traffic))

@@ -23,9 +23,33 @@ pub struct Road<'a> {
     pub signals: &'a [f64],
 }
 
+/// Shares of the present speed that more careful plans keep below.
+const CAREFUL: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
+
 /// A trajectory from now on, along a route, between the tracks, before signals, and behind those of the
 /// tracks that go first.
 pub fn plan(
+    now_ns: i64,
+    ego: &Ego,
+    road: &Road<'_>,
+    tracks: &TrackList<'_>,
+) -> Vec<TrajectoryPoint> {
+    below(f64::INFINITY, now_ns, ego, road, tracks)
+}
+
+/// The same slower and slower, for who cannot take the plan; each is made when it is asked for.
+pub fn slower(
+    now_ns: i64,
+    ego: &Ego,
+    road: &Road<'_>,
+    tracks: &TrackList<'_>,
+) -> impl Iterator<Item = Vec<TrajectoryPoint>> {
+    CAREFUL.into_iter().map(move |share| below(share * ego.speed, now_ns, ego, road, tracks))
+}
+
+/// A plan that is nowhere faster than this, m/s, from when it can be on.
+fn below(
+    speed: f64,
     now_ns: i64,
     ego: &Ego,
     road: &Road<'_>,
@@ -44,5 +68,5 @@ pub fn plan(
     let situation = Situation { now_ns, ego: *ego, path, near_s, stops: &stops };
     let model = environment(&situation, tracks);
     let settings = tpl::settings::Settings::default();
-    tpl::trajectory(now_ns, ego, path, &model, &|s| route.limit_at(s), &settings)
+    tpl::trajectory(now_ns, ego, path, &model, &|s| route.limit_at(s).min(speed), &settings)
 }

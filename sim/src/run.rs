@@ -14,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attack::{Attack, Attacker};
+use crate::cav::asking::Asking;
 use crate::cav::guard::{Decided, Guard, Variant};
 use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
@@ -51,6 +52,8 @@ pub struct Settings {
     pub has_no_lead: bool,
     /// From when on the CAV examines its own plans in `Local`, and brakes where one fails, s (F-48). Not in `Sofof`.
     pub examines_own: Option<f64>,
+    /// Whether the station, and the CAV's own planner in `MotRemote`, ask the stages before they send. Not in `Sofof`.
+    pub prechecks: bool,
     /// What the station offers.
     pub offers: Groups,
     /// Where along the route each group may be offloaded, m.
@@ -83,6 +86,7 @@ impl Settings {
             drives_on: false,
             has_no_lead: false,
             examines_own: None,
+            prechecks: true,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
             attacks: Vec::new(),
@@ -95,13 +99,25 @@ impl Settings {
         }
     }
 
+    /// By which the stages check.
+    const fn profile(&self) -> Option<Profile> {
+        match self.variant {
+            Variant::Sofof => None,
+            Variant::Paper => Some(Profile::Paper),
+            Variant::Hardened => Some(Profile::Hardened),
+        }
+    }
+
     /// What keeps the cycles that are recorded.
     fn recorder(&self) -> Recorder {
-        match self.variant {
-            Variant::Sofof => Recorder::default(),
-            Variant::Paper => Recorder::new(self.recorded, Profile::Paper, self.stages),
-            Variant::Hardened => Recorder::new(self.recorded, Profile::Hardened, self.stages),
-        }
+        let recorder = |profile| Recorder::new(self.recorded, profile, self.stages);
+        self.profile().map_or_else(Recorder::default, recorder)
+    }
+
+    /// What asks before something is sent on this route.
+    fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
+        let profile = self.profile().filter(|_| self.prechecks)?;
+        Some(Asking::new(profile, self.stages, route))
     }
 }
 
@@ -252,8 +268,10 @@ pub fn simulate(
     let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)
         .driving_on(settings.drives_on)
         .without_lead(settings.has_no_lead)
+        .asking(settings.asking(&corridor))
         .examining(settings.examines_own.map(|from| OwnPlans::new(stages, &corridor, from)));
-    let mut station = Station::new((town, route), frame, settings.offers, noise);
+    let mut station = Station::new((town, route), frame, settings.offers, noise)
+        .asking(settings.asking(&corridor));
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);
     let mut attacker = Attacker::new(settings.attacks.clone(), elsewhere);

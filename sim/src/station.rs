@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
-use mufasa::services::configuration::{Group, Groups};
+use mufasa::input::cycle::{Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint};
+use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
 use mufasa_model::offloading::provider::{
     DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind, Reply,
@@ -11,16 +11,18 @@ use mufasa_model::offloading::provider::{
 use mufasa_props::bridge;
 
 use crate::attack::{Attacker, Results};
+use crate::cav::asking::{Asking, Known};
 use crate::ids;
 use crate::map::Town;
 use crate::map::route::Route;
-use crate::planner::{Road, plan};
+use crate::planner::{Road, plan, slower};
 use crate::pose::{Point, Pose};
 use crate::radio::{Radio, To};
 use crate::services::detectors::scan::Sweep;
 use crate::services::detectors::scene::Scene;
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
 use crate::services::mot::{Settings, Tracker};
+use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 
 /// How long its services compute, ns.
@@ -50,6 +52,10 @@ pub struct Station<'a> {
     seen: Option<(i64, Vec<Detection>)>,
     /// Distance of the farthest detection of the CAV, m.
     reach: f64,
+    /// What it asks before it sends, if it asks.
+    asking: Option<Asking>,
+    /// The CAV's own tracks, which it sends while its MOT is not remote.
+    of_cav: Option<(i64, Vec<Track>)>,
     signals: Vec<f64>,
     near_s: Option<f64>,
     offered_ns: Option<i64>,
@@ -80,11 +86,19 @@ impl<'a> Station<'a> {
             seen_by_cav: BTreeMap::new(),
             seen: None,
             reach: 0.0,
+            asking: None,
+            of_cav: None,
             signals: Vec::new(),
             near_s: None,
             offered_ns: None,
             executions: [0; 2],
         }
+    }
+
+    /// The same; what it asks before it sends, if it asks.
+    pub fn asking(mut self, asking: Option<Asking>) -> Self {
+        self.asking = asking;
+        self
     }
 
     /// Its sensors look, and it says what it offers when that is due.
@@ -134,12 +148,12 @@ impl<'a> Station<'a> {
             Payload::Detections { stamp_ns, ego, detections } => {
                 self.compute(now_ns, requester, stamp_ns, &ego, &detections, attacker, radio);
             }
+            Payload::Tracks { stamp_ns, tracks, .. } => self.of_cav = Some((stamp_ns, tracks)),
             Payload::State { .. }
             | Payload::Offer { .. }
             | Payload::Withdraw
             | Payload::Confirm { .. }
             | Payload::Reject { .. }
-            | Payload::Tracks { .. }
             | Payload::Trajectory { .. } => {}
         }
     }
@@ -164,12 +178,31 @@ impl<'a> Station<'a> {
         self.reach = reach(ego, detections);
         let tracks = self.track(stamp_ns, detections.to_vec());
         self.note(stamp_ns, detections, &tracks);
+        if let Some(asking) = &mut self.asking {
+            asking.see(stamp_ns, detections);
+        }
+        let known = Known {
+            configuration: configuration(sessions),
+            now_ns: stamp_ns,
+            ego: *ego,
+            detections: DetectionList { stamp_ns, items: detections },
+            lead: None,
+            grid: None,
+        };
+        let all = self.with_those_of_cav(&known, &tracks);
+        let sent = match &mut self.asking {
+            Some(asking) if sessions[0].is_some() => asking.tracks(&known, (stamp_ns, tracks)),
+            Some(_) => None,
+            None => {
+                let seen = tracks.into_iter().filter(|it| self.can_be_checked(stamp_ns, ego, it));
+                Some(seen.collect())
+            }
+        };
         let plans = sessions[1].is_some();
-        let believed = attacker.believed(stamp_ns, ego, &tracks);
-        let route = attacker.route().unwrap_or(self.route);
-        let points = plans.then(|| self.plan(stamp_ns, ego, route, &believed));
-        let tracks =
-            tracks.into_iter().filter(|it| self.can_be_checked(stamp_ns, ego, it)).collect();
+        let points = plans.then(|| self.plan(&known, &all, sent.as_deref(), attacker));
+        // Where not even an empty list passes there is nothing to send.
+        let sessions = [sessions[0].filter(|_| sent.is_some()), sessions[1]];
+        let tracks = sent.unwrap_or_default();
         let mut results = Results { stamp_ns, tracks, points: points.unwrap_or_default() };
         attacker.results(ego, &mut results);
         let done_ns = now_ns + COMPUTES_NS + attacker.delay_ns();
@@ -180,7 +213,7 @@ impl<'a> Station<'a> {
             let payload = Payload::Tracks { session, stamp_ns, tracks };
             self.send_held(done_ns, held_ns, (requester, payload), radio);
         }
-        if let Some(session) = sessions[1] {
+        if let Some(session) = sessions[1].filter(|_| !points.is_empty()) {
             let payload = Payload::Trajectory { session, stamp_ns, points };
             self.send_held(done_ns, held_ns, (requester, payload), radio);
         }
@@ -220,19 +253,60 @@ impl<'a> Station<'a> {
         is_seen || distance(ego, track.x, track.y) > self.reach + MERGE_M
     }
 
-    /// ENV and TPL.
+    /// The tracks, and in `PlanRemote` those of the CAV that the station does not have.
+    fn with_those_of_cav(&self, known: &Known<'_>, tracks: &[Track]) -> Vec<Track> {
+        let mut all = tracks.to_vec();
+        if let Some(own) = self.of_cav(known) {
+            let dt = seconds(known.now_ns - own.stamp_ns);
+            let moved = |it: &Track| Track { x: it.x + it.vx * dt, y: it.y + it.vy * dt, ..*it };
+            let at = |it: &Track| Point::new(it.x, it.y);
+            let is_new = |it: &Track| tracks.iter().all(|own| at(own).distance(at(it)) > MERGE_M);
+            all.extend(own.items.iter().map(moved).filter(is_new));
+        }
+        all
+    }
+
+    /// The CAV's own tracks, which stage iii compares with in `PlanRemote`; where those of this moment are still under
+    /// way, the ones before.
+    fn of_cav(&self, known: &Known<'_>) -> Option<TrackList<'_>> {
+        let (stamp_ns, items) = self.of_cav.as_ref()?;
+        let is_used = known.configuration == Configuration::PlanRemote;
+        is_used.then_some(TrackList { stamp_ns: *stamp_ns, items })
+    }
+
+    /// ENV and TPL. With a station that asks: the first plan that passes beside the tracks that are sent, or none;
+    /// an attacker who feeds or owns the planner asks nobody.
     fn plan(
         &mut self,
-        stamp_ns: i64,
-        ego: &Ego,
-        route: &Route,
+        known: &Known<'_>,
         tracks: &[Track],
+        sent: Option<&[Track]>,
+        attacker: &Attacker<'_>,
     ) -> Vec<TrajectoryPoint> {
         self.executions[1] += 1;
-        let list = TrackList { stamp_ns, items: tracks };
-        let own = core::ptr::eq(route, self.route);
-        let (near_s, signals) = if own { (self.near_s, &*self.signals) } else { (None, &[][..]) };
-        plan(stamp_ns, ego, &Road { town: self.town, route, near_s, signals }, &list)
+        let (stamp_ns, ego) = (known.now_ns, &known.ego);
+        let believed = attacker.believed(stamp_ns, ego, tracks);
+        let elsewhere = attacker.route();
+        let is_honest = elsewhere.is_none() && believed == tracks;
+        let list = TrackList { stamp_ns, items: &believed };
+        let (near_s, signals) = match elsewhere {
+            None => (self.near_s, &*self.signals),
+            Some(_) => (None, &[][..]),
+        };
+        let route = elsewhere.unwrap_or(self.route);
+        let road = Road { town: self.town, route, near_s, signals };
+        let plan = plan(stamp_ns, ego, &road, &list);
+        let mut asking = self.asking.take();
+        let first = match asking.as_mut().filter(|_| is_honest) {
+            Some(asking) => {
+                let sent = sent.map(|items| TrackList { stamp_ns, items });
+                let all = [plan].into_iter().chain(slower(stamp_ns, ego, &road, &list));
+                asking.first(known, sent.or(self.of_cav(known)), stamp_ns, all).unwrap_or_default()
+            }
+            None => plan,
+        };
+        self.asking = asking;
+        first
     }
 
     fn happens(&mut self, t_ns: i64, kind: ProviderEventKind, radio: &mut Radio) {
@@ -266,6 +340,16 @@ impl<'a> Station<'a> {
         if let Ok(bytes) = message::encode(&message, &self.frame) {
             radio.hold(now_ns, held_ns, To::Vehicle, bytes);
         }
+    }
+}
+
+/// In which the CAV will use what it gets in these sessions.
+const fn configuration(sessions: [Option<i64>; 2]) -> Configuration {
+    match sessions {
+        [Some(_), Some(_)] => Configuration::AllRemote,
+        [Some(_), None] => Configuration::MotRemote,
+        [None, Some(_)] => Configuration::PlanRemote,
+        [None, None] => Configuration::Local,
     }
 }
 

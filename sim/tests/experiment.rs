@@ -12,13 +12,12 @@ use mufasa_sim::experiment::{
     attacks, availability, combinations, cpu, failures, falsify, rules, stages,
 };
 use mufasa_sim::map::Town;
-use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
 use serde::Serialize;
 
 /// Fewer scenarios than of the real ones: this is compiled without all optimisation.
-const SMALL: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
+const SMALL: Options = Options::town(2, 15, 0);
 
 /// Nobody is told how far it is.
 fn campaign<'a>(town: &'a Town, options: Options, select: &'a Select<'a>) -> Campaign<'a> {
@@ -43,7 +42,7 @@ fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
+    let size = Options::town(2, 8, 3);
     let only = Some("failures/hardened/ghosts");
     let make = || {
         failures::experiment(&campaign(&town, size, &Select::only(only))).expect("the town can be")
@@ -61,7 +60,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 #[test]
 fn a_run_is_repeated_alone_by_its_id() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 8, seed: 3, map: MapId::Town };
+    let size = Options::town(2, 8, 3);
     let make = |only| {
         failures::experiment(&campaign(&town, size, &Select::only(Some(only))))
             .expect("the town can be")
@@ -94,7 +93,7 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 
 #[test]
 fn every_stage_runs_and_the_hardened_profile_arrives() {
-    let size = Options { scenarios: 2, vehicles: 30, seed: 0, map: MapId::Town };
+    let size = Options::town(2, 30, 0);
     let made =
         stages::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
@@ -111,7 +110,7 @@ fn every_stage_runs_and_the_hardened_profile_arrives() {
 #[test]
 fn ids_differ_and_every_combination_is_there() {
     let town = town();
-    let size = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
+    let size = Options::town(2, 15, 0);
     let mut ids: Vec<String> = failures::jobs(&town, size).into_iter().map(|it| it.id).collect();
     ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
@@ -225,7 +224,7 @@ fn attacks_are_combined_at_random_and_again_the_same() {
 
 #[test]
 fn every_false_alarm_of_the_price_of_rules_has_a_cause() {
-    let size = Options { scenarios: 1, vehicles: 8, seed: 0, map: MapId::Town };
+    let size = Options::town(1, 8, 0);
     let made =
         rules::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
     assert_eq!((made.rows.len(), made.runs.len()), (15, 30));

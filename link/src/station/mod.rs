@@ -2,17 +2,21 @@
 //!
 //! As the vehicle it has no clock and waits for nothing.
 
+mod asking;
 mod replay;
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use mufasa::services::configuration::{Group, Groups};
+use mufasa::input::cycle::{Detection, Ego, Track};
+use mufasa::monitor::Settings;
+use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_model::offloading::provider::{Provider, ProviderEvent, ProviderEventKind, Reply};
 use mufasa_props::bridge;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use self::asking::{Asking, Told};
 use self::replay::Replay;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
@@ -41,6 +45,10 @@ pub struct Station<'a, T> {
     provider: Provider,
     /// Where in the drive each vehicle with a session is.
     replays: BTreeMap<i64, Replay>,
+    /// What it asks before it sends, if it asks.
+    asking: Option<Asking<'a>>,
+    /// The own tracks of each vehicle that sent some.
+    own_tracks: BTreeMap<i64, (i64, Vec<Track>)>,
     offered_ns: Option<i64>,
     summary: StationSummary,
 }
@@ -67,9 +75,17 @@ impl<'a, T: Transport> Station<'a, T> {
             transport,
             provider: Provider::new(CAPACITY, LEASE_NS),
             replays: BTreeMap::new(),
+            asking: None,
+            own_tracks: BTreeMap::new(),
             offered_ns: None,
             summary: StationSummary::default(),
         })
+    }
+
+    /// The same; before it sends what the clean drive has it asks the stages, by the vehicle's settings.
+    pub fn asking(mut self, clean: &'a Played, settings: &Settings) -> Self {
+        self.asking = Some(Asking::new(clean, settings.stages));
+        self
     }
 
     /// Takes what has arrived, and does what is due. Returns when something is due next, ns.
@@ -137,6 +153,11 @@ impl<'a, T: Transport> Station<'a, T> {
                 if !replay.locate(self.played, stamp_ns, &ego) {
                     return self.summary.traffic.dropped("off the drive");
                 }
+                let asks = self.asking.as_ref().and_then(|it| replay.cycle(it.clean, stamp_ns));
+                if asks.is_some_and(|cycle| cycle.detections.is_some()) {
+                    // It is asked about when the detections come.
+                    return;
+                }
                 let trajectory = replay.trajectory(self.played, stamp_ns);
                 if let (Some(session), Some((stamp_ns, points))) =
                     (self.session(requester, Group::Plan), trajectory)
@@ -144,14 +165,11 @@ impl<'a, T: Transport> Station<'a, T> {
                     self.send(now_ns, requester, Payload::Trajectory { session, stamp_ns, points });
                 }
             }
-            Payload::Detections { stamp_ns, .. } => {
-                let tracks =
-                    self.replays.get(&requester).and_then(|it| it.tracks(self.played, stamp_ns));
-                if let (Some(session), Some((stamp_ns, tracks))) =
-                    (self.session(requester, Group::Mot), tracks)
-                {
-                    self.send(now_ns, requester, Payload::Tracks { session, stamp_ns, tracks });
-                }
+            Payload::Detections { stamp_ns, ego, detections } => {
+                self.answer(now_ns, requester, (stamp_ns, ego), &detections);
+            }
+            Payload::Tracks { stamp_ns, tracks, .. } if self.has_session(requester) => {
+                self.own_tracks.insert(requester, (stamp_ns, tracks));
             }
             Payload::Offer { .. }
             | Payload::Withdraw
@@ -159,6 +177,44 @@ impl<'a, T: Transport> Station<'a, T> {
             | Payload::Reject { .. }
             | Payload::Tracks { .. }
             | Payload::Trajectory { .. } => self.summary.traffic.dropped("of a station"),
+        }
+    }
+
+    /// Tracks, and the trajectory if it was not sent yet: what the drive has, and passes where it is asked for.
+    fn answer(
+        &mut self,
+        now_ns: i64,
+        requester: i64,
+        (stamp_ns, ego): (i64, Ego),
+        detections: &[Detection],
+    ) {
+        let Some(replay) = self.replays.get(&requester) else { return };
+        let [mot, plan] = Group::ALL.map(|group| self.session(requester, group));
+        let mut tracks = replay.tracks(self.played, stamp_ns).filter(|_| mot.is_some());
+        let mut trajectory = None;
+        if let Some(asking) = &mut self.asking {
+            let configuration = match (mot, plan) {
+                (Some(_), Some(_)) => Configuration::AllRemote,
+                (Some(_), None) => Configuration::MotRemote,
+                (None, Some(_)) => Configuration::PlanRemote,
+                (None, None) => return,
+            };
+            let Some(cycle) = replay.cycle(asking.clean, stamp_ns) else { return };
+            let told = Told { cycle, configuration, ego, stamp_ns, detections };
+            if tracks.is_some() && tracks == replay.tracks(asking.clean, stamp_ns) {
+                tracks = tracks.and_then(|tracks| asking.tracks(&told, tracks));
+            }
+            trajectory = replay.trajectory(self.played, stamp_ns).filter(|_| plan.is_some());
+            if trajectory.is_some() && trajectory == replay.trajectory(asking.clean, stamp_ns) {
+                let beside = tracks.as_ref().or_else(|| self.own_tracks.get(&requester));
+                trajectory = trajectory.and_then(|it| asking.trajectory(&told, beside, it));
+            }
+        }
+        if let (Some(session), Some((stamp_ns, tracks))) = (mot, tracks) {
+            self.send(now_ns, requester, Payload::Tracks { session, stamp_ns, tracks });
+        }
+        if let (Some(session), Some((stamp_ns, points))) = (plan, trajectory) {
+            self.send(now_ns, requester, Payload::Trajectory { session, stamp_ns, points });
         }
     }
 
@@ -180,6 +236,7 @@ impl<'a, T: Transport> Station<'a, T> {
         // Of who has no session nothing is remembered.
         let provider = &self.provider;
         self.replays.retain(|requester, _| has_session(provider, *requester));
+        self.own_tracks.retain(|requester, _| has_session(provider, *requester));
     }
 
     fn has_session(&self, requester: i64) -> bool {

@@ -1,6 +1,7 @@
 //! The stand-in services: what a drive holds, at the place and time where the vehicle is.
 
 use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
+use mufasa_model::input::cycle::Cycle;
 use mufasa_props::bridge;
 
 use crate::play::{Played, moved};
@@ -23,6 +24,11 @@ impl Replay {
         true
     }
 
+    /// The cycle of that time.
+    pub(super) fn cycle<'p>(&self, played: &'p Played, stamp_ns: i64) -> Option<&'p Cycle> {
+        played.at(stamp_ns.saturating_sub(self.later_ns?))
+    }
+
     /// Plans for that time: the trajectory of the drive with its stamp, if there is one.
     pub(super) fn trajectory(
         &self,
@@ -30,7 +36,7 @@ impl Replay {
         stamp_ns: i64,
     ) -> Option<(i64, Vec<TrajectoryPoint>)> {
         let later_ns = self.later_ns?;
-        let owned = bridge::to_impl(played.at(stamp_ns.saturating_sub(later_ns))?);
+        let owned = bridge::to_impl(self.cycle(played, stamp_ns)?);
         let trajectory = owned.borrow(&[]).trajectory?;
         Some((trajectory.stamp_ns.saturating_add(later_ns), moved(trajectory, later_ns)))
     }
@@ -39,7 +45,7 @@ impl Replay {
     /// if there are any.
     pub(super) fn tracks(&self, played: &Played, stamp_ns: i64) -> Option<(i64, Vec<Track>)> {
         let later_ns = self.later_ns?;
-        let owned = bridge::to_impl(played.at(stamp_ns.saturating_sub(later_ns))?);
+        let owned = bridge::to_impl(self.cycle(played, stamp_ns)?);
         let list = owned.borrow(&[]).tracks?;
         let numbered = (0..).zip(list.items).map(|(id, track)| Track { id, ..*track });
         Some((list.stamp_ns.saturating_add(later_ns), numbered.collect()))

@@ -223,6 +223,15 @@ impl<'a, T: Transport> Vehicle<'a, T> {
         let detections = owned.borrow(&[]).detections;
         for station in stations.into_iter().flatten() {
             self.send(now_ns, station, Payload::State { stamp_ns: sensed_ns, ego });
+            if let (Configuration::PlanRemote, Some(list), GroupState::Remote { session, .. }) =
+                (self.configuration(), owned.borrow(&[]).tracks, self.states()[1])
+            {
+                // With these stage iii will compare what the station plans.
+                let stamp_ns = list.stamp_ns.saturating_add(later_ns);
+                let tracks = (0..).zip(list.items).map(|(id, track)| Track { id, ..*track });
+                let tracks = tracks.collect();
+                self.send(now_ns, station, Payload::Tracks { session, stamp_ns, tracks });
+            }
             if let Some(list) = detections {
                 let stamp_ns = list.stamp_ns.saturating_add(later_ns);
                 let detections = list.items.to_vec();

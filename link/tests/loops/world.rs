@@ -33,6 +33,8 @@ pub struct World {
     /// What the station does to the drive.
     pub inject: Vec<&'static str>,
     pub requester: Parameters,
+    /// Whether the station asks before it sends.
+    pub asks: bool,
     /// Times in ms, from which to which there is a station.
     pub station: Vec<(i64, i64)>,
     /// Times in ms, at which the vehicle is started anew.
@@ -69,6 +71,7 @@ impl Default for World {
             disturbances: Vec::new(),
             inject: Vec::new(),
             requester: Parameters { dt_max_ns: 150 * MS, ..Parameters::default() },
+            asks: true,
             station: vec![(0, i64::MAX)],
             restarts: Vec::new(),
             also: Box::new(|_, _| {}),
@@ -144,6 +147,9 @@ impl World {
                 let until_ms = span.map_or(ms + 1, |(_, to)| to.min(end_ms));
                 let mut of_station = hub.join(Address::Station(1));
                 let mut station = Station::new(1, &offered, &mut of_station).expect("a frame");
+                if self.asks {
+                    station = station.asking(&played, &settings);
+                }
                 let mut has_ended = false;
                 while ms < until_ms && !has_ended {
                     let now_ns = START_NS + ms * MS;

@@ -39,6 +39,9 @@ pub(crate) struct VehicleArguments {
     /// Let the station in this process attack its results, as `check` does: NAME@FROM..TO (s).
     #[arg(long, value_name = "ATTACK", conflicts_with = "broker")]
     pub(crate) inject: Vec<Injection>,
+    /// The station in this process sends what it has, and does not ask the stages before.
+    #[arg(long, conflicts_with = "broker")]
+    pub(crate) without_precheck: bool,
     /// Write the summary as JSON.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
@@ -65,6 +68,9 @@ pub(crate) struct StationArguments {
     /// End after so many seconds.
     #[arg(long, value_name = "S", value_parser = whole(1_u64, 1_000_000_000))]
     pub(crate) seconds: Option<u64>,
+    /// The station sends what it has, and does not ask the stages before.
+    #[arg(long)]
+    pub(crate) without_precheck: bool,
     /// Write the summary as JSON.
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,

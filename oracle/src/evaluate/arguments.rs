@@ -83,6 +83,10 @@ pub struct SizeArguments {
     /// Drive on the map in this folder, not in the town: that of uulm-mrm/tpl's `data`, Ulm-Lehr.
     #[arg(long, value_name = "FOLDER")]
     pub map: Option<PathBuf>,
+    /// The station, and the CAV's own planner beside remote tracks, send what they have: they do not ask the stages
+    /// before, of tracks and of a few plans.
+    #[arg(long)]
+    pub without_precheck: bool,
     /// Only runs whose id is this or begins with these parts, such as failures/paper/tracks-empty/0/3.
     #[arg(long, value_name = "ID")]
     pub only: Option<String>,
@@ -114,6 +118,7 @@ impl SizeArguments {
             vehicles: self.vehicles.map_or(defaults.vehicles, usize::from),
             seed: self.seed,
             map: defaults.map,
+            without_precheck: self.without_precheck,
         }
     }
 }

@@ -67,6 +67,9 @@ pub struct ReplayArguments {
     /// Start of the attack, s; it goes on to the end.
     #[arg(long, value_name = "S", default_value = "5", value_parser = whole(0, u16::MAX), allow_negative_numbers = true)]
     pub from: u16,
+    /// The station sends what it has, as in an experiment `--without-precheck`.
+    #[arg(long, conflicts_with = "found")]
+    pub without_precheck: bool,
     /// The page; by default its name says which run it is.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -119,7 +122,8 @@ fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job<()>), Strin
             let town = maps::of(folder)?;
             let place = (variant, usize::from(route), scenario);
             let vehicles = vehicles.map_or(VEHICLES, usize::from);
-            let of = Options { scenarios: 1, vehicles, seed: 0, map: town.id };
+            let without_precheck = arguments.without_precheck;
+            let of = Options { map: town.id, without_precheck, ..Options::town(1, vehicles, 0) };
             let mut job = Job::new("replay", (kind_name(attack_of), ()), place, of);
             let attack = |kind| Attack::new(kind, from.into(), f64::INFINITY, scenario);
             job.settings.attacks = attack_of.into_iter().map(attack).collect();
@@ -154,6 +158,7 @@ fn of_experiment(
         vehicles: arguments.vehicles.map_or(defaults.vehicles, usize::from),
         seed: arguments.seed,
         map: town.id,
+        without_precheck: arguments.without_precheck,
     };
     let mut jobs = jobs(name, &sized, town);
     let at = jobs.iter().position(|job| job.id == id);

@@ -182,6 +182,7 @@ pub fn availability(of: &availability::Availability) -> Rows {
             number("link lost", |row| row.lost.to_string()),
             number("MOT remote", |row| share(row.share_mot)),
             number("PLAN remote", |row| share(row.share_plan)),
+            number("both", |row| share(row.share_both)),
         ],
     )
 }
@@ -204,6 +205,7 @@ pub fn rules(of: &rules::Rules) -> Rows {
             number("link lost", |row| row.lost.to_string()),
             number("MOT remote", |row| format!("{:.1} %", row.share_mot * 100.0)),
             number("PLAN remote", |row| format!("{:.1} %", row.share_plan * 100.0)),
+            number("both", |row| format!("{:.1} %", row.share_both * 100.0)),
             text("fallbacks by stage and rule of the witness", |row| row.by.clone()),
         ],
     )

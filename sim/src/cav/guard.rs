@@ -19,7 +19,7 @@ use mufasa_props::call;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::assembled::{Chosen, Last};
+use super::assembled::{Chosen, Last, Stamped};
 pub use super::decided::{Decided, Local};
 use super::recorder::Recorder;
 use super::sensing::Sensed;
@@ -150,14 +150,24 @@ impl<'a> Guard<'a> {
         }
     }
 
+    /// The tracks of a station that the next cycle will have.
+    pub(super) fn remote_tracks(&self) -> Option<Stamped<'_, Track>> {
+        let none = Local { tracks: None, points: None };
+        Chosen::new(self.requester(), self.last(), none).tracks
+    }
+
     /// The last results of stations that were accepted, whatever became of them: for who looks on.
     pub fn accepted(&self) -> (Option<&[Track]>, Option<&[TrajectoryPoint]>) {
-        let Last { tracks, points } = match &self.kind {
-            Kind::Without(rules) => &rules.last,
-            Kind::Plain(_) | Kind::Checked { .. } => &self.last,
-        };
+        let Last { tracks, points } = self.last();
         let tracks = tracks.as_ref().map(|it| it.items.as_slice());
         (tracks, points.as_ref().map(|it| it.items.as_slice()))
+    }
+
+    fn last(&self) -> &Last {
+        match &self.kind {
+            Kind::Without(rules) => &rules.last,
+            Kind::Plain(_) | Kind::Checked { .. } => &self.last,
+        }
     }
 
     /// Something happened that is no data.

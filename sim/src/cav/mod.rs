@@ -1,5 +1,6 @@
 //! The CAV: sensors, its own services, what guards the link, and control.
 
+pub mod asking;
 mod assembled;
 pub mod cost;
 pub mod decided;
@@ -11,12 +12,13 @@ mod seen;
 pub mod sensing;
 pub mod without;
 
-use mufasa::input::cycle::{TrackList, TrajectoryPoint};
+use mufasa::input::cycle::{Detection, Track, TrackList, TrajectoryPoint};
 use mufasa::monitor::{Message as Received, Time};
 use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterError};
-use mufasa::services::configuration::{Group, Groups};
+use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
 
+use self::asking::{Asking, Known};
 use self::cost::{Cost, Part};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
@@ -25,7 +27,7 @@ use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
 use crate::map::Town;
 use crate::map::route::Route;
-use crate::planner::Road;
+use crate::planner::{Road, slower};
 use crate::radio::{Radio, To};
 use crate::services::control::{self, Controller};
 use crate::services::detectors::Errors;
@@ -60,9 +62,11 @@ pub struct Cav<'a> {
     controller: Controller,
     sensed: Option<Sensed>,
     /// Remote tracks that the last safe cycle let the CAV's own planner have.
-    tracks: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
+    tracks: Option<(i64, Vec<Track>)>,
     /// Its own tracks of the last cycle, if MOT ran.
-    own: Option<(i64, Vec<mufasa::input::cycle::Track>)>,
+    own: Option<(i64, Vec<Track>)>,
+    /// Those of the present measurements, where the station got them before the cycle is decided.
+    tracked: Option<(i64, Vec<Track>)>,
     /// What control follows.
     points: Vec<TrajectoryPoint>,
     /// By when it brakes along it where nothing newer has come, ns (F-47).
@@ -73,6 +77,8 @@ pub struct Cav<'a> {
     has_no_lead: bool,
     /// What its own plans are examined with, if they are (F-48).
     own_plans: Option<OwnPlans>,
+    /// What its planner asks before it hands a plan over in `MotRemote`, if it asks.
+    asking: Option<Asking>,
     cost: Cost,
     /// What the CAV counts.
     pub counts: Counts,
@@ -101,11 +107,13 @@ impl<'a> Cav<'a> {
             sensed: None,
             tracks: None,
             own: None,
+            tracked: None,
             points: Vec::new(),
             brake_by_ns: None,
             drives_on: false,
             has_no_lead: false,
             own_plans: None,
+            asking: None,
             cost: Cost::default(),
             counts: Counts::default(),
         }
@@ -126,6 +134,12 @@ impl<'a> Cav<'a> {
     /// The same; with what its own plans are examined, if they are (F-48).
     pub fn examining(mut self, own_plans: Option<OwnPlans>) -> Self {
         self.own_plans = own_plans;
+        self
+    }
+
+    /// The same; what its planner asks in `MotRemote` before it hands a plan over, if it asks.
+    pub fn asking(mut self, asking: Option<Asking>) -> Self {
+        self.asking = asking;
         self
     }
 
@@ -156,7 +170,7 @@ impl<'a> Cav<'a> {
 
     /// The tracks that it has, and whether they came over the link. None: neither did safe ones come nor
     /// does its own MOT run.
-    pub fn tracks(&self) -> Option<(bool, &[mufasa::input::cycle::Track])> {
+    pub fn tracks(&self) -> Option<(bool, &[Track])> {
         let remote = self.tracks.as_ref().map(|(_, tracks)| (true, tracks.as_slice()));
         remote.or_else(|| self.own.as_ref().map(|(_, tracks)| (false, tracks.as_slice())))
     }
@@ -181,6 +195,7 @@ impl<'a> Cav<'a> {
         {
             let ego = sensed.ego;
             self.send(now_ns, ids::STATION, Payload::State { stamp_ns: now_ns, ego }, radio);
+            self.tell_own_tracks(now_ns, &sensed.detections, radio);
             let detections = sensed.detections.clone();
             let payload = Payload::Detections { stamp_ns: now_ns, ego, detections };
             self.send(now_ns, ids::STATION, payload, radio);
@@ -190,6 +205,24 @@ impl<'a> Cav<'a> {
         let groups = Group::ALL.into_iter().zip(self.areas).filter(|(_, area)| is_in(*area));
         let groups: Vec<Group> = groups.map(|(group, _)| group).collect();
         self.happens(now_ns, EventKind::Area { groups: Groups::of(&groups) }, radio);
+    }
+
+    /// In `PlanRemote` the station gets the CAV's own tracks, with which stage iii will compare its plan.
+    fn tell_own_tracks(&mut self, now_ns: i64, detections: &[Detection], radio: &mut Radio) {
+        let GroupState::Remote { station, session } = self.guard.state(Group::Plan) else { return };
+        if self.asking.is_none() || self.guard.configuration() != Configuration::PlanRemote {
+            return;
+        }
+        let services = &mut self.services;
+        if let Some(tracks) = self.cost.of(Part::Mot, || services.track(now_ns, detections)) {
+            self.tracked = Some((now_ns, tracks.clone()));
+            self.send(
+                now_ns,
+                station,
+                Payload::Tracks { session, stamp_ns: now_ns, tracks },
+                radio,
+            );
+        }
     }
 
     /// Takes a message that was decoded.
@@ -239,7 +272,11 @@ impl<'a> Cav<'a> {
         let sensed = self.sensed.take()?;
         let ego = ego(truth, &self.body);
         let services = &mut self.services;
-        let own = self.cost.of(Part::Mot, || services.track(sensed.stamp_ns, &sensed.detections));
+        let tracked = self.tracked.take().filter(|it| it.0 == sensed.stamp_ns);
+        let own = match tracked.filter(|_| services.run(Group::Mot)) {
+            Some((_, tracks)) => Some(tracks),
+            None => self.cost.of(Part::Mot, || services.track(sensed.stamp_ns, &sensed.detections)),
+        };
         let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
         let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
         let (stamp_ns, items) = remote.or(own).unwrap_or((now_ns, &[]));
@@ -248,6 +285,18 @@ impl<'a> Cav<'a> {
         let road = Road { town: self.town, route: self.route, near_s, signals };
         let services = &mut self.services;
         let points = self.cost.of(Part::Plan, || services.plan(now_ns, &ego, &road, &list));
+        let (asking, guard) = (&mut self.asking, &self.guard);
+        let points = points.map(|plan| match asking {
+            Some(asking) if guard.configuration() == Configuration::MotRemote => {
+                let known = Known::of(Configuration::MotRemote, (now_ns, ego), &sensed);
+                let tracks = guard.remote_tracks();
+                let tracks = tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items });
+                let all = [plan.clone()].into_iter().chain(slower(now_ns, &ego, &road, &list));
+                // Where none passes its own is turned down, and driven once everything is local.
+                asking.first(&known, tracks, now_ns, all).unwrap_or(plan)
+            }
+            Some(_) | None => plan,
+        });
         let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
         let guard = &mut self.guard;
         let mut decided = self.cost.of(Part::Guard, || guard.decide(now_ns, ego, &sensed, local));
@@ -270,6 +319,9 @@ impl<'a> Cav<'a> {
             // Without points control brakes along those that it had.
             self.points = if fails { Vec::new() } else { points };
             self.brake_by_ns = brake_by_ns;
+        }
+        if let Some(asking) = &mut self.asking {
+            asking.see(sensed.stamp_ns, &sensed.detections);
         }
         self.sensed = Some(sensed);
         Some(decided)

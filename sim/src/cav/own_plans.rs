@@ -4,27 +4,22 @@
 //! the hardened stages as in PlanRemote, with the CAV's own tracks, detections and grid; where one fails, control
 //! brakes. Stage iii runs, so that neither iv nor H-13 does: what the own tracker misses the grid alone shows.
 
-use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
+use mufasa::input::cycle::{Ego, Route, Track, TrackList, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
-use super::assembled::{self, Chosen, Fixed, Stamped};
-use super::seen::Seen;
+use super::asking::{Asking, Known};
+use super::assembled::Stamped;
 use super::sensing::Sensed;
 use crate::services::way::seconds;
 
 /// What own plans are examined with.
 #[derive(Debug)]
 pub struct OwnPlans {
-    fixed: Fixed,
+    asking: Asking,
     /// Plans before this time pass unexamined, s.
     from: f64,
-    seen: Seen,
-    rows: Vec<Row>,
-    columns: Vec<Column>,
     /// How many were examined, and how many of them failed.
     pub counts: [u64; 2],
 }
@@ -32,15 +27,7 @@ pub struct OwnPlans {
 impl OwnPlans {
     /// Nothing seen yet. `route`: the CAV's, whole; `from`: when examining begins, s.
     pub fn new(parameters: Parameters, route: &Route<'_>, from: f64) -> Self {
-        let route = (route.closed, route.cross_sections.to_vec());
-        Self {
-            fixed: Fixed { profile: Profile::Hardened, parameters, route },
-            from,
-            seen: Seen::default(),
-            rows: vec![Row::default(); Sizes::MAX.rows],
-            columns: vec![Column::default(); Sizes::MAX.columns],
-            counts: [0, 0],
-        }
+        Self { asking: Asking::new(Profile::Hardened, parameters, route), from, counts: [0, 0] }
     }
 
     /// Whether a plan passes the stages.
@@ -54,12 +41,9 @@ impl OwnPlans {
         if seconds(moment.0) < self.from {
             return true;
         }
-        let history = self.seen.history(sensed.stamp_ns);
-        let chosen = Chosen { tracks, points: Some((moment.0, points)) };
-        let configuration = Configuration::PlanRemote;
-        let cycle = assembled::cycle(&self.fixed, configuration, moment, sensed, chosen, &history);
-        let report = check(&cycle, &mut Scratch::new(&mut self.rows, &mut self.columns));
-        let passes = report.is_ok_and(|report| report.failed_stage.is_none());
+        let known = Known::of(Configuration::PlanRemote, moment, sensed);
+        let tracks = tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items });
+        let passes = self.asking.first(&known, tracks, moment.0, [points]).is_some();
         let [examined, failed] = &mut self.counts;
         *examined += 1;
         *failed += u64::from(!passes);
@@ -68,6 +52,6 @@ impl OwnPlans {
 
     /// Keeps what was measured, for later cycles.
     pub(super) fn see(&mut self, sensed: &Sensed) {
-        self.seen.see(sensed);
+        self.asking.see(sensed.stamp_ns, &sensed.detections);
     }
 }

@@ -81,7 +81,7 @@ impl Recorder {
     /// The cycle was one with valid input: its detections are those of later cycles' history.
     pub(super) fn see(&mut self, sensed: &Sensed) {
         if self.fixed.is_some() {
-            self.seen.see(sensed);
+            self.seen.see(sensed.stamp_ns, &sensed.detections);
         }
     }
 }

@@ -6,8 +6,6 @@ use std::ops::RangeInclusive;
 
 use mufasa::input::cycle::{Detection, DetectionList};
 
-use super::sensing::Sensed;
-
 /// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
 /// that are kept, ns.
 const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
@@ -21,14 +19,14 @@ const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
 pub(super) struct Seen(VecDeque<(i64, Vec<Detection>)>);
 
 impl Seen {
-    /// Keeps what was measured, if its time has come.
-    pub(super) fn see(&mut self, sensed: &Sensed) {
+    /// Keeps what was detected at a time, if it has come, ns.
+    pub(super) fn see(&mut self, now_ns: i64, detections: &[Detection]) {
         let youngest = self.0.back().map(|(stamp_ns, _)| *stamp_ns);
-        if youngest.is_some_and(|it| sensed.stamp_ns - it < SPACING_NS) {
+        if youngest.is_some_and(|it| now_ns - it < SPACING_NS) {
             return;
         }
-        self.0.push_back((sensed.stamp_ns, sensed.detections.clone()));
-        while self.0.front().is_some_and(|it| sensed.stamp_ns - it.0 > *USABLE_NS.end()) {
+        self.0.push_back((now_ns, detections.to_vec()));
+        while self.0.front().is_some_and(|it| now_ns - it.0 > *USABLE_NS.end()) {
             self.0.pop_front();
         }
     }

@@ -218,7 +218,7 @@ impl<'a> Rules<'a> {
         let tracks = tracks.map(|(stamp_ns, items)| (stamp_ns, items.to_vec()));
         let trajectory = points.map(|(_, points)| points.to_vec());
         if report.is_ok() {
-            self.seen.see(sensed);
+            self.seen.see(sensed.stamp_ns, &sensed.detections);
         }
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(t_ns, kind).unwrap_or_default();

@@ -14,13 +14,12 @@ use super::watch::{By, Watch};
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "attacks";
 /// A few scenarios of each of 216 combinations.
-pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(2, 15, 0);
 
 /// What the station offers.
 #[derive(

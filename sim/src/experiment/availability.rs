@@ -11,14 +11,13 @@ use super::job::{self, Campaign, ExperimentError, Job, Options};
 use super::watch::Watch;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{End, Outcome, PERIOD_NS, Settings};
 use crate::services::way::seconds;
 
 /// Its name.
 pub const NAME: &str = "availability";
 /// A few scenarios of each of 46 combinations.
-pub const OPTIONS: Options = Options { scenarios: 2, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(2, 15, 0);
 
 /// What is set.
 #[derive(
@@ -132,6 +131,8 @@ pub struct Row {
     pub share_mot: f64,
     /// Share of the cycles with a remote trajectory.
     pub share_plan: f64,
+    /// Share of the cycles with both.
+    pub share_both: f64,
 }
 
 /// A run.
@@ -157,6 +158,9 @@ pub struct Run {
     pub remote_mot: u64,
     /// Those with a remote trajectory.
     pub remote_plan: u64,
+    /// Those with both.
+    #[serde(default)]
+    pub remote_both: u64,
     /// Fallbacks for a safety issue that is none.
     pub fallbacks: u64,
     /// How often a group came back for late data or silence.
@@ -205,6 +209,7 @@ fn kept(job: &Job<Set>, outcome: &Outcome, watch: &Watch) -> Run {
         cycles: outcome.cycles,
         remote_mot: outcome.offloaded[0],
         remote_plan: outcome.offloaded[1],
+        remote_both: watch.both,
         fallbacks: watch.fallbacks,
         lost: watch.lost,
     }
@@ -228,5 +233,6 @@ fn row(runs: &[Run]) -> Row {
         lost: sum(|run| run.lost),
         share_mot: sum(|run| run.remote_mot) as f64 / cycles,
         share_plan: sum(|run| run.remote_plan) as f64 / cycles,
+        share_both: sum(|run| run.remote_both) as f64 / cycles,
     }
 }

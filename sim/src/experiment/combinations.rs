@@ -19,14 +19,13 @@ use crate::attack::Attack;
 use crate::cav::Cav;
 use crate::cav::guard::{Decided, Variant};
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{Cycle, End, Outcome, Watcher};
 use crate::snapshot::Snapshot;
 
 /// Its name.
 pub const NAME: &str = "combinations";
 /// Scenarios on each route.
-pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(10, 15, 0);
 /// The wait after a failure, ns.
 const T_WAIT_NS: i64 = 2_000_000_000;
 /// Attacks until then, s: no run is longer.

@@ -15,7 +15,6 @@ use crate::cav::Cav;
 use crate::cav::cost::Part;
 use crate::cav::guard::{Decided, Variant};
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{Cycle, Outcome, PERIOD_NS, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
@@ -23,7 +22,7 @@ use crate::snapshot::Snapshot;
 /// Its name.
 pub const NAME: &str = "cpu";
 /// About as long as the paper's 594.5 s of each variant.
-pub const OPTIONS: Options = Options { scenarios: 6, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(6, 15, 0);
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

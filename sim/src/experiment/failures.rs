@@ -11,13 +11,12 @@ use super::watch::Watch;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "failures";
 /// As large as the paper's, on each route.
-pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(10, 15, 0);
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]

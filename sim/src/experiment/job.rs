@@ -87,6 +87,7 @@ impl<W> Job<W> {
         (variant, route, scenario): Place,
         of: Options,
     ) -> Self {
+        let settings = Settings::new(variant, Groups::ALL, of.seed.wrapping_add(scenario));
         Self {
             what,
             id: format!("{name}/{}/{word}/{}/{scenario}", variant.name(), of.map.route(route)),
@@ -94,7 +95,7 @@ impl<W> Job<W> {
             scenario,
             vehicles: of.vehicles,
             watched_from: 0.0,
-            settings: Settings::new(variant, Groups::ALL, of.seed.wrapping_add(scenario)),
+            settings: Settings { prechecks: !of.without_precheck, ..settings },
         }
     }
 

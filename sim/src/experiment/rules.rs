@@ -20,7 +20,6 @@ use crate::cav::Cav;
 use crate::cav::guard::{Decided, Variant};
 use crate::cav::without::Without;
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{Cycle, End, Outcome, PERIOD_NS, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
@@ -28,7 +27,7 @@ use crate::snapshot::Snapshot;
 /// Its name.
 pub const NAME: &str = "rules";
 /// Scenarios of each of 15 sets of rules.
-pub const OPTIONS: Options = Options { scenarios: 10, vehicles: 15, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(10, 15, 0);
 
 /// The wait after a failure, ns.
 const T_WAIT_NS: i64 = 1_000_000_000;
@@ -71,6 +70,8 @@ pub struct Row {
     pub share_mot: f64,
     /// Share of the cycles with a remote trajectory.
     pub share_plan: f64,
+    /// Share of the cycles with both.
+    pub share_both: f64,
     /// Where the fallbacks come from: stage and rule of the witness, with their number, the most first.
     pub by: String,
 }
@@ -113,6 +114,9 @@ pub struct Run {
     pub remote_mot: u64,
     /// Those with a remote trajectory.
     pub remote_plan: u64,
+    /// Those with both.
+    #[serde(default)]
+    pub remote_both: u64,
     /// Fallbacks for a safety issue that is none.
     pub fallbacks: u64,
     /// Cycles in which all rules decide otherwise than those in force.
@@ -204,6 +208,7 @@ fn kept(job: &Job<Set>, outcome: &Outcome, alarms: &Alarms) -> Kept {
         cycles: outcome.cycles,
         remote_mot: outcome.offloaded[0],
         remote_plan: outcome.offloaded[1],
+        remote_both: alarms.watch.both,
         fallbacks: alarms.watch.fallbacks,
         overruled: alarms.overruled,
         lost: alarms.watch.lost,
@@ -252,6 +257,7 @@ fn row(made: &[Kept], causes: &[Cause]) -> Row {
         lost: sum(|run| run.lost),
         share_mot: sum(|run| run.remote_mot) as f64 / cycles,
         share_plan: sum(|run| run.remote_plan) as f64 / cycles,
+        share_both: sum(|run| run.remote_both) as f64 / cycles,
         by: by.collect::<Vec<_>>().join(", "),
     }
 }

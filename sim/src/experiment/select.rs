@@ -25,6 +25,16 @@ pub struct Options {
     /// On which map.
     #[serde(default)]
     pub map: MapId,
+    /// Whether the station and the CAV's own planner send what they have, and ask nobody before.
+    #[serde(default)]
+    pub without_precheck: bool,
+}
+
+impl Options {
+    /// In the town, with a station that asks.
+    pub const fn town(scenarios: u64, vehicles: usize, seed: u64) -> Self {
+        Self { scenarios, vehicles, seed, map: MapId::Town, without_precheck: false }
+    }
 }
 
 /// One of so many parts of an experiment: every `of`-th of its runs, from run `index` - 1 on.

@@ -16,13 +16,12 @@ use crate::attack::{Attack, Kind};
 use crate::cav::Areas;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::map::id::MapId;
 use crate::run::{End, Outcome};
 
 /// Its name.
 pub const NAME: &str = "stages";
 /// As large as the paper's.
-pub const OPTIONS: Options = Options { scenarios: 4, vehicles: 30, seed: 0, map: MapId::Town };
+pub const OPTIONS: Options = Options::town(4, 30, 0);
 /// Executions and detections of the five stages in the paper.
 pub const PAPER: [(u64, u64); 5] = [(1386, 24), (582, 3), (216, 15), (76, 1), (188, 0)];
 /// The wait after a failure, ns.

@@ -77,6 +77,8 @@ pub struct Watch {
     pub first: Option<First>,
     /// Cycles with something remote that failed: each takes everything back.
     pub fallbacks: u64,
+    /// Cycles with both groups remote.
+    pub both: u64,
     /// How often a group was no longer remote although the cycle before was safe: late data or silence, or
     /// the end of its area.
     pub lost: u64,
@@ -93,6 +95,7 @@ impl Watch {
         let failed = By::of(cycle.failed).filter(|_| cycle.remote != 0);
         let before = self.last.replace(*cycle);
         self.fallbacks += u64::from(failed.is_some());
+        self.both += u64::from(cycle.remote == 3);
         let ended = before.filter(|it| it.failed == 0).map_or(0, |it| it.remote & !cycle.remote);
         self.lost += u64::from(ended.count_ones());
         if cycle.remote == 0 || cycle.t < self.from || self.first.is_some() {

@@ -6,6 +6,7 @@ mod digest;
 mod guard;
 mod late;
 mod lies;
+mod precheck;
 mod radio;
 mod records;
 mod replay;
