@@ -19,7 +19,7 @@ use crate::cav::guard::{Decided, Guard, Variant};
 use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
 use crate::cav::without::{Rules, Without};
-use crate::cav::{Areas, Cav};
+use crate::cav::{Areas, Cav, DECIDES_NS};
 use crate::map::Town;
 use crate::radio::{self, Radio, To};
 use crate::scenario::Scenario;
@@ -31,8 +31,6 @@ use crate::world::World;
 
 /// Time between two cycles, ns.
 pub const PERIOD_NS: i64 = 100_000_000;
-/// A cycle is decided so long after its measurements, ns.
-const DECIDES_NS: i64 = 40_000_000;
 /// `tau` as A-07 of `docs/assumptions.md` asks for it here, s: 0.1 until the next cycle, 0.04 until it is decided, 0.1
 /// until the CAV's own planner answers.
 pub const TAU_S: f64 = 0.25;
