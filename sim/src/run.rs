@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use mufasa::input::parameters::Parameters as StageParameters;
-use mufasa::input::profile::Profile;
 use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::Outcome as StageOutcome;
@@ -97,24 +96,15 @@ impl Settings {
         }
     }
 
-    /// By which the stages check.
-    const fn profile(&self) -> Option<Profile> {
-        match self.variant {
-            Variant::Sofof => None,
-            Variant::Paper => Some(Profile::Paper),
-            Variant::Hardened => Some(Profile::Hardened),
-        }
-    }
-
     /// What keeps the cycles that are recorded.
     fn recorder(&self) -> Recorder {
         let recorder = |profile| Recorder::new(self.recorded, profile, self.stages);
-        self.profile().map_or_else(Recorder::default, recorder)
+        self.variant.profile().map_or_else(Recorder::default, recorder)
     }
 
     /// What asks before something is sent on this route.
     fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
-        let profile = self.profile().filter(|_| self.prechecks)?;
+        let profile = self.variant.profile().filter(|_| self.prechecks)?;
         Some(Asking::new(profile, self.stages, route))
     }
 }

@@ -95,7 +95,6 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ),
     ("spec/5-interfaces.md#monitor", Cell::Vector, "no record drives events and cycles together"),
     ("spec/5-interfaces.md#precheck", Cell::Model, "has no rule: it asks the stages"),
-    ("spec/5-interfaces.md#precheck", Cell::Proof, "tested only"),
     ("spec/5-interfaces.md#precheck", Cell::Vector, "of a station: nothing that a CAV answers"),
     ("spec/5-interfaces.md#precheck", Cell::Bench, "a few cycles of the stages"),
     ("spec/6-link.md", Cell::Model, "bytes, not verdicts: `link/src/message`"),
