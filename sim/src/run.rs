@@ -3,7 +3,6 @@
 use std::time::Duration;
 
 use mufasa::input::parameters::Parameters as StageParameters;
-use mufasa::input::profile::Profile;
 use mufasa::monitor::MonitorError;
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::Outcome as StageOutcome;
@@ -19,7 +18,7 @@ use crate::cav::guard::{Decided, Guard, Variant};
 use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
 use crate::cav::without::{Rules, Without};
-use crate::cav::{Areas, Cav};
+use crate::cav::{Areas, Cav, DECIDES_NS};
 use crate::map::Town;
 use crate::radio::{self, Radio, To};
 use crate::scenario::Scenario;
@@ -31,8 +30,6 @@ use crate::world::World;
 
 /// Time between two cycles, ns.
 pub const PERIOD_NS: i64 = 100_000_000;
-/// A cycle is decided so long after its measurements, ns.
-const DECIDES_NS: i64 = 40_000_000;
 /// `tau` as A-07 of `docs/assumptions.md` asks for it here, s: 0.1 until the next cycle, 0.04 until it is decided, 0.1
 /// until the CAV's own planner answers.
 pub const TAU_S: f64 = 0.25;
@@ -99,24 +96,15 @@ impl Settings {
         }
     }
 
-    /// By which the stages check.
-    const fn profile(&self) -> Option<Profile> {
-        match self.variant {
-            Variant::Sofof => None,
-            Variant::Paper => Some(Profile::Paper),
-            Variant::Hardened => Some(Profile::Hardened),
-        }
-    }
-
     /// What keeps the cycles that are recorded.
     fn recorder(&self) -> Recorder {
         let recorder = |profile| Recorder::new(self.recorded, profile, self.stages);
-        self.profile().map_or_else(Recorder::default, recorder)
+        self.variant.profile().map_or_else(Recorder::default, recorder)
     }
 
     /// What asks before something is sent on this route.
     fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
-        let profile = self.profile().filter(|_| self.prechecks)?;
+        let profile = self.variant.profile().filter(|_| self.prechecks)?;
         Some(Asking::new(profile, self.stages, route))
     }
 }

@@ -43,6 +43,15 @@ impl Variant {
     /// All, in the order of what they check.
     pub const ALL: [Self; 3] = [Self::Sofof, Self::Paper, Self::Hardened];
 
+    /// By which its stages check, if it has any.
+    pub const fn profile(self) -> Option<Profile> {
+        match self {
+            Self::Sofof => None,
+            Self::Paper => Some(Profile::Paper),
+            Self::Hardened => Some(Profile::Hardened),
+        }
+    }
+
     /// Its name in tables and files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -86,14 +95,10 @@ impl<'a> Guard<'a> {
         table: &'a mut [StationRecord],
         memory: mufasa::monitor::Memory<'a>,
     ) -> Result<Self, MonitorError> {
-        let profile = match variant {
-            Variant::Sofof => {
-                let requester = Requester::new(Profile::Paper, requester, table)
-                    .map_err(MonitorError::Requester)?;
-                return Ok(Self::of(Kind::Plain(requester)));
-            }
-            Variant::Paper => Profile::Paper,
-            Variant::Hardened => Profile::Hardened,
+        let Some(profile) = variant.profile() else {
+            let requester = Requester::new(Profile::Paper, requester, table)
+                .map_err(MonitorError::Requester)?;
+            return Ok(Self::of(Kind::Plain(requester)));
         };
         let period = Duration::from_nanos(period_ns);
         let settings = Settings { profile, stages, requester, ..Settings::new(period) };

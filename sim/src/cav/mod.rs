@@ -34,6 +34,9 @@ use crate::services::detectors::Errors;
 use crate::snapshot::Snapshot;
 use crate::vehicle::{Body, Command};
 
+/// A cycle is decided so long after its measurements, ns.
+pub const DECIDES_NS: i64 = 40_000_000;
+
 /// Where each group may be offloaded along the route (CODM), m: from, to.
 pub type Areas = [(f64, f64); 2];
 

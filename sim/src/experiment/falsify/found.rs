@@ -85,6 +85,8 @@ impl Case {
     pub fn job(&self) -> Job<()> {
         let &Self { route, scenario, vehicles, .. } = self;
         let mut settings = Settings::new(self.variant, self.offered.groups(), scenario);
+        // Who attacks asks nobody, and what was kept stays the run that it was.
+        settings.prechecks = false;
         settings.attacks.clone_from(&self.attacks);
         settings.without = self.without;
         settings.stages.tau = self.tau_s;

@@ -1,5 +1,7 @@
 //! The station (MEC server): the provider, sensors beside the road, and the services.
 
+mod sensors;
+
 use std::collections::BTreeMap;
 
 use mufasa::input::cycle::{Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint};
@@ -11,17 +13,18 @@ use mufasa_model::offloading::provider::{
 use mufasa_props::bridge;
 
 use crate::attack::{Attacker, Results};
+use crate::cav::DECIDES_NS;
 use crate::cav::asking::{Asking, Known};
 use crate::ids;
 use crate::map::Town;
 use crate::map::route::Route;
 use crate::planner::{Road, plan, slower};
-use crate::pose::{Point, Pose};
+use crate::pose::Point;
 use crate::radio::{Radio, To};
-use crate::services::detectors::scan::Sweep;
 use crate::services::detectors::scene::Scene;
-use crate::services::detectors::{Detector, Errors, Mount, Observer};
+use crate::services::detectors::{Errors, Observer};
 use crate::services::mot::{Settings, Tracker};
+use crate::services::tpl;
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 
@@ -29,8 +32,6 @@ use crate::snapshot::Snapshot;
 const COMPUTES_NS: i64 = 4_000_000;
 /// How often it says what it offers, ns.
 const OFFERS_NS: i64 = 500_000_000;
-/// Distance between the sensors along the route, m, and how far each looks.
-const SENSORS_M: (f64, f64) = (60.0, 70.0);
 /// Detections of the CAV and of a sensor nearer than this are of one object, m.
 const MERGE_M: f64 = 1.5;
 /// A track that the CAV detected within this time is one that it sees, ns: one miss is no absence.
@@ -56,6 +57,8 @@ pub struct Station<'a> {
     asking: Option<Asking>,
     /// The CAV's own tracks, which it sends while its MOT is not remote.
     of_cav: Option<(i64, Vec<Track>)>,
+    /// Detections that came before the own tracks of their time.
+    waiting: Option<(i64, Ego, Vec<Detection>)>,
     signals: Vec<f64>,
     near_s: Option<f64>,
     offered_ns: Option<i64>,
@@ -79,7 +82,7 @@ impl<'a> Station<'a> {
             provider: Provider::new(4, DEFAULT_LEASE_NS),
             observer: Observer {
                 seed: [seed, 3],
-                detectors: sensors(route, errors),
+                detectors: sensors::beside(route, errors),
                 merge_radius: MERGE_M,
             },
             tracker: Tracker::new(Settings::default()),
@@ -88,6 +91,7 @@ impl<'a> Station<'a> {
             reach: 0.0,
             asking: None,
             of_cav: None,
+            waiting: None,
             signals: Vec::new(),
             near_s: None,
             offered_ns: None,
@@ -146,9 +150,19 @@ impl<'a> Station<'a> {
                 self.happens(now_ns, ProviderEventKind::Heard { requester, group, session }, radio);
             }
             Payload::Detections { stamp_ns, ego, detections } => {
+                if self.waits(requester, stamp_ns) {
+                    self.waiting = Some((stamp_ns, ego, detections));
+                    return;
+                }
                 self.compute(now_ns, requester, stamp_ns, &ego, &detections, attacker, radio);
             }
-            Payload::Tracks { stamp_ns, tracks, .. } => self.of_cav = Some((stamp_ns, tracks)),
+            Payload::Tracks { stamp_ns, tracks, .. } => {
+                self.of_cav = Some((stamp_ns, tracks));
+                let waiting = self.waiting.take().filter(|it| it.0 == stamp_ns);
+                if let Some((_, ego, detections)) = waiting {
+                    self.compute(now_ns, requester, stamp_ns, &ego, &detections, attacker, radio);
+                }
+            }
             Payload::State { .. }
             | Payload::Offer { .. }
             | Payload::Withdraw
@@ -170,8 +184,7 @@ impl<'a> Station<'a> {
         attacker: &mut Attacker,
         radio: &mut Radio,
     ) {
-        let session = |group| self.provider.session(requester, bridge::group_from_impl(group));
-        let sessions = Group::ALL.map(session);
+        let sessions = self.sessions(requester);
         if sessions == [None, None] {
             return;
         }
@@ -183,8 +196,8 @@ impl<'a> Station<'a> {
         }
         let known = Known {
             configuration: configuration(sessions),
-            now_ns: stamp_ns,
-            ego: *ego,
+            now_ns: stamp_ns + DECIDES_NS,
+            ego: driven_on(ego, DECIDES_NS),
             detections: DetectionList { stamp_ns, items: detections },
             lead: None,
             grid: None,
@@ -199,7 +212,7 @@ impl<'a> Station<'a> {
             }
         };
         let plans = sessions[1].is_some();
-        let points = plans.then(|| self.plan(&known, &all, sent.as_deref(), attacker));
+        let points = plans.then(|| self.plan(&known, ego, &all, sent.as_deref(), attacker));
         // Where not even an empty list passes there is nothing to send.
         let sessions = [sessions[0].filter(|_| sent.is_some()), sessions[1]];
         let tracks = sent.unwrap_or_default();
@@ -257,21 +270,32 @@ impl<'a> Station<'a> {
     fn with_those_of_cav(&self, known: &Known<'_>, tracks: &[Track]) -> Vec<Track> {
         let mut all = tracks.to_vec();
         if let Some(own) = self.of_cav(known) {
-            let dt = seconds(known.now_ns - own.stamp_ns);
-            let moved = |it: &Track| Track { x: it.x + it.vx * dt, y: it.y + it.vy * dt, ..*it };
             let at = |it: &Track| Point::new(it.x, it.y);
-            let is_new = |it: &Track| tracks.iter().all(|own| at(own).distance(at(it)) > MERGE_M);
-            all.extend(own.items.iter().map(moved).filter(is_new));
+            let is_new = |it: &&Track| tracks.iter().all(|own| at(own).distance(at(it)) > MERGE_M);
+            all.extend(own.items.iter().filter(is_new));
         }
         all
     }
 
-    /// The CAV's own tracks, which stage iii compares with in `PlanRemote`; where those of this moment are still under
-    /// way, the ones before.
+    /// The CAV's own tracks of this moment, which stage iii compares with in `PlanRemote`.
     fn of_cav(&self, known: &Known<'_>) -> Option<TrackList<'_>> {
         let (stamp_ns, items) = self.of_cav.as_ref()?;
         let is_used = known.configuration == Configuration::PlanRemote;
-        is_used.then_some(TrackList { stamp_ns: *stamp_ns, items })
+        let is_of_now = *stamp_ns == known.detections.stamp_ns;
+        (is_used && is_of_now).then_some(TrackList { stamp_ns: *stamp_ns, items })
+    }
+
+    /// Whether the CAV's own tracks of a moment, which it asks with, are still under way.
+    fn waits(&self, requester: i64, stamp_ns: i64) -> bool {
+        let is_here = self.of_cav.as_ref().is_some_and(|(own_ns, _)| *own_ns == stamp_ns);
+        let configuration = configuration(self.sessions(requester));
+        self.asking.is_some() && configuration == Configuration::PlanRemote && !is_here
+    }
+
+    /// The sessions of a vehicle, by group.
+    fn sessions(&self, requester: i64) -> [Option<i64>; 2] {
+        let session = |group| self.provider.session(requester, bridge::group_from_impl(group));
+        Group::ALL.map(session)
     }
 
     /// ENV and TPL. With a station that asks: the first plan that passes beside the tracks that are sent, or none;
@@ -279,12 +303,13 @@ impl<'a> Station<'a> {
     fn plan(
         &mut self,
         known: &Known<'_>,
+        ego: &Ego,
         tracks: &[Track],
         sent: Option<&[Track]>,
         attacker: &Attacker<'_>,
     ) -> Vec<TrajectoryPoint> {
         self.executions[1] += 1;
-        let (stamp_ns, ego) = (known.now_ns, &known.ego);
+        let stamp_ns = known.detections.stamp_ns;
         let believed = attacker.believed(stamp_ns, ego, tracks);
         let elsewhere = attacker.route();
         let is_honest = elsewhere.is_none() && believed == tracks;
@@ -343,6 +368,14 @@ impl<'a> Station<'a> {
     }
 }
 
+/// The CAV so much later, ns, if it speeds up all the time: what it is to pass then is farther.
+fn driven_on(ego: &Ego, later_ns: i64) -> Ego {
+    let (dt, acceleration) = (seconds(later_ns), tpl::settings::Settings::default().acceleration);
+    let way = (ego.speed + 0.5 * acceleration * dt) * dt;
+    let Ego { x, y, cos, sin, speed, .. } = *ego;
+    Ego { x: x + way * cos, y: y + way * sin, speed: speed + acceleration * dt, ..*ego }
+}
+
 /// In which the CAV will use what it gets in these sessions.
 const fn configuration(sessions: [Option<i64>; 2]) -> Configuration {
     match sessions {
@@ -360,19 +393,4 @@ fn distance(ego: &Ego, x: f64, y: f64) -> f64 {
 /// Distance of the farthest detection, m.
 fn reach(ego: &Ego, detections: &[Detection]) -> f64 {
     detections.iter().map(|it| distance(ego, it.x, it.y)).fold(0.0, f64::max)
-}
-
-/// Sensors beside the route, one each few metres, that look all around.
-fn sensors(route: &Route, errors: Errors) -> Vec<Detector> {
-    let (spacing, range) = SENSORS_M;
-    let mut sensors = Vec::new();
-    let mut s = spacing / 2.0;
-    while s < route.path.length() {
-        let along = route.path.pose_at(s);
-        let pose = Pose { at: along.ahead(0.0, -8.0), ..along };
-        let sweep = Sweep::new(range, 2.0 * core::f64::consts::PI, 240);
-        sensors.push(Detector { mount: Mount::Fixed(pose), sweep, errors });
-        s += spacing;
-    }
-    sensors
 }
