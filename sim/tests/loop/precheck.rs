@@ -45,7 +45,7 @@ fn who_asks_is_turned_down_less_and_computes_more() {
             println!(
                 "{variant:?} {offers:?}: {before} -> {alarms} alarms, {less} -> {remote} cycles"
             );
-            // Of the hardened alarms most are the 1.8 s gap (H-04), which no candidate mends at once.
+            // What stays in the hardened profile: `docs/evaluation.md#precheck`.
             let most = if variant == Variant::Paper { before / 2 } else { before };
             assert!(alarms < most, "{variant:?} {offers:?}: {before} -> {alarms} alarms");
             assert!(remote > less, "{variant:?} {offers:?}: {less} -> {remote} cycles");
