@@ -11,6 +11,7 @@ mod plots;
 mod published;
 mod replay;
 mod report;
+mod scenes;
 pub mod shards;
 mod shown;
 pub mod tables;
@@ -76,6 +77,7 @@ pub fn run(
     let (size, Named { name, make, .. }) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
         Some(Experiment::Falsify(it)) => return falsify::run(it, stop, out, err),
+        Some(Experiment::Scenes(it)) => return scenes::run(it, out, err),
         None => (&arguments.size, named::<Failures>()),
         Some(Experiment::Failures(size)) => (size, named::<Failures>()),
         Some(Experiment::Stages(size)) => (size, named::<Stages>()),

@@ -10,7 +10,7 @@ use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
+    attacks, availability, combinations, cpu, failures, falsify, rules, scenes, stages,
 };
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 19] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -34,6 +34,7 @@ pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
     ("evaluate rules", "out", &["evaluation-rules"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
+    ("evaluate scenes", "out", &["evaluation-scenes"]),
     (
         "merge",
         "out",
@@ -62,6 +63,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-combinations", schema::written::<combinations::Combinations>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
     schemas.push(("evaluation-rules", schema::written::<rules::Rules>()));
+    schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));

@@ -327,6 +327,7 @@ fn a_document_without_the_place_is_refused_first() {
     for arguments in [
         &["evaluate", "failures"][..],
         &["evaluate", "falsify"],
+        &["evaluate", "scenes"],
         &["explore", "--out", "tables"],
         &["prove", "--out", "prove.json"],
     ] {

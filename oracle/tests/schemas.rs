@@ -174,6 +174,21 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
 }
 
 #[test]
+fn scenes_and_their_collisions_are_what_their_schemas_say() {
+    let (validators, folder) = (validators(), folder("scenes"));
+    let size = ["--profile", "paper", "--scenes", "40", "--out", "files"];
+    run(&folder, &[&["evaluate", "scenes"], &size[..]].concat());
+    let text = fs::read_to_string(folder.join("files/scenes.json")).expect("it was written");
+    assert_valid(&validators["evaluation-scenes"], &parsed(&text));
+    let mut files = fs::read_dir(folder.join("files/collisions")).expect("a folder");
+    let file = files.next().expect("a collision").expect("an entry").path();
+    let text = fs::read_to_string(&file).expect("it was written");
+    text.lines().for_each(|line| assert_valid(&validators["cycle"], &parsed(line)));
+    let said = run(&folder, &["check", file.to_str().expect("a name")]);
+    assert!(said.contains("model and implementation agree"), "{said}");
+}
+
+#[test]
 fn a_collision_that_was_found_is_what_its_schema_says_and_is_made_again() {
     let (validators, folder) = (validators(), folder("falsify"));
     let arguments = ["evaluate", "falsify", "--profile", "paper", "--attack", "tracks-empty"];

@@ -9,6 +9,7 @@ use mufasa_sim::experiment::select::Shard;
 use super::falsify::FalsifyArguments;
 use super::parts::shard;
 use super::replay::ReplayArguments;
+use super::scenes::ScenesArguments;
 use crate::limits::whole;
 
 /// Experiments in a closed loop: a CAV drives through a town, offloads to a station, and is attacked.
@@ -59,6 +60,9 @@ pub enum Experiment {
     Cpu(SizeArguments),
     /// Search for collisions: attacks, their times and their sizes, by an attacker who knows every rule.
     Falsify(FalsifyArguments),
+    /// Search for avoidable collisions with one other that comes to where the CAV will be: all kinds of lies, trajectories
+    /// that begin elsewhere, at another time, or end in its way.
+    Scenes(ScenesArguments),
     /// Write one run as a page: frames from above around what happened, and a timeline.
     Replay(ReplayArguments),
 }

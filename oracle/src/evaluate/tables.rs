@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mufasa_drives::pictures::escape;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
+    attacks, availability, combinations, cpu, failures, falsify, rules, scenes, stages,
 };
 
 use super::published;
@@ -239,6 +239,26 @@ pub fn falsified(of: &falsify::Falsified) -> Rows {
             number("least distance, m", |row| {
                 row.least_distance_m.map_or_else(String::new, |it| format!("{it:.2}"))
             }),
+        ],
+    )
+}
+
+/// Avoidable collisions with one other, by kinds of scenes.
+pub fn scenes(of: &scenes::Scenes) -> Rows {
+    rows(
+        &of.rows,
+        &[
+            text("", |row| row.of.clone()),
+            text("kind", |row| row.kind.clone()),
+            number("scenes", |row| row.scenes.to_string()),
+            number("avoidable", |row| row.avoidable.to_string()),
+            number("collided all the same", |row| row.collided.to_string()),
+            number("never rejected", |row| row.never_rejected.to_string()),
+            number("by braking", |row| row.by_braking.to_string()),
+            number("hit while standing", |row| row.hit_standing.to_string()),
+            number("clean", |row| row.clean.to_string()),
+            number("rejected", |row| row.alarms.to_string()),
+            text("clean ones rejected by", |row| row.by.clone()),
         ],
     )
 }

@@ -13,6 +13,7 @@ pub mod failures;
 pub mod falsify;
 pub mod job;
 pub mod rules;
+pub mod scenes;
 pub mod select;
 pub mod stages;
 pub mod watch;

@@ -1,0 +1,166 @@
+//! The search for avoidable collisions with one other (`mufasa_sim::experiment::scenes`).
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use mufasa_drives::check::complain;
+use mufasa_drives::progress;
+use mufasa_records::files;
+use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::scenes::{NAME, Options, Scenes};
+use mufasa_sim::run::TAU_S;
+
+use super::codes::{BAD_INPUT, FAILED};
+use super::replay::variant;
+use super::tables;
+use super::text::{csv, json, said};
+use crate::document;
+use crate::limits::{number, whole};
+
+/// Scenes if nothing is said, and those that are made at once where a time is said.
+const SCENES: u64 = 2000;
+const BATCH: u64 = 500;
+/// The folder of collisions.
+const FOUND: &str = "collisions";
+
+/// What is searched, and for how long.
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+A CAV drives along a straight way or a bend, one other comes to where it will be, and what is remote is moved or lied.
+While cycles are safe the CAV drives on; at the first unsafe one it goes on for tau, brakes to a stop, and stands. A
+collision is avoidable if braking from the first cycle on avoids it; who runs into a CAV that has stood for more
+than 3 s, and could have stopped, is counted apart. A scene is clean if nobody comes nearer than 1 m when nobody reacts.
+
+Exit codes: 0 done, 1 an avoidable collision was found in the hardened profile, 2 bad input or a file cannot be
+written.")]
+pub struct ScenesArguments {
+    /// Scenes [default: 2000, without --minutes].
+    #[arg(long, value_name = "N", value_parser = whole(1_u64, 100_000_000), allow_negative_numbers = true)]
+    pub scenes: Option<u64>,
+    /// Goes on for so long.
+    #[arg(long, value_name = "M", conflicts_with = "scenes", value_parser = whole(1_u32, 100_000), allow_negative_numbers = true)]
+    pub minutes: Option<u32>,
+    /// Of what is drawn.
+    #[arg(long, value_name = "SEED", default_value = "0", value_parser = whole(0_u64, 1_000_000_000), allow_negative_numbers = true)]
+    pub seed: u64,
+    /// What is checked; sofof: nothing.
+    #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
+    pub profile: Variant,
+    /// Time until the CAV brakes, s: the parameter of the cycles, and what it does.
+    #[arg(long, value_name = "S", default_value_t = TAU_S, value_parser = number(0.0, 10.0), allow_negative_numbers = true)]
+    pub tau: f64,
+    /// Only scenes whose kinds contain this, such as all-remote/ahead or /turns; may be given several times, for all
+    /// to be contained.
+    #[arg(long, value_name = "TEXT")]
+    pub only: Vec<String>,
+    /// Threads [default: all processors]. With --scenes the results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = whole(1_u16, 1024), allow_negative_numbers = true)]
+    pub threads: Option<u16>,
+    /// Write table and scenes as JSON and CSV into this folder, and the cycles of each avoidable collision, as records
+    /// for `mufasa check` and `mufasa oracle`, into its folder collisions.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Put the table into a document, between the lines that mark its place.
+    #[arg(long, value_name = "FILE", conflicts_with = "only")]
+    pub into: Option<PathBuf>,
+}
+
+/// Searches, writes the table to `out`, and files. The exit code. Errors: those of writing to `out`.
+pub fn run(
+    arguments: &ScenesArguments,
+    out: &mut impl Write,
+    err: &mut impl Write,
+) -> io::Result<u8> {
+    let (made, names) = match search(arguments) {
+        Ok(made) => made,
+        Err(message) => {
+            complain(err, &message);
+            return Ok(BAD_INPUT);
+        }
+    };
+    write!(out, "{}", tables::scenes(&made).text())?;
+    names.iter().try_for_each(|name| writeln!(out, "{}", name.display()))?;
+    let is_hardened = made.options.profile == Variant::Hardened;
+    Ok(if is_hardened && made.failures().next().is_some() { FAILED } else { 0 })
+}
+
+fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String> {
+    let &ScenesArguments { seed, profile, tau, .. } = arguments;
+    if let Some(folder) = &arguments.out {
+        let say = |error| format!("{}: cannot be written to: {error}", folder.display());
+        files::prepare(&folder.join(FOUND)).map_err(say)?;
+    }
+    let options = Options { profile, tau_s: tau, seed, only: arguments.only.clone() };
+    document::has_place(arguments.into.as_deref(), &command(&options))?;
+    let scenes = arguments.scenes.unwrap_or(SCENES);
+    let until =
+        arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
+    let bar = progress::bar(
+        if until.is_some() { 0 } else { scenes },
+        "{prefix} {bar:30} {pos}/{len} scenes, {left} left",
+    );
+    bar.set_prefix(NAME);
+    let threads = usize::from(arguments.threads.unwrap_or(0));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;
+    let mut made = Scenes::nothing(options);
+    pool.install(|| {
+        let done = || bar.inc(1);
+        match until {
+            None => made.add(scenes, &done),
+            Some(until) => {
+                while Instant::now() < until {
+                    made.add(BATCH, &done);
+                }
+            }
+        }
+    });
+    bar.finish_and_clear();
+    if made.runs.is_empty() {
+        return Err(format!("{}: no scene has such kinds", arguments.only.join(", ")));
+    }
+    let names = write_files([&arguments.out, &arguments.into].map(Option::as_deref), &made)?;
+    Ok((made, names))
+}
+
+/// What the table is called in a document.
+fn command(options: &Options) -> String {
+    match options.profile {
+        Variant::Hardened => format!("mufasa evaluate {NAME}"),
+        other => format!("mufasa evaluate {NAME} --profile {}", other.name()),
+    }
+}
+
+/// The names of the files but those of collisions, each there completely or not at all.
+fn write_files(
+    [folder, document]: [Option<&Path>; 2],
+    made: &Scenes,
+) -> Result<Vec<PathBuf>, String> {
+    let say =
+        |file: &Path, error: io::Error| format!("{}: cannot be written: {error}", file.display());
+    let mut names = Vec::new();
+    if let Some(folder) = folder {
+        let texts = [
+            (format!("{NAME}.csv"), csv(&made.rows)?),
+            (format!("{NAME}-runs.csv"), csv(&made.runs)?),
+            (format!("{NAME}.json"), json(made)?),
+        ];
+        for (name, text) in texts {
+            let file = folder.join(name);
+            files::write(&file, &text).map_err(|error| say(&file, error))?;
+            names.push(file);
+        }
+        for run in made.failures() {
+            let file = folder.join(FOUND).join(format!("{}.jsonl", run.name()));
+            let text = made.options.records(run.scene);
+            files::write(&file, &text).map_err(|error| say(&file, error))?;
+        }
+    }
+    if let Some(file) = document {
+        let table = tables::scenes(made).markdown();
+        document::write(file, &command(&made.options), &table).map_err(|error| say(file, error))?;
+        names.push(file.to_owned());
+    }
+    Ok(names)
+}
