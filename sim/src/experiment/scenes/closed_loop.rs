@@ -6,7 +6,7 @@ use mufasa::input::profile::Profile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::asked::{Asked, time};
+use super::asked::{Asked, PERIOD_S, time};
 use super::kinds::Drive;
 use super::scene::Scene;
 use crate::collision;
@@ -19,9 +19,8 @@ const AFTER_S: f64 = 3.0;
 const STOPPED_S: f64 = 8.0;
 /// How long a CAV that braked stands, s.
 const STANDS_S: f64 = 10.0;
-/// Who runs into one that has stood for longer, s, and could have stopped by reacting after this time, s, and
-/// braking this much, m/s^2, did not yield.
-const STOOD_S: f64 = 3.0;
+/// Who could have stopped before a CAV that stands, reacting after this time, s, and braking this much, m/s^2, did
+/// not yield.
 const REACTS_S: f64 = 1.5;
 const YIELDS: f64 = 3.0;
 
@@ -43,7 +42,7 @@ pub struct Hit {
     pub speed_mps: f64,
     /// How long the CAV had stood, s.
     pub stood_s: f64,
-    /// Whether the other could have stopped before a CAV that had stood for long.
+    /// Whether the other could have stopped before a CAV that stood.
     pub has_not_yielded: bool,
 }
 
@@ -82,7 +81,8 @@ pub fn drive(
     let mut alarms = (0_i32..).take_while(|number| time(*number) < last);
     let rejected = alarms.find_map(|number| Some((time(number), asked.ask(number, monitor)?)));
     let braking = |from: f64| {
-        let from = from + parameters.tau;
+        // tau counts from the last safe cycle.
+        let from = (from - PERIOD_S).max(0.0) + parameters.tau;
         let stands = from + scene.pace.at(from).1 / A_B;
         ride(scene, Some(from), stands + STANDS_S, |_| ())
     };
@@ -124,7 +124,7 @@ fn ride(scene: &Scene, brakes: Option<f64>, end: f64, mut apart: impl FnMut(f64)
 fn could_stop(scene: &Scene, from: f64, until: f64) -> bool {
     let ((start, speed), (end, _)) = (scene.other.pace.at(from), scene.other.pace.at(until));
     let needed = REACTS_S * speed + speed * speed / (2.0 * YIELDS);
-    until - from > STOOD_S && end - start > needed
+    end - start > needed
 }
 
 impl Driven {
