@@ -153,11 +153,10 @@ const MOST: usize = 16;
 impl Covers {
     /// Of the path through these nodes, taken from p on.
     pub(super) fn new<'n>(
-        cycle: &Cycle<'_>,
+        ego: &Ego,
         nodes: impl Iterator<Item = ([f64; 2], [f64; 2])> + 'n,
         times: &Times<f64>,
     ) -> Self {
-        let ego = &cycle.ego;
         let h = [ego.cos, ego.sin];
         let end = times.s_stop * (1.0 + 1e-9) + ERROR;
         let all = Cover::new(h, [0.0, end], times);

@@ -28,21 +28,26 @@ pub(super) struct Meeting<'c, 'a> {
     path: &'c Path<'c, 'a>,
     /// How many points the trajectory has.
     points: usize,
+    /// As wide as at the places.
+    ego: Ego,
     route: IndexedRoute<'c, 'a>,
     clock: Clock,
     covers: Covers,
-    /// Whether the path keeps its distance to the reference path, once that is asked.
-    keeps_offset: Option<bool>,
 }
 
 impl<'c, 'a> Meeting<'c, 'a> {
-    pub(super) fn new(path: &'c Path<'c, 'a>, points: usize, route: IndexedRoute<'c, 'a>) -> Self {
-        let cycle = path.cycle;
+    pub(super) fn new(
+        path: &'c Path<'c, 'a>,
+        points: &[TrajectoryPoint],
+        route: IndexedRoute<'c, 'a>,
+    ) -> Self {
+        let (cycle, count) = (path.cycle, points.len());
         let clock = Clock::new(cycle);
+        let ego = widened(cycle.ego, points.first());
         let &Ego { x, y, .. } = &cycle.ego;
         let from_p = |node: &TrajectoryPoint| ([node.x - x, node.y - y], [node.cos, node.sin]);
-        let covers = Covers::new(cycle, path.nodes.iter().map(from_p), &clock.times);
-        Self { path, points, route, clock, covers, keeps_offset: None }
+        let covers = Covers::new(&ego, path.nodes.iter().map(from_p), &clock.times);
+        Self { path, points: count, ego, route, clock, covers }
     }
 
     const fn cycle(&self) -> &'c Cycle<'a> {
@@ -88,7 +93,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
 
     /// The first place before that with a number where the object may meet the CAV, if it does not
     /// follow.
-    pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
+    pub(super) fn first(&self, motion: &Motion, before: i64) -> Option<Met> {
         let object = self.plainly(motion, 0.0);
         if self.covers.miss(&object, &self.clock) {
             return None;
@@ -104,7 +109,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
 
     /// The box around some places of a piece.
     fn run(&self, piece: &Piece, run: [i64; 2]) -> Cover {
-        let ego = &self.cycle().ego;
+        let ego = &self.ego;
         let [[x, y, way], [to_x, to_y, to]] = piece.between(run, [ego.x, ego.y]);
         let ways = [larger(way - APART, 0.0), to + APART];
         let mut cover = Cover::new(piece.heading(), ways, &self.clock.times);
@@ -126,60 +131,62 @@ impl<'c, 'a> Meeting<'c, 'a> {
                 times.until_stop + t_yield + object.speed.over(a_yield + a_yield)
             }
         };
-        let cav = footprint(&cycle.ego, &place.pose);
+        let cav = footprint(&self.ego, &place.pose);
         let number = place.number;
         let met = || Met { number, point: place.point(self.points), way: place.way.value() };
         object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
     }
 
     /// Whether the object certainly follows the CAV.
-    fn follows(&mut self, object: &Exact) -> bool {
+    fn follows(&self, object: &Exact) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
         let cav = footprint(ego, &Pose::of_cav(ego));
         let Rectangle { centre, direction, length, width } = object.now;
         let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
-        let reach = direction.dot(h).abs() * length + direction.cross(h).abs() * width;
-        let front = (centre - cav.centre).dot(h) + reach;
+        let (straight, turned) = (direction.dot(h).abs(), direction.cross(h).abs());
+        let front = (centre - cav.centre).dot(h) + (straight * length + turned * width);
         if !Real::ZERO.certainly_below(along)
             || !front.certainly_below(Real::new(-0.5 * ego.length))
         {
             return false;
         }
+        let beside = Real::new(0.5 * ego.width) + (turned * length + straight * width);
         object.comes_across && across.certainly_at_most(along)
-            || across.certainly_at_most(Real::new(ALIKE) * along) && self.keeps_offset()
+            || across.certainly_at_most(Real::new(ALIKE) * along)
+                && self.has_a_lane_of_its_own(object.now.centre, beside)
     }
 
-    fn keeps_offset(&mut self) -> bool {
-        let known = self.keeps_offset.unwrap_or_else(|| self.finds_offset_kept());
-        self.keeps_offset = Some(known);
-        known
-    }
-
-    /// Of places rounded to doubles, and by as much as that is off.
-    fn finds_offset_kept(&self) -> bool {
-        let ego = &self.cycle().ego;
-        let (of_p, mut hint) = self.route.path_distance([ego.x, ego.y], 0);
-        let changes = |place: &Place| {
-            let at = place.pose.plainly();
-            let (of_place, nearest) = self.route.path_distance([at.x, at.y], hint);
+    /// Whether certainly every place is nearer to the reference path than the object, or farther, by
+    /// more than that in m, and none of them beyond its ends.
+    fn has_a_lane_of_its_own(&self, object: Vector, beside: Real) -> bool {
+        let (of_object, mut hint) = self.route.distance_of(object, 0);
+        let mut is_near = |place: &Place| {
+            let (of_place, nearest) = self.route.distance_of(place.pose.at, hint);
             hint = nearest;
-            let rounded = place.pose.at.x.off() + place.pose.at.y.off();
-            let change = (of_place - of_p).abs().widened(rounded);
-            (!change.certainly_at_most(Real::new(KEPT))).then_some(())
+            let is_beside = beside.certainly_below((of_object - of_place).abs());
+            let is_between = self.route.certainly_has_beside(place.pose.at);
+            (!(is_beside && is_between)).then_some(())
         };
-        let mut changes = changes;
-        !self.path.pieces().any(|piece| piece.first_place(|_| false, &mut changes).is_some())
+        self.route.certainly_has_beside(object)
+            && !self.path.pieces().any(|it| it.first_place(|_| false, &mut is_near).is_some())
     }
 }
 
-/// How far across the CAV's heading, for each m along it, who follows in another way goes.
+/// How far across the CAV's heading, for each m along it, who follows beside it goes.
 const ALIKE: f64 = 0.105;
-/// By how much the distance to the reference path may differ then, m.
-const KEPT: f64 = 0.2;
 /// By how much the rectangle is smaller on each side that an object comes across, m.
 const INNER: f64 = 0.3;
+
+/// The CAV, half as much wider as it is aside of the trajectory's first point, or by less than 1e-12 of
+/// that more: one that begins beside it does not say where it joins.
+fn widened(ego: Ego, start: Option<&TrajectoryPoint>) -> Ego {
+    let Some(start) = start else { return ego };
+    let aside = Vector::between([start.x, start.y], [ego.x, ego.y]);
+    let aside = aside.cross(vector([start.cos, start.sin])).magnitude();
+    Ego { width: (ego.width + 2.0 * aside) * (1.0 + 1e-15), ..ego }
+}
 
 /// An object with error bounds.
 struct Exact {

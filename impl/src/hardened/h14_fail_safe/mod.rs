@@ -58,7 +58,7 @@ impl FailSafe<'_, '_> {
         let explained = Explained::new(history, tracks, scratch);
         let items = detections.map_or(&[][..], |list| list.items);
         let mut motions = Motions {
-            meeting: Meeting::new(&path, trajectory.points.len(), self.route),
+            meeting: Meeting::new(&path, trajectory.points, self.route),
             history,
             lists: Lists::new(cycle, history, tracks),
             explained: &explained,

@@ -13,7 +13,7 @@ use crate::hardened::detection_history::lists::{Lists, Past};
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
 use crate::hardened::h14_fail_safe::meeting::{Meeting, Met};
 use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
-use crate::input::scratch::Scratch;
+use crate::input::scratch::{Row, Scratch};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::is_empty;
 use crate::numbers::rounding::Real;
@@ -80,7 +80,7 @@ pub(super) struct Found {
 /// The kinds of motions in their order.
 const TRACK: usize = 0;
 const CONFIRMED: usize = 1;
-const FROM_ANYWHERE: usize = 2;
+const ANYWHERE: usize = 2;
 const STANDING: usize = 3;
 
 /// A pair of a detection and an item of a list.
@@ -93,7 +93,7 @@ struct Pair {
     dt_ns: i64,
 }
 
-impl<'c> Motions<'_, 'c, '_> {
+impl Motions<'_, '_, '_> {
     pub(super) fn tracks(&mut self, list: &TrackList<'_>, age_ns: i64) {
         for (index, track) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::track(track), age_ns);
@@ -115,7 +115,7 @@ impl<'c> Motions<'_, 'c, '_> {
         if let Some(tracks) = tracks.filter(|_| self.explained.count > 0) {
             let off = self.lists.greatest_off();
             for (order, track) in tracks.items.iter().enumerate() {
-                let item = scratch.rows.get(order).and_then(|row| row.confirmed_by());
+                let item = scratch.rows.get(order).and_then(Row::confirmed_by);
                 let Some(detection) = item.map(usize::from) else { continue };
                 let Some(now) = list.items.get(detection) else { continue };
                 let now = Motion::new(MovingRectangle::detection(now), age_ns);
@@ -125,7 +125,7 @@ impl<'c> Motions<'_, 'c, '_> {
         for (detection, now) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
             let by = self.explained.by(detection, scratch.rows, scratch.columns);
-            self.from_anywhere((detection, now), &motion, by, scratch);
+            self.anywhere((detection, now), &motion, by, scratch);
             if by.is_none() && !self.meeting.is_missed(&motion, 0.0) {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
@@ -194,7 +194,7 @@ impl<'c> Motions<'_, 'c, '_> {
 
     /// A detection that is unexplained, or disputed, from every item that some other list supports.
     /// `track`: which explains it.
-    fn from_anywhere(
+    fn anywhere(
         &mut self,
         (detection, now): (usize, &Detection),
         motion: &Motion,
@@ -220,7 +220,7 @@ impl<'c> Motions<'_, 'c, '_> {
                 return;
             }
             let motion = motion.coming_from(before, list.age_ns, rate);
-            let order = [FROM_ANYWHERE, detection];
+            let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };
             if !self.meeting.is_missed(&motion, 0.0)
                 && self.lists.is_supported(now, before, (reference, &list), scratch.columns)

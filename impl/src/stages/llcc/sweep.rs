@@ -112,7 +112,7 @@ impl Sweep {
         let footprints = points.iter().map(|point| MovingRectangle::footprint(ego, point));
         let place = |footprint: MovingRectangle| footprint.centre;
         let origin = footprints.clone().next().map_or([0.0; 2], place);
-        let [x, y] = minus(footprints.clone().last().map_or(origin, place), origin);
+        let [x, y] = minus(footprints.clone().next_back().map_or(origin, place), origin);
         let length = libm::sqrt(x * x + y * y);
         let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
         let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
