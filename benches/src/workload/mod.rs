@@ -154,7 +154,7 @@ impl Workload {
         workload
     }
 
-    /// Changes what is seen until the base case passes H-13 in the hardened profile: among so many
+    /// Changes what is seen until the base case passes H-14 in the hardened profile: among so many
     /// things there is at times an earlier one, with support, from which another would come into the
     /// way. Clutter that would is left out; from where something else would, nothing was seen in that
     /// scan.
@@ -168,7 +168,7 @@ impl Workload {
             let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
             let stages = report.expect("the workloads are valid input").stages;
             let found = stages.into_iter().find_map(|outcome| match outcome {
-                Outcome::Failed(witness) if witness.rule == Rule::CollisionMoving => Some(witness),
+                Outcome::Failed(witness) if witness.rule == Rule::FailSafe => Some(witness),
                 _ => None,
             });
             let Some(witness) = found else { return };

@@ -97,26 +97,6 @@ fn a_corner_is_a_point() {
     }
 }
 
-/// The trajectory stands after 0.5 m, and its points are 0 to 7: places 1.5 m, 1.75 m, 2 m and
-/// 2.25 m ahead of its end follow.
-#[test]
-fn beyond_the_end_the_cav_is_where_it_is_moved_to() {
-    let found = |configuration, length| {
-        let mut scene = occupied(configuration, PLACES[0], &[AHEAD]);
-        scene.points.truncate(8);
-        scene.points.iter_mut().skip(1).for_each(|point| point.x = 0.5);
-        (scene.ego.length, scene.parameters.lag_tolerance) = (length, 2.0);
-        collision(&scene)
-    };
-    for configuration in [AllRemote, PlanRemote] {
-        // The front reaches 5 m at the fourth of the places, or at the fifth.
-        assert_eq!(found(configuration, 4.5), Some((11, (105, 100))));
-        assert_eq!(found(configuration, 4.5 - 2e-7), Some((12, (105, 100))));
-    }
-    // A disk reaches it at the second.
-    assert_eq!(found(MotRemote, 4.5), Some((9, (105, 100))));
-}
-
 /// There the paper's stage v runs, too.
 #[test]
 fn in_mot_remote_the_disks_collide() {

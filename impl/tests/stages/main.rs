@@ -6,15 +6,10 @@
 )]
 
 mod cells;
-mod disputed;
-mod explained;
 mod history;
 mod input;
-mod lag;
-mod moving;
 mod scene;
 mod slide;
 mod step_turn;
 mod steps;
 mod thresholds;
-mod waiting;

@@ -6,7 +6,7 @@ use core::cmp::Ordering;
 use crate::input::cycle::{CrossSection, Route};
 use crate::input::route_index::{RouteIndex, candidates};
 use crate::numbers::exact::{certain_orientation, orientation};
-use crate::numbers::plane::{same_point, segment_distance};
+use crate::numbers::plane::{Vector, same_point, segment_distance};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
@@ -100,6 +100,28 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
             let at = if nearer { segment.index } else { at };
             (best.min(candidate), at)
         })
+    }
+
+    /// The same for a place that is rounded first, by as much more.
+    pub(crate) fn distance_of(&self, place: Vector, hint: usize) -> (Real, usize) {
+        let Vector { x, y } = place;
+        let (away, nearest) = self.path_distance([x.value(), y.value()], hint);
+        (away.widened(x.off() + y.off()), nearest)
+    }
+
+    /// Whether a place certainly lies beyond neither end of the reference path, if that has ends.
+    pub(crate) fn certainly_has_beside(&self, place: Vector) -> bool {
+        let lies_behind = |(end, next): (&CrossSection, &CrossSection)| {
+            let along = Vector::between([end.x, end.y], [next.x, next.y]);
+            Real::ZERO.certainly_below((place - Vector::new(end.x, end.y)).dot(along))
+        };
+        let (first, last) = (0_usize, self.pairs());
+        let ends = [[first, first.saturating_add(1)], [last, last.saturating_sub(1)]];
+        self.route.closed
+            || ends.iter().all(|pair| {
+                let [end, next] = pair.map(|index| self.route.cross_sections.get(index));
+                end.zip(next).is_some_and(lies_behind)
+            })
     }
 
     /// The witness that a place is too far from the reference path.

@@ -10,7 +10,7 @@ use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::random::Random;
 use crate::services::configuration::Configuration;
-use crate::stages::llcc::footprint;
+use crate::stages::llcc::{Pose, footprint};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 
 fn grid(random: &mut Random, occupied: &'static [u8]) -> Grid<'static> {
@@ -151,7 +151,7 @@ fn what_a_rectangle_can_touch_is_in_the_band() {
             bits[bit / 8] |= 1 << (bit % 8);
             let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
             let square = cell(column, row);
-            let touches = |point| possibly_touch(&footprint(&cycle.ego, point), &square);
+            let touches = |point| possibly_touch(&footprint(&cycle.ego, &Pose::of(point)), &square);
             let touches = points.iter().any(touches);
             assert!(!(touches && is_free), "{column} {row} {band:?}");
             free += u32::from(is_free);

@@ -4,25 +4,22 @@
 //! is as near to the past as the nearest item, but for `CLOSE`, is at the same place, or stage i has
 //! failed (`ambiguous`).
 //!
-//! What it costs, with D detections, U items of all usable lists, R of the longest, and P places, so
-//! that the work of H-13 is D R (U + P): each confirmed track is asked about once at most, and
-//! compares its origin with every unexplained detection, and of each of these one place in every
-//! other list with the items there, at most U. Confirmed tracks have two own origins at least, and no
-//! two tracks have the same one, so that there are at most U / 2 of them, which is at most 2 R:
-//! together 2 R D (U + 1) steps, twice that with the far points of (c). (b) takes D R (U + P) for all
-//! detections, disputed or not, as if none were explained, and (a) no more: each at most a few times
-//! the work.
+//! What it costs, with D detections, U items of all usable lists and R of the longest, of the work
+//! D R U of H-14: each confirmed track is asked about once at most, and compares its origin with every
+//! unexplained detection, and of each of these one place in every other list with the items there, at
+//! most U. Confirmed tracks have two own origins at least, and no two tracks have the same one, so that
+//! there are at most U / 2 of them, which is at most 2 R: together 2 R D (U + 1) steps.
 
+use crate::hardened::detection_history::explained::Explained;
+use crate::hardened::detection_history::lists::{Lists, Past};
 use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
-use crate::hardened::h10_explained::Explained;
-use crate::hardened::h13_moving::lists::{Lists, Past};
-use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
+use crate::input::cycle::{Detection, Track, TrackList};
 use crate::input::detection_index::DetectionIndex;
 use crate::input::scratch::{Column, Scratch};
 
 /// What is asked of the current detections, and what is known.
-pub(super) struct Disputes<'m, 'c, 'a> {
-    detections: &'c DetectionList<'a>,
+pub(crate) struct Disputes<'m, 'c, 'a> {
+    detections: &'c [Detection],
     index: Option<&'c DetectionIndex<'a>>,
     tracks: Option<&'c TrackList<'a>>,
     explained: &'m Explained,
@@ -36,27 +33,27 @@ pub(super) struct Disputes<'m, 'c, 'a> {
 const FEW: usize = 8;
 
 impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
-    pub(super) fn new(
-        detections: &'c DetectionList<'a>,
+    pub(crate) fn new(
+        detections: &'c [Detection],
         index: Option<&'c DetectionIndex<'a>>,
         tracks: Option<&'c TrackList<'a>>,
         explained: &'m Explained,
         scratch: &Scratch<'_>,
     ) -> Self {
-        let unexplained = few_unexplained(detections.items, explained, scratch);
+        let unexplained = few_unexplained(detections, explained, scratch);
         Self { detections, index, tracks, explained, unexplained, last: None }
     }
 
     /// Whether the detection of a confirmed track may be disputed: whether any unexplained one is as
     /// near to its past as that takes, or there are many.
-    pub(super) fn may_be_disputed(
+    pub(crate) fn may_be_disputed(
         &self,
         track: usize,
         lists: &Lists<'_, '_, '_>,
         scratch: &Scratch<'_>,
     ) -> bool {
         let Some(unexplained) = &self.unexplained else { return true };
-        if self.explained.count == self.detections.items.len() {
+        if self.explained.count == self.detections.len() {
             return false;
         }
         let row_of = |list: &'c TrackList<'a>| list.items.get(track).zip(scratch.rows.get(track));
@@ -69,7 +66,7 @@ impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
     }
 
     /// Whether the detection of a confirmed track is disputed. The lists are listed by squares.
-    pub(super) fn is_disputed(
+    pub(crate) fn is_disputed(
         &mut self,
         track: usize,
         lists: &Lists<'_, '_, '_>,
@@ -106,7 +103,7 @@ impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
         lists: &Lists<'_, '_, '_>,
         scratch: &Scratch<'_>,
     ) -> bool {
-        let items = self.detections.items;
+        let items = self.detections;
         let farthest = lists.v_object() * past.usable.age + CLOSE;
         let comes = |detection: usize, now: &Detection| {
             let (x, y) = (now.x - origin[0], now.y - origin[1]);

@@ -1,4 +1,4 @@
-//! The usable lists, as H-13 looks into them (`spec/3-stages.md#hardened-profile`).
+//! The usable lists, as H-14 looks into them (`spec/3-stages.md#what-the-cav-saw-itself`).
 
 use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
@@ -9,34 +9,34 @@ use crate::numbers::time::{elapsed_ns, seconds};
 
 /// The list of a track.
 #[derive(Clone, Copy)]
-pub(super) struct Past<'c> {
+pub(crate) struct Past<'c> {
     /// Its place in the history.
-    pub(super) list: usize,
-    pub(super) usable: UsableList<'c>,
+    pub(crate) list: usize,
+    pub(crate) usable: UsableList<'c>,
     /// How far from the past an item may be, m.
-    pub(super) reach: f64,
+    pub(crate) reach: f64,
     /// How much the mean velocity may differ from that of the track, m/s.
-    pub(super) off: f64,
+    pub(crate) off: f64,
     /// From the stamp of the tracks to that of the list, s.
     since: f64,
 }
 
 impl Past<'_> {
     /// From the position of a track to its past, m.
-    pub(super) fn moved(&self, track: &Track) -> (f64, f64) {
+    pub(crate) fn moved(&self, track: &Track) -> (f64, f64) {
         (track.vx * self.since, track.vy * self.since)
     }
 
     /// A box that holds what is as near to the past as an item may be.
-    pub(super) fn around(&self, track: &Track) -> [[f64; 2]; 2] {
+    pub(crate) fn around(&self, track: &Track) -> [[f64; 2]; 2] {
         let (dx, dy) = self.moved(track);
         let around = |at: f64| [at - self.reach - MARGIN, at + self.reach + MARGIN];
         [around(track.x + dx), around(track.y + dy)]
     }
 }
 
-/// All that H-13 asks of the usable lists.
-pub(super) struct Lists<'m, 'c, 'a> {
+/// All that is asked of the usable lists.
+pub(crate) struct Lists<'m, 'c, 'a> {
     cycle: &'m Cycle<'a>,
     history: &'m DetectionHistory<'c, 'a>,
     /// The lists in which the past of a confirmed track is looked for, the first one first.
@@ -46,7 +46,7 @@ pub(super) struct Lists<'m, 'c, 'a> {
 }
 
 impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         cycle: &'m Cycle<'a>,
         history: &'m DetectionHistory<'c, 'a>,
         tracks: Option<&TrackList<'_>>,
@@ -66,21 +66,22 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         Self { cycle, history, pasts, squares: [None; 4] }
     }
 
-    /// The most of `Past::off`.
-    pub(super) fn greatest_off(&self) -> f64 {
+    /// By how much the mean velocity of a confirmed track's detection may differ from that of the
+    /// track at most, m/s.
+    pub(crate) fn greatest_off(&self) -> f64 {
         self.pasts.iter().flatten().map(|past| past.off).fold(0.0, larger)
     }
 
-    pub(super) const fn v_object(&self) -> f64 {
+    pub(crate) const fn v_object(&self) -> f64 {
         self.cycle.parameters.v_object
     }
 
-    pub(super) fn usable(&self, list: usize) -> Option<UsableList<'c>> {
+    pub(crate) fn usable(&self, list: usize) -> Option<UsableList<'c>> {
         self.history.usable.get(list).copied().flatten()
     }
 
     /// The list by squares. All usable ones are listed at the first call.
-    pub(super) fn by_squares(
+    pub(crate) fn by_squares(
         &mut self,
         list: usize,
         columns: &mut [Column],
@@ -99,12 +100,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
     }
 
     /// The same after that call.
-    pub(super) fn listed(&self, list: usize) -> Option<Squares<'c>> {
+    pub(crate) fn listed(&self, list: usize) -> Option<Squares<'c>> {
         self.squares.get(list).copied().flatten()
     }
 
     /// The list of the confirmed track with this row.
-    pub(super) fn past_of(&self, row: &Row) -> Option<Past<'c>> {
+    pub(crate) fn past_of(&self, row: &Row) -> Option<Past<'c>> {
         let origins = row.origins();
         let is_held = |past: &&Past<'_>| origins & [1, 2, 4, 8].get(past.list).unwrap_or(&0) != 0;
         self.pasts.iter().flatten().find(is_held).copied()
@@ -112,7 +113,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
 
     /// Whether a detection may come from an item of a list, but for the distance: whether an item of
     /// another list is where the object was then, when there are other lists. All are listed.
-    pub(super) fn is_supported(
+    pub(crate) fn is_supported(
         &self,
         now: &Detection,
         before: [f64; 2],

@@ -1,0 +1,251 @@
+//! Boxes around the CAV's rectangles at consecutive places, with the time when it may be there: what
+//! certainly sweeps over no point of such a box meets the CAV at none of them.
+//!
+//! Plain doubles. Places count from the CAV's reference point and are below 2^26 m, so that with less than
+//! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
+
+use crate::hardened::h14_fail_safe::times::Times;
+use crate::input::cycle::{Cycle, Ego};
+use crate::numbers::range::{EMPTY, extend, larger, smaller};
+use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
+
+/// More than plain doubles err, m.
+const ERROR: f64 = 1e-6;
+/// The same, of what is long.
+const ROUGH: f64 = 1e-12;
+/// No two places that follow each other are farther apart, m.
+pub(super) const APART: f64 = 0.4;
+
+/// What decides when an object may meet the CAV, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    pub(super) times: Times<f64>,
+    /// T + `t_yield`
+    yields: f64,
+    /// 1 / (2 `a_yield`), 1 / (2 `a_b`)
+    yielding: f64,
+    braking: f64,
+    a_b: f64,
+}
+
+impl Clock {
+    pub(super) fn new(cycle: &Cycle<'_>) -> Self {
+        let (times, parameters) = (Times::new(cycle), &cycle.parameters);
+        Self {
+            times,
+            yields: times.until_stop + parameters.t_yield,
+            yielding: 0.5 / parameters.a_yield,
+            braking: 0.5 / parameters.a_b,
+            a_b: parameters.a_b,
+        }
+    }
+
+    /// For how long an object of that speed and age moves on, rounded up.
+    pub(super) fn longest(&self, speed: f64, age: f64) -> f64 {
+        (age + self.yields + speed * self.yielding) * (1.0 + 1e-9) + 1e-9
+    }
+
+    /// After what time an object that goes on is where it is now when it brakes, rounded down.
+    fn braked(&self, speed: f64, seconds: f64) -> f64 {
+        let left = larger(speed - self.a_b * seconds, 0.0);
+        if speed > 1e-3 { (speed - left * left / speed) * self.braking - 1e-9 } else { 0.0 }
+    }
+}
+
+/// An object as plain doubles have it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Object {
+    /// The centre from the CAV's reference point, at the time of its list.
+    pub(super) at: MovingRectangle,
+    pub(super) speed: f64,
+    /// By how much the velocity may be another one, m/s.
+    pub(super) off: f64,
+    /// Age of its list, s.
+    pub(super) age: f64,
+}
+
+/// A box, and when the CAV may be in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cover {
+    axis: [f64; 2],
+    /// Along the axis and across it, from the CAV's reference point.
+    ranges: [[f64; 2]; 2],
+    /// From when on the CAV may be there, s, and until when, if it may not stand there.
+    start: f64,
+    end: Option<f64>,
+}
+
+impl Cover {
+    /// Of nothing, yet. `ways`: the least and the greatest.
+    pub(super) fn new(axis: [f64; 2], [from, to]: [f64; 2], times: &Times<f64>) -> Self {
+        let round = |way: f64| way * ROUGH + ERROR;
+        let start = times.first(larger(from - round(from), 0.0)) * (1.0 - 1e-9) - 1e-9;
+        let to = to + round(to);
+        let passes = to < times.s_b * (1.0 - ROUGH);
+        let end = passes.then(|| times.last(to) * (1.0 + 1e-9) + 1e-9);
+        Self { axis, ranges: [EMPTY; 2], start, end }
+    }
+
+    /// With the CAV at two places and between, of that heading.
+    #[inline]
+    pub(super) fn add(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
+        let cav = rectangle(ego, heading);
+        let (reach, forward) = (cav.extents(self.axis), split(self.axis, cav.centre));
+        for place in places {
+            let [along, across] = split(self.axis, place);
+            extend(&mut self.ranges, [along + forward[0], across + forward[1]], reach);
+        }
+    }
+
+    /// Whether the object certainly sweeps over no point of the box in this time.
+    #[inline]
+    pub(super) fn misses(&self, object: &Object, clock: &Clock) -> bool {
+        let &Object { at, speed, off, age } = object;
+        let [[a, b], [va, vb]] = [at.centre, at.velocity].map(|it| split(self.axis, it));
+        let until = match self.end {
+            Some(end) => age + end,
+            None => clock.longest(speed + off, age),
+        };
+        let size = ROUGH * (self.size() + speed * until);
+        let reach = at.extents(self.axis).map(|it| it + off * until + ERROR + size);
+        let [[back, front], [right, left]] = self.ranges;
+        let (middle_a, middle_b) = (a - 0.5 * (back + front), b - 0.5 * (right + left));
+        let (half_a, half_b) = (0.5 * (front - back) + reach[0], 0.5 * (left - right) + reach[1]);
+        if (va * middle_b - vb * middle_a).abs() > va.abs() * half_b + vb.abs() * half_a {
+            return true;
+        }
+        let from = if off > 0.0 { 0.0 } else { clock.braked(speed, age + self.start) };
+        let apart = |middle: f64, rate: f64, half: f64| {
+            let (one, other) = (middle + rate * from, middle + rate * until);
+            smaller(one, other) > half || larger(one, other) < -half
+        };
+        apart(middle_a, va, half_a) || apart(middle_b, vb, half_b)
+    }
+
+    fn size(&self) -> f64 {
+        let [[back, front], [right, left]] = self.ranges;
+        larger(front.abs(), back.abs()) + larger(left.abs(), right.abs())
+    }
+}
+
+/// The CAV's rectangle, its reference point at the origin.
+fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
+    MovingRectangle {
+        centre: [ego.center_offset * cos, ego.center_offset * sin],
+        direction: [cos, sin],
+        velocity: [0.0; 2],
+        size: [ego.length, ego.width],
+    }
+}
+
+/// All places, and stretches of them.
+pub(super) struct Covers {
+    pub(super) all: Cover,
+    stretches: [Cover; MOST],
+    count: usize,
+    /// Along the axes of the plane.
+    pub(super) upright: [[f64; 2]; 2],
+}
+
+/// So many stretches, each of at least a metre.
+const MOST: usize = 16;
+
+impl Covers {
+    /// Of the path through these nodes, taken from p on.
+    pub(super) fn new<'n>(
+        ego: &Ego,
+        nodes: impl Iterator<Item = ([f64; 2], [f64; 2])> + 'n,
+        times: &Times<f64>,
+    ) -> Self {
+        let h = [ego.cos, ego.sin];
+        let end = times.s_stop * (1.0 + 1e-9) + ERROR;
+        let all = Cover::new(h, [0.0, end], times);
+        let mut covers = Self { all, stretches: [all; MOST], count: 0, upright: [EMPTY; 2] };
+        let length = larger(end / (f64::from(u8::try_from(MOST).unwrap_or(u8::MAX))), 1.0);
+        let mut walk = Walk { from: [0.0; 2], heading: h, way: 0.0, length, end, to: 0.0 };
+        let mut is_over = false;
+        for (to, heading) in nodes {
+            is_over = covers.add_piece(ego, &mut walk, to, times);
+            if is_over {
+                break;
+            }
+            (walk.from, walk.heading) = (to, heading);
+        }
+        if !is_over {
+            let ([x, y], [cos, sin]) = (walk.from, walk.heading);
+            let left = (end - walk.way) * (1.0 + 1e-6);
+            covers.add_piece(ego, &mut walk, [x + left * cos, y + left * sin], times);
+        }
+        covers
+    }
+
+    /// Cut where stretches end. Whether the way ends.
+    fn add_piece(&mut self, ego: &Ego, walk: &mut Walk, to: [f64; 2], times: &Times<f64>) -> bool {
+        let (from, heading, start) = (walk.from, walk.heading, walk.way);
+        let u = minus(to, from);
+        let advance = larger(u[0] * heading[0] + u[1] * heading[1], 0.0);
+        let next = start + advance;
+        let at = |way: f64| {
+            let share = if advance > 0.0 { smaller((way - start) / advance, 1.0) } else { 1.0 };
+            [from[0] + u[0] * share, from[1] + u[1] * share]
+        };
+        let mut place = from;
+        loop {
+            if self.count == 0 || walk.way >= walk.to && self.count < MOST {
+                walk.begin(self.count);
+                let ways = [walk.to - walk.length - APART, walk.to + APART];
+                let cover = Cover::new(heading, ways, times);
+                self.stretches.iter_mut().skip(self.count).take(1).for_each(|it| *it = cover);
+                self.count = self.count.saturating_add(1);
+            }
+            let is_last = self.count >= MOST || next <= walk.to;
+            let stop = if is_last { to } else { at(walk.to) };
+            let latest = self.count.saturating_sub(1);
+            for cover in self.stretches.iter_mut().skip(latest).take(1).chain([&mut self.all]) {
+                cover.add(ego, [place, stop], heading);
+            }
+            self.extend_upright(ego, [place, stop], heading);
+            walk.way = if is_last { next } else { walk.to };
+            place = stop;
+            if is_last {
+                return next > walk.end;
+            }
+        }
+    }
+
+    fn extend_upright(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
+        let cav = rectangle(ego, heading);
+        for [x, y] in places {
+            let centre = [x + cav.centre[0], y + cav.centre[1]];
+            extend(&mut self.upright, centre, [cav.reach(); 2]);
+        }
+    }
+
+    /// Whether the object certainly meets the CAV at no place.
+    #[inline]
+    pub(super) fn miss(&self, object: &Object, clock: &Clock) -> bool {
+        self.all.misses(object, clock)
+            || self.stretches.iter().take(self.count).all(|it| it.misses(object, clock))
+    }
+}
+
+/// How far the path has been taken.
+struct Walk {
+    from: [f64; 2],
+    heading: [f64; 2],
+    way: f64,
+    /// Of a stretch.
+    length: f64,
+    /// Of the path, and of the present stretch.
+    end: f64,
+    to: f64,
+}
+
+impl Walk {
+    /// The next stretch; the last one takes all that is left.
+    fn begin(&mut self, stretch: usize) {
+        let is_last = stretch.saturating_add(1) >= MOST;
+        self.to =
+            if is_last { larger(self.end, self.to + self.length) } else { self.to + self.length };
+    }
+}

@@ -1,0 +1,247 @@
+//! Whether an object meets the CAV (`spec/7-fail-safe.md#meeting`).
+//!
+//! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
+//! error bounds; that an object comes across the CAV or follows it only when it is sure.
+
+use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, Object};
+use crate::hardened::h14_fail_safe::motions::Motion;
+use crate::hardened::h14_fail_safe::path::{Path, Piece, Place};
+use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::numbers::plane::Vector;
+use crate::numbers::range::larger;
+use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
+use crate::numbers::rounding::Real;
+use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::llcc::sweep::{MovingRectangle, minus};
+use crate::stages::llcc::{Pose, footprint, vector};
+
+/// Where an object meets the CAV: the number of the place, and its way in m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub(super) number: i64,
+    pub(super) point: usize,
+    pub(super) way: f64,
+}
+
+/// The CAV on its path.
+pub(super) struct Meeting<'c, 'a> {
+    path: &'c Path<'c, 'a>,
+    /// How many points the trajectory has.
+    points: usize,
+    /// As wide as at the places.
+    ego: Ego,
+    route: IndexedRoute<'c, 'a>,
+    clock: Clock,
+    covers: Covers,
+}
+
+impl<'c, 'a> Meeting<'c, 'a> {
+    pub(super) fn new(
+        path: &'c Path<'c, 'a>,
+        points: &[TrajectoryPoint],
+        route: IndexedRoute<'c, 'a>,
+    ) -> Self {
+        let (cycle, count) = (path.cycle, points.len());
+        let clock = Clock::new(cycle);
+        let ego = widened(cycle.ego, points.first());
+        let &Ego { x, y, .. } = &cycle.ego;
+        let from_p = |node: &TrajectoryPoint| ([node.x - x, node.y - y], [node.cos, node.sin]);
+        let covers = Covers::new(&ego, path.nodes.iter().map(from_p), &clock.times);
+        Self { path, points: count, ego, route, clock, covers }
+    }
+
+    const fn cycle(&self) -> &'c Cycle<'a> {
+        self.path.cycle
+    }
+
+    /// As plain doubles have it; `off`: by how much the velocity may be another one, m/s.
+    #[inline]
+    fn plainly(&self, motion: &Motion, off: f64) -> Object {
+        let ego = &self.cycle().ego;
+        let centre = minus(motion.now.centre, [ego.x, ego.y]);
+        let [x, y] = motion.now.velocity;
+        Object {
+            at: MovingRectangle { centre, ..motion.now },
+            speed: libm::sqrt(x * x + y * y),
+            off,
+            age: motion.age,
+        }
+    }
+
+    /// Whether the object certainly misses the CAV, with whatever velocity is so near to its own.
+    #[inline]
+    pub(super) fn is_missed(&self, motion: &Motion, off: f64) -> bool {
+        self.covers.all.misses(&self.plainly(motion, off), &self.clock)
+    }
+
+    /// The box in which an item of an earlier list of that age has to be, so that an object that comes
+    /// from there, no faster than that, may meet the CAV: what is beside all places goes towards them.
+    pub(super) fn comes_from(&self, now: &Motion, speed: f64, dt: f64) -> [[f64; 2]; 2] {
+        let ego = &self.cycle().ego;
+        let part = dt / self.clock.longest(speed, now.age);
+        let (reach, most) = (now.now.reach() + 1e-3, speed * dt + 1e-3);
+        let [x, y] = now.now.centre;
+        let range = |at: f64, origin: f64, [least, greatest]: [f64; 2]| {
+            let (above, below) = (at - origin - greatest - reach, least - reach - (at - origin));
+            let from = if above > 0.0 { above * part - 1e-3 } else { -most };
+            let to = if below > 0.0 { 1e-3 - below * part } else { most };
+            [at + from, at + to]
+        };
+        let [across, up] = self.covers.upright;
+        [range(x, ego.x, across), range(y, ego.y, up)]
+    }
+
+    /// The first place before that with a number where the object may meet the CAV, if it does not
+    /// follow.
+    pub(super) fn first(&self, motion: &Motion, before: i64) -> Option<Met> {
+        let object = self.plainly(motion, 0.0);
+        if self.covers.miss(&object, &self.clock) {
+            return None;
+        }
+        let exact = Exact::new(self.cycle(), motion);
+        let pieces = self.path.pieces().take_while(|piece| piece.first < before);
+        let met = pieces.into_iter().find_map(|piece| {
+            let misses = |run| self.run(&piece, run).misses(&object, &self.clock);
+            piece.first_place(misses, |place| self.meets(place, &exact))
+        });
+        met.filter(|met| met.number < before).filter(|_| !self.follows(&exact))
+    }
+
+    /// The box around some places of a piece.
+    fn run(&self, piece: &Piece, run: [i64; 2]) -> Cover {
+        let ego = &self.ego;
+        let [[x, y, way], [to_x, to_y, to]] = piece.between(run, [ego.x, ego.y]);
+        let ways = [larger(way - APART, 0.0), to + APART];
+        let mut cover = Cover::new(piece.heading(), ways, &self.clock.times);
+        cover.add(ego, [[x, y], [to_x, to_y]], piece.heading());
+        cover
+    }
+
+    /// Whether the object may sweep over a point of the CAV's rectangle in the window of the place.
+    fn meets(&self, place: &Place, object: &Exact) -> Option<Met> {
+        let (cycle, times) = (self.cycle(), &self.path.times);
+        let passes = place.after.filter(|after| after.certainly_below(times.s_b));
+        let start = times.first(place.before);
+        let end = match passes {
+            Some(after) => times.last(after),
+            None if object.comes_across => times.until_stop,
+            None => {
+                let [t_yield, a_yield] =
+                    [cycle.parameters.t_yield, cycle.parameters.a_yield].map(Real::new);
+                times.until_stop + t_yield + object.speed.over(a_yield + a_yield)
+            }
+        };
+        let cav = footprint(&self.ego, &place.pose);
+        let number = place.number;
+        let met = || Met { number, point: place.point(self.points), way: place.way.value() };
+        object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
+    }
+
+    /// Whether the object certainly follows the CAV.
+    fn follows(&self, object: &Exact) -> bool {
+        let ego = &self.cycle().ego;
+        let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
+        let (along, across) = (w.dot(h), w.cross(h).abs());
+        let cav = footprint(ego, &Pose::of_cav(ego));
+        let Rectangle { centre, direction, length, width } = object.now;
+        let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
+        let (straight, turned) = (direction.dot(h).abs(), direction.cross(h).abs());
+        let front = (centre - cav.centre).dot(h) + (straight * length + turned * width);
+        if !Real::ZERO.certainly_below(along)
+            || !front.certainly_below(Real::new(-0.5 * ego.length))
+        {
+            return false;
+        }
+        let beside = Real::new(0.5 * ego.width) + (turned * length + straight * width);
+        object.comes_across && across.certainly_at_most(along)
+            || across.certainly_at_most(Real::new(ALIKE) * along)
+                && self.has_a_lane_of_its_own(object.now.centre, beside)
+    }
+
+    /// Whether certainly every place is nearer to the reference path than the object, or farther, by
+    /// more than that in m, and none of them beyond its ends.
+    fn has_a_lane_of_its_own(&self, object: Vector, beside: Real) -> bool {
+        let (of_object, mut hint) = self.route.distance_of(object, 0);
+        let mut is_near = |place: &Place| {
+            let (of_place, nearest) = self.route.distance_of(place.pose.at, hint);
+            hint = nearest;
+            let is_beside = beside.certainly_below((of_object - of_place).abs());
+            let is_between = self.route.certainly_has_beside(place.pose.at);
+            (!(is_beside && is_between)).then_some(())
+        };
+        self.route.certainly_has_beside(object)
+            && !self.path.pieces().any(|it| it.first_place(|_| false, &mut is_near).is_some())
+    }
+}
+
+/// How far across the CAV's heading, for each m along it, who follows beside it goes.
+const ALIKE: f64 = 0.105;
+/// By how much the rectangle is smaller on each side that an object comes across, m.
+const INNER: f64 = 0.3;
+
+/// The CAV, half as much wider as it is aside of the trajectory's first point, or by less than 1e-12 of
+/// that more: one that begins beside it does not say where it joins.
+fn widened(ego: Ego, start: Option<&TrajectoryPoint>) -> Ego {
+    let Some(start) = start else { return ego };
+    let aside = Vector::between([start.x, start.y], [ego.x, ego.y]);
+    let aside = aside.cross(vector([start.cos, start.sin])).magnitude();
+    Ego { width: (ego.width + 2.0 * aside) * (1.0 + 1e-15), ..ego }
+}
+
+/// An object with error bounds.
+struct Exact {
+    /// At the time of its list.
+    at: Rectangle,
+    /// Now.
+    now: Rectangle,
+    /// m/s; 0 where that makes no difference.
+    velocity: Vector,
+    speed: Real,
+    age: Real,
+    /// Whether it certainly does.
+    comes_across: bool,
+}
+
+impl Exact {
+    fn new(cycle: &Cycle<'_>, motion: &Motion) -> Self {
+        /// What is slower moves less than 2^-290 m.
+        const SLOW: f64 = f64::from_bits((1023 - 400) << 52);
+        let velocity = motion.velocity();
+        let is_slow = velocity.x.magnitude() < SLOW && velocity.y.magnitude() < SLOW;
+        let stays = Real::ZERO.widened(if is_slow { SLOW } else { 0.0 });
+        let velocity = if is_slow { Vector { x: stays, y: stays } } else { velocity };
+        let (speed, age) =
+            (if is_slow { stays } else { velocity.norm() }, Real::seconds(motion.age_ns));
+        let at = motion.now.displaced(vector([0.0; 2]));
+        let now = Rectangle { centre: at.centre + velocity.times(age), ..at };
+        let comes_across = !is_slow && comes_across(&cycle.ego, &now, velocity);
+        Self { at, now, velocity, speed, age, comes_across }
+    }
+
+    /// Whether it may sweep over a point of the rectangle between two times after now.
+    fn possibly_sweeps(&self, cav: &Rectangle, start: Real, end: Real, a_b: f64) -> bool {
+        let Self { at, velocity, speed, age, .. } = *self;
+        let (braking, until) = (Real::new(a_b), age + end);
+        let left = (speed - braking * (age + start)).max(Real::ZERO);
+        let is_still = speed.magnitude() < STILL;
+        let from = if is_still {
+            Real::ZERO
+        } else {
+            (speed - left * left.over(speed)).over(braking + braking)
+        };
+        let swept = Rectangle { centre: at.centre + velocity.times(from), ..at };
+        possibly_swept(cav, &swept, velocity.times(until - from))
+    }
+}
+
+/// m/s; so slow is only what counts as standing.
+const STILL: f64 = f64::from_bits((1023 - 300) << 52);
+
+/// Whether the object certainly shares a point with the inner part of the CAV's rectangle, now or
+/// later. That is made smaller by 5e-10 m on each side, more than it is rounded.
+fn comes_across(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
+    let inner = |size: f64| size - (INNER + INNER) - 1e-9;
+    let (length, width) = (inner(ego.length), inner(ego.width));
+    let cav = Rectangle { length, width, ..footprint(ego, &Pose::of_cav(ego)) };
+    length > 0.0 && width > 0.0 && certainly_met(&cav, now, velocity)
+}
