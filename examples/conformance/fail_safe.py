@@ -13,7 +13,7 @@ from functools import cached_property
 from detection_history import S
 from geometry import EPS, edges, from_centre, reach, segment_distance
 from paper import segments
-from stopping import Stop
+from stopping import Stop, between, cross, dot
 
 
 @dataclass
@@ -96,9 +96,9 @@ class Motion:
         t = min(t, self.speed / self.a_b)
         return self.speed * t - self.a_b * t * t / 2
 
-    def meets(self, pose, t1, t2):
-        """Whether it sweeps over the CAV at a place from t1 to t2."""
-        return sweeps(edges(pose, self.ego, EPS, self.item), *self.from_cav(pose), *self.u,
+    def meets(self, cav, pose, t1, t2):
+        """Whether it sweeps over the CAV, of some length and width, at a place from t1 to t2."""
+        return sweeps(edges(pose, cav, EPS, self.item), *self.from_cav(pose), *self.u,
                       self.braked(self.age + t1), self.speed * (self.age + t2))
 
     def from_cav(self, pose):
@@ -113,6 +113,12 @@ class Motion:
         # Farther than this it is past the CAV.
         far = self.speed * self.age + math.hypot(dx, dy) + 2 * sum(h for _, _, h in sides)
         return sweeps(sides, dx, dy, *self.u, self.speed * self.age, far)
+
+    @property
+    def centre(self):
+        """Where it is now."""
+        (wx, wy), item = self.w, self.item
+        return {"x": item["x"] + wx * self.age, "y": item["y"] + wy * self.age}
 
     def is_behind(self, pose):
         """Whether all of it is behind the CAV's rear now."""
@@ -151,16 +157,34 @@ class FailSafe:
             yield place.pose, begins, self.stop.last(after.way) if moves_on else None
 
     @cached_property
-    def keeps_its_lane(self):
-        """Whether no place is nearer to the reference path, or farther from it, than p is."""
-        ego, p = self.ego, self.places[0].pose
-        local = [tuple({"x": at["x"] - ego["x"], "y": at["y"] - ego["y"]} for at in pair)
-                 for pair in segments(self.cycle["route"])]
+    def route(self):
+        """The segments of the reference path."""
+        ego = self.ego
+        return [tuple({"x": at["x"] - ego["x"], "y": at["y"] - ego["y"]} for at in pair)
+                for pair in segments(self.cycle["route"])]
+
+    @cached_property
+    def offsets(self):
+        """Of each place the distance to the reference path."""
         far = max(math.hypot(place.x, place.y) for place in self.places)
-        gaps = [segment_distance(p, a, b) for a, b in local]
-        near = [pair for pair, gap in zip(local, gaps) if gap <= min(gaps) + 2 * far + 1]
-        return all(abs(min(segment_distance(place.pose, a, b) for a, b in near) - min(gaps))
-                   <= 0.2 - EPS for place in self.places)
+        gaps = [segment_distance(self.places[0].pose, a, b) for a, b in self.route]
+        near = [pair for pair, gap in zip(self.route, gaps) if gap <= min(gaps) + 2 * far + 1]
+        return [min(segment_distance(place.pose, a, b) for a, b in near) for place in self.places]
+
+    def has_its_own_lane(self, motion):
+        """Whether it is beside the path, farther than half of both widths."""
+        offset = min(segment_distance(motion.centre, a, b) for a, b in self.route)
+        item, h = motion.item, self.ego
+        width = abs(cross(item, h)) * item["length"] + abs(dot(item, h)) * item["width"]
+        return all(abs(offset - place) > (self.ego["width"] + width) / 2 + EPS
+                   for place in self.offsets)
+
+    @cached_property
+    def wide(self):
+        """The CAV, wider by how far beside it the trajectory begins: it may join it anywhere."""
+        first = self.cycle["trajectory"]["points"][0]
+        beside = abs(between(first, self.ego, first)[1])
+        return {**self.ego, "width": self.ego["width"] + 2 * beside}
 
     def follows(self, motion, comes_across):
         """Who follows keeps its own distance."""
@@ -169,7 +193,7 @@ class FailSafe:
         if not along > EPS or not motion.is_behind(self.places[0].pose):
             return False
         return ((comes_across and across <= along - EPS)
-                or (across <= 0.105 * along - EPS and self.keeps_its_lane))
+                or (across <= 0.105 * along - EPS and self.has_its_own_lane(motion)))
 
     def motions(self, seen, tracks):
         for track in tracks:
@@ -188,7 +212,7 @@ class FailSafe:
             comes_across = motion.comes_across(now)
             if not self.follows(motion, comes_across):
                 examined.append((motion, self.stop.T + (0.0 if comes_across else motion.t_yield)))
-        return not any(motion.meets(pose, begins, latest if ends is None else ends)
+        return not any(motion.meets(self.wide, pose, begins, latest if ends is None else ends)
                        for pose, begins, ends in self.windows() for motion, latest in examined)
 
     def work(self, seen, tracks):
