@@ -2,29 +2,38 @@
 import math
 
 from geometry import EPS
-from paper import disk_centres, disk_radius, s_b
-from stopping import places, s_stop
+from paper import disk_centres, disk_radius, points_within, s_b
 
 
-def stage_v(cycle, ran_iv):
-    """H-06: disks against the squares of cells; the unknown counts unless stage iv ran. Where that
-    ran on a detection, and not in MotRemote, the CAV's rectangle against the occupied ones."""
-    grid, r = cycle["grid"], disk_radius(cycle) + EPS
-    is_exact = (ran_iv and cycle["detections"]["items"]
+def poses(cycle, places):
+    """The points that the paper names, then the places of H-14, from the CAV's reference point."""
+    ego = cycle["ego"]
+    for point in points_within(cycle, s_b(cycle, ego["speed"])):
+        yield {**point, "x": point["x"] - ego["x"], "y": point["y"] - ego["y"]}
+    yield from (place.pose for place in places)
+
+
+def stage_v(cycle, detections, places):
+    """H-06: disks against the squares of cells; the unknown counts unless detections are current.
+    Where there is one, and not in MotRemote, the CAV's rectangle against the occupied ones."""
+    ego, grid, r = cycle["ego"], cycle["grid"], disk_radius(cycle) + EPS
+    is_exact = (detections and cycle["detections"]["items"]
                 and cycle["configuration"] != "MotRemote")
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
-    bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
+    bitmaps = [grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
     filled = bits[0] | bits[-1]
     rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
             for k in range(grid["height"])]
-    for place in places(cycle, max(s_b(cycle, cycle["ego"]["speed"]), s_stop(cycle))):
+    cycle = {**cycle, "grid": {**grid, "x": grid["x"] - ego["x"], "y": grid["y"] - ego["y"]}}
+    offset = ego["center_offset"]
+    for pose in poses(cycle, places):
         if is_exact:
-            if rectangle_meets_cell(cycle, rows, *place):
+            if rectangle_meets_cell(cycle, rows, pose, offset):
                 return False
             continue
-        for u, v in disk_centres(cycle, *place):
-            if not ran_iv and not (r < u < high_u - r and r < v < high_v - r):
+        for u, v in disk_centres(cycle, pose, offset):
+            if not detections and not (r < u < high_u - r and r < v < high_v - r):
                 return False
             if meets_cell(grid, rows, u, v, r):
                 return False
