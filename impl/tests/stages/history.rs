@@ -5,7 +5,7 @@ use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::Rule;
-use mufasa::services::configuration::Configuration::{AllRemote, MotRemote};
+use mufasa::services::configuration::Configuration::MotRemote;
 
 const MS: i64 = 1_000_000;
 const AGES_NS: [i64; 3] = [300 * MS, 500 * MS, 800 * MS];

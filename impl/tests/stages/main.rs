@@ -6,8 +6,13 @@
 )]
 
 mod cells;
+mod disputed;
+mod extremes;
+mod fail_safe;
 mod history;
 mod input;
+mod motions;
+mod naive;
 mod scene;
 mod slide;
 mod step_turn;

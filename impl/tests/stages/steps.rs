@@ -1,11 +1,11 @@
 //! Starts and steps of a trajectory, and the gap, on both sides of their thresholds (H-04, H-07, H-10
 //! and H-11 of `spec/3-stages.md#hardened-profile`).
 
-use crate::scene::{NOW_NS, Scene, detection, scene, track};
-use mufasa::input::cycle::{Lead, TrajectoryPoint};
+use crate::scene::{NOW_NS, Scene, detection, scene};
+use mufasa::input::cycle::Lead;
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::{Outcome, Rule, Stage};
-use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
+use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 fn base() -> Scene {
     scene(Hardened, MotRemote, [0.0, 0.0])
@@ -43,15 +43,6 @@ fn a_trajectory_starts_no_farther_aside_than_the_tolerance() {
     // Along the first heading the other tolerance holds.
     let found = sides(|scene, off| scene.ego.x = -2.0 - off);
     assert_eq!(found, [None, Some(Rule::StartPosition)]);
-}
-
-/// Points on a straight line at these times in s, places and headings.
-fn points(at: &[(f64, f64, f64, f64)]) -> Vec<TrajectoryPoint> {
-    let point = |&(t, x, y, sin): &(f64, f64, f64, f64)| {
-        let t_ns = NOW_NS + (t * 1e9).round() as i64;
-        TrajectoryPoint { t_ns, x, y, cos: (1.0 - sin * sin).sqrt(), sin }
-    };
-    at.iter().map(point).collect()
 }
 
 /// The base with the points from the sixth on moved.
@@ -132,7 +123,7 @@ fn the_grid_map_is_examined_beside_detections() {
         scene.occupied = None;
         let report = scene.report();
         assert_eq!(report.failed_stage, None);
-        assert_eq!(matches!(report.stages[3], Outcome::Passed), configuration == AllRemote);
+        assert!(matches!(report.stages[3], Outcome::Skipped(_)), "stage iii ran");
     }
 }
 

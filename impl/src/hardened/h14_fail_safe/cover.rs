@@ -4,6 +4,7 @@
 //! Plain doubles. Places count from the CAV's reference point and are below 2^26 m, so that with less than
 //! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
 
+use crate::hardened::h14_fail_safe::path::{Line, Path};
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego};
 use crate::numbers::range::{EMPTY, extend, larger, smaller};
@@ -97,23 +98,34 @@ impl Cover {
         }
     }
 
+    /// The box as seen from an object, both made one.
+    #[inline]
+    pub(super) fn seen_from(&self, at: &MovingRectangle) -> Seen {
+        let [a, b] = split(self.axis, at.centre);
+        let [[back, front], [right, left]] = self.ranges;
+        let [reach_a, reach_b] = at.extents(self.axis).map(|it| it + ERROR + ROUGH * self.size());
+        Seen {
+            axis: self.axis,
+            from: [a - 0.5 * (back + front), b - 0.5 * (right + left)],
+            half: [0.5 * (front - back) + reach_a, 0.5 * (left - right) + reach_b],
+        }
+    }
+
     /// Whether the object certainly sweeps over no point of the box in this time.
     #[inline]
     pub(super) fn misses(&self, object: &Object, clock: &Clock) -> bool {
         let &Object { at, speed, off, age } = object;
-        let [[a, b], [va, vb]] = [at.centre, at.velocity].map(|it| split(self.axis, it));
         let until = match self.end {
             Some(end) => age + end,
             None => clock.longest(speed + off, age),
         };
-        let size = ROUGH * (self.size() + speed * until);
-        let reach = at.extents(self.axis).map(|it| it + off * until + ERROR + size);
-        let [[back, front], [right, left]] = self.ranges;
-        let (middle_a, middle_b) = (a - 0.5 * (back + front), b - 0.5 * (right + left));
-        let (half_a, half_b) = (0.5 * (front - back) + reach[0], 0.5 * (left - right) + reach[1]);
-        if (va * middle_b - vb * middle_a).abs() > va.abs() * half_b + vb.abs() * half_a {
+        let mut seen = self.seen_from(&at);
+        seen.half = seen.half.map(|it| it + (off + ROUGH * speed) * until);
+        if seen.is_passed(at.velocity) {
             return true;
         }
+        let Seen { from: [middle_a, middle_b], half: [half_a, half_b], .. } = seen;
+        let [va, vb] = split(self.axis, at.velocity);
         let from = if off > 0.0 { 0.0 } else { clock.braked(speed, age + self.start) };
         let apart = |middle: f64, rate: f64, half: f64| {
             let (one, other) = (middle + rate * from, middle + rate * until);
@@ -125,6 +137,24 @@ impl Cover {
     fn size(&self) -> f64 {
         let [[back, front], [right, left]] = self.ranges;
         larger(front.abs(), back.abs()) + larger(left.abs(), right.abs())
+    }
+}
+
+/// See `Cover::seen_from`: where the object is from the middle of the box, and half of both, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    axis: [f64; 2],
+    from: [f64; 2],
+    half: [f64; 2],
+}
+
+impl Seen {
+    /// Whether the line on which it passes by with this velocity certainly misses the box.
+    #[inline]
+    pub(super) fn is_passed(&self, velocity: [f64; 2]) -> bool {
+        let ([a, b], [half_a, half_b]) = (self.from, self.half);
+        let [va, vb] = split(self.axis, velocity);
+        (va * b - vb * a).abs() > va.abs() * half_b + vb.abs() * half_a
     }
 }
 
@@ -151,65 +181,51 @@ pub(super) struct Covers {
 const MOST: usize = 16;
 
 impl Covers {
-    /// Of the path through these nodes, taken from p on.
-    pub(super) fn new<'n>(
-        ego: &Ego,
-        nodes: impl Iterator<Item = ([f64; 2], [f64; 2])> + 'n,
-        times: &Times<f64>,
-    ) -> Self {
-        let h = [ego.cos, ego.sin];
+    /// Of a path, with the CAV so large.
+    pub(super) fn new(ego: &Ego, path: &Path<'_, '_>, times: &Times<f64>) -> Self {
         let end = times.s_stop * (1.0 + 1e-9) + ERROR;
-        let all = Cover::new(h, [0.0, end], times);
+        let all = Cover::new([ego.cos, ego.sin], [0.0, end], times);
         let mut covers = Self { all, stretches: [all; MOST], count: 0, upright: [EMPTY; 2] };
-        let length = larger(end / (f64::from(u8::try_from(MOST).unwrap_or(u8::MAX))), 1.0);
-        let mut walk = Walk { from: [0.0; 2], heading: h, way: 0.0, length, end, to: 0.0 };
-        let mut is_over = false;
-        for (to, heading) in nodes {
-            is_over = covers.add_piece(ego, &mut walk, to, times);
-            if is_over {
-                break;
-            }
-            (walk.from, walk.heading) = (to, heading);
-        }
-        if !is_over {
-            let ([x, y], [cos, sin]) = (walk.from, walk.heading);
-            let left = (end - walk.way) * (1.0 + 1e-6);
-            covers.add_piece(ego, &mut walk, [x + left * cos, y + left * sin], times);
+        let length = larger(end / f64::from(u8::try_from(MOST).unwrap_or(u8::MAX)), 1.0);
+        let mut to = 0.0;
+        for line in path.lines() {
+            covers.add_line(ego, &line, (&mut to, length), times);
         }
         covers
     }
 
-    /// Cut where stretches end. Whether the way ends.
-    fn add_piece(&mut self, ego: &Ego, walk: &mut Walk, to: [f64; 2], times: &Times<f64>) -> bool {
-        let (from, heading, start) = (walk.from, walk.heading, walk.way);
-        let u = minus(to, from);
-        let advance = larger(u[0] * heading[0] + u[1] * heading[1], 0.0);
-        let next = start + advance;
+    /// Cut where stretches of that length end; the latest one ends at that way.
+    fn add_line(
+        &mut self,
+        ego: &Ego,
+        &Line { from, to, heading, way: start, advance }: &Line,
+        (end, length): (&mut f64, f64),
+        times: &Times<f64>,
+    ) {
+        let (u, next) = (minus(to, from), start + advance);
         let at = |way: f64| {
-            let share = if advance > 0.0 { smaller((way - start) / advance, 1.0) } else { 1.0 };
+            let share = smaller((way - start) / advance, 1.0);
             [from[0] + u[0] * share, from[1] + u[1] * share]
         };
-        let mut place = from;
+        let (mut place, mut way) = (from, start);
         loop {
-            if self.count == 0 || walk.way >= walk.to && self.count < MOST {
-                walk.begin(self.count);
-                let ways = [walk.to - walk.length - APART, walk.to + APART];
-                let cover = Cover::new(heading, ways, times);
+            if self.count == 0 || way >= *end && self.count < MOST {
+                *end += length;
+                let cover = Cover::new(heading, [*end - length - APART, *end + APART], times);
                 self.stretches.iter_mut().skip(self.count).take(1).for_each(|it| *it = cover);
                 self.count = self.count.saturating_add(1);
             }
-            let is_last = self.count >= MOST || next <= walk.to;
-            let stop = if is_last { to } else { at(walk.to) };
+            let is_last = self.count >= MOST || next <= *end;
+            let stop = if is_last { to } else { at(*end) };
             let latest = self.count.saturating_sub(1);
             for cover in self.stretches.iter_mut().skip(latest).take(1).chain([&mut self.all]) {
                 cover.add(ego, [place, stop], heading);
             }
             self.extend_upright(ego, [place, stop], heading);
-            walk.way = if is_last { next } else { walk.to };
-            place = stop;
             if is_last {
-                return next > walk.end;
+                return;
             }
+            (place, way) = (stop, *end);
         }
     }
 
@@ -226,26 +242,5 @@ impl Covers {
     pub(super) fn miss(&self, object: &Object, clock: &Clock) -> bool {
         self.all.misses(object, clock)
             || self.stretches.iter().take(self.count).all(|it| it.misses(object, clock))
-    }
-}
-
-/// How far the path has been taken.
-struct Walk {
-    from: [f64; 2],
-    heading: [f64; 2],
-    way: f64,
-    /// Of a stretch.
-    length: f64,
-    /// Of the path, and of the present stretch.
-    end: f64,
-    to: f64,
-}
-
-impl Walk {
-    /// The next stretch; the last one takes all that is left.
-    fn begin(&mut self, stretch: usize) {
-        let is_last = stretch.saturating_add(1) >= MOST;
-        self.to =
-            if is_last { larger(self.end, self.to + self.length) } else { self.to + self.length };
     }
 }

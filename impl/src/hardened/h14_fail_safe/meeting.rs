@@ -3,12 +3,12 @@
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
 //! error bounds; that an object comes across the CAV or follows it only when it is sure.
 
-use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, Object};
+use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, Object, Seen};
 use crate::hardened::h14_fail_safe::motions::Motion;
 use crate::hardened::h14_fail_safe::path::{Path, Piece, Place};
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::larger;
+use crate::numbers::range::{EMPTY, larger, smaller};
 use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
 use crate::numbers::rounding::Real;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -33,6 +33,8 @@ pub(super) struct Meeting<'c, 'a> {
     route: IndexedRoute<'c, 'a>,
     clock: Clock,
     covers: Covers,
+    /// Of the places, once that is asked.
+    lane: Option<Lane>,
 }
 
 impl<'c, 'a> Meeting<'c, 'a> {
@@ -44,10 +46,8 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let (cycle, count) = (path.cycle, points.len());
         let clock = Clock::new(cycle);
         let ego = widened(cycle.ego, points.first());
-        let &Ego { x, y, .. } = &cycle.ego;
-        let from_p = |node: &TrajectoryPoint| ([node.x - x, node.y - y], [node.cos, node.sin]);
-        let covers = Covers::new(&ego, path.nodes.iter().map(from_p), &clock.times);
-        Self { path, points: count, ego, route, clock, covers }
+        let covers = Covers::new(&ego, path, &clock.times);
+        Self { path, points: count, ego, route, clock, covers, lane: None }
     }
 
     const fn cycle(&self) -> &'c Cycle<'a> {
@@ -74,30 +74,42 @@ impl<'c, 'a> Meeting<'c, 'a> {
         self.covers.all.misses(&self.plainly(motion, off), &self.clock)
     }
 
+    /// All places as an object sees them, whatever its velocity.
+    pub(super) fn seen_from(&self, motion: &Motion) -> Seen {
+        self.covers.all.seen_from(&self.plainly(motion, 0.0).at)
+    }
+
     /// The box in which an item of an earlier list of that age has to be, so that an object that comes
-    /// from there, no faster than that, may meet the CAV: what is beside all places goes towards them.
+    /// from there, no faster than that, may meet the CAV: as far as it has to go at least, in the time
+    /// that it takes at the fastest, or that it has. Empty when there is no such place.
     pub(super) fn comes_from(&self, now: &Motion, speed: f64, dt: f64) -> [[f64; 2]; 2] {
-        let ego = &self.cycle().ego;
-        let part = dt / self.clock.longest(speed, now.age);
-        let (reach, most) = (now.now.reach() + 1e-3, speed * dt + 1e-3);
-        let [x, y] = now.now.centre;
-        let range = |at: f64, origin: f64, [least, greatest]: [f64; 2]| {
-            let (above, below) = (at - origin - greatest - reach, least - reach - (at - origin));
-            let from = if above > 0.0 { above * part - 1e-3 } else { -most };
-            let to = if below > 0.0 { 1e-3 - below * part } else { most };
-            [at + from, at + to]
-        };
+        let ego = &self.ego;
+        let latest = self.clock.longest(speed, now.age);
+        let ([x, y], reach) = (now.now.centre, now.now.reach() + 1e-3);
+        let to_go =
+            |at: f64, [least, greatest]: [f64; 2]| [least - reach - at, greatest + reach - at];
         let [across, up] = self.covers.upright;
-        [range(x, ego.x, across), range(y, ego.y, up)]
+        let (across, up) = (to_go(x - ego.x, across), to_go(y - ego.y, up));
+        let gap = |[least, greatest]: [f64; 2]| larger(larger(least, -greatest), 0.0);
+        let soonest = larger(gap(across), gap(up)) / speed;
+        let range = |at: f64, [least, greatest]: [f64; 2]| {
+            let slowest = least / if least < 0.0 { soonest } else { latest };
+            let fastest = greatest / if greatest > 0.0 { soonest } else { latest };
+            let (slowest, fastest) = (larger(slowest, -speed), smaller(fastest, speed));
+            [at - fastest * dt - 1e-3, at - slowest * dt + 1e-3]
+        };
+        [range(x, across), range(y, up)]
+    }
+
+    /// Whether boxes leave open whether the object meets the CAV.
+    pub(super) fn may_be_met(&self, motion: &Motion) -> bool {
+        !self.covers.miss(&self.plainly(motion, 0.0), &self.clock)
     }
 
     /// The first place before that with a number where the object may meet the CAV, if it does not
     /// follow.
-    pub(super) fn first(&self, motion: &Motion, before: i64) -> Option<Met> {
+    pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
         let object = self.plainly(motion, 0.0);
-        if self.covers.miss(&object, &self.clock) {
-            return None;
-        }
         let exact = Exact::new(self.cycle(), motion);
         let pieces = self.path.pieces().take_while(|piece| piece.first < before);
         let met = pieces.into_iter().find_map(|piece| {
@@ -138,7 +150,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
     }
 
     /// Whether the object certainly follows the CAV.
-    fn follows(&self, object: &Exact) -> bool {
+    fn follows(&mut self, object: &Exact) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
@@ -160,17 +172,62 @@ impl<'c, 'a> Meeting<'c, 'a> {
 
     /// Whether certainly every place is nearer to the reference path than the object, or farther, by
     /// more than that in m, and none of them beyond its ends.
-    fn has_a_lane_of_its_own(&self, object: Vector, beside: Real) -> bool {
-        let (of_object, mut hint) = self.route.distance_of(object, 0);
+    fn has_a_lane_of_its_own(&mut self, object: Vector, beside: Real) -> bool {
+        if !self.route.certainly_has_beside(object) {
+            return false;
+        }
+        let lane = *self.lane.get_or_insert_with(|| Lane::of(self.path, self.route));
+        let (away, mut hint) = self.route.about([object.x.value(), object.y.value()], lane.hint);
+        let [nearest, farthest] = lane.distances;
+        if lane.is_between && larger(nearest - away, away - farthest) > beside.value() + 1e-5 {
+            return true;
+        }
+        let (of_object, _) = self.route.distance_of(object, hint);
         let mut is_near = |place: &Place| {
-            let (of_place, nearest) = self.route.distance_of(place.pose.at, hint);
-            hint = nearest;
+            let (of_place, segment) = self.route.distance_of(place.pose.at, hint);
+            hint = segment;
             let is_beside = beside.certainly_below((of_object - of_place).abs());
             let is_between = self.route.certainly_has_beside(place.pose.at);
             (!(is_beside && is_between)).then_some(())
         };
-        self.route.certainly_has_beside(object)
-            && !self.path.pieces().any(|it| it.first_place(|_| false, &mut is_near).is_some())
+        !self.path.pieces().any(|it| it.first_place(|_| false, &mut is_near).is_some())
+    }
+}
+
+/// So many places are looked at beforehand.
+const FEW: i64 = 4096;
+
+/// The places beside the reference path, in plain doubles.
+#[derive(Clone, Copy, Debug)]
+struct Lane {
+    /// The least and the greatest, m; they err by less than 1e-5.
+    distances: [f64; 2],
+    /// Whether each is certainly beyond neither end of the path.
+    is_between: bool,
+    /// A segment that may be near.
+    hint: usize,
+}
+
+impl Lane {
+    /// A piece lies on a line: on which side of another one its ends are, its places are. Of many
+    /// places nothing is said.
+    fn of(path: &Path<'_, '_>, route: IndexedRoute<'_, '_>) -> Self {
+        let few = path.count() <= FEW;
+        let mut lane = Self { distances: EMPTY, is_between: few, hint: 0 };
+        for piece in path.pieces().take_while(|_| few) {
+            let count = piece.count();
+            for k in 0..count {
+                let [[x, y, _], _] = piece.between([k; 2], [0.0; 2]);
+                let (away, segment) = route.about([x, y], lane.hint);
+                lane.hint = segment;
+                let [least, greatest] = lane.distances;
+                lane.distances = [smaller(least, away), larger(greatest, away)];
+            }
+            for k in [0, count.saturating_sub(1)] {
+                lane.is_between &= route.certainly_has_beside(piece.place(k).pose.at);
+            }
+        }
+        lane
     }
 }
 

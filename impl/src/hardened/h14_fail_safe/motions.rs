@@ -3,8 +3,8 @@
 //!
 //! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which pairs of
 //! a detection and an earlier item are examined; whether they meet the CAV, `meeting` decides. That an
-//! explained detection is disputed is asked last, of a pair that meets it (`disputed`, with what it
-//! costs).
+//! explained detection is disputed is asked late, of a pair that boxes let meet it (`disputed`, with what
+//! it costs).
 
 use crate::hardened::detection_history::DetectionHistory;
 use crate::hardened::detection_history::disputed::Disputes;
@@ -133,7 +133,8 @@ impl Motions<'_, '_, '_> {
         }
     }
 
-    /// Keeps a motion that meets the CAV before the first one so far. `counts`: asked last.
+    /// Keeps a motion that meets the CAV before the first one so far. `counts`: asked when boxes leave it
+    /// open.
     fn keep(
         &mut self,
         motion: &Motion,
@@ -144,8 +145,10 @@ impl Motions<'_, '_, '_> {
         let end = self
             .first
             .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
-        let Some(Met { number, point, way }) = self.meeting.first(motion, end) else { return };
-        if counts(self) {
+        if !self.meeting.may_be_met(motion) || !counts(self) {
+            return;
+        }
+        if let Some(Met { number, point, way }) = self.meeting.first(motion, end) {
             let found = Witness::of(Rule::FailSafe, [way, self.s_stop]).at_point(point);
             self.first = Some(Found { number, order, witness: witness(found) });
         }
@@ -213,10 +216,10 @@ impl Motions<'_, '_, '_> {
             return;
         }
         let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
-        let scratch = &*scratch;
+        let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
         squares.for_each_in(scratch.columns, area, |item, before| {
             let (x, y) = (now.x - before[0], now.y - before[1]);
-            if x * x + y * y > farthest * farthest {
+            if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
                 return;
             }
             let motion = motion.coming_from(before, list.age_ns, rate);

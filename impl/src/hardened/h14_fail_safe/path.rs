@@ -5,12 +5,13 @@
 //! that all of them have one heading.
 
 use core::cmp::Ordering;
+use core::iter;
 
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::exact::{Product, compare};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::smaller;
+use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::stages::llcc::{Pose, vector};
 
@@ -24,7 +25,7 @@ pub(crate) struct Path<'c, 'a> {
     pub(crate) cycle: &'c Cycle<'a>,
     pub(crate) times: Times<Real>,
     /// Those of the trajectory.
-    pub(crate) nodes: &'a [TrajectoryPoint],
+    nodes: &'a [TrajectoryPoint],
     /// d, m.
     d: f64,
 }
@@ -45,10 +46,44 @@ impl<'c, 'a> Path<'c, 'a> {
         Pieces { next: Some(next), nodes: self.nodes, s_stop, d, first: 0 }
     }
 
+    /// The same in plain doubles, the last one cut off not before `s_stop`.
+    pub(crate) fn lines(&self) -> impl Iterator<Item = Line> {
+        let ego = &self.cycle.ego;
+        let s_stop = Times::<f64>::new(self.cycle).s_stop * (1.0 + 1e-9) + 1e-3;
+        let mut nodes = self.nodes.iter();
+        let mut next = Some(([0.0; 2], [ego.cos, ego.sin], 0.0));
+        iter::from_fn(move || {
+            let (from, heading, way) = next.take()?;
+            let Some(node) = nodes.next() else {
+                let left = larger(s_stop - way, 0.0);
+                let along = heading.map(|part| part * left * (1.0 + 1e-6));
+                let to = [from[0] + along[0], from[1] + along[1]];
+                return Some(Line { from, to, heading, way, advance: left });
+            };
+            let to = [node.x - ego.x, node.y - ego.y];
+            let u = [to[0] - from[0], to[1] - from[1]];
+            let advance = larger(u[0] * heading[0] + u[1] * heading[1], 0.0);
+            let beyond = way + advance;
+            next = (beyond <= s_stop).then_some((to, [node.cos, node.sin], beyond));
+            Some(Line { from, to, heading, way, advance })
+        })
+    }
+
     /// How many places there are.
     pub(crate) fn count(&self) -> i64 {
         self.pieces().fold(0, |count, piece| count.saturating_add(piece.count()))
     }
+}
+
+/// A piece in plain doubles, from the CAV's reference point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) from: [f64; 2],
+    pub(crate) to: [f64; 2],
+    pub(crate) heading: [f64; 2],
+    /// To where it begins, and how much of it is ahead, m.
+    pub(crate) way: f64,
+    pub(crate) advance: f64,
 }
 
 /// Whether the point is more than 1/8 m ahead of the CAV; exact. Plain doubles err by less than 2^-50 of

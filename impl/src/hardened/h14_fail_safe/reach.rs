@@ -1,12 +1,12 @@
 //! Whether the path is within reach (`spec/7-fail-safe.md#reach`).
 
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
+use crate::stages::distances::s_b;
 use crate::stages::llcc::sweep::split;
 use crate::stages::llcc::vector;
 
@@ -21,7 +21,7 @@ const TYRES: f64 = 5.75;
 pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let path = Path::new(cycle, points);
     let plain = Plain::new(cycle);
-    if plain.all_within(&path) {
+    if path.lines().all(|line| plain.is_within(line.from, line.to)) {
         return None;
     }
     let p = [cycle.ego.x, cycle.ego.y];
@@ -54,33 +54,12 @@ struct Plain {
     h: [f64; 2],
     v: f64,
     s_b: f64,
-    s_stop: f64,
 }
 
 impl Plain {
     fn new(cycle: &Cycle<'_>) -> Self {
-        let Times { s_b, s_stop, .. } = Times::<f64>::new(cycle);
-        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b, s_stop }
-    }
-
-    /// Whether all places of the path certainly are.
-    fn all_within(&self, path: &Path<'_, '_>) -> bool {
-        let ego = &path.cycle.ego;
-        let (mut from, mut heading, mut way) = ([0.0; 2], self.h, 0.0);
-        for node in path.nodes {
-            let to = [node.x - ego.x, node.y - ego.y];
-            if !self.is_within(from, to) {
-                return false;
-            }
-            way += larger((to[0] - from[0]) * heading[0] + (to[1] - from[1]) * heading[1], 0.0);
-            if way > self.s_stop * (1.0 + 1e-9) + 1e-6 {
-                return true;
-            }
-            (from, heading) = (to, [node.cos, node.sin]);
-        }
-        let ([x, y], [cos, sin]) = (from, heading);
-        let left = (self.s_stop - way) * (1.0 + 1e-9) + 1e-6;
-        self.is_within(from, [x + left * cos, y + left * sin])
+        let s_b = s_b(&cycle.parameters, cycle.ego.speed);
+        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b }
     }
 
     /// Whether what is between two places certainly is: the distance is greatest at one of them, the

@@ -102,6 +102,16 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         })
     }
 
+    /// The same in plain doubles, which err by less than 2e-6 m.
+    pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
+        let near = self.nearer(q, hint);
+        let start = (self.at_most(q, near), near);
+        self.segments(q, start.0).fold(start, |best, segment| {
+            let away = self.at_most(q, segment.index);
+            if away < best.0 { (away, segment.index) } else { best }
+        })
+    }
+
     /// The same for a place that is rounded first, by as much more.
     pub(crate) fn distance_of(&self, place: Vector, hint: usize) -> (Real, usize) {
         let Vector { x, y } = place;

@@ -2,12 +2,15 @@
 //! passed at once (`spec/3-stages.md#stage-v-trajectory-with-grid-map`).
 
 use crate::hardened::h14_fail_safe::path::{Path, Place};
-use crate::input::cycle::{Cycle, Grid, TrajectoryPoint};
+use crate::input::cycle::{Cycle, Ego, Grid, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::Pose;
 use crate::stages::v_grid_map::band::{Band, CellFrame};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
+
+/// So many ends of lines are taken together.
+const MOST: usize = 64;
 
 /// Points that are examined, on a grid.
 pub(crate) struct DiskSearch<'c, 'a> {
@@ -78,6 +81,9 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
         is_free: impl Fn(&Band) -> bool,
         hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
     ) -> Option<Witness> {
+        if self.lines_are_free(path, &is_free) {
+            return None;
+        }
         path.pieces().find_map(|piece| {
             let [cos, sin] = piece.heading();
             let is_free = |run: [i64; 2]| {
@@ -88,6 +94,21 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
             let find = |place: &Place| self.at_pose(rule, place.point(points), &place.pose, &hit);
             piece.first_place(is_free, find)
         })
+    }
+
+    /// Whether nothing along a path of few lines can hit, by one band.
+    fn lines_are_free(&self, path: &Path<'_, '_>, is_free: impl Fn(&Band) -> bool) -> bool {
+        let (mut ends, mut count) = ([Pose::of_cav(&self.cycle.ego).plainly(); MOST], 0_usize);
+        let &Ego { x: p_x, y: p_y, .. } = &self.cycle.ego;
+        for line in path.lines() {
+            let [cos, sin] = line.heading;
+            for [x, y] in [line.from, line.to] {
+                let Some(end) = ends.get_mut(count) else { return false };
+                *end = TrajectoryPoint { t_ns: 0, x: p_x + x, y: p_y + y, cos, sin };
+                count = count.saturating_add(1);
+            }
+        }
+        ends.get(..count).is_some_and(|ends| is_free(&Band::new(&self.frame, ends)))
     }
 
     /// The first disk that hits.
