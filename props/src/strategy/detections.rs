@@ -25,11 +25,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         }
     }
     if profile == Profile::Hardened && draw.one_in(2) {
-        return if draw.one_in(4) {
-            moving::explained(draw, cycle)
-        } else {
-            moving::cycle(draw, cycle)
-        };
+        return moving::cycle(draw, cycle);
     }
     let horizon = obstacle::horizon_of_detections(&cycle);
     let found = obstacle::decisive(draw, &mut cycle, horizon);

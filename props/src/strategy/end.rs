@@ -15,8 +15,6 @@ pub fn is_examined(cycle: &Cycle) -> bool {
 /// The CAV stands at the end of a new trajectory, `missing` before `s_stop`.
 pub fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle, missing: f64) {
     let ego = cycle.ego.clone();
-    // Mostly enough that the bound of the end, not that of braking, decides.
-    cycle.parameters.lag_tolerance = draw.pick(&[30.0, 30.0, 0.5]);
     let ahead = draw.pick(&[0.0, 0.0, 0.5, -0.5, 1.75]);
     let stop = s_stop(cycle) + f64::max(ahead, 0.0);
     let length = (stop - missing).max(0.0);

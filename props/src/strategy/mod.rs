@@ -22,5 +22,4 @@ pub mod schedule;
 pub mod steps;
 pub mod track_validation;
 pub mod tracks;
-pub mod waiting;
 pub mod whole;

@@ -1,5 +1,5 @@
-//! Things that move as the CAV saw them move, at the thresholds of H-13
-//! (`spec/3-stages.md#hardened-profile`).
+//! Things that move as the CAV saw them move, at the thresholds of H-14
+//! (`spec/7-fail-safe.md#motions`).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
@@ -8,18 +8,14 @@ use super::base::{Frame, Obstacle, seconds};
 use super::draw::Draw;
 use super::history;
 use super::track_validation::detection;
-use super::{obstacle, waiting};
+use super::obstacle;
 
 /// A cycle that the motion of one detection decides: it is beside the trajectory now, and in its
 /// way, nearly, when the CAV is at a point.
 pub fn cycle(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    let (found, velocity) = if draw.one_in(2) {
-        waiting::decisive(draw, &mut cycle)
-    } else {
-        let horizon = obstacle::horizon_of_moving(&cycle);
-        let found = obstacle::decisive(draw, &mut cycle, horizon);
-        (found, velocity(draw, found))
-    };
+    let horizon = obstacle::horizon_of_path(&cycle);
+    let found = obstacle::decisive(draw, &mut cycle, horizon);
+    let velocity = velocity(draw, found);
     let seen_ns = cycle.now_ns - draw.pick(&[0, 30_000_000, 100_000_000]);
     let dt = seconds(time_of(&cycle, found) - seen_ns);
     let at = (found.frame.x - velocity.0 * dt, found.frame.y - velocity.1 * dt);
@@ -37,31 +33,6 @@ pub fn cycle(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
     if cycle.configuration != Configuration::PlanRemote && draw.below(3) > 0 {
         explain(draw, &mut cycle, found, at, velocity);
     }
-    cycle
-}
-
-/// H-10: a cycle in `AllRemote` with a detection near the end of `s_stop` that a confirmed track
-/// explains, or at times just not: it moves off, so that only as standing it is in the way.
-pub fn explained(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    cycle.configuration = Configuration::AllRemote;
-    let horizon = obstacle::horizon_of_explained(&cycle);
-    let found = obstacle::decisive(draw, &mut cycle, horizon);
-    let Frame { x, y, cos, sin } = found.frame;
-    let (seen_ns, speed) = (cycle.now_ns, draw.pick(&[12.0, 30.0]));
-    let (vx, vy) = (speed * found.away.0, speed * found.away.1);
-    let items = vec![seen(found, (x, y))];
-    cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items });
-    let (length, width) = found.size;
-    let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
-    let ages = if draw.one_in(4) { vec![500] } else { vec![300, 500, 800] };
-    let list = |age: i64| {
-        let dt_ns = 1_000_000 * age;
-        let dt = seconds(dt_ns);
-        let items = vec![history::item(&track, (x - vx * dt, y - vy * dt))];
-        DetectionList { stamp_ns: seen_ns - dt_ns, items }
-    };
-    cycle.detection_history = ages.into_iter().map(list).collect();
-    cycle.tracks = Some(TrackList { stamp_ns: seen_ns, items: vec![track] });
     cycle
 }
 

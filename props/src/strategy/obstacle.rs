@@ -164,15 +164,9 @@ pub fn horizon_of_grid(cycle: &Cycle) -> Horizon {
     with_stop(cycle, cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b))
 }
 
-/// The horizon of what is explained (H-10).
-pub fn horizon_of_explained(cycle: &Cycle) -> Horizon {
-    Horizon { metres: (1.0 + 1e-6) * s_stop(cycle), next: true }
-}
-
-/// The horizon of H-13.
-pub fn horizon_of_moving(cycle: &Cycle) -> Horizon {
-    let metres = (1.0 + 1e-6) * (s_stop(cycle) + cycle.parameters.tau_motion * cycle.ego.speed);
-    Horizon { metres, next: true }
+/// How far the places of H-14 go.
+pub fn horizon_of_path(cycle: &Cycle) -> Horizon {
+    Horizon { metres: s_stop(cycle), next: false }
 }
 
 /// `s_follow`, rounded, m; the lead counts as standing when there is none.
