@@ -7,8 +7,8 @@ use mufasa_model::services::configuration::Configuration;
 use super::base::{Frame, Obstacle, seconds};
 use super::draw::Draw;
 use super::history;
-use super::track_validation::detection;
 use super::obstacle;
+use super::track_validation::detection;
 
 /// A cycle that the motion of one detection decides: it is beside the trajectory now, and in its
 /// way, nearly, when the CAV is at a point.
