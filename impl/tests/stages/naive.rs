@@ -2,6 +2,7 @@
 //! random scenes (H-14, `spec/7-fail-safe.md`): what meets a CAV that is smaller by a margin has to
 //! fail, what does not meet one that is larger has to pass.
 
+use std::f64::consts::PI;
 use std::ops::{Add, Mul, Sub};
 
 use rand::{RngExt, SeedableRng};
@@ -16,8 +17,6 @@ use mufasa::services::configuration::Configuration::PlanRemote;
 const MARGIN: f64 = 1e-6;
 /// Of all lists, s.
 const AGE: f64 = 0.01;
-/// The reference path is along y = 0, from here to there.
-const ENDS: [f64; 2] = [-40.0, 140.0];
 
 #[derive(Clone, Copy, Debug)]
 struct V(f64, f64);
@@ -201,30 +200,81 @@ impl<'s> Naive<'s> {
         w.norm() > 0.0 && sweeps(&self.cav(p, h, -0.3 - self.more), object, w * 1e4)
     }
 
-    fn follows(&self, object: &Box2, w: V) -> bool {
+    fn is_behind(&self, object: &Box2, w: V) -> bool {
         let (p, h) = self.p();
         let front = (object.centre - self.cav(p, h, 0.0).centre).dot(h) + object.reach(h);
-        let (ahead, aside) = (w.dot(h) - self.more, w.cross(h).abs() + self.more);
-        let between = |x: f64| ENDS[0] + self.more < x && x < ENDS[1] - self.more;
-        let beside = 0.5 * self.scene.ego.width + object.reach(V(-h.1, h.0)) + self.more;
-        let has_lane = || {
-            between(object.centre.0)
-                && self.places.iter().all(|place| {
-                    let apart = object.centre.1.abs() - place.at.1.abs();
-                    between(place.at.0) && apart.abs() > beside
+        w.dot(h) > self.more && front < -0.5 * self.scene.ego.length - self.more
+    }
+
+    fn follows(&self, object: &Box2, w: V) -> bool {
+        let h = self.p().1;
+        self.is_behind(object, w)
+            && self.comes_across(object, w)
+            && w.cross(h).abs() <= w.dot(h) - self.more
+    }
+
+    /// From the nearest points of the reference path, and the segments of these: in the strict model all
+    /// that may be nearest.
+    fn nearest(&self, at: V) -> Vec<(V, V)> {
+        let points = self.scene.cross_sections.iter().map(|it| V(it.x, it.y));
+        let segments = points.clone().zip(points.skip(1)).map(|(a, b)| {
+            let u = b - a;
+            let share = ((at - a).dot(u) / u.dot(u)).clamp(0.0, 1.0);
+            (at - (a + u * share), u)
+        });
+        let least = segments.clone().map(|(q, _)| q.norm()).fold(f64::MAX, f64::min);
+        segments.filter(|(q, _)| q.norm() <= least + MARGIN).collect()
+    }
+
+    /// Whether it is so in each case, or in the lax model in some.
+    fn each<T>(&self, of: &[T], is_so: impl Fn(&T) -> bool) -> bool {
+        if self.more > 0.0 { of.iter().all(is_so) } else { of.iter().any(is_so) }
+    }
+
+    fn is_between_ends(&self, at: V) -> bool {
+        let point = |i: usize| V(self.scene.cross_sections[i].x, self.scene.cross_sections[i].y);
+        let last = self.scene.cross_sections.len() - 1;
+        let inside = |end: V, next: V| (at - end).dot(next - end) > self.more;
+        inside(point(0), point(1)) && inside(point(last), point(last - 1))
+    }
+
+    fn keeps_beside(&self, object: &Box2, w: V, aside: f64) -> bool {
+        let Ego { length, width, .. } = self.scene.ego;
+        let (p, h, speed) = (&self.scene.parameters, self.p().1, w.norm());
+        let feet = self.nearest(object.centre);
+        let away = feet[0].0.norm();
+        let stop = p.tau + self.v_tau() / p.a_b;
+        let late = stop + p.t_yield + speed / (2.0 * p.a_yield);
+        let needed = |q: V| {
+            let drift = w.dot(q).abs();
+            let keeps_lane = self.is_behind(object, w) && drift <= speed * away / 10.0 - self.more;
+            object.reach(q) + drift * if keeps_lane { 0.0 } else { late }
+        };
+        let has_room = |place: &Place| {
+            let centre = self.cav(place.at, place.heading, 0.0).centre;
+            self.is_between_ends(centre)
+                && h.cross(place.heading).abs() <= 0.05 + place.way / 30.0 - self.more
+                && self.each(&self.nearest(centre), |&(from, g)| {
+                    let across = place.heading.dot(g).abs() * width;
+                    let along = place.heading.cross(g).abs() * length;
+                    let extent = 0.5 * (across + along) / g.norm() + aside;
+                    let room = (away - from.norm()).abs() - extent - self.more;
+                    self.each(&feet, |&(q, _)| room * away > needed(q))
                 })
         };
-        ahead > 0.0
-            && front < -0.5 * self.scene.ego.length - self.more
-            && (self.comes_across(object, w) && aside <= ahead
-                || aside <= 0.105 * w.dot(h) - self.more && has_lane())
+        speed > 0.0
+            && away > 0.0
+            && self.is_between_ends(object.centre)
+            && self.places.iter().all(has_room)
     }
 
     /// Whether an object with this velocity meets the CAV.
     fn meets(&self, object: &Box2, w: V) -> bool {
         let p = &self.scene.parameters;
         let now = Box2 { centre: object.centre + w * AGE, ..*object };
-        if self.follows(&now, w) {
+        let start = &self.scene.points[0];
+        let aside = (self.p().0 - V(start.x, start.y)).cross(heading(start)).abs();
+        if self.follows(&now, w) || self.keeps_beside(&now, w, aside) {
             return false;
         }
         let stop = p.tau + self.v_tau() / p.a_b;
@@ -233,8 +283,6 @@ impl<'s> Naive<'s> {
         } else {
             stop + p.t_yield + w.norm() / (2.0 * p.a_yield)
         };
-        let start = &self.scene.points[0];
-        let aside = (self.p().0 - V(start.x, start.y)).cross(heading(start)).abs();
         let speed = w.norm();
         let unit = if speed > 0.0 { w * (1.0 / speed) } else { V(0.0, 0.0) };
         (0..self.places.len()).any(|i| {
@@ -320,6 +368,14 @@ impl Draws {
         (scene.ego.sin, scene.ego.cos) = self.between(-0.1, 0.1).sin_cos();
         scene.ego.y = self.one_of(&[0.0, 0.2, -0.3]);
         (scene.tracks, scene.detections) = (Some(Vec::new()), Some(Vec::new()));
+        // The road bends about as the trajectory does, and ends somewhere.
+        let bend = turn + self.one_of(&[0.0, 0.02]);
+        let (mut at, mut angle) = (V(0.0, self.between(-2.0, 2.0)), 0.0);
+        for section in scene.cross_sections.iter_mut().skip(4) {
+            (section.x, section.y) = (at.0, at.1);
+            at = at + V(f64::cos(angle), f64::sin(angle)) * 5.0;
+            angle += bend * 5.0;
+        }
         scene
     }
 
@@ -332,7 +388,20 @@ impl Draws {
         (of + self.between(-straight, straight)).sin_cos()
     }
 
-    fn track(&mut self) -> Track {
+    /// Some are beside the road where it bends.
+    fn track(&mut self, scene: &Scene) -> Track {
+        if self.between(0.0, 1.0) < 0.5 {
+            let i = self.0.random_range(4..9);
+            let [from, to] = [i, i + 1].map(|i| &scene.cross_sections[i]);
+            let u = V(to.x - from.x, to.y - from.y);
+            let (share, away) =
+                (self.between(0.0, 1.0), self.one_of(&[-3.5, 3.5, 2.7, 5.0]) / u.norm());
+            let at = V(from.x, from.y) + u * share + V(-u.1, u.0) * away;
+            let turned = self.between(-0.03, 0.03) + self.one_of(&[0.0, PI]);
+            let (sin, cos) = (u.1.atan2(u.0) + turned).sin_cos();
+            let speed = self.one_of(&[4.0, 12.0, 25.0]);
+            return Track { cos, sin, vx: speed * cos, vy: speed * sin, ..track(1, at.0, at.1) };
+        }
         let V(x, y) = self.place();
         let (sin, cos) = self.direction(0.0);
         let speed = self.between(0.0, 1.0) * self.one_of(&[0.0, 4.0, 15.0, 40.0]);
@@ -360,7 +429,7 @@ fn tracks_are_met_as_the_text_says() {
     let mut counts = [0, 0];
     for _ in 0..40_000 {
         let mut scene = draws.scene();
-        scene.tracks = Some(vec![draws.track()]);
+        scene.tracks = Some(vec![draws.track(&scene)]);
         if let Some(met) = compare(&scene) {
             counts[usize::from(met)] += 1;
         }
