@@ -4,12 +4,10 @@
 pub mod base;
 pub mod closure;
 pub mod distances;
-pub mod h04_horizon;
 pub mod h11_steps;
 pub mod h13_moving;
 pub mod i_track_validation;
 pub mod lemma;
-pub mod llcc;
 pub mod rectangle;
 pub mod rounding;
 pub mod v_grid_map;
@@ -47,8 +45,6 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         distances::THEOREMS,
         lemma::THEOREMS,
         rectangle::THEOREMS,
-        llcc::THEOREMS,
-        h04_horizon::THEOREMS,
         h11_steps::THEOREMS,
         h13_moving::THEOREMS,
         v_grid_map::THEOREMS,

@@ -32,10 +32,10 @@ pub fn crossing() -> Formula {
     within("before", -12, -11)
 }
 
-/// Nothing but a CAV that stands at a point; H-07 and H-12 forgive what is off by 1 km.
+/// Nothing but a CAV that stands at a point; H-07 forgives what is off by 1 km.
 pub fn bare(profile: Profile, configuration: Configuration) -> Cycle {
     let mut cycle = base::cycle(profile, configuration);
-    (cycle.parameters.start_tolerance, cycle.parameters.lag_tolerance) = (1000.0, 1000.0);
+    cycle.parameters.start_tolerance = 1000.0;
     cycle
 }
 

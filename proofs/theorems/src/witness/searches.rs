@@ -237,7 +237,6 @@ pub const SEARCHES: [Search; 26] = [
         finding: "F-28",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.parameters.lag_tolerance = 2.0;
             cycle.ego.speed = 10.0;
             let mut zigzag = every(100_000_000, &[0.0; 14]);
             zigzag
