@@ -13,7 +13,7 @@ pub fn points_within<'a>(scene: &Scene, trajectory: &'a [Point], s: &Real) -> &'
 }
 
 /// Length of the trajectory polyline from its first point to each point, m.
-fn arc_lengths(trajectory: &[Point]) -> Vec<Real> {
+pub fn arc_lengths(trajectory: &[Point]) -> Vec<Real> {
     let mut lengths = vec![Real::zero()];
     for step in trajectory.windows(2) {
         let length = step[1].pose.origin.distance(&step[0].pose.origin);
