@@ -5,7 +5,7 @@ pub mod base;
 pub mod closure;
 pub mod distances;
 pub mod h11_steps;
-pub mod h13_moving;
+pub mod h14_fail_safe;
 pub mod i_track_validation;
 pub mod lemma;
 pub mod rectangle;
@@ -46,7 +46,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         lemma::THEOREMS,
         rectangle::THEOREMS,
         h11_steps::THEOREMS,
-        h13_moving::THEOREMS,
+        h14_fail_safe::motions::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
         closure::THEOREMS,
