@@ -46,6 +46,7 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         lemma::THEOREMS,
         rectangle::THEOREMS,
         h11_steps::THEOREMS,
+        h14_fail_safe::times::THEOREMS,
         h14_fail_safe::motions::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
