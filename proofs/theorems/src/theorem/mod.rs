@@ -4,6 +4,7 @@
 pub mod base;
 pub mod closure;
 pub mod distances;
+pub mod h04_gap;
 pub mod h11_steps;
 pub mod h14_fail_safe;
 pub mod i_track_validation;
@@ -46,8 +47,11 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         lemma::THEOREMS,
         rectangle::THEOREMS,
         h11_steps::THEOREMS,
+        h14_fail_safe::path::THEOREMS,
         h14_fail_safe::times::THEOREMS,
         h14_fail_safe::motions::THEOREMS,
+        h14_fail_safe::meeting::THEOREMS,
+        h04_gap::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
         closure::THEOREMS,

@@ -19,34 +19,40 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "H-14: speeding up with a_max for tau and then braking with a_b the CAV is at first(f) at f, \
                     and first(f) <= T",
         domain: "all 0 <= f <= s_stop, v, tau >= 0, a_max, a_b > 0",
-        claim: || is_there_first(|driving| driving.s_stop()),
+        claim: || is_there_first(Cav::s_stop),
         wrong: Wrong {
             statement: "also 1 m behind s_stop",
-            claim: || is_there_first(|driving| driving.s_stop() + Real::from_integer(1)),
+            claim: || is_there_first(|cav| cav.s_stop() + Real::from_integer(1)),
         },
     },
     Theorem {
         id: "last_is_when_a_CAV_that_brakes_at_once_is_there",
         statement: "H-14: braking at once with a_b the CAV is at last(f) at f, and last(f) <= T",
         domain: "all 0 <= f <= s_b(v), v, tau >= 0, a_max, a_b > 0",
-        claim: || is_there_last(|driving| driving.s_b()),
+        claim: || is_there_last(Cav::s_b),
         wrong: Wrong {
             statement: "also between s_b(v) and s_stop",
-            claim: || is_there_last(|driving| driving.s_stop()),
+            claim: || is_there_last(Cav::s_stop),
         },
     },
     Theorem {
-        id: "first_and_last_do_not_fall",
-        statement: "H-14: f <= g implies first(f) <= first(g) and last(f) <= last(g)",
+        id: "first_does_not_fall",
+        statement: "H-14: f <= g implies first(f) <= first(g)",
         domain: "all 0 <= f <= g, v, tau >= 0, a_max, a_b > 0",
-        claim: order,
+        claim: || in_order(Cav::first, Cav::first),
         wrong: Wrong {
-            statement: "first(f) <= last(g)",
-            claim: || {
-                let cav = Cav::new();
-                let [f, g] = ways_in_order();
-                at_most(&cav.driving().first(&f), &cav.driving().last(&g))
-            },
+            statement: "f <= g implies first(f) <= last(g)",
+            claim: || in_order(Cav::first, Cav::last),
+        },
+    },
+    Theorem {
+        id: "last_does_not_fall",
+        statement: "H-14: f <= g implies last(f) <= last(g)",
+        domain: "all 0 <= f <= g, v, tau >= 0, a_max, a_b > 0",
+        claim: || in_order(Cav::last, Cav::last),
+        wrong: Wrong {
+            statement: "f <= g implies last(f) <= first(g)",
+            claim: || in_order(Cav::last, Cav::first),
         },
     },
     Theorem {
@@ -55,15 +61,15 @@ pub const THEOREMS: &[Theorem] = &[
         domain: "all 0 <= f < s_b(v), v, tau >= 0, a_max, a_b > 0",
         claim: || {
             let (cav, f) = (Cav::new(), way("f"));
-            given(less(&f, &cav.driving().s_b()));
-            at_most(&cav.driving().first(&f), &cav.driving().last(&f))
+            given(less(&f, &cav.s_b()));
+            at_most(&cav.first(&f), &cav.last(&f))
         },
         wrong: Wrong {
             statement: "first(f) < last(f)",
             claim: || {
                 let (cav, f) = (Cav::new(), way("f"));
-                given(less(&f, &cav.driving().s_b()));
-                less(&cav.driving().first(&f), &cav.driving().last(&f))
+                given(less(&f, &cav.s_b()));
+                less(&cav.first(&f), &cav.last(&f))
             },
         },
     },
@@ -100,8 +106,8 @@ pub const THEOREMS: &[Theorem] = &[
         id: "no_CAV_is_anywhere_after_last",
         statement: "H-14: whatever it does, while the CAV is at a way f < s_b(v) it is not after last(f)",
         domain: DOMAIN,
-        claim: || after_last(|driving| driving.s_b()),
-        wrong: Wrong { statement: "f < s_stop", claim: || after_last(|driving| driving.s_stop()) },
+        claim: || after_last(Cav::s_b),
+        wrong: Wrong { statement: "f < s_stop", claim: || after_last(Cav::s_stop) },
     },
     Theorem {
         id: "until_the_next_cycle_the_stop_invariant_is_kept",
@@ -111,9 +117,9 @@ pub const THEOREMS: &[Theorem] = &[
         claim: || {
             let (cav, done) = done();
             given(at_most(&done.t, &cav.tau));
-            let driving = cav.driving();
-            let stop = &driving.s_tau() + s_b(&driving.v_tau(), &cav.a_b);
-            Formula::All(vec![kept(&cav, &done), equal(&stop, &driving.s_stop())])
+            let (way, u) = (cav.fastest(&cav.tau), &cav.v + &cav.a_max * &cav.tau);
+            let farthest = equal(&(way + s_b(&u, &cav.a_b)), &cav.s_stop());
+            Formula::All(vec![kept(&cav, &done), farthest])
         },
         wrong: Wrong {
             statement: "until any t",
@@ -171,6 +177,22 @@ impl Cav {
         Driving { v, tau, a_max, a_b }
     }
 
+    fn first(&self, f: &Real) -> Real {
+        self.driving().first(f)
+    }
+
+    fn last(&self, f: &Real) -> Real {
+        self.driving().last(f)
+    }
+
+    fn s_stop(&self) -> Real {
+        self.driving().s_stop()
+    }
+
+    fn s_b(&self) -> Real {
+        self.driving().s_b()
+    }
+
     /// Way after t of speeding up with a_max for tau, then braking with a_b to a stop, m.
     pub fn fastest(&self, t: &Real) -> Real {
         if *t <= self.tau {
@@ -203,30 +225,26 @@ fn ways_in_order() -> [Real; 2] {
     [f, g]
 }
 
-fn is_there_first(end: fn(&Driving) -> Real) -> Formula {
+fn is_there_first(end: fn(&Cav) -> Real) -> Formula {
     let (cav, f) = (Cav::new(), way("f"));
-    given(at_most(&f, &end(&cav.driving())));
-    let first = cav.driving().first(&f);
+    given(at_most(&f, &end(&cav)));
+    let first = cav.first(&f);
     let at = cav.fastest(&first);
     Formula::All(vec![equal(&at, &f), at_most(&first, &cav.driving().t_stop())])
 }
 
-fn is_there_last(end: fn(&Driving) -> Real) -> Formula {
+fn is_there_last(end: fn(&Cav) -> Real) -> Formula {
     let (cav, f) = (Cav::new(), way("f"));
-    given(at_most(&f, &end(&cav.driving())));
-    let last = cav.driving().last(&f);
+    given(at_most(&f, &end(&cav)));
+    let last = cav.last(&f);
     let at = braked(&cav.v, &cav.a_b, &last);
     Formula::All(vec![equal(&at, &f), at_most(&last, &cav.driving().t_stop())])
 }
 
-fn order() -> Formula {
+fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
     let cav = Cav::new();
     let [f, g] = ways_in_order();
-    let driving = cav.driving();
-    Formula::All(vec![
-        at_most(&driving.first(&f), &driving.first(&g)),
-        at_most(&driving.last(&f), &driving.last(&g)),
-    ])
+    at_most(&a(&cav, &f), &b(&cav, &g))
 }
 
 /// What a CAV has done: at time t its way, and its speed u.
@@ -275,17 +293,17 @@ fn pieces(share: &Real) -> Formula {
 
 fn before_first(cav: &Cav, done: &Done) -> Formula {
     let Done { t, way, .. } = after(done, &-&cav.a_b, &Real::variable("dt"));
-    at_most(&cav.driving().first(&way), &t)
+    at_most(&cav.first(&way), &t)
 }
 
-fn after_last(end: fn(&Driving) -> Real) -> Formula {
+fn after_last(end: fn(&Cav) -> Real) -> Formula {
     let (cav, Done { t, way, .. }) = done();
-    given(less(&way, &end(&cav.driving())));
-    at_most(&t, &cav.driving().last(&way))
+    given(less(&way, &end(&cav)));
+    at_most(&t, &cav.last(&way))
 }
 
 fn kept(cav: &Cav, Done { way, u, .. }: &Done) -> Formula {
-    at_most(&(way + s_b(u, &cav.a_b)), &cav.driving().s_stop())
+    at_most(&(way + s_b(u, &cav.a_b)), &cav.s_stop())
 }
 
 fn braking(share: &Real) -> Formula {
@@ -305,9 +323,9 @@ fn in_window(beyond: &Real) -> Formula {
     given(at_most(&f, &(&after + beyond)));
     let reads = any_cav(Profile::Hardened).reads;
     let Window { begin, end } = window(&reads, &driving, &before, Some(&after));
-    let begins = at_most(&begin, &driving.first(&f));
+    let begins = at_most(&begin, &cav.first(&f));
     let ends = end.map_or(Formula::Known(true), |end| {
-        Formula::All(vec![less(&f, &driving.s_b()), at_most(&driving.last(&f), &end)])
+        Formula::All(vec![less(&f, &cav.s_b()), at_most(&cav.last(&f), &end)])
     });
     Formula::All(vec![begins, ends])
 }
