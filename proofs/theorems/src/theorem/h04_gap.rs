@@ -4,7 +4,7 @@ use crate::hardened::h04_gap::s_react;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, iff, implies, less};
 use crate::stages::distances::{s_b, s_cav, s_follow};
-use crate::theorem::h14_fail_safe::times::{Cav, braked};
+use crate::theorem::h14_fail_safe::times::{Cav, braked, kept};
 use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
@@ -52,7 +52,9 @@ fn gone_farther(order: fn(&Real, &Real) -> Formula) -> Formula {
     given(at_most(&Real::zero(), &t));
     let driving = cav.driving();
     let of_lead = braked(&v_lead, driving.a_b, &t);
-    order(&cav.fastest(&t), &(s_react(&driving, &v_lead) + of_lead))
+    let done = cav.fastest(&t);
+    given(kept(&cav, &done));
+    order(&done.way, &(s_react(&driving, &v_lead) + of_lead))
 }
 
 /// s_react <= s_follow, s_stop <= s_b(v_now) + s_CAV, v_lead <= v_now.

@@ -117,7 +117,7 @@ pub const THEOREMS: &[Theorem] = &[
         claim: || {
             let (cav, done) = done();
             given(at_most(&done.t, &cav.tau));
-            let (way, u) = (cav.fastest(&cav.tau), &cav.v + &cav.a_max * &cav.tau);
+            let Done { way, u, .. } = cav.fastest(&cav.tau);
             let farthest = equal(&(way + s_b(&u, &cav.a_b)), &cav.s_stop());
             Formula::All(vec![kept(&cav, &done), farthest])
         },
@@ -193,13 +193,16 @@ impl Cav {
         self.driving().s_b()
     }
 
-    /// Way after t of speeding up with a_max for tau, then braking with a_b to a stop, m.
-    pub fn fastest(&self, t: &Real) -> Real {
-        if *t <= self.tau {
-            return driven(&self.v, &self.a_max, t);
+    /// Speeding up with a_max for tau, then braking with a_b to a stop.
+    pub fn fastest(&self, t: &Real) -> Done {
+        let Self { v, tau, a_max, a_b } = self;
+        if t <= tau {
+            return Done { t: t.clone(), way: driven(v, a_max, t), u: v + a_max * t };
         }
-        let driving = self.driving();
-        driving.s_tau() + braked(&driving.v_tau(), &self.a_b, &(t - &self.tau))
+        let v_tau = self.driving().v_tau();
+        let braking = t - tau;
+        let u = (&v_tau - a_b * &braking).max(Real::zero());
+        Done { t: t.clone(), way: self.driving().s_tau() + braked(&v_tau, a_b, &braking), u }
     }
 }
 
@@ -229,7 +232,7 @@ fn is_there_first(end: fn(&Cav) -> Real) -> Formula {
     let (cav, f) = (Cav::new(), way("f"));
     given(at_most(&f, &end(&cav)));
     let first = cav.first(&f);
-    let at = cav.fastest(&first);
+    let at = cav.fastest(&first).way;
     Formula::All(vec![equal(&at, &f), at_most(&first, &cav.driving().t_stop())])
 }
 
@@ -248,9 +251,10 @@ fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
 }
 
 /// What a CAV has done: at time t its way, and its speed u.
-struct Done {
+pub struct Done {
     t: Real,
-    way: Real,
+    /// m.
+    pub way: Real,
     u: Real,
 }
 
@@ -302,7 +306,8 @@ fn after_last(end: fn(&Cav) -> Real) -> Formula {
     at_most(&t, &cav.last(&way))
 }
 
-fn kept(cav: &Cav, Done { way, u, .. }: &Done) -> Formula {
+/// Way + s_b(speed) <= s_stop.
+pub fn kept(cav: &Cav, Done { way, u, .. }: &Done) -> Formula {
     at_most(&(way + s_b(u, &cav.a_b)), &cav.s_stop())
 }
 
