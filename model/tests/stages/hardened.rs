@@ -71,6 +71,26 @@ fn h_06_the_rectangle_reaches_fewer_cells_than_the_disks() {
     assert_eq!(with([3.5, 1.5], old), Some(Rule::Occupied));
 }
 
+/// H-06: where detections are current, if of nothing, unknown cells and what is outside the grid are free.
+#[test]
+fn h_06_unknown_cells_are_free_where_detections_are_current() {
+    for configuration in [MotRemote, PlanRemote, Configuration::AllRemote] {
+        let with = |is_current: bool| {
+            let mut cycle = base(Profile::Hardened, configuration);
+            cycle.tracks = None;
+            cycle.detections = detections(vec![]);
+            cycle.detections.as_mut().expect("set").stamp_ns -=
+                i64::from(!is_current) * 200_000_000;
+            let grid = cycle.grid.as_mut().expect("there is a grid");
+            let mut unknown = vec![0; grid.occupied.len()];
+            mark(&mut unknown, 3.5, 0.5);
+            grid.unknown = Some(unknown);
+            rule(&cycle, Stage::V)
+        };
+        assert_eq!([with(true), with(false)], [None, Some(Rule::Unknown)], "{configuration:?}");
+    }
+}
+
 /// H-06: a cell both occupied and unknown is occupied.
 #[test]
 fn h_06_occupied_comes_before_unknown() {

@@ -14,13 +14,8 @@ use crate::report::Witness;
 use crate::services::configuration::Configuration;
 use crate::stages::i_track_validation::over_work_limit;
 
-/// Why the rule fails where it runs: when the current tracks and the current detections hold at least
-/// one object. `None` passes.
+/// Why the rule fails; `None` passes, as where the current tracks and the current detections hold no object.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let [tracks, detections] = objects(scene);
-    if tracks + detections == 0 {
-        return None;
-    }
     too_close_to_call(scene)
         .or_else(|| over_work_limit(scene, work(scene, trajectory)))
         .or_else(|| meeting::failure(scene, trajectory))
@@ -39,6 +34,14 @@ fn objects(scene: &Scene) -> [usize; 2] {
     let tracks = scene.tracks.as_ref().filter(|_| scene.tracks_current);
     let detections = scene.detections.as_ref();
     [tracks.map_or(0, |list| list.items.len()), detections.map_or(0, |list| list.items.len())]
+}
+
+/// The most motions that are examined but for what stands: the tracks, and detections times items of the
+/// longest usable list, of confirmed tracks and of what is unexplained or disputed.
+pub fn most_moving(scene: &Scene) -> i128 {
+    let [tracks, detections] = objects(scene).map(|count| count as i128);
+    let longest = usable(scene).iter().map(|list| list.items.len() as i128).max();
+    tracks + 2 * detections * longest.unwrap_or(0)
 }
 
 /// (places + points) times tracks, plus detections times items of the longest usable list (at least 1)

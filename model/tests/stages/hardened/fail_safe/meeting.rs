@@ -28,6 +28,10 @@ fn nearly_to_s_stop(cycle: &mut Cycle) {
 const SMALL: [f64; 2] = [0.5, 0.5];
 
 const NEAR: &[Near] = &[
+    ("half of a wider width + m", MotRemote, HARDENED, |c, e| {
+        c.ego.y = 0.25;
+        alone(c, track(1, 8.0, -2.25 + e));
+    }),
     ("who passes before the CAV comes", MotRemote, HARDENED, |c, e| {
         // At 3 m the CAV reaches its place, from first(2.75 m) on; until then it has braked.
         let t = (86f64.sqrt() - 8.0) / 4.0;
@@ -192,6 +196,32 @@ fn the_witness_is_the_first_place_then_the_first_motion() {
     assert_eq!(with(&[near.clone(), far.clone()]), expected);
     assert_eq!(with(&[far, near.clone()]), expected);
     assert_eq!(with(&[track(9, 8.0, 0.1), near]), (Some(51 + 16), Some(9), [4.0, 10.75]));
+}
+
+/// A trajectory that begins beside the CAV: the half width is greater by how far it does, across its heading.
+#[test]
+fn a_trajectory_that_begins_beside_widens_the_rectangle() {
+    let with = |ego: f64, x: f64, y: f64| {
+        let mut cycle = base(HARDENED, MotRemote);
+        cycle.ego.y = ego;
+        alone(&mut cycle, track(1, x, y));
+        found(&cycle).is_some()
+    };
+    // The trajectory is along y = 0.
+    assert!(with(0.25, 8.0, -2.25) && !with(0.25, 8.0, -2.26) && !with(0.0, 8.0, -2.25));
+    assert!(with(-0.25, 8.0, -2.25) && with(-0.25, 8.0, 2.25) && !with(-0.25, 8.0, 2.26));
+    // At p, too; nobody comes across what is wider.
+    assert!(with(0.25, 0.0, 2.5) && !with(0.25, 0.0, 2.51));
+    // Across the heading of the trajectory, which is not that of the CAV.
+    let turned = |sin: f64, y: f64| {
+        let mut cycle = base(HARDENED, MotRemote);
+        cycle.ego.x = 1.0;
+        alone(&mut cycle, track(1, 8.0, y));
+        let first = &mut points(&mut cycle)[0];
+        (first.cos, first.sin) = ((1.0 - sin * sin).sqrt(), sin);
+        found(&cycle).is_some()
+    };
+    assert!(turned(0.1, 2.09) && !turned(0.1, 2.11) && !turned(0.0, 2.09));
 }
 
 /// The rectangle of the CAV is that of LLCC, `center_offset` ahead.

@@ -262,8 +262,23 @@ fn own_tracks_too_close_to_call_fail_stage_iv() {
     assert_eq!(with(|_| ()), (ambiguous, NEAR_SAFE));
     assert_eq!(with(|c| c.detection_history[1].items[0].y = 1.9), (None, YES));
     assert_eq!(with(|c| c.trajectory = None), (None, YES));
-    assert_eq!(with(|c| c.tracks.as_mut().expect("set").stamp_ns -= 100_000_001), (None, YES));
-    assert_eq!(with(|c| c.detections.as_mut().expect("set").stamp_ns -= 100_000_001).0, None);
+    // A nanosecond is 8 nm; with it a list is not current.
+    let old: fn(&mut Cycle) = |c| {
+        c.tracks.as_mut().expect("set").stamp_ns -= 1;
+        c.parameters.safety_time = 0.1;
+        c.parameters.max_age_ns = 1;
+    };
+    assert_eq!(with(old), (ambiguous, NEAR_SAFE));
+    let older: fn(&mut Cycle) = |c| {
+        c.tracks.as_mut().expect("set").stamp_ns -= 1;
+        c.parameters.max_age_ns = 0;
+    };
+    assert_eq!(with(older), (None, YES));
+    let blind: fn(&mut Cycle) = |c| {
+        c.detections.as_mut().expect("set").stamp_ns -= 1;
+        c.parameters.max_age_ns = 0;
+    };
+    assert_eq!(with(blind), (None, YES));
     assert_eq!(with(|c| c.parameters.work_limit = 0).0, ambiguous, "before work_limit");
     let near: fn(&mut Cycle) = |c| {
         c.parameters.safety_time = 0.0;
