@@ -25,15 +25,15 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "places_that_follow_each_other_are_at_most_d_apart",
         statement: "H-14: in x and in y",
-        domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/4 m in x and in y \
+        domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/2 m in x and in y \
                  from what is before; s_stop at most 1/2 m; tau = 0",
         claim: || apart(&Real::ratio(1, 4)),
         wrong: Wrong { statement: "d/2 apart", claim: || apart(&Real::ratio(1, 8)) },
     },
 ];
 
-/// A scene and a trajectory of points of these names.
-fn any<const N: usize>(names: [&str; N]) -> (Scene, [Point; N]) {
+/// A scene and a trajectory of points of these names, each at most so far in x and in y from what is before.
+fn any<const N: usize>(names: [&str; N], most: &Real) -> (Scene, [Point; N]) {
     let mut scene = any_cav(Profile::Hardened);
     given(at_most(&Real::zero(), &scene.ego.v_now));
     given(at_most(&Real::ratio(1, 4), &scene.ego.length));
@@ -41,7 +41,7 @@ fn any<const N: usize>(names: [&str; N]) -> (Scene, [Point; N]) {
     let mut origin = scene.ego.position.clone();
     let trajectory = names.map(|name| {
         let step = vector(name);
-        given(is_within(&step, &Real::ratio(1, 4)));
+        given(is_within(&step, most));
         origin = &origin + &step;
         let [x, y] = Real::unit(name);
         let pose = Frame { origin: origin.clone(), direction: Vector { x, y } };
@@ -64,7 +64,7 @@ fn all_places(scene: &Scene, trajectory: &[Point]) -> Vec<Place> {
 }
 
 fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
-    let (scene, trajectory) = any(["1", "2"]);
+    let (scene, trajectory) = any(["1", "2"], &Real::ratio(1, 4));
     let places = all_places(&scene, &trajectory);
     let (first, last) = (&places[0], &places[places.len() - 1]);
     let mut claims = vec![
@@ -82,7 +82,7 @@ fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
 }
 
 fn apart(most: &Real) -> Formula {
-    let (scene, trajectory) = any(["1"]);
+    let (scene, trajectory) = any(["1"], &Real::ratio(1, 2));
     let places = all_places(&scene, &trajectory);
     let near = |pair: &[Place]| is_within(&(&pair[1].pose.origin - &pair[0].pose.origin), most);
     Formula::All(places.windows(2).map(near).collect())
