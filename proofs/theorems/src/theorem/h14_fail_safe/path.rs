@@ -11,39 +11,43 @@ use crate::theorem::base::{NOW_NS, any_cav};
 use crate::theorem::rectangle::vector;
 use crate::theorem::{Theorem, Wrong};
 
-const DOMAIN: &str = "a CAV at the origin along x, of 1/4 m and more, one point at most 1/2 m from it in x and in y with any \
-                      heading, s_stop at most 1/2 m behind the way of that; all v_now, tau = 0, a_b = 8 m/s^2";
-
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_last_place_is_at_s_stop_and_the_ways_of_places_do_not_fall",
         statement: "H-14: the way of the first place is 0, that of the last one s_stop, and of any two that follow each \
                     other the second is not less; a place knows the ways of both its neighbours",
-        domain: DOMAIN,
+        domain: "a CAV at the origin along x, of 1/4 m and more; two points with any headings, each at most 1/4 m in x and in y \
+                 from what is before; s_stop at most 1/2 m; tau = 0",
         claim: || ways(at_most),
         wrong: Wrong { statement: "is greater", claim: || ways(less) },
     },
     Theorem {
         id: "places_that_follow_each_other_are_at_most_d_apart",
         statement: "H-14: in x and in y",
-        domain: DOMAIN,
+        domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/2 m in x and in y \
+                 from what is before; s_stop at most 1/2 m; tau = 0",
         claim: || apart(&Real::ratio(1, 4)),
         wrong: Wrong { statement: "d/2 apart", claim: || apart(&Real::ratio(1, 8)) },
     },
 ];
 
-/// A scene and a trajectory of one point.
-fn any() -> (Scene, [Point; 1]) {
+/// A scene and a trajectory of points of these names, each at most so far in x and in y from what is before.
+fn any<const N: usize>(names: [&str; N], most: &Real) -> (Scene, [Point; N]) {
     let mut scene = any_cav(Profile::Hardened);
     given(at_most(&Real::zero(), &scene.ego.v_now));
     given(at_most(&Real::ratio(1, 4), &scene.ego.length));
     scene.parameters.tau = Real::zero();
-    let origin = vector("point");
-    given(is_within(&origin, &Real::ratio(1, 2)));
-    let [x, y] = Real::unit("point");
-    let pose = Frame { origin, direction: Vector { x, y } };
-    (scene, [Point { t_ns: NOW_NS, pose }])
+    let mut origin = scene.ego.position.clone();
+    let trajectory = names.map(|name| {
+        let step = vector(name);
+        given(is_within(&step, most));
+        origin = &origin + &step;
+        let [x, y] = Real::unit(name);
+        let pose = Frame { origin: origin.clone(), direction: Vector { x, y } };
+        Point { t_ns: NOW_NS, pose }
+    });
+    (scene, trajectory)
 }
 
 fn is_within(vector: &Vector, most: &Real) -> Formula {
@@ -55,13 +59,12 @@ fn is_within(vector: &Vector, most: &Real) -> Formula {
 
 fn all_places(scene: &Scene, trajectory: &[Point]) -> Vec<Place> {
     let s_stop = Driving::of(scene).s_stop();
-    let end = &trajectory[0].pose.origin.x;
-    given(at_most(&s_stop, &(end.clone().max(Real::zero()) + Real::ratio(1, 2))));
+    given(at_most(&s_stop, &Real::ratio(1, 2)));
     places(scene, trajectory).collect()
 }
 
 fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
-    let (scene, trajectory) = any();
+    let (scene, trajectory) = any(["1", "2"], &Real::ratio(1, 4));
     let places = all_places(&scene, &trajectory);
     let (first, last) = (&places[0], &places[places.len() - 1]);
     let mut claims = vec![
@@ -79,7 +82,7 @@ fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
 }
 
 fn apart(most: &Real) -> Formula {
-    let (scene, trajectory) = any();
+    let (scene, trajectory) = any(["1"], &Real::ratio(1, 2));
     let places = all_places(&scene, &trajectory);
     let near = |pair: &[Place]| is_within(&(&pair[1].pose.origin - &pair[0].pose.origin), most);
     Formula::All(places.windows(2).map(near).collect())
