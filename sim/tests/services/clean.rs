@@ -278,7 +278,7 @@ fn clean_drives_pass_all_stages() {
 }
 
 /// What the method rejects although nobody lies: a track of what is hidden or missed fails stage i (F-20), and
-/// a vehicle that comes towards us through a bend is predicted on our lane by stage iii and H-13.
+/// a vehicle that comes towards us through a bend is predicted on our lane by stage iii and H-14.
 #[test]
 fn drives_with_misses_and_oncoming_vehicles_pass_but_for_a_few_cycles() {
     let tally = drives(true, Errors::default());
