@@ -88,7 +88,7 @@ fn every_experiment_has_charts_that_are_svg() {
     // Where the CAV detects nothing its tracks are compared with nothing (F-39): it stops for ghosts, and is late.
     done(&folder, 1, &only("attacks/hardened/ghosts"));
     let ids =
-        ["availability/paper", "cpu/hardened", "combinations/sofof/both", "rules/hardened/all"];
+        ["availability/paper", "cpu/hardened", "combinations/sofof/both"];
     for id in ids {
         done(&folder, 0, &only(id));
     }
@@ -106,7 +106,7 @@ fn every_experiment_has_charts_that_are_svg() {
     ];
     done(&folder, 0, &search);
     let names = ["attacks", "availability", "cpu-offloaded", "cpu-processor", "falsify"];
-    for name in names.into_iter().chain(["combinations", "rules"]) {
+    for name in names.into_iter().chain(["combinations"]) {
         let chart = text(&folder, &format!("results/{name}.svg"));
         let document = Document::parse(&chart).unwrap_or_else(|error| panic!("{name}: {error}"));
         let marks =

@@ -9,8 +9,6 @@ mod lies;
 mod radio;
 mod records;
 mod replay;
-mod rules;
 mod same;
 mod services;
 mod sessions;
-mod without;
