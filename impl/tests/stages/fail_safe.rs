@@ -257,38 +257,56 @@ fn who_follows_is_not_examined() {
     assert!(met(&with(vec![moving(1.0, -4.0, [1.0, 6.0])])));
 }
 
-/// Beside the CAV's way and nearly along it, to where the CAV stops, but not across where it is: with a
-/// lane of its own, which the way does not leave.
+/// Behind a CAV that goes to the left of its lane, with a lane of its own there: beside the path as the
+/// reference path has it, though not along straight lines. (`naive` has roads that bend.)
 #[test]
-fn who_drives_in_a_lane_of_its_own_is_not_examined() {
-    let pass = |[x, y]: [f64; 2], across: f64, change: &dyn Fn(&mut Scene)| {
-        let mut scene = with(vec![moving(x, y, [20.0, across])]);
+fn who_keeps_beside_the_path_is_not_examined() {
+    // The CAV goes to the left by 0.05 in 1, and reaches farther there than to its side.
+    let sin = 0.05_f64;
+    let cos = (1.0 - sin * sin).sqrt();
+    let pass = |at: Track, change: &dyn Fn(&mut Scene)| {
+        let mut scene = with(vec![at]);
         for section in &mut scene.cross_sections {
             (section.left[1], section.right[1]) = (20.0, -20.0);
+        }
+        (scene.ego.sin, scene.ego.cos) = (sin, cos);
+        for (point, i) in scene.points.iter_mut().zip(0..) {
+            let way = 0.5 * f64::from(i);
+            (point.x, point.y, point.sin, point.cos) = (way * cos, way * sin, sin, cos);
         }
         change(&mut scene);
         !met(&scene)
     };
-    // 0.105 of 20 m/s.
-    assert!(pass([-6.0, -3.2], 2.1 - 1e-6, &|_| ()));
-    assert!(!pass([-6.0, -3.2], 2.1 + 1e-6, &|_| ()));
-    // Half of both widths beside the reference path, after its age.
-    let (beside, x) = (-BESIDE - 0.5 * AGE, -2.85 - 20.0 * AGE - 1e-3);
-    assert!(pass([x, beside - 1e-6], 0.5, &|_| ()));
-    assert!(!pass([x, beside + 1e-6], 0.5, &|_| ()));
-    // There is no lane before the first reference point, nor after the last.
+    // D_k + E_k of the last place.
+    let least = (S_STOP + 1.4) * sin + 0.5 * (cos * 1.9 + sin * 4.5);
+    // Behind, what drifts by a tenth of its way or less keeps to its lane.
+    let behind = |drift: f64| Track {
+        vy: -drift,
+        ..moving(-6.0, least + 1.9 + drift * AGE, [(400.0 - drift * drift).sqrt(), 0.0])
+    };
+    assert!(pass(behind(2.0 - 1e-6), &|_| ()));
+    assert!(!pass(behind(2.0 + 1e-6), &|_| ()));
+    // There is nothing beside a path beyond the ends of the route, nor beside one that turns off.
     for (off, expected) in [(-1e-6, true), (1e-6, false)] {
         let begins = |scene: &mut Scene| {
             scene.cross_sections.remove(1);
-            scene.cross_sections[0].x = -6.0 + 20.0 * AGE + off;
+            scene.cross_sections[0].x = -6.0 + (400.0_f64 - 3.61).sqrt() * AGE + off;
         };
-        assert_eq!(pass([-6.0, -3.2], 2.0, &begins), expected, "{off}");
+        assert_eq!(pass(behind(1.9), &begins), expected, "{off}");
         let ends = |scene: &mut Scene| {
             scene.cross_sections.truncate(3);
             let last = &mut scene.cross_sections[2];
-            (last.x, last.left[0], last.right[0]) = (S_STOP - off, 40.0, 40.0);
+            last.x = (S_STOP + 1.4) * cos - off;
+            (last.left[0], last.right[0]) = (40.0, 40.0);
         };
-        assert_eq!(pass([-6.0, -3.2], 2.0, &ends), expected, "{off}");
+        assert_eq!(pass(behind(1.9), &ends), expected, "{off}");
+        // At the way of 0.5 m 0.05 and 0.5 / 30.
+        let turns = |scene: &mut Scene| {
+            let most = 0.05 + 0.5 / 30.0 + off;
+            let angle = sin.asin() + most.asin();
+            (scene.points[1].sin, scene.points[1].cos) = angle.sin_cos();
+        };
+        assert_eq!(pass(behind(1.9), &turns), expected, "{off}");
     }
 }
 

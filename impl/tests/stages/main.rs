@@ -13,6 +13,7 @@ mod history;
 mod input;
 mod motions;
 mod naive;
+mod random;
 mod scene;
 mod slide;
 mod step_turn;

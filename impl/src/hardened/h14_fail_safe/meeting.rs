@@ -1,14 +1,15 @@
 //! Whether an object meets the CAV (`spec/7-fail-safe.md#meeting`).
 //!
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
-//! error bounds; that an object comes across the CAV or follows it only when it is sure.
+//! error bounds; that an object comes across the CAV, follows it or keeps beside it only when it is sure.
 
+use crate::hardened::h14_fail_safe::beside::{Beside, Passing};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, Object, Seen};
 use crate::hardened::h14_fail_safe::motions::Motion;
 use crate::hardened::h14_fail_safe::path::{Path, Piece, Place};
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
-use crate::numbers::range::{EMPTY, larger, smaller};
+use crate::numbers::range::{larger, smaller};
 use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
 use crate::numbers::rounding::Real;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -30,11 +31,9 @@ pub(super) struct Meeting<'c, 'a> {
     points: usize,
     /// As wide as at the places.
     ego: Ego,
-    route: IndexedRoute<'c, 'a>,
     clock: Clock,
     covers: Covers,
-    /// Of the places, once that is asked.
-    lane: Option<Lane>,
+    beside: Beside<'c, 'a>,
 }
 
 impl<'c, 'a> Meeting<'c, 'a> {
@@ -43,11 +42,13 @@ impl<'c, 'a> Meeting<'c, 'a> {
         points: &[TrajectoryPoint],
         route: IndexedRoute<'c, 'a>,
     ) -> Self {
-        let (cycle, count) = (path.cycle, points.len());
-        let clock = Clock::new(cycle);
-        let ego = widened(cycle.ego, points.first());
+        let (cycle, aside) = (path.cycle, aside(&path.cycle.ego, points.first()));
+        // As wide as at the places, or by less than 1e-13 of it more.
+        let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
+        let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
         let covers = Covers::new(&ego, path, &clock.times);
-        Self { path, points: count, ego, route, clock, covers, lane: None }
+        let beside = Beside::new(path, route, aside);
+        Self { path, points: points.len(), ego, clock, covers, beside }
     }
 
     const fn cycle(&self) -> &'c Cycle<'a> {
@@ -106,8 +107,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         !self.covers.miss(&self.plainly(motion, 0.0), &self.clock)
     }
 
-    /// The first place before that with a number where the object may meet the CAV, if it does not
-    /// follow.
+    /// The first place before that with a number where the object may meet the CAV, if it is examined.
     pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
         let object = self.plainly(motion, 0.0);
         let exact = Exact::new(self.cycle(), motion);
@@ -116,7 +116,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
             let misses = |run| self.run(&piece, run).misses(&object, &self.clock);
             piece.first_place(misses, |place| self.meets(place, &exact))
         });
-        met.filter(|met| met.number < before).filter(|_| !self.follows(&exact))
+        met.filter(|met| met.number < before).filter(|_| !self.is_exempt(&exact))
     }
 
     /// The box around some places of a piece.
@@ -137,11 +137,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         let end = match passes {
             Some(after) => times.last(after),
             None if object.comes_across => times.until_stop,
-            None => {
-                let [t_yield, a_yield] =
-                    [cycle.parameters.t_yield, cycle.parameters.a_yield].map(Real::new);
-                times.until_stop + t_yield + object.speed.over(a_yield + a_yield)
-            }
+            None => self.until_yielded(object.speed),
         };
         let cav = footprint(&self.ego, &place.pose);
         let number = place.number;
@@ -149,100 +145,44 @@ impl<'c, 'a> Meeting<'c, 'a> {
         object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
     }
 
-    /// Whether the object certainly follows the CAV.
-    fn follows(&mut self, object: &Exact) -> bool {
+    /// Whether the object certainly follows the CAV, or keeps beside its path.
+    fn is_exempt(&mut self, object: &Exact) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
         let cav = footprint(ego, &Pose::of_cav(ego));
         let Rectangle { centre, direction, length, width } = object.now;
         let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
-        let (straight, turned) = (direction.dot(h).abs(), direction.cross(h).abs());
-        let front = (centre - cav.centre).dot(h) + (straight * length + turned * width);
-        if !Real::ZERO.certainly_below(along)
-            || !front.certainly_below(Real::new(-0.5 * ego.length))
-        {
-            return false;
-        }
-        let beside = Real::new(0.5 * ego.width) + (turned * length + straight * width);
-        object.comes_across && across.certainly_at_most(along)
-            || across.certainly_at_most(Real::new(ALIKE) * along)
-                && self.has_a_lane_of_its_own(object.now.centre, beside)
-    }
-
-    /// Whether certainly every place is nearer to the reference path than the object, or farther, by
-    /// more than that in m, and none of them beyond its ends.
-    fn has_a_lane_of_its_own(&mut self, object: Vector, beside: Real) -> bool {
-        if !self.route.certainly_has_beside(object) {
-            return false;
-        }
-        let lane = *self.lane.get_or_insert_with(|| Lane::of(self.path, self.route));
-        let (away, mut hint) = self.route.about([object.x.value(), object.y.value()], lane.hint);
-        let [nearest, farthest] = lane.distances;
-        if lane.is_between && larger(nearest - away, away - farthest) > beside.value() + 1e-5 {
-            return true;
-        }
-        let (of_object, _) = self.route.distance_of(object, hint);
-        let mut is_near = |place: &Place| {
-            let (of_place, segment) = self.route.distance_of(place.pose.at, hint);
-            hint = segment;
-            let is_beside = beside.certainly_below((of_object - of_place).abs());
-            let is_between = self.route.certainly_has_beside(place.pose.at);
-            (!(is_beside && is_between)).then_some(())
-        };
-        !self.path.pieces().any(|it| it.first_place(|_| false, &mut is_near).is_some())
-    }
-}
-
-/// So many places are looked at beforehand.
-const FEW: i64 = 4096;
-
-/// The places beside the reference path, in plain doubles.
-#[derive(Clone, Copy, Debug)]
-struct Lane {
-    /// The least and the greatest, m; they err by less than 1e-5.
-    distances: [f64; 2],
-    /// Whether each is certainly beyond neither end of the path.
-    is_between: bool,
-    /// A segment that may be near.
-    hint: usize,
-}
-
-impl Lane {
-    /// A piece lies on a line: on which side of another one its ends are, its places are. Of many
-    /// places nothing is said.
-    fn of(path: &Path<'_, '_>, route: IndexedRoute<'_, '_>) -> Self {
-        let few = path.count() <= FEW;
-        let mut lane = Self { distances: EMPTY, is_between: few, hint: 0 };
-        for piece in path.pieces().take_while(|_| few) {
-            let count = piece.count();
-            for k in 0..count {
-                let [[x, y, _], _] = piece.between([k; 2], [0.0; 2]);
-                let (away, segment) = route.about([x, y], lane.hint);
-                lane.hint = segment;
-                let [least, greatest] = lane.distances;
-                lane.distances = [smaller(least, away), larger(greatest, away)];
+        let reach = direction.dot(h).abs() * length + direction.cross(h).abs() * width;
+        let front = (centre - cav.centre).dot(h) + reach;
+        let is_behind = Real::ZERO.certainly_below(along)
+            && front.certainly_below(Real::new(-0.5 * ego.length));
+        is_behind && object.comes_across && across.certainly_at_most(along)
+            || object.moves && {
+                let Exact { now, velocity, speed, .. } = *object;
+                let until = self.until_yielded(speed);
+                self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
             }
-            for k in [0, count.saturating_sub(1)] {
-                lane.is_between &= route.certainly_has_beside(piece.place(k).pose.at);
-            }
-        }
-        lane
+    }
+
+    /// T + `t_yield` + abs(w) / (2 `a_yield`), s.
+    fn until_yielded(&self, speed: Real) -> Real {
+        let parameters = &self.cycle().parameters;
+        let [t_yield, a_yield] = [parameters.t_yield, parameters.a_yield].map(Real::new);
+        self.path.times.until_stop + t_yield + speed.over(a_yield + a_yield)
     }
 }
 
-/// How far across the CAV's heading, for each m along it, who follows beside it goes.
-const ALIKE: f64 = 0.105;
 /// By how much the rectangle is smaller on each side that an object comes across, m.
 const INNER: f64 = 0.3;
 
-/// The CAV, half as much wider as it is aside of the trajectory's first point, or by less than 1e-12 of
-/// that more: one that begins beside it does not say where it joins.
-fn widened(ego: Ego, start: Option<&TrajectoryPoint>) -> Ego {
-    let Some(start) = start else { return ego };
-    let aside = Vector::between([start.x, start.y], [ego.x, ego.y]);
-    let aside = aside.cross(vector([start.cos, start.sin])).magnitude();
-    Ego { width: (ego.width + 2.0 * aside) * (1.0 + 1e-15), ..ego }
+/// By how much half the CAV is wider, m: as far as it is aside of the trajectory's first point. One that
+/// begins beside it does not say where it joins.
+fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
+    start.map_or(Real::ZERO, |start| {
+        let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
+        from.cross(vector([start.cos, start.sin])).abs()
+    })
 }
 
 /// An object with error bounds.
@@ -255,6 +195,8 @@ struct Exact {
     velocity: Vector,
     speed: Real,
     age: Real,
+    /// Whether it does, however little.
+    moves: bool,
     /// Whether it certainly does.
     comes_across: bool,
 }
@@ -264,6 +206,7 @@ impl Exact {
         /// What is slower moves less than 2^-290 m.
         const SLOW: f64 = f64::from_bits((1023 - 400) << 52);
         let velocity = motion.velocity();
+        let moves = [velocity.x, velocity.y].iter().any(|it| it.value().abs() > 0.0);
         let is_slow = velocity.x.magnitude() < SLOW && velocity.y.magnitude() < SLOW;
         let stays = Real::ZERO.widened(if is_slow { SLOW } else { 0.0 });
         let velocity = if is_slow { Vector { x: stays, y: stays } } else { velocity };
@@ -272,7 +215,7 @@ impl Exact {
         let at = motion.now.displaced(vector([0.0; 2]));
         let now = Rectangle { centre: at.centre + velocity.times(age), ..at };
         let comes_across = !is_slow && comes_across(&cycle.ego, &now, velocity);
-        Self { at, now, velocity, speed, age, comes_across }
+        Self { at, now, velocity, speed, age, moves, comes_across }
     }
 
     /// Whether it may sweep over a point of the rectangle between two times after now.

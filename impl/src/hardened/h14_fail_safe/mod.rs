@@ -1,6 +1,7 @@
 //! The fail-safe rule: what the CAV can always do, going on for tau at most and then braking along its
 //! path, is examined against everything that moves or stands (H-14, `spec/7-fail-safe.md`).
 
+mod beside;
 mod cover;
 mod meeting;
 mod motions;

@@ -286,6 +286,14 @@ impl Piece {
         })
     }
 
+    /// Place k in plain doubles, x, y and way, if it is known so well.
+    pub(crate) fn plainly(&self, k: i64) -> Option<[f64; 3]> {
+        let (share, [x, y]) = (self.share(k), self.node.at);
+        let at = |from: f64, by: Real| from + by.value() * share.value();
+        let way = at(self.node.way.value(), self.advance);
+        (share.off() < 1e-9).then(|| [at(x, self.u.x), at(y, self.u.y), way])
+    }
+
     pub(crate) const fn heading(&self) -> [f64; 2] {
         self.node.heading
     }

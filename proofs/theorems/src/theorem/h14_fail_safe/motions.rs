@@ -1,7 +1,7 @@
-//! H-13: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
+//! H-14: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
-use crate::hardened::detection_history::{confirmed, origin_limit, usable};
-use crate::hardened::h13_moving::pairs;
+use crate::hardened::detection_history::{confirmed, origin_limit};
+use crate::hardened::h14_fail_safe::motions::{Named, motions};
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
 use crate::input::scene::Scene;
 use crate::numbers::real::Real;
@@ -16,7 +16,7 @@ use crate::theorem::{Theorem, Wrong};
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "the_mean_motion_of_an_unexplained_detection_is_examined",
-        statement: "H-13 (b): if d and d' are items of the current and the reference list, abs(d - d') <= \
+        statement: "H-14: if d and d' are items of the current and the reference list, abs(d - d') <= \
                     v_object dt, d is unexplained and d' supported, (d, d') is examined as moving",
         domain: "all positions, v_object, theta_track_max > 0; the remote list is empty; d the second of two \
                  detections, d' the second of two items of 500 ms ago, its support one item of 300 ms ago",
@@ -25,7 +25,7 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "the_motion_of_a_confirmed_track_is_examined_whatever_the_track_says",
-        statement: "H-13 (a): if d is the detection of a confirmed track and d' its own origin in the list \
+        statement: "H-14: if d is the detection of a confirmed track and d' its own origin in the list \
                     nearest to 500 ms of those that hold one, (d, d') is examined as moving",
         domain: "all positions, velocities of the track along x and y, theta_track_max, theta_velocity, v_object \
                  > 0; one track, two detections, two items of 500 ms ago, one of 300 ms ago",
@@ -34,7 +34,7 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "the_motion_of_a_detection_whose_track_has_the_past_of_another_is_examined",
-        statement: "H-13 (b), F-42: if d is the detection of a confirmed track whose own origin is a, an \
+        statement: "H-14, F-42: if d is the detection of a confirmed track whose own origin is a, an \
                     unexplained detection may come from a, and d may come from b, (d, b) is examined as moving",
         domain: "all positions, velocities of the track along x, theta_track_max, theta_velocity, v_object > 0; one \
                  track at its detection, another detection farther than theta_track_max; a and b the items of \
@@ -121,10 +121,13 @@ fn unexplained(supported: bool) -> Formula {
 
 /// Whether the detection and the item of 500 ms ago are examined as moving.
 fn is_examined(scene: &Scene, [detection, item]: [usize; 2]) -> bool {
-    let lists = usable(scene);
-    let detections = &scene.detections.as_ref().expect("they are current").items;
-    let is_it = |(d, of, age_ns)| (d, of, age_ns) == (detection, item, 500_000_000);
-    pairs(scene, &lists, detections).iter().any(|it| is_it((it.detection, it.item, it.list.age_ns)))
+    let pair = Named {
+        track: None,
+        detection: Some(detection),
+        item: Some(item),
+        age_ns: Some(500_000_000),
+    };
+    motions(scene).iter().any(|motion| motion.named == pair)
 }
 
 /// A track anywhere, not longer than 1 m.
