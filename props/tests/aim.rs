@@ -10,7 +10,8 @@ use mufasa_props::conformance::name;
 use mufasa_props::differential::{Generator, Tally, near_threshold, runner};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{
-    detections, fail_safe, grid, input, map_validation, roads, schedule, track_validation, tracks, whole,
+    detections, fail_safe, grid, input, map_validation, roads, schedule, track_validation, tracks,
+    whole,
 };
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -18,7 +19,17 @@ use proptest::strategy::{Strategy, ValueTree};
 const DRAWS: u64 = 600;
 
 fn measure(title: &str, generator: Generator, is_near: fn(&Cycle) -> bool, verdicts: &[&str]) {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    measure_in(&[Profile::Paper, Profile::Hardened], title, generator, is_near, verdicts);
+}
+
+fn measure_in(
+    profiles: &[Profile],
+    title: &str,
+    generator: impl Fn(&mut Draw<'_>, Profile) -> Cycle,
+    is_near: fn(&Cycle) -> bool,
+    verdicts: &[&str],
+) {
+    for &profile in profiles {
         let mut runner = runner();
         let mut tally = Tally::default();
         let start = std::time::Instant::now();
@@ -88,16 +99,28 @@ fn whole_cycles_are_aimed() {
     measure("cycle", whole::cycle, near_threshold, &["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
+/// Each threshold of H-14 by itself.
+#[test]
+fn the_fail_safe_rule_is_aimed_at() {
+    let hardened = [Profile::Hardened];
+    measure_in(&hardened, "H-14", fail_safe::cycle, near_threshold, &["iv", "safe"]);
+    for (aim, (title, _)) in fail_safe::AIMS.iter().enumerate() {
+        let aimed = |draw: &mut Draw<'_>, profile| fail_safe::aimed(draw, profile, aim);
+        measure_in(&hardened, title, aimed, near_threshold, &["iv", "safe"]);
+    }
+}
+
 /// Every rule of a witness decides some near case, so that no comparison stands outside of the
 /// properties.
 #[test]
 fn every_rule_decides_near_a_threshold() {
-    let generators: [Generator; 5] = [
+    let generators: [Generator; 6] = [
         track_validation::cycle,
         map_validation::cycle,
         tracks::cycle,
         detections::cycle,
         grid::cycle,
+        fail_safe::cycle,
     ];
     let mut seen: BTreeMap<Rule, u64> = BTreeMap::new();
     let mut runner = runner();

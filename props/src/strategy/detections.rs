@@ -25,7 +25,8 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         }
     }
     if profile == Profile::Hardened && draw.one_in(2) {
-        fail_safe::decide(draw, &mut cycle);
+        let aim = draw.below(fail_safe::AIMS.len());
+        fail_safe::decide(draw, &mut cycle, aim);
         return cycle;
     }
     let horizon = obstacle::horizon_of_detections(&cycle);

@@ -29,43 +29,69 @@ pub struct Aimed {
     pub age_ns: i64,
 }
 
+/// Finds an object for a cycle, whose path it may change; the last number is the age of its list, ns.
+type Aimer = fn(&mut Draw<'_>, &mut Cycle, i64) -> Aimed;
+
+/// What a cycle is aimed at, by name. Some are drawn more often.
+pub const AIMS: [(&str, Aimer); 12] = [
+    ("standing", standing),
+    ("passed", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::passed)),
+    ("coming", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::coming)),
+    ("passed", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::passed)),
+    ("coming", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::coming)),
+    ("across from behind", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::along)),
+    ("across from the side", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::across)),
+    ("behind", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::behind)),
+    ("slanted", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, Aim::slanted)),
+    ("may stand", at_the_stop),
+    ("beside", lane::object),
+    ("beside in a bend", lane::in_a_bend),
+];
+
 /// A cycle that H-14 decides.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
+    let aim = draw.below(AIMS.len());
+    aimed(draw, profile, aim)
+}
+
+/// A cycle that one of the `AIMS` is for.
+pub fn aimed(draw: &mut Draw<'_>, profile: Profile, aim: usize) -> Cycle {
     let frame = base::frame(draw);
     let configuration =
         draw.pick(&[Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote]);
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     obstacle::widen(&mut cycle, frame);
-    decide(draw, &mut cycle);
+    decide(draw, &mut cycle, aim);
     cycle
 }
 
-/// Puts one object where H-14 decides, on a path of any shape.
-pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+/// Puts one object where H-14 decides.
+pub fn decide(draw: &mut Draw<'_>, cycle: &mut Cycle, aim: usize) {
     // No other stage looks at it.
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let age_ns = draw.pick(&[0, 30_000_000, 100_000_000]);
-    let aimed = match draw.below(12) {
-        0 => lane::object(draw, cycle, age_ns),
-        1 => lane::in_a_bend(draw, cycle, age_ns),
-        2 => at_the_stop(draw, cycle, age_ns),
-        aim => {
-            shape::draw(draw, cycle);
-            let (path, age) = (Path::of(cycle), seconds(age_ns));
-            let body = body(draw, cycle);
-            let scene = Aim { cycle, path, body, age };
-            let found = match aim {
-                3 => return carry_standing(draw, cycle, age_ns),
-                4 | 5 => scene.passed(draw),
-                6 | 7 => scene.coming(draw),
-                8 | 9 => scene.across(draw),
-                10 => scene.behind(draw),
-                _ => scene.slanted(draw),
-            };
-            found.aged(age_ns)
-        }
-    };
-    carry(draw, cycle, aimed);
+    let (_, find) = AIMS[aim];
+    let aimed = find(draw, cycle, age_ns);
+    if draw.one_in(3) {
+        moving::carry(draw, cycle, aimed);
+    } else {
+        with_track(draw, cycle, aimed);
+    }
+    if draw.one_in(16) {
+        cycle.lead = Some(Lead { stamp_ns: cycle.now_ns, gap: 300.0, speed: 3.0 });
+    }
+}
+
+/// An object on a path of any shape.
+fn shaped(
+    draw: &mut Draw<'_>,
+    cycle: &mut Cycle,
+    age_ns: i64,
+    find: fn(&Aim<'_>, &mut Draw<'_>) -> Found,
+) -> Aimed {
+    shape::draw(draw, cycle);
+    let (path, body) = (Path::of(cycle), body(draw, cycle));
+    find(&Aim { cycle, path, body, age: seconds(age_ns) }, draw).aged(age_ns)
 }
 
 /// Of any size and direction, at the origin.
@@ -187,23 +213,25 @@ impl Aim<'_> {
             && met().is_some_and(|(_, to)| to >= speed * self.age)
     }
 
-    /// It comes across the CAV, or just does not: in line from behind, or from the side between when the CAV
-    /// surely stands and when it could have stopped.
+    /// It comes from behind in line with the CAV, and across it or just not.
+    fn along(&self, draw: &mut Draw<'_>) -> Found {
+        let (inner, speed) = (self.inner(), draw.pick(&[8.0, 20.0, 3.0]));
+        let (h, side) = ((inner.frame.cos, inner.frame.sin), draw.pick(&[1.0, -1.0]));
+        let aside = draw.near(inner.half.1 + self.body.extent((-h.1, h.0)));
+        let gap = draw.pick(&[1.0, 0.1, 5.0]);
+        let behind = 0.5 * self.cycle.ego.length + self.body.extent(h) + gap;
+        self.found(inner.frame.at(-behind, side * aside), h, speed * self.age, speed)
+    }
+
+    /// It comes from the side, and across the CAV or just not, between when the CAV surely stands and when it
+    /// could have stopped itself.
     fn across(&self, draw: &mut Draw<'_>) -> Found {
         let (inner, speed) = (self.inner(), draw.pick(&[8.0, 20.0, 3.0]));
         let (h, side) = ((inner.frame.cos, inner.frame.sin), draw.pick(&[1.0, -1.0]));
-        if draw.one_in(2) {
-            let aside = draw.near(inner.half.1 + self.body.extent((-h.1, h.0)));
-            let behind =
-                self.cycle.ego.length / 2.0 + self.body.extent(h) + draw.pick(&[1.0, 0.1, 5.0]);
-            let at = inner.frame.at(-behind, side * aside);
-            return self.found(at, h, speed * self.age, speed);
-        }
         let ahead = draw.near(inner.half.0 + self.body.extent(h));
-        let at = inner.frame.at(ahead, 0.0);
-        let e = (-side * h.1, side * h.0);
-        let from =
-            self.path.body(self.cycle, 0).met_by(&self.at(at), e).map_or(0.0, |(from, _)| from);
+        let (at, e) = (inner.frame.at(ahead, 0.0), (-side * h.1, side * h.0));
+        let cav = self.path.body(self.cycle, 0);
+        let from = cav.met_by(&self.at(at), e).map_or(0.0, |(from, _)| from);
         let share = draw.pick(&[0.5, 0.9, 0.1]);
         let arrives = self.path.t_stop() * (1.0 - share) + self.until(speed) * share;
         self.found((at.0 + from * e.0, at.1 + from * e.1), e, speed * (self.age + arrives), speed)
@@ -262,45 +290,24 @@ fn at_the_stop(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
 
 /// Something that stands beside the CAV at a place or ahead of the last one, and touches it, or just does
 /// not.
-fn carry_standing(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) {
-    let (path, body) = (Path::of(cycle), body(draw, cycle));
-    let last = path.places.len() - 1;
-    let ahead = draw.one_in(2);
-    let k = if ahead { last } else { draw.below(last + 1) };
-    let cav = path.body(cycle, k);
-    let (normal, tangent) = if ahead {
-        ((1.0, 0.0), (0.0, 1.0))
-    } else {
+fn standing(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    shaped(draw, cycle, age_ns, |aim, draw| {
+        let last = aim.path.places.len() - 1;
+        let ahead = draw.one_in(2);
+        let k = if ahead { last } else { draw.below(last + 1) };
+        let cav = aim.path.body(aim.cycle, k);
         let side = draw.pick(&[1.0, -1.0]);
-        ((0.0, side), (1.0, 0.0))
-    };
-    let reach = if ahead { cav.half } else { (cav.half.1, cav.half.0) };
-    let (n, t) = (cav.frame.turn(normal), draw.pick(&[0.0, 0.5, -0.9]) * reach.1);
-    let away = draw.near(reach.0 + body.extent(n));
-    let (x, y) = cav.frame.at(away * normal.0 + t * tangent.0, away * normal.1 + t * tangent.1);
-    let aimed =
-        Found { body: Body { frame: Frame { x, y, ..body.frame }, ..body }, velocity: (0.0, 0.0) };
-    let aimed = aimed.aged(age_ns);
-    if draw.one_in(2) {
-        with_track(draw, cycle, aimed);
-    } else {
-        let items = vec![detection(aimed)];
-        cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns - age_ns, items });
-    }
+        let normal = if ahead { (1.0, 0.0) } else { (0.0, side) };
+        let reach = if ahead { cav.half } else { (cav.half.1, cav.half.0) };
+        let away = draw.near(reach.0 + aim.body.extent(cav.frame.turn(normal)));
+        let along = draw.pick(&[0.0, 0.5, -0.9]) * reach.1;
+        let at =
+            cav.frame.at(away * normal.0 - along * normal.1, away * normal.1 + along * normal.0);
+        aim.found(at, (1.0, 0.0), 0.0, 0.0)
+    })
 }
 
-/// As a track beside current detections without any, or as a detection that the CAV saw move.
-fn carry(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
-    if draw.one_in(3) {
-        moving::carry(draw, cycle, aimed);
-    } else {
-        with_track(draw, cycle, aimed);
-    }
-    if draw.one_in(16) {
-        cycle.lead = Some(Lead { stamp_ns: cycle.now_ns, gap: 300.0, speed: 3.0 });
-    }
-}
-
+/// As a track beside current detections without any.
 fn with_track(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
     let stamp_ns = cycle.now_ns - aimed.age_ns;
     let mut items = vec![track(aimed)];
@@ -329,14 +336,4 @@ pub fn detection(aimed: Aimed) -> Detection {
     let Frame { x, y, cos, sin } = aimed.frame;
     let (length, width) = (aimed.size.0.clamp(0.01, 100.0), aimed.size.1.clamp(0.01, 100.0));
     Detection { x, y, cos, sin, length, width }
-}
-
-pub fn aim_of(draw: &mut Draw<'_>) -> &'static str {
-    let frame = base::frame(draw);
-    let configuration =
-        draw.pick(&[Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote]);
-    let mut cycle = base::cycle(draw, frame, Profile::Hardened, configuration);
-    obstacle::widen(&mut cycle, frame);
-    draw.pick(&[0, 30_000_000, 100_000_000]);
-    ["lane", "bend", "at_the_stop", "standing", "passed", "passed", "coming", "coming", "across", "across", "behind", "slanted"][draw.below(12)]
 }
