@@ -1,5 +1,5 @@
 //! Stage ii at its thresholds: distance to the reference path, edges of the corridor, H-07, H-11
-//! and H-12 (`spec/3-stages.md#stage-ii-trajectory-to-map`).
+//! and H-14's reach (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, DetectionList, Profile, Route, Trajectory, TrajectoryPoint,
@@ -8,7 +8,8 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
-use super::{end, steps};
+use super::fail_safe::reach;
+use super::steps;
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -28,10 +29,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
         (Profile::Hardened, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
-        (Profile::Hardened, _) => {
-            let missing = draw.near(cycle.ego.length);
-            end::shorten(draw, &mut cycle, missing);
-        }
+        (Profile::Hardened, _) => reach::cycle(draw, &mut cycle),
     }
     cycle
 }

@@ -10,6 +10,7 @@ pub mod composition;
 pub mod detections;
 pub mod draw;
 pub mod end;
+pub mod fail_safe;
 pub mod grid;
 pub mod history;
 pub mod input;

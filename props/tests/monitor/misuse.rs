@@ -159,7 +159,7 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
         assert_eq!(forgotten.map(|report| report.failed_stage), Ok(None), "at {i}");
         found = found.or(period(&mut monitor, &mut station, &world));
     }
-    assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
+    assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::FailSafe))));
 }
 
 /// Detections that were not current are no history: in the same drive with late scans until its last cycle
