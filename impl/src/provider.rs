@@ -147,7 +147,7 @@ impl<'s> Precheck<'s> {
             if let (Some(why), [track]) = (self.tracks_failure(cycle, stamp_ns, alone)?, alone) {
                 left_out(track, why);
             } else {
-                tracks.swap(kept, index);
+                exchange(tracks, kept, index);
                 kept = kept.saturating_add(1);
             }
         }
@@ -174,12 +174,13 @@ impl<'s> Precheck<'s> {
             let away = detections.iter().map(|it| apart_squared([track.x, track.y], [it.x, it.y]));
             away.min_by(f64::total_cmp).unwrap_or(f64::INFINITY)
         };
-        tracks.sort_unstable_by(|a, b| {
-            nearest(a).total_cmp(&nearest(b)).then_with(|| a.id.cmp(&b.id))
-        });
         let mut kept = 0_usize;
         for index in 0..tracks.len() {
-            tracks.swap(kept, index);
+            let rest = (index..).zip(tracks.get(index..).unwrap_or_default());
+            let keys = rest.map(|(place, track)| (place, nearest(track), track.id));
+            let next = keys.min_by(|a, b| a.1.total_cmp(&b.1).then_with(|| a.2.cmp(&b.2)));
+            exchange(tracks, index, next.map_or(index, |(place, ..)| place));
+            exchange(tracks, kept, index);
             let now = tracks.get(..=kept).unwrap_or_default();
             match (self.tracks_failure(cycle, stamp_ns, now)?, now.last()) {
                 (Some(why), Some(track)) => left_out(track, why),
@@ -231,5 +232,16 @@ impl<'s> Precheck<'s> {
         let cycle = Cycle { trajectory, tracks, ..*cycle };
         let report = check(&cycle, &mut Scratch::new(self.rows, self.columns))?;
         Ok(Failure::of(&report))
+    }
+}
+
+/// Two tracks take each other's place; without one of them nothing happens.
+fn exchange(tracks: &mut [Track], one: usize, other: usize) {
+    if let (Some(&first), Some(&second)) = (tracks.get(one), tracks.get(other)) {
+        for (place, track) in [(one, second), (other, first)] {
+            if let Some(slot) = tracks.get_mut(place) {
+                *slot = track;
+            }
+        }
     }
 }
