@@ -248,19 +248,13 @@ enum MufasaRule
   MUFASA_RULE_STEP_LATERAL = 16,
   MUFASA_RULE_STEP_TURN = 17,
   MUFASA_RULE_SLIDE = 18,
-  MUFASA_RULE_TURN_REVERSED = 19,
-  MUFASA_RULE_TURN_ON_THE_SPOT = 20,
-  MUFASA_RULE_TURN_HARD = 21,
-  MUFASA_RULE_ARC_TOO_SHORT = 22,
-  MUFASA_RULE_ARC_TOO_LONG = 23,
-  MUFASA_RULE_ENDS_TOO_SOON = 24,
   MUFASA_RULE_GAP = 25,
   MUFASA_RULE_COLLISION = 26,
-  MUFASA_RULE_COLLISION_STANDING = 27,
-  MUFASA_RULE_COLLISION_MOVING = 28,
   MUFASA_RULE_OCCUPIED = 29,
   MUFASA_RULE_UNKNOWN = 30,
   MUFASA_RULE_OUTSIDE = 31,
+  MUFASA_RULE_REACH = 32,
+  MUFASA_RULE_FAIL_SAFE = 33,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -528,18 +522,15 @@ typedef struct MufasaParameters {
   // H-01: gated tracks that may stay without a detection.
   // Default: 4
   int64_t miss_budget;
-  // H-04: time before the CAV brakes, s.
+  // H-14: the longest time from measuring pose and speed to braking, s.
   // Default: 0.1
   double tau;
-  // H-04, H-12: greatest acceleration of the CAV, m/s^2.
+  // H-14: greatest acceleration of the CAV, m/s^2.
   // Default: 3.0
   double a_max;
-  // H-07, H-12: how far off the CAV a trajectory may start, m.
+  // H-07: how far off the CAV a trajectory may start, m.
   // Default: 2.0
   double start_tolerance;
-  // H-12: how far a trajectory may lag behind a CAV that brakes at a_b, m.
-  // Default: 0.5
-  double lag_tolerance;
   // H-11: greatest speed of a trajectory, m/s.
   // Default: 150.0
   double v_max;
@@ -552,12 +543,15 @@ typedef struct MufasaParameters {
   // H-07: how far aside of its first heading a trajectory may start, m.
   // Default: 0.5
   double lateral_tolerance;
-  // H-13: the greatest speed of an object that is looked for, m/s.
+  // H-14: the greatest speed of an object that is looked for, m/s.
   // Default: 70.0
   double v_object;
-  // H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
-  // Default: 0.3
-  double tau_motion;
+  // H-14: when others begin to brake for the CAV once it stands, s.
+  // Default: 1.5
+  double t_yield;
+  // H-14: how hard they brake then, m/s^2.
+  // Default: 3.0
+  double a_yield;
   // Stage i fails rather than begin an assignment of more work than this.
   // Default: 10_000_000_000
   int64_t work_limit;
@@ -635,8 +629,9 @@ typedef struct MufasaTrajectoryPoint {
 // * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
 //   turn as a vehicle can (H-11);
 // * corridor: every point inside, none heading against the route (H-07);
-// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
-//   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
+// * reach: the path from the CAV through those that are ahead of it, and straight on, no farther aside than
+//   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
+//   go on and stop.
 typedef struct MufasaTrajectory {
   // Time of generation.
   struct MufasaTime stamp;
@@ -753,9 +748,8 @@ typedef struct MufasaCycle {
   // nearest to 300, 500 and 800 ms, the one nearest to 500 ms being the reference. A cycle that was
   // not safe leaves its detections in the history like any other; older than 60 s, a list counts
   // as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
-  // in ALL_REMOTE each counts as standing, too (H-09), and no detection is explained (H-10); with
-  // none of them what moves is not looked for (H-13). The verdict is then valid, but rejects
-  // more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
+  // and no detection is explained, so that each counts as standing, too; with none of them what
+  // moves is not looked for (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
   const struct MufasaDetectionList *detection_history;
   // How many.
   size_t detection_history_len;

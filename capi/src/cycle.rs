@@ -78,8 +78,9 @@ pub struct MufasaTrajectoryPoint {
 /// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
 ///   turn as a vehicle can (H-11);
 /// * corridor: every point inside, none heading against the route (H-07);
-/// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
-///   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
+/// * reach: the path from the CAV through those that are ahead of it, and straight on, no farther aside than
+///   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
+///   go on and stop.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct MufasaTrajectory {
@@ -266,9 +267,8 @@ pub struct MufasaCycle {
     /// nearest to 300, 500 and 800 ms, the one nearest to 500 ms being the reference. A cycle that was
     /// not safe leaves its detections in the history like any other; older than 60 s, a list counts
     /// as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
-    /// in ALL_REMOTE each counts as standing, too (H-09), and no detection is explained (H-10); with
-    /// none of them what moves is not looked for (H-13). The verdict is then valid, but rejects
-    /// more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
+    /// and no detection is explained, so that each counts as standing, too; with none of them what
+    /// moves is not looked for (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
     pub detection_history: *const MufasaDetectionList,
     /// How many.
     pub detection_history_len: usize,

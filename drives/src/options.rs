@@ -43,14 +43,14 @@ impl Default for Options {
     }
 }
 
-/// Near its end a recording holds no more plan than the rest of it. H-12 asks a trajectory to
-/// reach standstill under full braking, which this rest cannot do.
+/// Near its end a recording holds no more plan than the rest of it. Where the CAV cannot stop within it, H-14
+/// examines a way straight on that nobody drove.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tail {
     /// No cycle once the rest is shorter than the braking time `v / a_b`, or than one step.
     #[default]
     Stop,
-    /// A cycle for every step, however short its trajectory; H-12 then rejects the last ones.
+    /// A cycle for every step, however short its trajectory.
     Keep,
 }
 

@@ -137,10 +137,10 @@ fn drawn(cycle: &Cycle, report: &Report) -> String {
 fn reports() -> Vec<(&'static str, Report)> {
     let point = Some(9);
     let track = Witness { point, track: Some(7), ..witness(Rule::Collision) };
-    let standing = Witness { rule: Rule::CollisionStanding, ..track.clone() };
+    let fail_safe = Witness { point: Some(27), rule: Rule::FailSafe, ..track.clone() };
     let detection = Witness { point, detection: Some(0), ..witness(Rule::Collision) };
     let moving = Witness {
-        rule: Rule::CollisionMoving,
+        rule: Rule::FailSafe,
         detection: Some(3),
         item: Some(1),
         age_ns: Some(500_000_000),
@@ -159,7 +159,7 @@ fn reports() -> Vec<(&'static str, Report)> {
         ("corridor", failed(Stage::Ii, corridor)),
         ("start", failed(Stage::Ii, Witness { point: Some(0), ..witness(Rule::StartPosition) })),
         ("track", failed(Stage::Iii, track)),
-        ("standing", failed(Stage::Iii, standing)),
+        ("fail-safe", failed(Stage::Iv, fail_safe)),
         ("detection", failed(Stage::Iv, detection)),
         ("moving", failed(Stage::Iv, moving)),
         ("gap", failed(Stage::Iv, witness(Rule::Gap))),
@@ -219,7 +219,7 @@ fn the_marked_track_is_where_it_will_be_at_the_point() {
         let (_, report) = reports.iter().find(|(name, _)| *name == wanted).unwrap();
         drawn(&cycle(), report)
     };
-    let [moving, standing] = ["track", "standing"].map(picture_of);
+    let [moving, fail_safe] = ["track", "fail-safe"].map(picture_of);
     let last_mark = |svg: &str| {
         let document = Document::parse(svg).unwrap();
         let group = with_id(&document, "witness").unwrap();
@@ -233,13 +233,14 @@ fn the_marked_track_is_where_it_will_be_at_the_point() {
             .find(|n| n.has_tag_name("polygon") && n.attribute("class") == Some("track"));
         track.unwrap().attribute("points").unwrap().to_owned()
     };
-    assert_eq!(last_mark(&standing), track_now(&standing));
+    // H-14 asks about a time span: the track is marked where it is now.
+    assert_eq!(last_mark(&fail_safe), track_now(&fail_safe));
     assert_ne!(last_mark(&moving), track_now(&moving));
 }
 
-/// From the item to the detection in 0.5 s, and as fast on to the time of the point.
+/// From the item of 0.5 s ago to the detection that it became.
 #[test]
-fn the_arrows_of_what_moves_are_as_long_as_their_times() {
+fn what_was_seen_to_move_has_an_arrow() {
     let reports = reports();
     let (_, report) = reports.iter().find(|(name, _)| *name == "moving").unwrap();
     let svg = drawn(&cycle(), report);
@@ -247,21 +248,11 @@ fn the_arrows_of_what_moves_are_as_long_as_their_times() {
     let group = with_id(&document, "witness").unwrap();
     let of = |class: &str| {
         let nodes = group.children().filter(move |n| n.attribute("class") == Some(class));
-        nodes.filter_map(|n| n.attribute("points")).map(str::to_owned).collect::<Vec<_>>()
+        nodes.filter_map(|n| n.attribute("points")).collect::<Vec<_>>()
     };
-    let lengths: Vec<f64> = of("witness-line")
-        .iter()
-        .map(|line| {
-            let n: Vec<f64> = line.split([',', ' ']).map(|it| it.parse().unwrap()).collect();
-            (n[2] - n[0]).hypot(n[3] - n[1])
-        })
-        .collect();
-    // Point 9 is 1.8 s ahead.
-    let [seen, expected] = lengths[..] else { panic!("{lengths:?}") };
-    assert!(seen > 20.0 && (expected / seen - 1.8 / 0.5).abs() < 0.02, "{lengths:?}");
     let corners = |points: &str| points.split(' ').count();
-    let counts = ["disk", "witness-tip", "witness"].map(|class| of(class).len());
-    assert_eq!((counts, corners(&of("disk")[0])), ([2, 2, 2], 4));
+    let counts = ["disk", "witness-line", "witness-tip", "witness"].map(|class| of(class).len());
+    assert_eq!((counts, corners(of("disk")[0])), ([1, 1, 1, 2], 4));
     let earlier = document.descendants().filter(|n| n.attribute("class") == Some("history"));
     assert_eq!(earlier.filter(|n| n.has_tag_name("polygon")).count(), 3);
 }
@@ -296,7 +287,7 @@ fn witnesses_beyond_the_lists_are_no_error() {
         cell: Some((i64::MAX, i64::MIN)),
         ..witness(Rule::Occupied)
     };
-    for rule in [Rule::Occupied, Rule::CollisionMoving] {
+    for rule in [Rule::Occupied, Rule::FailSafe] {
         let svg = drawn(&cycle(), &failed(Stage::V, Witness { rule, ..beyond.clone() }));
         assert!(with_id(&Document::parse(&svg).unwrap(), "witness").is_some());
     }

@@ -77,7 +77,8 @@ fn the_relation_holds_between_the_numbers_as_they_are_printed() {
             _ => {}
         }
     }
-    assert!(seen.len() > 25, "{seen:?}");
+    // Of 25 rules: the exact model never says `ambiguous` or `work_limit`.
+    assert!(seen.len() > 20, "{seen:?}");
     assert!(
         by_less > 0 && starts.iter().chain(&turns).all(|count| *count > 0),
         "{starts:?} {turns:?}"

@@ -2,29 +2,38 @@
 import math
 
 from geometry import EPS
-from paper import disk_centres, disk_radius, s_b
-from stopping import places, s_stop
+from paper import disk_centres, disk_radius, points_within, s_b
 
 
-def stage_v(cycle, ran_iv):
-    """H-06: disks against the squares of cells; the unknown counts unless stage iv ran. Where that
-    ran on a detection, and not in MotRemote, the CAV's rectangle against the occupied ones."""
-    grid, r = cycle["grid"], disk_radius(cycle) + EPS
-    is_exact = (ran_iv and cycle["detections"]["items"]
+def poses(cycle, places):
+    """The points that the paper names, then the places of H-14, from the CAV's reference point."""
+    ego = cycle["ego"]
+    for point in points_within(cycle, s_b(cycle, ego["speed"])):
+        yield {**point, "x": point["x"] - ego["x"], "y": point["y"] - ego["y"]}
+    yield from (place.pose for place in places)
+
+
+def stage_v(cycle, detections, places):
+    """H-06: disks against the squares of cells; the unknown counts unless detections are current.
+    Where there is one, and not in MotRemote, an occupied one has to meet the CAV's rectangle, too."""
+    ego, grid, r = cycle["ego"], cycle["grid"], disk_radius(cycle) + EPS
+    is_exact = (detections and cycle["detections"]["items"]
                 and cycle["configuration"] != "MotRemote")
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
-    bitmaps = [grid["occupied"]] if ran_iv else [grid["occupied"], grid["unknown"] or b""]
+    bitmaps = [grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
     filled = bits[0] | bits[-1]
     rows = [filled >> (k * grid["width"]) & ((1 << grid["width"]) - 1)
             for k in range(grid["height"])]
-    for place in places(cycle, max(s_b(cycle, cycle["ego"]["speed"]), s_stop(cycle))):
+    cycle = {**cycle, "grid": {**grid, "x": grid["x"] - ego["x"], "y": grid["y"] - ego["y"]}}
+    offset = ego["center_offset"]
+    for pose in poses(cycle, places):
         if is_exact:
-            if rectangle_meets_cell(cycle, rows, *place):
+            if rectangle_meets_cell(cycle, rows, pose, offset, r):
                 return False
             continue
-        for u, v in disk_centres(cycle, *place):
-            if not ran_iv and not (r < u < high_u - r and r < v < high_v - r):
+        for u, v in disk_centres(cycle, pose, offset):
+            if not detections and not (r < u < high_u - r and r < v < high_v - r):
                 return False
             if meets_cell(grid, rows, u, v, r):
                 return False
@@ -48,8 +57,10 @@ def meets_cell(grid, rows, u, v, r):
     return False
 
 
-def rectangle_meets_cell(cycle, rows, pose, offset):
-    """Whether the closed square of a marked cell may share a point with the CAV's rectangle."""
+def rectangle_meets_cell(cycle, rows, pose, offset, r):
+    """Whether the closed square of a marked cell may share a point with the CAV's rectangle, and with
+    a disk: where a direction is longer than 1 a corner is outside of them."""
+    disks = list(disk_centres(cycle, pose, offset))
     ego, grid, res = cycle["ego"], cycle["grid"], cycle["grid"]["resolution"]
     norm = grid["cos"]**2 + grid["sin"]**2
     c, s = grid["cos"] / norm, grid["sin"] / norm
@@ -64,8 +75,11 @@ def rectangle_meets_cell(cycle, rows, pose, offset):
                    min(math.floor((v + reach) / res) + 1, grid["height"])):
         row = rows[k] >> low
         for i in range(low, min(high + 1, grid["width"])) if row else ():
-            if row >> (i - low) & 1 and square_meets(res / 2, u - (i + 0.5) * res,
-                                                     v - (k + 0.5) * res, along, half):
+            x, y = (i + 0.5) * res, (k + 0.5) * res
+            if (row >> (i - low) & 1 and square_meets(res / 2, u - x, v - y, along, half)
+                    and any(math.hypot(max(abs(x - disk[0]) - res / 2, 0.0),
+                                       max(abs(y - disk[1]) - res / 2, 0.0)) <= r
+                            for disk in disks)):
                 return True
     return False
 

@@ -45,7 +45,9 @@ class Seen:
 
     def __init__(self, cycle, now):
         self.parameters, self.unclear = cycle["parameters"], False
-        received = cycle["configuration"] != "PlanRemote" and cycle["tracks"]
+        # Own tracks are compared with nothing when they are not current.
+        asked = now["tracks"] or cycle["configuration"] != "PlanRemote"
+        received = cycle["tracks"] if asked else None
         self.tracks = received["items"] if received else []
         self.detections = cycle["detections"]["items"] if now["detections"] else []
         self.lists = usable(cycle, now)
@@ -132,26 +134,22 @@ class Seen:
         return any(self.may_come_from(self.detections[d], one["items"][own], one)
                    for d in unexplained)
 
-    def moving(self):
-        """The motions to be examined: each a detection and its velocity (H-13)."""
+    def motions(self):
+        """The motions of detections that H-14 examines: each with where it was how long ago, in ns."""
         for i in self.sure:
             one, detection = self.seen_as(i), self.detections[self.detection[i]]
             for item in one["items"]:
                 if self.past_gap(item, self.tracks[i], one) <= self.reach(one) + EPS:
-                    yield detection, velocity(item, detection, one)
-        if self.reference is None:
-            return
+                    yield detection, item, one["age_ns"]
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
-        disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
-        for detection in (self.detections[d] for d in unexplained + disputed):
-            for item in self.reference["items"]:
-                if self.may_come_from(detection, item, self.reference):
-                    yield detection, velocity(item, detection, self.reference)
-
-    def work(self, points):
-        """What H-13 costs, in steps, with so many points and places beyond the end."""
-        items = [len(one["items"]) for one in self.lists]
-        return len(self.detections) * max(items, default=0) * (sum(items) + points)
+        if self.reference is not None:
+            disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
+            for detection in (self.detections[d] for d in sorted(unexplained + disputed)):
+                for item in self.reference["items"]:
+                    if self.may_come_from(detection, item, self.reference):
+                        yield detection, item, self.reference["age_ns"]
+        for d in unexplained:
+            yield self.detections[d], self.detections[d], 1
 
 
 def velocity(item, detection, one):

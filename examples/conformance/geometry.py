@@ -128,18 +128,3 @@ def rectangles_meet(ego, pose, offset, item, dx, dy, near):
         return False
     sides = edges(pose, ego, EPS, item)
     return all(abs(dx * ux + dy * uy) <= reach(sides, ux, uy) for ux, uy, _ in sides)
-
-
-def stays_apart(ego, pose, more, item, dx, dy, velocity):
-    """Whether the CAV, standing at a pose and longer by more, never meets an object that has moved by
-    (dx, dy) and moves on: some side of one of them, or the way of the object, has the CAV on one side
-    and the object on the other, and the object does not come nearer to it."""
-    dx, dy = from_centre(pose, ego["center_offset"], item, dx, dy)
-    sides, (wx, wy) = edges(pose, ego, more, item), velocity
-    speed = math.hypot(wx, wy)
-    if speed and abs(dy * wx - dx * wy) / speed > reach(sides, -wy / speed, wx / speed):
-        return True
-    # Too close to call counts as the margin does: a smaller CAV stays apart, a larger one does not.
-    least = math.copysign(1e-9, more) * speed
-    return any(sign * (dx * ux + dy * uy) > reach(sides, ux, uy) and sign * (wx * ux + wy * uy) >= least
-               for ux, uy, _ in sides for sign in (1, -1))

@@ -29,8 +29,8 @@ struct Grid : Pose {
 struct Parameters {
   double theta_tr = 0.2, theta_map = 0.3, theta_obj = 5.0, a_b = 8.0, safety_time = 1.8;
   double theta_track_max = 1.0, tau = 0.1, a_max = 3.0, start_tolerance = 2.0, v_max = 150.0;
-  double lag_tolerance = 0.5;
-  double theta_velocity = 2.0, v_object = 70.0, tau_motion = 0.3, lateral_tolerance = 0.5;
+  double theta_velocity = 2.0, lateral_tolerance = 0.5, v_object = 70.0;
+  double t_yield = 1.5, a_yield = 3.0;
   double delta = 1e-6;
   std::int64_t max_age_ns = 100000000, n = 4, miss_budget = 4, step_max_ns = 200000000,
                work_limit = 10000000000;
@@ -139,18 +139,16 @@ std::optional<Stamped<T>> read_list(const Value* v, const char* key, T (*read)(c
 }
 inline void read_parameters(const Value& v, Parameters& p) {
   v.only({"theta_tr", "theta_map", "theta_obj", "a_b", "safety_time", "max_age_ns", "n",
-          "theta_track_max", "miss_budget", "tau", "a_max", "start_tolerance", "lag_tolerance",
-          "v_max",
-          "step_max_ns", "theta_velocity", "v_object", "tau_motion", "lateral_tolerance",
+          "theta_track_max", "miss_budget", "tau", "a_max", "start_tolerance", "v_max",
+          "step_max_ns", "theta_velocity", "lateral_tolerance", "v_object", "t_yield", "a_yield",
           "work_limit", "delta", "t_wait_ns", "request_timeout_ns", "l_max_ns", "dt_max_ns"});
   const std::pair<const char*, double*> numbers[] = {
       {"theta_tr", &p.theta_tr}, {"theta_map", &p.theta_map}, {"theta_obj", &p.theta_obj},
       {"a_b", &p.a_b}, {"safety_time", &p.safety_time}, {"tau", &p.tau}, {"a_max", &p.a_max},
       {"theta_track_max", &p.theta_track_max}, {"start_tolerance", &p.start_tolerance},
-      {"lag_tolerance", &p.lag_tolerance},
       {"v_max", &p.v_max}, {"theta_velocity", &p.theta_velocity}, {"v_object", &p.v_object},
-      {"tau_motion", &p.tau_motion}, {"lateral_tolerance", &p.lateral_tolerance},
-      {"delta", &p.delta}};
+      {"lateral_tolerance", &p.lateral_tolerance}, {"t_yield", &p.t_yield},
+      {"a_yield", &p.a_yield}, {"delta", &p.delta}};
   for (auto& [name, place] : numbers)
     if (const Value* value = v.find(name)) *place = value->as_double();
   std::int64_t time_ns = 0;
@@ -266,10 +264,10 @@ inline void check_trajectory(Cycle& c, bool remote) {
 inline void check_parameters(const Parameters& p) {
   const double least = std::numeric_limits<double>::denorm_min();
   for (double theta : {p.theta_tr, p.theta_map, p.theta_obj, p.theta_track_max,
-                       p.start_tolerance, p.lag_tolerance, p.lateral_tolerance})
+                       p.start_tolerance, p.lateral_tolerance})
     within(theta, 1e-3, 1e3);
-  for (double a : {p.a_b, p.a_max}) within(a, 0.1, 100.0);
-  for (double time : {p.safety_time, p.tau, p.tau_motion}) within(time, 0.0, 60.0);
+  for (double a : {p.a_b, p.a_max, p.a_yield}) within(a, 0.1, 100.0);
+  for (double time : {p.safety_time, p.tau, p.t_yield}) within(time, 0.0, 60.0);
   for (double speed : {p.v_max, p.theta_velocity, p.v_object}) within(speed, least, 1e3);
   for (std::int64_t time_ns : {p.max_age_ns, p.step_max_ns}) within<std::int64_t>(time_ns, 0, kS60);
   within<std::int64_t>(p.n, 1, 64);

@@ -18,10 +18,10 @@ const PARAMETERS = {
   a_b: [8, RATE], safety_time: [1.8, SECONDS], max_age_ns: [100_000_000n, [0n, MINUTE]],
   n: [4n, [1n, 64n]], work_limit: [10_000_000_000n, [0n, LAST]], delta: [1e-6, [1e-8, 1e-2]],
   theta_track_max: [1, THRESHOLD], miss_budget: [4n, [0n, 64n]], tau: [0.1, SECONDS],
-  a_max: [3, RATE], start_tolerance: [2, THRESHOLD], lag_tolerance: [0.5, THRESHOLD],
-  v_max: [150, ABOVE_ZERO], step_max_ns: [200_000_000n, [0n, MINUTE]],
-  theta_velocity: [2, ABOVE_ZERO], v_object: [70, ABOVE_ZERO], tau_motion: [0.3, SECONDS],
-  lateral_tolerance: [0.5, THRESHOLD],
+  a_max: [3, RATE], start_tolerance: [2, THRESHOLD], v_max: [150, ABOVE_ZERO],
+  step_max_ns: [200_000_000n, [0n, MINUTE]], theta_velocity: [2, ABOVE_ZERO],
+  lateral_tolerance: [0.5, THRESHOLD], v_object: [70, ABOVE_ZERO], t_yield: [1.5, SECONDS],
+  a_yield: [3, RATE],
 };
 
 // JSON.parse makes doubles of all numbers: integers that none can hold become strings before.

@@ -1,7 +1,10 @@
-"""H-04: how far the CAV needs to stop, the way to a point, and the places that are examined."""
-import math
+"""How far the CAV needs to stop, and when it is where: spec/7-fail-safe.md#when-the-cav-is-where.
 
-from geometry import EPS, distance
+Times change without bound with the way where the CAV comes to stand. So ways are fractions, and
+only the square root is rounded.
+"""
+import math
+from fractions import Fraction
 
 
 def dot(a, b):
@@ -20,40 +23,34 @@ def between(a, b, heading):
     return x * c + y * s, y * c - x * s
 
 
-def ways(points):
-    """The way to each point: the steps up to it, along the heading where each begins."""
-    way = [0.0]
-    for a, b in zip(points, points[1:]):
-        way.append(way[-1] + max(between(a, b, a)[0], 0.0))
-    return way
+def displacement(a, b):
+    """From a to b, in fractions."""
+    return Fraction(b["x"]) - Fraction(a["x"]), Fraction(b["y"]) - Fraction(a["y"])
 
 
-def s_stop(cycle):
-    """Reaction, then braking, from where the CAV is; counted from the first point."""
-    ego, first, parameters = cycle["ego"], cycle["trajectory"]["points"][0], cycle["parameters"]
-    v, tau, a_max = ego["speed"], parameters["tau"], parameters["a_max"]
-    ahead = between(first, ego, first)[0] > -EPS
-    e = distance(ego, first) if ahead else 0.0
-    return (e + v * tau + a_max * tau * tau / 2
-            + (v + a_max * tau)**2 / (2 * parameters["a_b"]))
+class Stop:
+    """Going on for tau at most, speeding up with a_max, then braking with a_b."""
 
+    def __init__(self, cycle):
+        parameters = cycle["parameters"]
+        tau, self.a_max, self.a_b = (Fraction(parameters[key]) for key in ("tau", "a_max", "a_b"))
+        self.v = v = Fraction(cycle["ego"]["speed"])
+        v_tau = v + self.a_max * tau
+        self.s_tau = v * tau + self.a_max * tau**2 / 2
+        self.s_stop = self.s_tau + v_tau**2 / (2 * self.a_b)
+        self.s_b = v**2 / (2 * self.a_b)
+        self.T = float(tau + v_tau / self.a_b)
 
-def places(cycle, horizon, beyond=None):
-    """The places up to a horizon, and the first one beyond s_stop (or beyond another way): each a
-    point and a center_offset. A trajectory that ends before s_stop is examined beyond its end, as
-    if the CAV went straight on."""
-    points = cycle["trajectory"]["points"]
-    offset, stop, way = cycle["ego"]["center_offset"], s_stop(cycle), ways(points)
-    beyond = stop if beyond is None else beyond
-    for point, here, before in zip(points, way, [0.0, *way]):
-        is_next = before <= (1 + 1e-6) * beyond + EPS
-        if here > (1 + 1e-6) * horizon + EPS and not is_next:
-            return
-        yield point, offset
-    if way[-1] < stop + EPS:
-        step = min(0.25, cycle["ego"]["length"])
-        k = math.floor(offset / step) + 1
-        while k * step < offset + stop - way[-1] + EPS:
-            yield points[-1], k * step
-            k += 1
-        yield points[-1], k * step
+    def braking(self, rest):
+        """How long the CAV still brakes when it has so far to go."""
+        return math.sqrt(2 * max(rest, 0) / self.a_b)
+
+    def first(self, way):
+        """The earliest time at a way."""
+        if way > self.s_tau:
+            return self.T - self.braking(self.s_stop - way)
+        return (math.sqrt(self.v**2 + 2 * self.a_max * way) - float(self.v)) / float(self.a_max)
+
+    def last(self, way):
+        """The latest time at a way below s_b."""
+        return float(self.v / self.a_b) - self.braking(self.s_b - way)

@@ -3,8 +3,8 @@
 
 use core::cmp::Ordering;
 
-use crate::hardened::h04_horizon::plain_s_stop;
 use crate::hardened::h07_start;
+use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{
     Cycle, DetectionList, Grid, Lead, Route, TrackList, Trajectory, TrajectoryPoint,
 };
@@ -18,7 +18,7 @@ use crate::numbers::exact::limbs;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
 use crate::report::Witness;
 use crate::stages::distances;
-use crate::stages::horizon::{Horizon, PointsExamined};
+use crate::stages::horizon::{self, Horizon};
 use crate::stages::i_track_validation::gate;
 use crate::stages::i_track_validation::places::Places;
 use crate::stages::v_grid_map::bitmap::Bitmap;
@@ -43,9 +43,9 @@ pub fn s_valid(parameters: &Parameters, v_now: f64, v_lead: Option<f64>) -> f64 
     distances::s_valid(parameters, v_now, v_lead)
 }
 
-/// Doubles below and above `s_stop`, m. Source: `spec/3-stages.md#hardened-profile`, H-04.
-pub fn s_stop(cycle: &Cycle<'_>, first: &TrajectoryPoint) -> [f64; 2] {
-    plain_s_stop(cycle, first)
+/// `s_stop` in plain doubles, m. Source: `spec/7-fail-safe.md#when-the-cav-is-where`.
+pub fn s_stop(cycle: &Cycle<'_>) -> f64 {
+    Times::new(cycle).s_stop
 }
 
 /// As `Requester::step`, but what has to be done kind by kind, for MOT and PLAN: drops, releases,
@@ -154,7 +154,7 @@ pub fn cell_within(
 
 /// How many points of the trajectory stage v examines. Source: `spec/3-stages.md#distances`.
 pub fn points_examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> usize {
-    PointsExamined::new(cycle, points, Horizon::Braking).points.len()
+    horizon::points_examined(cycle, points, Horizon::Braking).len()
 }
 
 /// What the start of a trajectory breaks. Source: `spec/3-stages.md#hardened-profile`, H-07.

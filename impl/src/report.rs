@@ -76,11 +76,11 @@ pub enum Outcome {
 /// trajectory point, then by list order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Rule {
-    /// Stage i: a comparison of what the CAV saw itself is too close to call.
+    /// Stage i, in `PlanRemote` iv: a comparison of what the CAV saw itself is too close to call.
     Ambiguous,
     /// Stage i: mean assignment cost < `theta_tr`.
     MeanCost,
-    /// Stages i and iv: the assignment, or H-13, would take more work than `work_limit`.
+    /// Stages i and iv: the assignment, or H-14, would take more work than `work_limit`.
     WorkLimit,
     /// H-01: fewer pairs closer than `theta_track_max` than tracks to be matched.
     NoAssignment,
@@ -112,26 +112,14 @@ pub enum Rule {
     StepTurn,
     /// H-11: the point is not where the headings lead.
     Slide,
-    /// H-11: heading against that of the mark.
-    TurnReversed,
-    /// H-11: turned farther since the mark than the way and the time allow.
-    TurnOnTheSpot,
-    /// H-11: turned harder since the mark than tyres hold.
-    TurnHard,
-    /// H-12: arc length below what braking from `v_lo` covers.
-    ArcTooShort,
-    /// H-12: arc length above what accelerating from `v_hi` covers.
-    ArcTooLong,
-    /// H-12: the trajectory ends before standstill.
-    EndsTooSoon,
-    /// Stage iv, H-04: gap <= `s_follow`.
+    /// H-14: a place of the path is farther aside than tyres take the CAV.
+    Reach,
+    /// Stage iv: gap <= `s_follow`; H-04: gap <= `s_react`.
     Gap,
     /// Stages iii and iv: rectangles share a point.
     Collision,
-    /// Stage iii, H-09: the rectangles share a point when the track stands still.
-    CollisionStanding,
-    /// Stage iv, H-13: the rectangles share a point when the detection moves on as it did.
-    CollisionMoving,
+    /// Stage iv, H-14: an object may be where the CAV is when it goes on and then brakes.
+    FailSafe,
     /// Stage v: a disk on an occupied cell.
     Occupied,
     /// H-06: a disk on an unknown cell.
@@ -147,14 +135,14 @@ pub enum Rule {
 pub struct Witness {
     /// The rule that was broken.
     pub rule: Rule,
-    /// Index of the trajectory point (the later one of a step); places behind the last
-    /// count on (H-04).
+    /// Index of the trajectory point (the later one of a step); the places of H-14 count as
+    /// points behind the last.
     pub point: Option<usize>,
     /// Id of the track.
     pub track: Option<i64>,
     /// Index of the detection.
     pub detection: Option<usize>,
-    /// Index of the item in a list of the detection history (H-13).
+    /// Index of the item in a list of the detection history (H-14).
     pub item: Option<usize>,
     /// Age of that list, ns.
     pub age_ns: Option<i64>,

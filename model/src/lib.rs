@@ -21,15 +21,12 @@
 //! |---|---|
 //! | H-01 | [`hardened::h01_matched_pairs`] |
 //! | H-02, H-05, H-10 | [`hardened::h02_h05_h10_schedule`] |
-//! | H-03 | [`hardened::h03_circumradii`] |
-//! | H-04 | [`hardened::h04_horizon`], [`hardened::h04_gap`] |
+//! | H-04 | [`stages::v_grid_map`], [`hardened::h04_gap`] |
 //! | H-06 | [`hardened::h06_closed_cells`] |
 //! | H-07 | [`hardened::h07_start`] |
 //! | H-08 | [`offloading::requester`] |
-//! | H-09 | [`hardened::h09_standing`] |
 //! | H-11 | [`hardened::h11_steps`] |
-//! | H-12 | [`hardened::h12_progress`] |
-//! | H-13 | [`hardened::h13_moving`] |
+//! | H-14 | [`hardened::h14_fail_safe`] |
 //! | what the CAV saw itself | [`hardened::detection_history`] |
 //! | strict, exact and lax reading (`spec/4-arithmetic.md`) | [`numbers::reading`] |
 //! | how much the model computes | [`work`] |

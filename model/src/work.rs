@@ -1,13 +1,13 @@
 //! How much the model computes (`spec/4-arithmetic.md#conformance-of-an-implementation`): a cycle that
 //! needs more than 10^10 comparisons is no input of the model.
 
-use crate::hardened::{detection_history, h13_moving};
+use crate::hardened::detection_history;
+use crate::hardened::h14_fail_safe::{self, path};
 use crate::input::profile::Profile;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::assignment;
 use crate::numbers::real::Real;
 use crate::report::{InvalidInput, Stage};
-use crate::stages::horizon::places_examined;
 use crate::stages::v_grid_map::disk_radius;
 
 /// The comparisons that the stages of a cycle may need.
@@ -18,10 +18,10 @@ const MOST: i128 = 10_000_000_000;
 pub struct Work(i128);
 
 impl Work {
-    /// Adds what a stage needs that is about to run. `Err` is a problem at the field `work`: more
-    /// than 10^10 in all.
-    pub fn add(&mut self, scene: &Scene, stage: Stage) -> Result<(), InvalidInput> {
-        self.0 = self.0.saturating_add(comparisons(scene, stage));
+    /// Adds the comparisons that a stage or a rule needs that is about to run. `Err` is a problem at the
+    /// field `work`: more than 10^10 in all.
+    pub fn add(&mut self, comparisons: i128) -> Result<(), InvalidInput> {
+        self.0 = self.0.saturating_add(comparisons);
         if self.0 <= MOST {
             return Ok(());
         }
@@ -34,15 +34,18 @@ impl Work {
 ///
 /// * i: the steps of the assignment, of all tracks and detections (its work), and in the hardened
 ///   profile each track with each detection and each item of a usable list;
-/// * ii: each trajectory point with each cross section;
-/// * iii: each place of the CAV with each track, in the hardened profile twice (H-09);
-/// * iv: each place with each detection, and the work of H-13;
-/// * v: each disk at each place with each cell that is as near as its radius.
-fn comparisons(scene: &Scene, stage: Stage) -> i128 {
+/// * ii: each trajectory point with each cross section, in the hardened profile each place, too (reach);
+/// * iii: each point with each track;
+/// * iv: each point with each detection;
+/// * v: each disk at each point, in the hardened profile at each place, too, with each cell that is as near
+///   as its radius.
+pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
     let trajectory = scene.trajectory.as_deref().unwrap_or_default();
+    let points = trajectory.len() as i128;
     let is_hardened = scene.profile == Profile::Hardened;
     let tracks = scene.tracks.as_ref().map_or(0, |list| list.items.len());
     let detections = scene.detections.as_ref().map_or(0, |list| list.items.len());
+    let places = || if is_hardened { path::count(scene, trajectory) } else { 0 };
     match stage {
         Stage::I => {
             let lists = detection_history::usable(scene);
@@ -51,31 +54,18 @@ fn comparisons(scene: &Scene, stage: Stage) -> i128 {
             let left_out = usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(tracks);
             seen + assignment::work(tracks, detections + left_out)
         }
-        Stage::Ii => trajectory.len() as i128 * scene.route.cross_sections.len() as i128,
-        Stage::Iii => {
-            let times = if is_hardened { 2 } else { 1 };
-            times * places(scene, trajectory) * tracks as i128
-        }
-        Stage::Iv => places(scene, trajectory) * detections as i128 + moving(scene, trajectory),
-        Stage::V => places(scene, trajectory) * scene.grid.as_ref().map_or(0, |g| cells(scene, g)),
+        Stage::Ii => points * scene.route.cross_sections.len() as i128 + places(),
+        Stage::Iii => points * tracks as i128,
+        Stage::Iv => points * detections as i128,
+        Stage::V => (points + places()) * scene.grid.as_ref().map_or(0, |grid| cells(scene, grid)),
     }
 }
 
-/// The places of the CAV that a stage can examine: all points, and those beyond the end (H-04).
-fn places(scene: &Scene, trajectory: &[Point]) -> i128 {
-    let whole = Real::from_integer(i128::MAX);
-    places_examined(scene, trajectory, &whole).count()
-}
-
-/// The work of H-13.
-fn moving(scene: &Scene, trajectory: &[Point]) -> i128 {
-    let Some(detections) = scene.detections.as_ref().filter(|_| scene.profile == Profile::Hardened)
-    else {
-        return 0;
-    };
-    let places = h13_moving::places(scene, trajectory);
-    h13_moving::work(&detection_history::usable(scene), detections, trajectory, &places)
-        .unwrap_or(0)
+/// The comparisons of H-14: its work, and each place and each moving object with each cross section (who
+/// follows).
+pub fn of_fail_safe(scene: &Scene, trajectory: &[Point]) -> i128 {
+    let beside_route = path::count(scene, trajectory) + h14_fail_safe::most_moving(scene);
+    h14_fail_safe::work(scene, trajectory) + beside_route * scene.route.cross_sections.len() as i128
 }
 
 /// The cells near the n disks of a place.

@@ -71,7 +71,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     };
     introduction(&drives[0], out)?;
     let [hardened, paper] = &drives;
-    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-13\n")?;
+    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-14\n")?;
     for case in &CASES {
         demo.case(case, hardened, out)?;
     }
@@ -212,7 +212,7 @@ impl Demo<'_> {
             (None, None) => format!("all {cycles} cycles safe, no fallback"),
             (None, Some(_)) => format!(
                 "NOT caught: all {cycles} cycles pass. Stage iii compares the trajectory with an \
-                 empty list, which switches stages iv and v off (F-14, closed by H-10)"
+                 empty list, which switches stages iv and v off (F-14, closed by H-14)"
             ),
             (Some((at_s, why)), _) => format!(
                 "caught at {at_s:.1} s by {why}; {}, {} of {cycles} cycles unsafe",

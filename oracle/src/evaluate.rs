@@ -35,7 +35,6 @@ use mufasa_sim::experiment::combinations::Combinations;
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::Failures;
 use mufasa_sim::experiment::job::{Campaign, Job, Options};
-use mufasa_sim::experiment::rules::Rules;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
@@ -84,7 +83,6 @@ pub fn run(
         Some(Experiment::Attacks(size)) => (size, named::<Attacks>()),
         Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
         Some(Experiment::Availability(size)) => (size, named::<Availability>()),
-        Some(Experiment::Rules(size)) => (size, named::<Rules>()),
         Some(Experiment::Cpu(size)) => (size, named::<Cpu>()),
     };
     let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
@@ -211,13 +209,12 @@ const fn named<E: Shown>() -> Named {
 }
 
 /// The experiments.
-const EXPERIMENTS: [Named; 7] = [
+const EXPERIMENTS: [Named; 6] = [
     named::<Failures>(),
     named::<Stages>(),
     named::<Attacks>(),
     named::<Combinations>(),
     named::<Availability>(),
-    named::<Rules>(),
     named::<Cpu>(),
 ];
 

@@ -10,7 +10,7 @@ use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, rules, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, scenes, stages,
 };
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 19] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -31,7 +31,6 @@ pub const WRITTEN: [(&str, &str, &[&str]); 19] = [
     ("evaluate attacks", "out", &["evaluation-attacks"]),
     ("evaluate combinations", "out", &["evaluation-combinations"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
-    ("evaluate rules", "out", &["evaluation-rules"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
     ("evaluate scenes", "out", &["evaluation-scenes"]),
@@ -62,7 +61,6 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
     schemas.push(("evaluation-combinations", schema::written::<combinations::Combinations>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
-    schemas.push(("evaluation-rules", schema::written::<rules::Rules>()));
     schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));

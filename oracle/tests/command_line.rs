@@ -39,7 +39,7 @@ fn numbers_that_are_refused_say_their_limits() {
         (&["conform", "--time-limit", "0", "--", "x"], "must be a whole number from 1 to 3600000"),
         (&["explore", "--threads", "many"], "must be a whole number from 0 to 1024"),
         (&["evaluate", "--scenarios", "0"], "must be a whole number from 1 to 10000"),
-        (&["evaluate", "rules", "--vehicles", "-1"], "must be a whole number from 0 to 200"),
+        (&["evaluate", "stages", "--vehicles", "-1"], "must be a whole number from 0 to 200"),
         (&["evaluate", "falsify", "--rounds", "x"], "must be a whole number from 1 to 1000000"),
         (&["evaluate", "replay", "--route", "2"], "must be a whole number from 0 to 1"),
     ] {

@@ -1,6 +1,6 @@
 //! How near a car may stand ahead of a CAV in the middle of a road of 8 m while a remote trajectory that
 //! goes around it passes stage ii of the hardened profile (findings F-28, F-29, F-40, F-41). What is left
-//! is what H-11 and H-12 leave open. Simulated annealing; each seed is one run.
+//! is what H-07, H-11 and the reach of H-14 leave open. Simulated annealing; each seed is one run.
 //!
 //! `cargo run --release -p mufasa-props --example nearest_car -- [v_now, m/s [seconds [center_offset, m]]]`
 #![allow(

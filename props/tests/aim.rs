@@ -3,20 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use mufasa_model::hardened::detection_history::usable;
-use mufasa_model::hardened::h13_moving::seen_twice::{Pair, object_at};
-use mufasa_model::hardened::h13_moving::waiting::{Margin, may_wait};
-use mufasa_model::hardened::h13_moving::{pairs, places};
 use mufasa_model::input::cycle::{Cycle, Profile};
-use mufasa_model::input::scene::{Point, Scene};
 use mufasa_model::report::{Outcome, Reading, Rule};
 use mufasa_model::stages::check;
-use mufasa_model::stages::llcc::llcc;
 use mufasa_props::conformance::name;
 use mufasa_props::differential::{Generator, Tally, near_threshold, runner};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{
-    detections, grid, input, map_validation, roads, schedule, track_validation, tracks, whole,
+    detections, fail_safe, grid, input, map_validation, roads, schedule, track_validation, tracks,
+    whole,
 };
 use proptest::strategy::{Strategy, ValueTree};
 
@@ -24,7 +19,17 @@ use proptest::strategy::{Strategy, ValueTree};
 const DRAWS: u64 = 600;
 
 fn measure(title: &str, generator: Generator, is_near: fn(&Cycle) -> bool, verdicts: &[&str]) {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    measure_in(&[Profile::Paper, Profile::Hardened], title, generator, is_near, verdicts);
+}
+
+fn measure_in(
+    profiles: &[Profile],
+    title: &str,
+    generator: impl Fn(&mut Draw<'_>, Profile) -> Cycle,
+    is_near: fn(&Cycle) -> bool,
+    verdicts: &[&str],
+) {
+    for &profile in profiles {
         let mut runner = runner();
         let mut tally = Tally::default();
         let start = std::time::Instant::now();
@@ -94,16 +99,28 @@ fn whole_cycles_are_aimed() {
     measure("cycle", whole::cycle, near_threshold, &["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
+/// Each threshold of H-14 by itself.
+#[test]
+fn the_fail_safe_rule_is_aimed_at() {
+    let hardened = [Profile::Hardened];
+    measure_in(&hardened, "H-14", fail_safe::cycle, near_threshold, &["iv", "safe"]);
+    for (aim, (title, _)) in fail_safe::AIMS.iter().enumerate() {
+        let aimed = |draw: &mut Draw<'_>, profile| fail_safe::aimed(draw, profile, aim);
+        measure_in(&hardened, title, aimed, near_threshold, &["iv", "safe"]);
+    }
+}
+
 /// Every rule of a witness decides some near case, so that no comparison stands outside of the
 /// properties.
 #[test]
 fn every_rule_decides_near_a_threshold() {
-    let generators: [Generator; 5] = [
+    let generators: [Generator; 6] = [
         track_validation::cycle,
         map_validation::cycle,
         tracks::cycle,
         detections::cycle,
         grid::cycle,
+        fail_safe::cycle,
     ];
     let mut seen: BTreeMap<Rule, u64> = BTreeMap::new();
     let mut runner = runner();
@@ -117,79 +134,11 @@ fn every_rule_decides_near_a_threshold() {
         }
     }
     println!("rules that decided near cases: {seen:?}");
-    let timed = [Rule::StartTime, Rule::StepTime, Rule::EndsTooSoon];
+    let timed = [Rule::StartTime, Rule::StepTime];
     for rule in RULES {
         let count = seen.get(&rule).copied().unwrap_or(0);
         assert!(count > 0 || timed.contains(&rule), "{rule:?} decides nothing");
     }
-}
-
-/// H-13 (c): near cases are decided behind what is examined of every pair, by each of its comparisons.
-#[test]
-fn every_comparison_of_waiting_decides_near_a_threshold() {
-    let mut runner = runner();
-    let mut seen: BTreeMap<&str, u64> = BTreeMap::new();
-    for _ in 0..10 * DRAWS {
-        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let mut cycle = detections::cycle(&mut Draw::new(&tape), Profile::Hardened);
-        cycle.parameters.delta = 1e-5;
-        for by in behind(&cycle) {
-            *seen.entry(by).or_default() += 1;
-        }
-    }
-    println!("H-13 (c), near: {seen:?}");
-    for by in ["meeting", "waiting", "first"] {
-        assert!(seen.get(by).is_some_and(|count| *count >= DRAWS / 60), "{by}: {seen:?}");
-    }
-}
-
-/// What the strict and the lax model differ in where the strict one alone rejects what is examined
-/// because the CAV may not wait.
-fn behind(cycle: &Cycle) -> Vec<&'static str> {
-    let witness = |reading| {
-        check(cycle, reading).ok()?.stages.into_iter().find_map(|outcome| match outcome {
-            Outcome::Failed(witness) => Some(witness),
-            Outcome::Passed
-            | Outcome::Skipped(_)
-            | Outcome::NotApplicable(_)
-            | Outcome::NotScheduled => None,
-        })
-    };
-    let found = witness(Reading::Strict).filter(|it| it.rule == Rule::CollisionMoving);
-    let Some((it, None)) = found.map(|it| (it, witness(Reading::Lax))) else { return Vec::new() };
-    let scenes = [Reading::Strict, Reading::Lax].map(|reading| Scene::new(cycle, reading));
-    let scene = &scenes[0];
-    let (Some(trajectory), Some(detections)) = (&scene.trajectory, &scene.detections) else {
-        return Vec::new();
-    };
-    let (lists, point) = (usable(scene), it.point.expect("of a collision"));
-    let count = places(scene, trajectory).count_points();
-    let is_it = |pair: &&Pair| {
-        let age_ns = i64::try_from(pair.list.age_ns).ok();
-        (Some(pair.detection), Some(pair.item), age_ns) == (it.detection, it.item, it.age_ns)
-    };
-    let pairs = pairs(scene, &lists, &detections.items);
-    let Some(pair) =
-        pairs.iter().find(is_it).filter(|_| (count..trajectory.len()).contains(&point))
-    else {
-        return Vec::new();
-    };
-    let differ = |point: &Point, margin| {
-        let [strict, lax] =
-            scenes.each_ref().map(|it| may_wait(it, detections, pair, point, margin));
-        strict != lax
-    };
-    let meets = scenes.each_ref().map(|scene| {
-        let object = object_at(detections, pair, &trajectory[point]);
-        llcc(scene, &trajectory[point], &object).is_some()
-    });
-    let waits = trajectory[count - 1..point].iter().any(|point| differ(point, Margin::Later));
-    let by = [
-        (meets[0] != meets[1], "meeting"),
-        (waits, "waiting"),
-        (differ(&trajectory[0], Margin::First), "first"),
-    ];
-    by.into_iter().filter_map(|(decides, by)| decides.then_some(by)).collect()
 }
 
 /// The rule by which the strict model rejects what the lax one accepts, at a margin of 1e-5 m.
@@ -210,7 +159,7 @@ fn deciding(cycle: &Cycle) -> Option<Rule> {
     })
 }
 
-const RULES: [Rule; 29] = [
+const RULES: [Rule; 23] = [
     Rule::Ambiguous,
     Rule::MeanCost,
     Rule::NoAssignment,
@@ -227,16 +176,10 @@ const RULES: [Rule; 29] = [
     Rule::StepLateral,
     Rule::StepTurn,
     Rule::Slide,
-    Rule::TurnReversed,
-    Rule::TurnOnTheSpot,
-    Rule::TurnHard,
-    Rule::ArcTooShort,
-    Rule::ArcTooLong,
-    Rule::EndsTooSoon,
+    Rule::Reach,
     Rule::Gap,
     Rule::Collision,
-    Rule::CollisionStanding,
-    Rule::CollisionMoving,
+    Rule::FailSafe,
     Rule::Occupied,
     Rule::Unknown,
     Rule::Outside,

@@ -54,10 +54,19 @@ fn in_a_function(code: &str) -> String {
     format!("{}\npub fn snippet() {{\n{}\n}}\n", attributes.join("\n"), rest.join("\n"))
 }
 
+/// The platform of this compiler.
+fn host() -> String {
+    let output = Command::new("rustc").arg("-vV").output().expect("rustc");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    text.lines().find_map(|it| it.strip_prefix("host: ")).expect("a host").to_owned()
+}
+
 /// Compiles `libm` and `mufasa`, as far as who uses them has to know.
 fn library(folder: &Path) {
     let metadata = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--locked", "--offline"])
+        // What other platforms need was never downloaded.
+        .args(["--filter-platform", &host()])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .output()
         .expect("cargo");

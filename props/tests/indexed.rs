@@ -141,7 +141,7 @@ fn indexes_of_detections_change_no_answer() {
     assert_eq!(result, Ok(()));
     let rules = rules.into_inner();
     println!("indexes of detections: {rules:?}");
-    for rule in [None, Some(Rule::CollisionMoving), Some(Rule::NoAssignment)] {
+    for rule in [None, Some(Rule::FailSafe), Some(Rule::NoAssignment)] {
         assert!(rules.get(&rule).is_some_and(|count| *count > 10), "{rules:?}");
     }
 }

@@ -1,5 +1,5 @@
 //! Stage ii of the implementation against the exact model
-//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12).
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-14).
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};

@@ -1,11 +1,11 @@
-//! How much one lie can hide (H-13, F-38, F-42 of `spec/3-stages.md#findings`): where the CAV saw every object
+//! How much one lie can hide (H-14, F-38, F-42 of `spec/3-stages.md#findings`): where the CAV saw every object
 //! in every list, and each drives straight at constant speed, one false track and any omissions hide no
 //! motion; two false tracks can. Beyond the numbers drawn this is argued in `findings/F-42.md`.
 
 use std::cell::RefCell;
 
-use mufasa_model::hardened::detection_history::{confirmed, usable};
-use mufasa_model::hardened::h13_moving::pairs;
+use mufasa_model::hardened::detection_history::confirmed;
+use mufasa_model::hardened::h14_fail_safe::motions::{Named, all_motions};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
 use mufasa_model::input::scene::Scene;
 use mufasa_model::report::Reading;
@@ -99,10 +99,9 @@ fn cycle(draw: &mut Draw<'_>, objects: &[Object], lies: usize) -> Cycle {
 /// examined.
 fn judged(cycle: &Cycle, objects: &[Object]) -> (bool, Option<usize>) {
     let scene = Scene::new(cycle, Reading::Exact);
-    let lists = usable(&scene);
-    let detections = &scene.detections.as_ref().expect("they are current").items;
-    let pairs = pairs(&scene, &lists, detections);
-    let is_hidden = |i: &usize| !pairs.iter().any(|it| (it.detection, it.item) == (*i, *i));
+    let motions = all_motions(&scene);
+    let is_own = |i: usize, it: &Named| (it.detection, it.item) == (Some(i), Some(i));
+    let is_hidden = |i: &usize| !motions.iter().any(|it| is_own(*i, &it.named));
     let is_taken = confirmed(&scene).iter().any(|(_, seen)| {
         let own = seen.own_origins[1];
         own.is_some() && own != seen.detection

@@ -144,7 +144,8 @@ fn the_first_candidate_that_passes_is_chosen() {
 
 /// Counted: the first is chosen, a later one, none; and a later one, where another order chooses otherwise.
 fn chosen(cycle: &Cycle, draw: &mut Draw<'_>) -> Result<[bool; 4], String> {
-    let Some(own) = &cycle.trajectory else { return Ok([false; 4]) };
+    // Local input at the border of the domain is an error.
+    let (Some(own), Ok(_)) = (&cycle.trajectory, check_impl(cycle)) else { return Ok([false; 4]) };
     let aside = |metres: f64| {
         let moved = |it: &TrajectoryPoint| TrajectoryPoint {
             x: it.x - metres * it.sin,

@@ -7,7 +7,7 @@ use mufasa_model::stages::check;
 use mufasa_model::stages::readings;
 use mufasa_props::conformance::Answer;
 use mufasa_props::differential::{hold, near_threshold};
-use mufasa_props::strategy::whole;
+use mufasa_props::strategy::{fail_safe, whole};
 
 fn readings_are_nested(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result<(), String> {
     let lax = check(cycle, Reading::Lax);
@@ -29,4 +29,10 @@ fn paper() {
 fn hardened() {
     hold("readings", Profile::Hardened, whole::cycle, near_threshold, readings_are_nested)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
+}
+
+#[test]
+fn of_the_fail_safe_rule() {
+    hold("readings", Profile::Hardened, fail_safe::cycle, near_threshold, readings_are_nested)
+        .assert_aimed(&["iv", "safe"]);
 }

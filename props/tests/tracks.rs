@@ -1,5 +1,5 @@
 //! Stage iii of the implementation against the exact model
-//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-02 to H-04, H-09).
+//! (`spec/3-stages.md#stage-iii-trajectory-with-tracks`, H-02).
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, near_threshold};

@@ -114,7 +114,7 @@ fn vector() -> Value {
                 "description": "A heading of spec/ with the number of its MUST, or a rule, or a \
                                 finding.",
                 "type": "string",
-                "pattern": "^(spec/[1-5]-[a-z]+\\.md#[a-z0-9-]+(\\.[0-9]+)?|[FH]-[0-9]{2})$",
+                "pattern": "^(spec/[1-7]-[a-z-]+\\.md#[a-z0-9-]+(\\.[0-9]+)?|[FH]-[0-9]{2})$",
             },
             "flag": {
                 "description": "Whom the vector binds.",

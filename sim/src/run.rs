@@ -17,7 +17,6 @@ use crate::cav::asking::Asking;
 use crate::cav::guard::{Decided, Guard, Variant};
 use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
-use crate::cav::without::{Rules, Without};
 use crate::cav::{Areas, Cav, DECIDES_NS};
 use crate::map::Town;
 use crate::radio::{self, Radio, To};
@@ -41,8 +40,6 @@ const MOST: (usize, usize) = (128, 2048);
 pub struct Settings {
     /// What is checked of remote data.
     pub variant: Variant,
-    /// Of the hardened variant: a rule that is left out.
-    pub without: Option<Without>,
     /// Whether control drives on along what was verified however long nothing newer comes (F-47).
     pub drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
@@ -79,7 +76,6 @@ impl Settings {
             RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
         Self {
             variant,
-            without: None,
             drives_on: false,
             has_no_lead: false,
             examines_own: None,
@@ -237,15 +233,9 @@ pub fn simulate(
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
     let Settings { stages, requester, variant, .. } = *settings;
     let period_ns = nominal_ns(stages.tau);
-    let mut guard = match settings.without {
-        Some(rule) if variant == Variant::Hardened => {
-            let rules = Rules::new(rule, stages, (requester, PERIOD_NS), &mut table);
-            Guard::without(rules.map_err(|it| RunError::Monitor(MonitorError::Requester(it)))?)
-        }
-        _ => Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
-            .map_err(RunError::Monitor)?
-            .recording(settings.recorder()),
-    };
+    let mut guard = Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
+        .map_err(RunError::Monitor)?
+        .recording(settings.recorder());
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
     let corridor = mufasa::input::cycle::Route {
         closed: route.path.is_closed(),

@@ -8,9 +8,7 @@ use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Campaign, Options};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
-use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, rules, stages,
-};
+use mufasa_sim::experiment::{attacks, availability, combinations, cpu, failures, falsify, stages};
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
@@ -220,23 +218,4 @@ fn attacks_are_combined_at_random_and_again_the_same() {
     }
     assert_eq!(combinations::attacks(3, 0), all[3]);
     assert!(combinations::attacks(3, 1) != all[3] && all[2] != all[3], "others elsewhere");
-}
-
-#[test]
-fn every_false_alarm_of_the_price_of_rules_has_a_cause() {
-    let size = Options { without_precheck: true, ..Options::town(1, 8, 0) };
-    let made =
-        rules::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
-    assert_eq!((made.rows.len(), made.runs.len()), (15, 30));
-    for row in &made.rows {
-        let of_row =
-            made.causes.iter().filter(|it| (it.variant, it.without) == (row.variant, row.without));
-        assert_eq!(of_row.map(|it| it.fallbacks).sum::<u64>(), row.fallbacks, "{row:?}");
-        let is_by = |cause: &rules::Cause| cause.only_by.is_some() && cause.only_by == row.without;
-        assert!(!made.causes.iter().any(|it| it.without == row.without && is_by(it)), "{row:?}");
-    }
-    let fallbacks = |of: usize| made.rows[of].fallbacks;
-    assert!(fallbacks(0) > 0 && fallbacks(1) > 0, "{:?}", made.rows);
-    let overruled = |it: &rules::Row| it.overruled > 0;
-    assert!(made.rows.iter().any(overruled) && !overruled(&made.rows[1]), "{:?}", made.rows);
 }

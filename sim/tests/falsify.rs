@@ -47,7 +47,6 @@ fn known_hole() -> Options {
     let (runs, rounds) = (Some(96), None);
     Options {
         variant: Variant::Paper,
-        without: None,
         kinds,
         runs,
         rounds,
@@ -115,7 +114,6 @@ fn what_is_found_is_shrunk_to_what_matters() {
         vec![attack(Kind::Drift, moved), attack(Kind::OneRemoved, Means::of(Kind::OneRemoved))];
     let case = Case {
         variant: Variant::Sofof,
-        without: None,
         tau_s: TAU_S,
         drives_on: false,
         has_no_lead: false,
@@ -194,7 +192,6 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     let town = town();
     let mut case = Case {
         variant: Variant::Sofof,
-        without: None,
         tau_s: TAU_S,
         drives_on: false,
         has_no_lead: false,
@@ -225,7 +222,6 @@ fn a_cycle_in_which_nothing_is_current_is_no_use() {
     let town = town();
     let case = Case {
         variant: Variant::Hardened,
-        without: None,
         tau_s: TAU_S,
         offered: Offered::Plan,
         route: 0,
@@ -265,8 +261,8 @@ fn what_was_found_still_collides_and_only_under_attack() {
         assert_eq!(found.is_after(), is_after, "{}", file.display());
         let clean = Case { attacks: Vec::new(), ..found.case.clone() };
         assert_eq!(clean.collision(&town).expect("it can be"), None, "{}", file.display());
-        // Nor with all rules, with the time that the CAV takes, or with control that brakes when it has to.
-        let whole = Case { without: None, tau_s: TAU_S, drives_on: false, ..found.case.clone() };
+        // Nor with the time that the CAV takes, or with control that brakes when it has to.
+        let whole = Case { tau_s: TAU_S, drives_on: false, ..found.case.clone() };
         if whole != found.case {
             assert_eq!(whole.collision(&town).expect("it can be"), None, "{}", file.display());
         }

@@ -122,7 +122,7 @@ fn vehicle() {
     let (_, beside) = neighbours(&still, DETECTIONS);
     let cycle = Cycle { detections: Some(list(&beside)), ..still };
     row("256 detections 1 nm beside the CAV at 128 points", &cycle, Stage::Iv, "iv");
-    // H-13 compares each with each at each point; beyond work_limit it fails at once.
+    // H-14 compares each with each at each point; beyond work_limit it fails at once.
     let before = earlier(&beside, 500);
     let with = |count: usize| {
         (list(&beside[..count]), [DetectionList { items: &beside[..count], ..before }])
@@ -136,7 +136,7 @@ fn vehicle() {
     let (detections, history) = with(most);
     let cycle = Cycle { detections: Some(detections), detection_history: &history, ..still };
     let name = format!(
-        "{most} of them, as many as work_limit allows, with an earlier list like that (H-13)"
+        "{most} of them, as many as work_limit allows, with an earlier list like that (H-14)"
     );
     row(&name, &cycle, Stage::Iv, "iv");
     let creeping = timed(places(128, 0.008).map(|x| point(x, 0.0)).collect());
@@ -163,12 +163,12 @@ fn history(base: &Cycle<'_>, still: &Cycle<'_>) {
     report("iv", "48 detections 1 nm beside the CAV at 1024 points", &cycle, Stage::Iv);
     let earlier = [300, 500, 800].map(|ms| self::earlier(&beside, ms));
     let cycle = Cycle { detection_history: &earlier, ..cycle };
-    report("iv", "the same with 3 earlier lists like that (H-13)", &cycle, Stage::Iv);
+    report("iv", "the same with 3 earlier lists like that (H-14)", &cycle, Stage::Iv);
 }
 
-/// H-13: what it takes for each detection and each item of the reference list, and at each point.
+/// H-14: what it takes for each detection and each item of the reference list, and at each point.
 fn moving(still: &Cycle<'_>) {
-    println!("\n| detections | earlier items, each at 1024 points | work of H-13 | ms |");
+    println!("\n| detections | earlier items, each at 1024 points | work of H-14 | ms |");
     println!("|---|---|---|---|");
     for count in [4, 8, 16, 32, 64] {
         let (touching, beside) = neighbours(still, count);

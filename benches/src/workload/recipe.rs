@@ -284,7 +284,7 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// Near the CAV no two things were so close together that one may have been the other (H-13 would
+    /// Near the CAV no two things were so close together that one may have been the other (H-14 would
     /// find a collision): the later one was missed in this scan.
     fn thin_out(&self, seen: &mut Vec<Object>) {
         let ego = self.ego();

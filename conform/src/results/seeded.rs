@@ -242,12 +242,12 @@ mod tests {
         });
         let named: Vec<&str> = record.bugs.iter().map(|bug| bug.name.as_str()).collect();
         assert_eq!(named, of_list.collect::<Vec<_>>());
-        assert_eq!(named.len(), 31);
+        assert_eq!(named.len(), 38);
         for Bug { name, program, profile, about, vectors, first, .. } in &record.bugs {
             assert_eq!(first.len(), seeds, "{name}");
             let chance = |cases: u64| {
                 let found = first.iter().flatten().filter(|it| **it <= cases).count();
-                format!("{} %", 100 * found / seeds)
+                format!("{} %", (200 * found + seeds) / (2 * seeds))
             };
             let vectors = if *vectors > 0 { vectors.to_string() } else { String::from("-") };
             let chances = [100, 1000, 10_000].map(chance).join(" | ");

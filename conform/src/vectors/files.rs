@@ -7,7 +7,7 @@ macro_rules! files {
 }
 
 /// The vectors, by the name of the file that they are published in.
-pub const FILES: [(&str, &str); 89] = files![
+pub const FILES: [(&str, &str); 86] = files![
     "findings/F-01",
     "findings/F-02",
     "findings/F-03",
@@ -57,17 +57,14 @@ pub const FILES: [(&str, &str); 89] = files![
     "findings/F-48",
     "hardened/H-01",
     "hardened/H-02",
-    "hardened/H-03",
     "hardened/H-04",
     "hardened/H-05",
     "hardened/H-06",
     "hardened/H-07",
     "hardened/H-08",
-    "hardened/H-09",
     "hardened/H-10",
     "hardened/H-11",
-    "hardened/H-12",
-    "hardened/H-13",
+    "hardened/H-14",
     "interfaces/composition-lines",
     "interfaces/cycle-lines",
     "interfaces/offloading-lines",

@@ -79,10 +79,6 @@ fn report_in_words(report: &Report) -> String {
 pub fn witness(witness: &Witness) -> String {
     let (what, unit, relation) = phrase(witness);
     let equal = witness.compared[0].partial_cmp(&witness.compared[1]) == Some(Ordering::Equal);
-    // The circumradius limit of H-03 includes equality, theta_obj does not.
-    let meets =
-        matches!(witness.rule, Rule::Collision | Rule::CollisionStanding | Rule::CollisionMoving);
-    let relation = if meets && equal { "<=" } else { relation };
     let [left, right] = numbers(witness.compared).map(|number| with_unit(&number, unit));
     match relation {
         "<" if equal => format!("{what} (below {right} by less than doubles tell apart)"),
@@ -153,20 +149,14 @@ fn phrase(witness: &Witness) -> (String, &'static str, &'static str) {
             ">",
         ),
         Rule::Slide => (format!("{point} is beside where the headings lead"), "m", ">"),
-        Rule::TurnReversed => (format!("heading at {point} against an earlier one"), "", "<"),
-        Rule::TurnOnTheSpot => (format!("turn to {point} is tighter than a vehicle's"), "", ">"),
-        Rule::TurnHard => (format!("turn to {point} is harder than tyres hold"), "m", ">"),
-        Rule::ArcTooShort => (format!("{point} is nearer than braking allows"), "m", "<"),
-        Rule::ArcTooLong => (format!("{point} is farther than the CAV can get"), "m", ">"),
-        Rule::EndsTooSoon => ("trajectory ends before standstill".to_owned(), "s", "<"),
+        Rule::Reach => (format!("{point} is farther aside than tyres carry the CAV"), "m", ">"),
         Rule::Gap => ("gap to the leading vehicle".to_owned(), "m", "<="),
         Rule::Collision => (format!("{point} meets {object}"), "m", "<"),
-        Rule::CollisionStanding => (format!("{point} meets {object} if it stands still"), "m", "<"),
-        Rule::CollisionMoving => {
+        Rule::FailSafe => {
             let since = witness.item.zip(witness.age_ns).map_or(String::new(), |(item, age_ns)| {
-                format!(" since item {item} of {:.1} s ago", seconds(0, age_ns))
+                format!(", as it moved since item {item} of {:.1} s ago,", seconds(0, age_ns))
             });
-            (format!("{point} meets {object} if it goes on as seen{since}"), "m", "<")
+            (format!("{object}{since} may be met before the CAV stands, on its way"), "m", "<=")
         }
         Rule::Occupied => (format!("{disk} of {point} touches occupied {cell}"), "m", "<="),
         Rule::Unknown => (format!("{disk} of {point} touches unknown {cell}"), "m", "<="),
@@ -231,14 +221,14 @@ mod tests {
         let near = Witness { compared: [5.5, 5.0], ..found.clone() };
         assert_eq!(witness_with_margin(&near), "point 4 meets track 7 (5.5 m against 5 m)");
         let moving = Witness {
-            rule: Rule::CollisionMoving,
+            rule: Rule::FailSafe,
             track: None,
             detection: Some(2),
             item: Some(0),
             age_ns: Some(500_000_000),
             ..found
         };
-        let words = "point 4 meets detection 2 if it goes on as seen since item 0 of 0.5 s ago";
-        assert_eq!(witness(&moving), format!("{words} (4.1 m < 5 m)"));
+        let words = "detection 2, as it moved since item 0 of 0.5 s ago, may be met before the CAV stands, on its way";
+        assert_eq!(witness(&moving), format!("{words} (4.1 m <= 5 m)"));
     }
 }

@@ -1,7 +1,10 @@
 //! The witness in a strong colour, with a label that covers as little as possible.
 
+use mufasa_model::hardened::h14_fail_safe::path;
 use mufasa_model::input::cycle::{Cycle, TrajectoryPoint};
-use mufasa_model::report::{FailedStage, Report, Rule, Witness};
+use mufasa_model::input::domain::first_problem;
+use mufasa_model::input::scene::Scene;
+use mufasa_model::report::{FailedStage, Reading, Report, Rule, Witness};
 
 use super::canvas::Canvas;
 use super::frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
@@ -109,9 +112,8 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
         anchor: centre,
     };
     let Some(witness) = words::failed_witness(report) else { return marks };
-    let point = witness
-        .point
-        .and_then(|index| cycle.trajectory.as_ref().and_then(|it| it.points.get(index)));
+    let point = witness.point.and_then(|index| point_or_place(cycle, index));
+    let point = point.as_ref();
     if let Some(point) = point {
         let footprint = layers::footprint(cycle, point);
         marks.anchor = footprint.centre;
@@ -121,7 +123,7 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
             disks(cycle, &footprint, witness, &mut marks);
         }
     }
-    if witness.rule == Rule::CollisionMoving {
+    if witness.rule == Rule::FailSafe && witness.item.is_some() {
         moving(cycle, witness, &mut marks);
     } else {
         objects(cycle, witness, point, &mut marks);
@@ -135,6 +137,23 @@ fn marks(cycle: &Cycle, report: &Report) -> Marks {
         marks.anchor = [point.x, point.y];
     }
     marks
+}
+
+/// A point of the trajectory, or a place of H-14, which are counted as points behind the last one; of invalid input
+/// there are no places.
+fn point_or_place(cycle: &Cycle, index: usize) -> Option<TrajectoryPoint> {
+    let points = &cycle.trajectory.as_ref()?.points;
+    if let Some(point) = points.get(index) {
+        return Some(point.clone());
+    }
+    if first_problem(cycle).is_some() {
+        return None;
+    }
+    let scene = Scene::new(cycle, Reading::Exact);
+    let place = path::places(&scene, scene.trajectory.as_ref()?).nth(index - points.len())?;
+    let (origin, direction) = (place.pose.origin, place.pose.direction);
+    let [x, y, cos, sin] = [origin.x, origin.y, direction.x, direction.y].map(|it| it.to_f64());
+    Some(TrajectoryPoint { t_ns: cycle.now_ns, x, y, cos, sin })
 }
 
 /// Track, detection, cell and segment of the witness.
@@ -169,8 +188,7 @@ fn objects(cycle: &Cycle, witness: &Witness, point: Option<&TrajectoryPoint>, ma
     marks.shapes.extend(objects);
 }
 
-/// H-13: the item of the history, the detection that it became, and where that is at the point if
-/// it goes on so. Points behind the last have its time.
+/// H-14: the item of the history and the detection that it became.
 fn moving(cycle: &Cycle, witness: &Witness, marks: &mut Marks) {
     let (Some(now), Some(age_ns)) = (&cycle.detections, witness.age_ns) else { return };
     let then = cycle.detection_history.iter();
@@ -178,17 +196,12 @@ fn moving(cycle: &Cycle, witness: &Witness, marks: &mut Marks) {
         then.into_iter().find(|list| now.stamp_ns.checked_sub(list.stamp_ns) == Some(age_ns));
     let item = witness.item.and_then(|index| then?.items.get(index));
     let detection = witness.detection.and_then(|index| now.items.get(index));
-    let points = cycle.trajectory.as_ref().map_or(&[][..], |it| &it.points);
-    let point = witness.point.and_then(|index| points.get(index).or(points.last()));
-    let (Some(item), Some(detection), Some(point)) = (item, detection, point) else { return };
+    let (Some(item), Some(detection)) = (item, detection) else { return };
     let [was, is] = [item, detection].map(layers::detection);
-    let share = layers::seconds(now.stamp_ns, point.t_ns) / layers::seconds(0, age_ns);
-    let at = |axis: usize| is.centre[axis] + share * (is.centre[axis] - was.centre[axis]);
-    let will = Rectangle { centre: [at(0), at(1)], ..is };
-    marks.arrows.extend([[was.centre, is.centre], [is.centre, will.centre]]);
-    marks.outlines.extend([was, is]);
-    marks.shapes.push(will);
-    marks.anchor = will.centre;
+    marks.arrows.push([was.centre, is.centre]);
+    marks.outlines.push(was);
+    marks.anchor = is.centre;
+    marks.shapes.push(is);
 }
 
 /// Stage v: the disks at the point, the one of the witness strong.

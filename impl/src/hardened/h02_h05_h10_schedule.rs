@@ -11,11 +11,6 @@ pub(crate) fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
     profile == Profile::Hardened
 }
 
-/// H-10: in `AllRemote` what stage iii did does not keep stage iv from running.
-pub(crate) fn stage_iii_replaces_iv(given: Given) -> bool {
-    given.profile == Profile::Paper || given.configuration != Configuration::AllRemote
-}
-
 /// H-10: what stages iii and iv did does not keep stage v from running, where it is conditional.
 pub(crate) fn others_replace_stage_v(given: Given) -> bool {
     given.profile == Profile::Paper

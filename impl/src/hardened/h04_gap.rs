@@ -1,20 +1,14 @@
-//! The gap to the leading vehicle, compared whether stage iv runs or not (H-04 of
+//! The gap to the leading vehicle where stage iv did not run (H-04 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, Lead, Trajectory};
-use crate::input::profile::Profile;
-use crate::report::Witness;
-use crate::services::configuration::Configuration;
-use crate::stages::iv_detections::gap_failure;
+use crate::hardened::h14_fail_safe::times::Times;
+use crate::input::cycle::{Cycle, Lead};
+use crate::numbers::rounding::Real;
+use crate::stages::distances::s_b;
 
-/// Why the cycle fails at the place of stage iv, which did not run. `trajectory` and `lead` are the
-/// current ones.
-pub(crate) fn failure_without_stage_iv(
-    cycle: &Cycle<'_>,
-    trajectory: Option<&Trajectory<'_>>,
-    lead: Option<&Lead>,
-) -> Option<Witness> {
-    let compared =
-        cycle.profile == Profile::Hardened && cycle.configuration != Configuration::Local;
-    trajectory.filter(|_| compared).and_then(|_| gap_failure(cycle, lead))
+/// `s_react` = max(`s_stop` - `s_b(v_lead)`, 0), m: what the CAV needs more than a leader that
+/// brakes, to stop.
+pub(crate) fn s_react(cycle: &Cycle<'_>, lead: &Lead) -> Real {
+    let s_stop = Times::<Real>::new(cycle).s_stop;
+    (s_stop - s_b(&cycle.parameters, Real::new(lead.speed))).max(Real::ZERO)
 }

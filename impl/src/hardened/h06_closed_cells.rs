@@ -1,14 +1,14 @@
 //! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, Grid};
+use crate::hardened::h14_fail_safe::path::Nodes;
+use crate::input::cycle::{Cycle, DetectionList, Grid, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{float, integer, larger, smaller};
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::services::configuration::Configuration;
-use crate::stages::horizon::PointsExamined;
 use crate::stages::llcc::footprint;
 use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::v_grid_map::band::Band;
@@ -17,53 +17,54 @@ use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
 use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
-/// grid. `ran_iv`: stage iv ran in this cycle, so that the last two do not count.
+/// grid. `points`: those that the paper examines, and all of the trajectory; `detections`: the current
+/// ones, with which the last two do not count.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
-    examined: &PointsExamined<'_, '_>,
-    ran_iv: bool,
+    (points, all): (&[TrajectoryPoint], &[TrajectoryPoint]),
+    detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
-    let everywhere = |find: &dyn Fn(DiskSearch<'_, '_>) -> Option<Witness>| {
-        let found = find(DiskSearch::new(cycle, grid, examined.points));
-        let beyond =
-            || examined.first_beyond(|cycle, points| find(DiskSearch::new(cycle, grid, points)));
-        found.or_else(beyond)
-    };
-    let asks_rectangle = ran_iv && rectangle_counts_beside_iv(cycle);
+    let places = (Nodes::new(cycle, all), all.len());
+    let asks_rectangle = rectangle_counts(cycle, detections);
+    let search = DiskSearch::new(cycle, grid, points);
     let touched = |rule, cells: &Bitmap<'_>| {
-        everywhere(&|search| {
-            let search = if asks_rectangle { search.with_rectangle() } else { search };
-            search.cells(rule, cells, |geometry, disk| {
-                let ego = &search.cycle.ego;
-                let cav = MovingRectangle::footprint(ego, disk.at);
-                geometry.touched(disk, cells, |i, k| {
-                    if asks_rectangle && cav.certainly_apart(&plain_cell(grid, i, k), 0.0) {
-                        return None;
-                    }
-                    let touches = || possibly_touch(&footprint(ego, disk.at), &geometry.cell(i, k));
-                    geometry.hit(disk, i, k).filter(|_| !asks_rectangle || touches())
-                })
+        let search = DiskSearch::new(cycle, grid, points);
+        let search = if asks_rectangle { search.with_rectangle() } else { search };
+        let hit = |geometry: &GridGeometry, disk: &Disk<'_>| {
+            let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
+            geometry.touched(disk, cells, |i, k| {
+                if asks_rectangle && cav.certainly_apart(&plain_cell(grid, i, k), 0.0) {
+                    return None;
+                }
+                let touches =
+                    || possibly_touch(&footprint(&cycle.ego, disk.pose), &geometry.cell(i, k));
+                geometry.hit(disk, i, k).filter(|_| !asks_rectangle || touches())
             })
-        })
+        };
+        let is_free = |band: &Band| band.is_free(cells);
+        search.first(rule, is_free, hit).or_else(|| search.first_place(places, rule, is_free, hit))
     };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
     let found = touched(Rule::Occupied, &occupied);
-    if ran_iv {
+    if detections.is_some() {
         return found;
     }
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
     let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
     let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
-    let outside =
-        || everywhere(&|search| search.first(Rule::Outside, is_inside, GridGeometry::outside));
+    let outside = || {
+        let found = search.first(Rule::Outside, is_inside, GridGeometry::outside);
+        found
+            .or_else(|| search.first_place(places, Rule::Outside, is_inside, GridGeometry::outside))
+    };
     found.or_else(unknown).or_else(outside)
 }
 
-/// Where the paper does not examine the grid beside stage iv, a cell has to touch the CAV's
+/// Where the paper does not examine the grid beside another stage, a cell has to touch the CAV's
 /// rectangle, too; where nothing is detected, the disks are all that is left.
-fn rectangle_counts_beside_iv(cycle: &Cycle<'_>) -> bool {
-    let detects = cycle.detections.is_some_and(|list| !list.items.is_empty());
+fn rectangle_counts(cycle: &Cycle<'_>, detections: Option<&DetectionList<'_>>) -> bool {
+    let detects = detections.is_some_and(|list| !list.items.is_empty());
     match cycle.configuration {
         Configuration::AllRemote | Configuration::PlanRemote => detects,
         Configuration::Local | Configuration::MotRemote => false,

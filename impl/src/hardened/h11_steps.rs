@@ -1,7 +1,6 @@
 //! What the steps and turns of a trajectory have to be like to be driven (H-11 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::hardened::h04_horizon::{plain_way, way};
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;
 use crate::numbers::plane::{Vector, same_point};
@@ -10,7 +9,7 @@ use crate::numbers::time::{elapsed_ns, seconds};
 use crate::report::{Rule, Witness};
 
 /// The first rule that some point does not certainly keep, and the first such point: of its step,
-/// of where its headings lead, then against its mark.
+/// then of where its headings lead.
 pub(crate) fn step_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     let mut first: Option<Witness> = None;
     let mut keep_first = |index: usize, (rule, compared): (Rule, [f64; 2])| {
@@ -25,20 +24,11 @@ pub(crate) fn step_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Opt
     }
     let Some(start) = points.first() else { return first };
     let mut slide = Slide::new(cycle.ego.length, start, points.len());
-    let mut turn = Turn::since(0, start);
     for ((from, to), index) in steps(points).zip(1_usize..) {
         slide.step_plainly(from, to);
         if !slide.is_fine() {
             slide.drive_on(points, index);
             slide.broken(to).into_iter().for_each(|broken| keep_first(index, broken));
-        }
-        turn.plain_way += plain_way(from, to);
-        if !turn.is_fine(to) {
-            turn.drive_on(points, index);
-            turn.first_broken(to).into_iter().for_each(|broken| keep_first(index, broken));
-        }
-        if elapsed_ns(turn.mark.t_ns, to.t_ns) >= BETWEEN_MARKS_NS {
-            turn = Turn::since(index, to);
         }
     }
     first
@@ -110,11 +100,7 @@ fn first_broken(
         (Rule::StepLateral, true, aside(before)),
         (Rule::StepLateral, true, aside(after)),
         (Rule::StepTurn, true, at_least(before.dot(after), Real::new(LEAST_COSINE))),
-        (
-            Rule::StepTurn,
-            true,
-            at_most(before.cross(after).abs(), most_turned(STEP_TURN, dt, size)),
-        ),
+        (Rule::StepTurn, true, at_most(before.cross(after).abs(), most_turned(dt, size))),
     ];
     first_of(rules)
 }
@@ -217,75 +203,15 @@ impl<'p> Slide<'p> {
     }
 }
 
-/// The way from a mark on: the last mark before a point, marks being the first point and each first
-/// one at least so much later than the mark before it.
-struct Turn<'p> {
-    mark: &'p TrajectoryPoint,
-    /// In plain doubles, m.
-    plain_way: f64,
-    /// The same with its error, up to the point with this index.
-    way: Real,
-    driven: usize,
-}
-
-const BETWEEN_MARKS_NS: i64 = 500_000_000;
-
-/// What measuring leaves open of a turn against the mark, whatever the time and the way.
-const STILL_TURN: f64 = 0.05;
-/// The same of a step, from one end of that to the other.
+/// What measuring leaves open of the turn of a step, whatever the time and the way.
 const STEP_TURN: f64 = 0.1;
 /// What it leaves open for each s, or where a vehicle drives.
 const NOISE: f64 = 0.1;
 /// For each m of the way: no vehicle has a smaller turning circle.
 const TIGHTEST: f64 = 0.5;
-/// What tyres hold, m/s^2.
-const TYRES: f64 = 11.5;
-
-impl<'p> Turn<'p> {
-    const fn since(index: usize, mark: &'p TrajectoryPoint) -> Self {
-        Self { mark, plain_way: 0.0, way: Real::ZERO, driven: index }
-    }
-
-    /// Whether the point keeps the rules by more than plain doubles err: steps that are longer than
-    /// 100 m break another rule.
-    #[inline]
-    fn is_fine(&self, point: &TrajectoryPoint) -> bool {
-        let (mark, w) = (self.mark, self.plain_way);
-        let t = seconds(elapsed_ns(mark.t_ns, point.t_ns));
-        let turned = (mark.cos * point.sin - mark.sin * point.cos).abs();
-        let w_error = STEP_ERROR * (1.0 + w);
-        mark.cos * point.cos + mark.sin * point.sin >= STEP_ERROR
-            && turned + STEP_ERROR <= STILL_TURN + NOISE * t + TIGHTEST * (w - w_error)
-            && (turned + STEP_ERROR <= NOISE
-                || (turned - NOISE + STEP_ERROR) * (w + w_error) + STEP_ERROR <= TYRES * t * t)
-    }
-
-    /// Brings the way with its error up to a point.
-    fn drive_on(&mut self, points: &[TrajectoryPoint], index: usize) {
-        let new = steps(points.get(self.driven..=index).unwrap_or_default());
-        self.way = new.fold(self.way, |sum, (from, to)| sum + way(from, to));
-        self.driven = index;
-    }
-
-    /// The first rule that the point, up to which the way goes, does not certainly keep, and the
-    /// two numbers.
-    fn first_broken(&self, point: &TrajectoryPoint) -> Option<(Rule, [f64; 2])> {
-        let [before, after] = [self.mark, point].map(heading);
-        let t = Real::seconds(elapsed_ns(self.mark.t_ns, point.t_ns));
-        let (w, turned, noise) = (self.way, before.cross(after).abs(), Real::new(NOISE));
-        let is_hard = !turned.certainly_at_most(noise);
-        let held = noise * w + Real::new(TYRES) * t.squared();
-        first_of([
-            (Rule::TurnReversed, true, at_least(before.dot(after), Real::ZERO)),
-            (Rule::TurnOnTheSpot, true, at_most(turned, most_turned(STILL_TURN, t, w))),
-            (Rule::TurnHard, is_hard, at_most(turned * w, held)),
-        ])
-    }
-}
-
-/// The bound on the sine of a turn in this time and on this way, in a step or from a mark on.
-fn most_turned(still: f64, t: Real, w: Real) -> Real {
-    Real::new(still) + Real::new(NOISE) * t + Real::new(TIGHTEST) * w
+/// The bound on the sine of the turn of a step of this time and length.
+fn most_turned(t: Real, size: Real) -> Real {
+    Real::new(STEP_TURN) + Real::new(NOISE) * t + Real::new(TIGHTEST) * size
 }
 
 fn heading(point: &TrajectoryPoint) -> Vector {

@@ -4,13 +4,8 @@
 pub(crate) mod detection_history;
 pub(crate) mod h01_matched_pairs;
 pub(crate) mod h02_h05_h10_schedule;
-pub(crate) mod h03_circumradii;
 pub(crate) mod h04_gap;
-pub(crate) mod h04_horizon;
 pub(crate) mod h06_closed_cells;
 pub(crate) mod h07_start;
-pub(crate) mod h09_standing;
-pub(crate) mod h10_explained;
 pub(crate) mod h11_steps;
-pub(crate) mod h12_progress;
-pub(crate) mod h13_moving;
+pub(crate) mod h14_fail_safe;

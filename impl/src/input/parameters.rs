@@ -27,14 +27,12 @@ macro_rules! parameters {
             theta_track_max: f64 = 1.0 in [1e-3, 1e3];
             /// H-01: gated tracks that may stay without a detection.
             miss_budget: i64 = 4 in [0, 64];
-            /// H-04: time before the CAV brakes, s.
+            /// H-14: the longest time from measuring pose and speed to braking, s.
             tau: f64 = 0.1 in [0.0, 60.0];
-            /// H-04, H-12: greatest acceleration of the CAV, m/s^2.
+            /// H-14: greatest acceleration of the CAV, m/s^2.
             a_max: f64 = 3.0 in [0.1, 100.0];
-            /// H-07, H-12: how far off the CAV a trajectory may start, m.
+            /// H-07: how far off the CAV a trajectory may start, m.
             start_tolerance: f64 = 2.0 in [1e-3, 1e3];
-            /// H-12: how far a trajectory may lag behind a CAV that brakes at a_b, m.
-            lag_tolerance: f64 = 0.5 in [1e-3, 1e3];
             /// H-11: greatest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in [f64::from_bits(1), 1e3];
             /// H-11: longest time between two trajectory points, ns.
@@ -43,10 +41,12 @@ macro_rules! parameters {
             theta_velocity: f64 = 2.0 in [f64::from_bits(1), 1e3];
             /// H-07: how far aside of its first heading a trajectory may start, m.
             lateral_tolerance: f64 = 0.5 in [1e-3, 1e3];
-            /// H-13: the greatest speed of an object that is looked for, m/s.
+            /// H-14: the greatest speed of an object that is looked for, m/s.
             v_object: f64 = 70.0 in [f64::from_bits(1), 1e3];
-            /// H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
-            tau_motion: f64 = 0.3 in [0.0, 60.0];
+            /// H-14: when others begin to brake for the CAV once it stands, s.
+            t_yield: f64 = 1.5 in [0.0, 60.0];
+            /// H-14: how hard they brake then, m/s^2.
+            a_yield: f64 = 3.0 in [0.1, 100.0];
             /// Stage i fails rather than begin an assignment of more work than this.
             work_limit: i64 = 10_000_000_000 in [0, i64::MAX];
             /// Margin of the strict and the lax model, m; no verdict of this crate depends on it.

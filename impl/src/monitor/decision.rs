@@ -95,7 +95,7 @@ impl<T> Verified<'_, T> {
 impl Verified<'_, Trajectory<'_>> {
     /// The time by which control has to brake along it, with `a_b`, unless a later cycle has given a
     /// trajectory or there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
-    /// covers no more (H-04), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
+    /// covers no more (H-14), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
     /// the paper profile, which has no `tau`. Source: `spec/5-interfaces.md#monitor`.
     pub const fn brake_by(&self) -> Option<Time> {
         self.brake_by

@@ -164,7 +164,7 @@ impl Monitor<'_> {
         if matches!(kind, EventKind::Tick) {
             let is_hardened = self.settings.profile == Profile::Hardened;
             if is_hardened && !self.history.reaches_back(t_ns) {
-                // Nothing would be examined as moving (H-13).
+                // Nothing would be examined as moving (H-14).
                 self.requester.hold(t_ns.saturating_add(1));
             }
             for group in Group::ALL {

@@ -110,8 +110,9 @@ impl<'c> Inputs<'c> {
     /// * steps: at most `step_max_ns`, L and `v_max` dt from point to point, forwards along both headings, which
     ///   turn as a vehicle can (H-11);
     /// * corridor: every point inside, none heading against the route (H-07);
-    /// * horizon: as far as the CAV needs to stand from its speed, less L, and for v / `a_b` after its start, nowhere
-    ///   behind a full braking by more than `lag_tolerance` nor ahead of full acceleration (H-12).
+    /// * reach: the path from the CAV through those that are ahead of it, and straight on, no farther aside than
+    ///   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
+    ///   go on and stop.
     ///
     /// Source: `spec/5-interfaces.md#monitor`, `spec/3-stages.md#hardened-profile`.
     pub fn remote_trajectory<L: AsRef<[TrajectoryPoint]>>(

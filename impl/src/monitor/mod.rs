@@ -10,7 +10,7 @@
 //! as long as nothing of it was of use (at least one period), less the time for which it was: so that one
 //! which sends nothing of use has a group for at most a tenth of the time (F-43). And in the hardened profile no station is asked
 //! before the CAV's own detections reach back half a second: without them nothing that the station leaves
-//! out is examined as moving (H-13). Both show in [`Requester::hold_until_ns`].
+//! out is examined as moving (H-14). Both show in [`Requester::hold_until_ns`].
 
 mod cycle;
 mod decision;

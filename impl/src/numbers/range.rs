@@ -12,12 +12,6 @@ pub(crate) fn extend(ranges: &mut [[f64; 2]; 2], place: [f64; 2], reach: [f64; 2
     }
 }
 
-/// What is in both boxes; the least above the greatest when nothing is.
-pub(crate) fn intersection([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let both = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [larger(a, c), smaller(b, d)];
-    [both(a, c), both(b, d)]
-}
-
 /// Whether nothing is in the box.
 pub(crate) fn is_empty(area: [[f64; 2]; 2]) -> bool {
     area.iter().any(|[least, greatest]| least > greatest)

@@ -68,6 +68,11 @@ impl Real {
         self.hi
     }
 
+    /// Upper bound on how far the number is from `value`.
+    pub(crate) fn off(self) -> f64 {
+        (abs(self.lo) + self.err) * BOUND_UP
+    }
+
     /// The same centre, known only up to `by` more (by >= 0).
     pub(crate) fn widened(self, by: f64) -> Self {
         Self { err: (self.err + by) * BOUND_UP, ..self }

@@ -13,6 +13,12 @@ pub(crate) trait Number: Copy {
     fn times(self, other: Self) -> Self;
     fn divided_by(self, other: Self) -> Self;
     fn or_larger(self, other: Self) -> Self;
+    /// The square root of a number >= 0.
+    fn root(self) -> Self;
+    /// Whether it is certainly above the other one; of plain doubles, whether they are.
+    fn exceeds(self, other: Self) -> bool;
+    /// A few operations err by less than this of the largest number, but where `Real` says by what.
+    const ROUGH: f64;
 }
 
 impl Number for Real {
@@ -39,6 +45,16 @@ impl Number for Real {
     fn or_larger(self, other: Self) -> Self {
         self.max(other)
     }
+
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn exceeds(self, other: Self) -> bool {
+        other.certainly_below(self)
+    }
+
+    const ROUGH: f64 = 0.0;
 }
 
 impl Number for f64 {
@@ -65,6 +81,16 @@ impl Number for f64 {
     fn or_larger(self, other: Self) -> Self {
         larger(self, other)
     }
+
+    fn root(self) -> Self {
+        libm::sqrt(self)
+    }
+
+    fn exceeds(self, other: Self) -> bool {
+        self > other
+    }
+
+    const ROUGH: f64 = 1e-14;
 }
 
 /// `s_CAV` = `safety_time` * `v_now`, m.

@@ -4,7 +4,7 @@ pub(crate) mod indexed_route;
 
 use crate::hardened::h07_start::{corridor_failure, direction_failure, start_failure};
 use crate::hardened::h11_steps::step_failure;
-use crate::hardened::h12_progress::progress_failure;
+use crate::hardened::h14_fail_safe::reach::reach_failure;
 use crate::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
 use crate::input::profile::Profile;
 use crate::input::route_index::RouteIndex;
@@ -28,7 +28,7 @@ pub(crate) fn trajectory_to_map<'a>(
         .or_else(|| if all_inside { None } else { corridor_failure(route, points) })
         .or_else(|| direction_failure(route, points))
         .or_else(|| step_failure(cycle, points))
-        .or_else(|| progress_failure(cycle, points))
+        .or_else(|| reach_failure(cycle, points))
 }
 
 /// A point outside the corridor that is not certainly within `theta_map` of the reference path;

@@ -12,20 +12,22 @@ pub mod order;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::detection_history::{DetectionHistory, Seen};
-use crate::hardened::h04_gap::failure_without_stage_iv;
-use crate::hardened::h13_moving::MovingDetections;
+use crate::hardened::h04_gap::s_react;
+use crate::hardened::h14_fail_safe::FailSafe;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
+use crate::input::profile::Profile;
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
-use crate::services::configuration::Group;
+use crate::services::configuration::{Configuration, Group};
 use crate::stages::given::{Given, is_current};
 use crate::stages::i_track_validation::track_validation;
+use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
-use crate::stages::iv_detections::trajectory_with_detections;
+use crate::stages::iv_detections::{gap_failure, trajectory_with_detections};
 use crate::stages::order::{Scheduled, Turn, in_order, scheduled};
 use crate::stages::v_grid_map::trajectory_with_grid_map;
 
@@ -41,23 +43,21 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   min(T, c)^2 max(T, c) steps, c = D + `miss_budget`, never more than `work_limit`;
 /// * ii: P S segments and triangles, with an index only those beside each point, which on a folded
 ///   route may be four times as many;
-/// * iii to v: in the hardened profile P is up to 4 L + 1 more, for places behind the end of the
-///   trajectory (H-04);
-/// * iii and iv: T P and D P pairs of rectangles (iii twice in the hardened profile, with T^2
-///   comparisons of ids), each about 60 operations with error bounds;
+/// * iii and iv: T P and D P pairs of rectangles, each about 60 operations with error bounds;
 /// * v: 2 P + log2 P bands, each of which looks at its cells, 57 at a time, and P n disks, each of which
 ///   looks at the square around it (in the paper profile around up to four cells), which is
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells. In the hardened profile
-///   each occupied cell that a disk reaches is compared with the CAV's rectangle, too, where stage
-///   iv ran in `AllRemote` or `PlanRemote`.
-///
+///   the K places of H-14 count as points, and each occupied cell that a disk reaches is compared with
+///   the CAV's rectangle, too, where detections are current in `AllRemote` or `PlanRemote`;
 /// * what the CAV saw itself (hardened, with U items in all usable lists of the history): a few times
-///   T U distances, and in iv D times the items of the longest list times (U + P) (H-13), and
-///   at most a few times that with disputed detections.
+///   T U distances;
+/// * H-14, with K places, which are `s_stop` / 1/4 m and some for turns: in ii K distances, in iv
+///   T (K + P) pairs of rectangles, and D times the items of the longest list times (U + K + P), each
+///   about a hundred operations with error bounds, but where plain doubles tell.
 ///
-/// Stage i and H-13 have a limit. The default of `work_limit`, 10^10, is above the most work of
-/// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-13 takes up to
-/// 4e10, and a step of it up to a thousand times as long. To bound the run time, choose a smaller
+/// Stage i and H-14 have a limit. The default of `work_limit`, 10^10, is above the most work of
+/// stage i, 1024^2 * 2112 = 2.2e9 steps, so that no verdict of the paper depends on it; H-14 takes up to
+/// 4e10 and more, and a step of it up to a thousand times as long. To bound the run time, choose a smaller
 /// one (`docs/speed.md` has the time for a work) and limit lists, disks and cells: the other stages
 /// do what the sizes say.
 pub fn check(cycle: &Cycle<'_>, scratch: &mut Scratch<'_>) -> Result<Report, InvalidInput> {
@@ -156,8 +156,8 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     }
 
     /// What the stage finds on its own, whatever the schedule says about it; `NotApplicable` when
-    /// an input of it is not current. Stages iii and v take stages i and iv as run, and stage iv
-    /// in `AllRemote` stages i and iii. Source: `spec/3-stages.md`.
+    /// an input of it is not current. H-14 is part of stages ii and iv, and its places of stage v.
+    /// Source: `spec/3-stages.md`.
     pub fn stage(&self, stage: Stage, scratch: &mut Scratch<'_>) -> Outcome {
         let found = match stage {
             Stage::I => {
@@ -165,26 +165,27 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
                 self.i(seen, scratch)
             }
             Stage::Ii => self.ii(),
-            Stage::Iii | Stage::Iv => match (self.look_back(scratch), stage) {
-                (Seen::Unclear(witness), _) => Ok(Some(witness)),
-                (_, Stage::Iii) => self.iii(scratch),
-                (_, _) => self.iv(scratch),
+            Stage::Iii => self.iii(),
+            Stage::Iv => match self.look_back(scratch) {
+                Seen::Unclear(witness) => Ok(Some(witness)),
+                seen => self.iv(seen, scratch),
             },
-            Stage::V => self.v(true),
+            Stage::V => self.v(),
         };
         outcome(found)
     }
 
-    /// What the CAV saw of the received tracks, into the scratch.
+    /// What the CAV saw of the tracks, into the scratch: of those of the remote MOT, whatever their age,
+    /// and of its own in `PlanRemote`.
     fn look_back(&self, scratch: &mut Scratch<'_>) -> Seen {
-        let look = |received| self.history.look_back(self.cycle, received, scratch);
-        self.received().map_or(Seen::Open, look)
-    }
-
-    /// The tracks of the remote MOT, whatever their age.
-    fn received(&self) -> Option<&'c TrackList<'a>> {
-        let tracks = self.cycle.tracks.as_ref();
-        tracks.filter(|_| self.cycle.configuration.is_remote(Group::Mot))
+        let tracks = match self.cycle.configuration {
+            Configuration::PlanRemote => self.current.tracks,
+            configuration => {
+                self.cycle.tracks.as_ref().filter(|_| configuration.is_remote(Group::Mot))
+            }
+        };
+        let look = |tracks| self.history.look_back(self.cycle, tracks, scratch);
+        tracks.map_or(Seen::Open, look)
     }
 
     /// What the order of the stages depends on.
@@ -215,34 +216,53 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.indexes.route))
     }
 
-    /// After `look_back`, and so after stage i.
-    fn iii(&self, scratch: &Scratch<'_>) -> Found {
+    fn iii(&self) -> Found {
         let trajectory = self.current.trajectory()?;
         let tracks = self.current.tracks.ok_or(Input::Tracks)?;
-        let detections = self.current.detections;
-        Ok(trajectory_with_tracks(self.cycle, trajectory, tracks, detections, scratch.rows))
+        Ok(trajectory_with_tracks(self.cycle, trajectory, tracks))
     }
 
-    /// After `look_back`, and so after stage i.
-    fn iv(&self, scratch: &mut Scratch<'_>) -> Found {
+    /// After `look_back`, which says what was seen.
+    fn iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
         let trajectory = self.current.trajectory()?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
-        let tracks = self.current.tracks.filter(|_| self.received().is_some());
-        let moving = MovingDetections { history: self.history, tracks };
         let lead = self.current.lead;
-        Ok(trajectory_with_detections(self.cycle, trajectory, detections, lead, &moving, scratch))
+        let found = trajectory_with_detections(self.cycle, trajectory, detections, lead);
+        Ok(found.or_else(|| self.fail_safe(seen, scratch)))
     }
 
-    /// Why the cycle fails at the place of stage iv, which does not run.
-    fn gap_alone(&self) -> Option<Witness> {
-        let Current { trajectory, lead, .. } = self.current;
-        failure_without_stage_iv(self.cycle, trajectory, lead)
+    /// Why the cycle fails at the place of stage iv, which does not run (H-04, H-14).
+    fn instead_of_iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+        self.fail_safe_trajectory()?;
+        gap_failure(self.current.lead, |lead| s_react(self.cycle, lead))
+            .or_else(|| self.fail_safe(seen, scratch))
     }
 
-    fn v(&self, ran_iv: bool) -> Found {
+    /// What H-14 is about.
+    fn fail_safe_trajectory(&self) -> Option<&'c Trajectory<'a>> {
+        let examined = self.cycle.profile == Profile::Hardened
+            && self.cycle.configuration != Configuration::Local;
+        self.current.trajectory.filter(|_| examined)
+    }
+
+    /// H-14, after `look_back`.
+    fn fail_safe(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+        let rule = FailSafe {
+            cycle: self.cycle,
+            trajectory: self.fail_safe_trajectory()?,
+            tracks: self.current.tracks,
+            history: &self.history,
+            route: IndexedRoute::new(&self.cycle.route, self.indexes.route),
+            seen,
+        };
+        rule.failure(scratch)
+    }
+
+    fn v(&self) -> Found {
         let trajectory = self.current.trajectory()?;
         let grid = self.current.grid.ok_or(Input::Grid)?;
-        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, ran_iv))
+        let detections = self.current.detections;
+        Ok(trajectory_with_grid_map(self.cycle, trajectory, grid, detections))
     }
 }
 
@@ -279,20 +299,21 @@ fn run(valid: &ValidCycle<'_, '_>, scratch: &mut Scratch<'_>) -> Report {
     let seen = valid.look_back(scratch);
     let mut stages = [Outcome::NotScheduled; 5];
     let mut slots = stages.iter_mut();
-    let mut ran_iv = false;
     let failed_stage = in_order(valid.given(), |stage, turn| {
         let outcome = match turn {
             Turn::Rest(idle) => idle.into(),
-            Turn::Gap(idle) => valid.gap_alone().map_or_else(|| idle.into(), Outcome::Failed),
+            Turn::Gap(idle) => {
+                let found = valid.instead_of_iv(seen, scratch);
+                found.map_or_else(|| idle.into(), Outcome::Failed)
+            }
             Turn::Run => outcome(match stage {
                 Stage::I => valid.i(seen, scratch),
                 Stage::Ii => valid.ii(),
-                Stage::Iii => valid.iii(scratch),
-                Stage::Iv => valid.iv(scratch),
-                Stage::V => valid.v(ran_iv),
+                Stage::Iii => valid.iii(),
+                Stage::Iv => valid.iv(seen, scratch),
+                Stage::V => valid.v(),
             }),
         };
-        ran_iv |= stage == Stage::Iv && turn == Turn::Run;
         if let Some(slot) = slots.next() {
             *slot = outcome;
         }

@@ -2,7 +2,7 @@
 //! list and no number of the cycle decides here (`spec/3-stages.md#schedule`).
 
 use crate::hardened::h02_h05_h10_schedule::{
-    has_stage_v_in_plan_remote, no_obstacle_check, others_replace_stage_v, stage_iii_replaces_iv,
+    has_stage_v_in_plan_remote, no_obstacle_check, others_replace_stage_v,
 };
 use crate::input::profile::Profile;
 use crate::report::{FailedStage, Input, Outcome, Reason, Stage};
@@ -48,7 +48,7 @@ pub enum Turn {
     Run,
     /// It does not.
     Rest(Idle),
-    /// It does not, but at its place the gap is compared, where H-04 says so.
+    /// It does not, but at its place the gap is compared, where H-04 says so, and H-14 runs.
     Gap(Idle),
 }
 
@@ -104,7 +104,7 @@ impl Past {
     fn replaces(self, given: Given, stage: Stage) -> bool {
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
-            Stage::Iv => self.ran_iii && stage_iii_replaces_iv(given),
+            Stage::Iv => self.ran_iii,
             Stage::V => (self.ran_iii || self.ran_iv) && others_replace_stage_v(given),
         }
     }

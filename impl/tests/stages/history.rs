@@ -1,11 +1,11 @@
-//! What the CAV saw itself, on both sides of its thresholds, as H-01 and H-09 show it
+//! What the CAV saw itself, on both sides of its thresholds, as H-01 shows it
 //! (`spec/3-stages.md#what-the-cav-saw-itself`).
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};
 use mufasa::input::profile::Profile::Hardened;
 use mufasa::report::Rule;
-use mufasa::services::configuration::Configuration::{AllRemote, MotRemote};
+use mufasa::services::configuration::Configuration::MotRemote;
 
 const MS: i64 = 1_000_000;
 const AGES_NS: [i64; 3] = [300 * MS, 500 * MS, 800 * MS];
@@ -199,45 +199,4 @@ fn no_more_is_left_out_than_has_to_be() {
     };
     assert_eq!(at(0.29), None);
     assert_eq!(at(0.31), Some(Rule::MeanCost));
-}
-
-/// A car 10 m ahead that leaves at once, as the remote says. Half the lengths of the two and the
-/// CAV's offset are 5.65 m: it is met after 4.35 m.
-fn leaving(history: &[(i64, Vec<Detection>)]) -> Scene {
-    let mut scene = scene(Hardened, AllRemote, [0.0, 0.0]);
-    scene.tracks = Some(vec![Track { vy: 10.0, ..track(1, 10.0, 0.0) }]);
-    scene.detections = Some(vec![detection(10.0, 0.0)]);
-    scene.history = history.to_vec();
-    scene
-}
-
-fn left() -> Vec<(i64, Vec<Detection>)> {
-    AGES_NS.map(|age_ns| (age_ns, vec![detection(10.0, -10.0 * age_ns as f64 * 1e-9)])).to_vec()
-}
-
-#[test]
-fn a_track_that_is_not_backed_is_taken_as_standing_too() {
-    assert_eq!(leaving(&left()).rule(), None);
-    assert_eq!(leaving(&[]).rule(), Some(Rule::CollisionStanding));
-    assert_eq!(leaving(&left()[1..2]).rule(), Some(Rule::CollisionStanding));
-}
-
-#[test]
-fn it_stands_at_its_place() {
-    // 100 ms at 10 m/s: 1 m beside the CAV's way and 0.95 m + 1 m wide together.
-    for (y, rule) in [(-2.95 + 1e-7, Some(Rule::CollisionStanding)), (-2.95 - 1e-7, None)] {
-        let mut scene = leaving(&[]);
-        // Driving away after that.
-        scene.tracks = Some(vec![Track { vx: 100.0, vy: 10.0, ..track(1, 0.0, y) }]);
-        scene.track_age_ns = 100 * MS;
-        scene.detections = Some(vec![detection(10.0, y + 1.0)]);
-        scene.change = |cycle| cycle.parameters.max_age_ns = 200 * MS;
-        assert_eq!(scene.rule(), rule, "{y}");
-        // Without current detections, at its position.
-        scene.change = |cycle| {
-            cycle.parameters.max_age_ns = 200 * MS;
-            cycle.detections = None;
-        };
-        assert_eq!(scene.rule(), None);
-    }
 }

@@ -7,14 +7,15 @@
 
 mod cells;
 mod disputed;
-mod explained;
+mod extremes;
+mod fail_safe;
 mod history;
 mod input;
-mod lag;
-mod moving;
+mod motions;
+mod naive;
+mod random;
 mod scene;
 mod slide;
 mod step_turn;
 mod steps;
 mod thresholds;
-mod waiting;

@@ -1,11 +1,10 @@
-//! What the CAV saw itself (`spec/3-stages.md#what-the-cav-saw-itself`): the received tracks beside the
-//! CAV's own detections, current and earlier ones.
+//! What the CAV saw itself (`spec/3-stages.md#what-the-cav-saw-itself`): tracks beside the CAV's own
+//! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
-use crate::services::configuration::Configuration;
 
 /// Ages from which and to which a list of the history is usable, ns.
 const USABLE_NS: [i128; 2] = [200_000_000, 1_000_000_000];
@@ -23,7 +22,7 @@ pub struct Usable<'a> {
     pub items: &'a [Object],
 }
 
-/// A received track beside what the CAV saw itself.
+/// A track beside what the CAV saw itself.
 #[derive(Clone, Debug)]
 pub struct Seen {
     /// Where it is when the CAV detects, m.
@@ -86,7 +85,7 @@ pub fn origin_limit(scene: &Scene, dt: &Real) -> Real {
     &scene.parameters.theta_track_max + &scene.parameters.theta_velocity * dt
 }
 
-/// The received tracks in their order, each beside what the CAV saw itself.
+/// The tracks in their order, each beside what the CAV saw itself.
 pub fn seen(scene: &Scene, tracks: &Tracks) -> Vec<Seen> {
     let p = &scene.parameters;
     let lists = usable(scene);
@@ -120,18 +119,64 @@ pub fn seen(scene: &Scene, tracks: &Tracks) -> Vec<Seen> {
     tracks.items.iter().zip(places).enumerate().map(beside).collect()
 }
 
-/// The confirmed tracks of a current list that was received, in their order. Their detections are
-/// explained, and no others.
+/// The confirmed tracks of a current list, in their order. Their detections are explained, and no
+/// others.
 pub fn confirmed(scene: &Scene) -> Vec<(&Track, Seen)> {
-    let is_received =
-        matches!(scene.configuration, Configuration::MotRemote | Configuration::AllRemote);
     match &scene.tracks {
-        Some(tracks) if is_received && scene.tracks_current => {
+        Some(tracks) if scene.tracks_current => {
             let seen = tracks.items.iter().zip(seen(scene, tracks));
             seen.filter(|(_, seen)| seen.is_confirmed).collect()
         }
         Some(_) | None => Vec::new(),
     }
+}
+
+/// The list of a confirmed track: the one nearest to 500 ms among those that hold its own origin.
+pub fn list_of(lists: &[Usable], seen: &Seen) -> Option<usize> {
+    let holds = |(k, _): &(usize, &Usable)| seen.own_origins[*k].is_some();
+    nearest_to_reference(lists.iter().enumerate().filter(holds)).map(|(k, _)| k)
+}
+
+/// The detection that a confirmed track explains is disputed: one of the `unexplained` detections may
+/// come from what the track has for its own origin in its list.
+pub fn is_disputed<'a>(
+    scene: &Scene,
+    lists: &[Usable],
+    seen: &Seen,
+    mut unexplained: impl Iterator<Item = &'a Object>,
+) -> bool {
+    let Some(k) = list_of(lists, seen) else { return false };
+    let Some(origin) = seen.own_origins[k] else { return false };
+    unexplained.any(|other| may_come_from(scene, lists, other, [k, origin]))
+}
+
+/// Whether a detection d may come from an item d', given by list and index: abs(d - d') <= v_object dt
+/// and, when there are other lists, one of them has an item at distance <= theta_track_max from
+/// d - w dt'.
+pub fn may_come_from(scene: &Scene, lists: &[Usable], d: &Object, [k, item]: [usize; 2]) -> bool {
+    let (list, p) = (&lists[k], &scene.parameters);
+    let before = &list.items[item];
+    let w = velocity(d, before, &list.dt);
+    let supports = |other: &Usable| {
+        let then = past(&d.frame.origin, &w, &other.dt);
+        other.items.iter().any(|item| is_within(scene, &then, item, &p.theta_track_max))
+    };
+    let mut others = lists.iter().enumerate().filter(|(other, _)| *other != k).peekable();
+    is_within(scene, &d.frame.origin, before, &(&p.v_object * &list.dt))
+        && (others.peek().is_none() || others.any(|(_, other)| supports(other)))
+}
+
+/// w = (d - d') / dt, m/s.
+pub fn velocity(d: &Object, before: &Object, dt: &Real) -> Vector {
+    let moved = &d.frame.origin - &before.frame.origin;
+    Vector { x: moved.x / dt, y: moved.y / dt }
+}
+
+/// The item is at most `limit` from the point, or nearly so, m.
+pub fn is_within(scene: &Scene, point: &Vector, item: &Object, limit: &Real) -> bool {
+    let place = &item.frame.origin;
+    !point.is_far(place, &scene.reads.raised(limit))
+        && scene.reads.may_be_at_most(&point.distance(place), limit)
 }
 
 /// What is the i-th's and no other's.
@@ -161,7 +206,7 @@ fn sideways(scene: &Scene, v: &Vector, detection: Option<usize>) -> Option<[Real
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: these comparisons do not move, so the strict reading fails
-/// where one of them is too close to call, for some received track.
+/// where one of them is too close to call, for some track.
 pub fn ambiguous_failure(scene: &Scene, tracks: &Tracks) -> Option<Witness> {
     let ambiguous = |(track, seen): (&Track, &Seen)| {
         let [left, right] = too_close(scene, track, seen)?;

@@ -1,5 +1,5 @@
-//! H-02, H-05, H-10: no trajectory passes without a comparison with obstacles, and none is called off
-//! by a list of tracks that the remote side made, or by detections that show nothing.
+//! H-02, H-05, H-10: no trajectory passes without a comparison with obstacles, and that with the grid is
+//! not called off by a list of tracks that the remote side made, or by detections that show nothing.
 
 use crate::input::profile::Profile;
 use crate::input::scene::Scene;
@@ -11,16 +11,11 @@ pub fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
     profile == Profile::Hardened
 }
 
-/// H-10: in `AllRemote` stage iv, in `AllRemote` and `PlanRemote` stage v runs whatever else ran.
+/// H-10: in `AllRemote` and `PlanRemote` stage v runs whatever else ran.
 pub fn runs_whatever_else_ran(scene: &Scene, stage: Stage) -> bool {
-    let always = match stage {
-        Stage::I | Stage::Ii | Stage::Iii => false,
-        Stage::Iv => scene.configuration == Configuration::AllRemote,
-        Stage::V => {
-            matches!(scene.configuration, Configuration::AllRemote | Configuration::PlanRemote)
-        }
-    };
-    scene.profile == Profile::Hardened && always
+    scene.profile == Profile::Hardened
+        && stage == Stage::V
+        && matches!(scene.configuration, Configuration::AllRemote | Configuration::PlanRemote)
 }
 
 /// H-05: a current trajectory that no stage compared with obstacles. H-02: in `AllRemote` a stage iii

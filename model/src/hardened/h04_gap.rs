@@ -1,14 +1,19 @@
-//! H-04: the gap to the leading vehicle is compared with s_follow whether stage iv runs or not.
+//! H-04: where stage iv did not run, the gap to the leading vehicle is compared with what a stop needs.
 
-use crate::input::profile::Profile;
+use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::scene::Scene;
-use crate::report::{Stage, Witness};
-use crate::stages::iv_detections::gap_failure;
+use crate::numbers::real::Real;
+use crate::report::{Rule, Witness};
+use crate::stages::distances::s_b;
 
-/// At the place of stage iv when that did not run: the gap is <= s_follow, and there is a current
-/// trajectory.
-pub fn failure_without_stage_iv(scene: &Scene, stage: Stage) -> Option<Witness> {
-    let applies =
-        scene.profile == Profile::Hardened && stage == Stage::Iv && scene.trajectory.is_some();
-    applies.then(|| gap_failure(scene)).flatten()
+/// s_react = max(s_stop - s_b(v_lead), 0), m.
+pub fn s_react(driving: &Driving, v_lead: &Real) -> Real {
+    (driving.s_stop() - s_b(v_lead, driving.a_b)).max(Real::zero())
+}
+
+/// In the place of stage iv when that did not run, with a current trajectory: the gap is <= s_react.
+pub fn failure_without_stage_iv(scene: &Scene) -> Option<Witness> {
+    let lead = scene.lead.as_ref()?;
+    let s_react = s_react(&Driving::of(scene), &lead.speed);
+    Witness::unless(scene.reads.greater(&lead.gap, &s_react), Rule::Gap, &lead.gap, &s_react)
 }

@@ -1,6 +1,7 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
-//! grid counts as occupied, unless stage iv ran in this cycle. Where it ran in `AllRemote` or `PlanRemote`, where
-//! the paper does not examine the grid, on at least one detection, the CAV's rectangle has to reach the cell, too.
+//! grid counts as occupied, unless detections are current. In `AllRemote` and `PlanRemote`, where the paper
+//! does not examine the grid when another stage ran, with at least one current detection the CAV's
+//! rectangle has to reach the cell, too.
 
 use crate::input::scene::{Grid, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
@@ -15,9 +16,9 @@ use crate::services::configuration::Configuration;
 pub type Test<'a> = Box<dyn Fn(&Rectangle, &Vector, &Real) -> Option<Hit> + 'a>;
 
 /// The rules in the order in which they are asked of all disks.
-pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid, stage_iv_ran: bool) -> Vec<(Rule, Test<'a>)> {
+pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid) -> Vec<(Rule, Test<'a>)> {
     let is_detected = scene.detections.as_ref().is_some_and(|list| !list.items.is_empty());
-    let is_exact = stage_iv_ran && is_detected && scene.configuration != Configuration::MotRemote;
+    let is_exact = is_detected && scene.configuration != Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
         Box::new(move |cav, centre, r| {
             touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
@@ -28,7 +29,7 @@ pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid, stage_iv_ran: bool) -> Vec<(R
         })
     };
     let occupied = (Rule::Occupied, touched(Grid::is_occupied));
-    if stage_iv_ran {
+    if scene.detections.is_some() {
         return vec![occupied];
     }
     let outside: Test = Box::new(|_, centre, r| touched_border(scene, grid, centre, r));

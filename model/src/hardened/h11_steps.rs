@@ -1,33 +1,22 @@
-//! H-11: every step of the trajectory, its way aside, and every turn over half a second are such that a
-//! vehicle of this size can drive them.
+//! H-11: every step of the trajectory and its way aside are such that a vehicle of this size can drive
+//! them.
 
-use crate::hardened::h04_horizon::ways;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// From a mark to the next one at least, ns.
-const MARK_NS: i128 = 500_000_000;
-
-/// A vehicle of this size can drive every step, the way aside and every turn: the first rule that some
-/// step or some point breaks.
+/// A vehicle of this size can drive every step, and the way aside: the first rule that some step or
+/// some point breaks.
 pub fn step_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    const OF_STEPS: [fn(&Scene, &Step) -> Option<Witness>; 6] =
+    const RULES: [fn(&Scene, &Step) -> Option<Witness>; 6] =
         [step_time, step_length, step_speed, step_forward, step_lateral, step_turn];
-    const OF_TURNS: [fn(&Scene, &Turn) -> Option<Witness>; 3] =
-        [turn_reversed, turn_on_the_spot, turn_hard];
     let steps: Vec<Step> = steps(trajectory).collect();
-    let turns = turns(trajectory);
-    let at = |i: usize, failure: Option<Witness>| failure.map(|witness| witness.at_point(i + 1));
-    let of_steps = OF_STEPS
-        .iter()
-        .find_map(|rule| steps.iter().enumerate().find_map(|(i, step)| at(i, rule(scene, step))));
-    of_steps.or_else(|| slide_failure(scene, trajectory)).or_else(|| {
-        OF_TURNS.iter().find_map(|rule| {
-            turns.iter().enumerate().find_map(|(i, turn)| at(i, rule(scene, turn)))
-        })
-    })
+    let first = |rule: &fn(&Scene, &Step) -> Option<Witness>| {
+        let mut steps = steps.iter().enumerate();
+        steps.find_map(|(i, step)| Some(rule(scene, step)?.at_point(i + 1)))
+    };
+    RULES.iter().find_map(first).or_else(|| slide_failure(scene, trajectory))
 }
 
 /// A step between consecutive points: duration, displacement u and headings h1 and h2.
@@ -154,59 +143,4 @@ fn slide(scene: &Scene, aside: &WayAside) -> Option<Witness> {
     let limit = turned.abs() + slack;
     let passes = scene.reads.at_most(&sideways, &limit);
     Witness::unless(passes, Rule::Slide, &sideways, &limit)
-}
-
-/// From its mark to a point: time t and way w, headings hm and h.
-struct Turn<'a> {
-    t: Real,
-    w: Real,
-    headings: [&'a Vector; 2],
-}
-
-/// Every point after the first against its mark, the last mark before it: the marks are the first
-/// point and each first point at least 0.5 s after the mark before it.
-fn turns(trajectory: &[Point]) -> Vec<Turn<'_>> {
-    let ways = ways(trajectory);
-    let t_ns = |i: usize| i128::from(trajectory[i].t_ns);
-    let mut mark = 0;
-    let mut turns = Vec::new();
-    for i in 1..trajectory.len() {
-        turns.push(Turn {
-            t: Real::seconds(t_ns(i) - t_ns(mark)),
-            w: &ways[i] - &ways[mark],
-            headings: [&trajectory[mark].pose.direction, &trajectory[i].pose.direction],
-        });
-        if t_ns(i) - t_ns(mark) >= MARK_NS {
-            mark = i;
-        }
-    }
-    turns
-}
-
-/// hm . h >= 0
-fn turn_reversed(scene: &Scene, turn: &Turn) -> Option<Witness> {
-    let product = turn.headings[0].dot(turn.headings[1]);
-    let passes = scene.reads.at_least(&product, &Real::zero());
-    Witness::unless(passes, Rule::TurnReversed, &product, &Real::zero())
-}
-
-/// abs(hm x h) <= 0.05 + 0.1 t + 0.5 w: no vehicle turns on the spot.
-fn turn_on_the_spot(scene: &Scene, turn: &Turn) -> Option<Witness> {
-    let turned = turn.headings[0].cross(turn.headings[1]).abs();
-    let [a, b, c] = [0.05, 0.1, 0.5].map(Real::from_double);
-    let limit = a + b * &turn.t + c * &turn.w;
-    let passes = scene.reads.at_most(&turned, &limit);
-    Witness::unless(passes, Rule::TurnOnTheSpot, &turned, &limit)
-}
-
-/// Where abs(hm x h) > 0.1: abs(hm x h) w <= 0.1 w + 11.5 t^2, no harder than tyres hold.
-fn turn_hard(scene: &Scene, turn: &Turn) -> Option<Witness> {
-    let turned = turn.headings[0].cross(turn.headings[1]).abs();
-    let [noise, grip] = [0.1, 11.5].map(Real::from_double);
-    if !scene.reads.may_be_greater(&turned, &noise) {
-        return None;
-    }
-    let (aside, limit) = (&turned * &turn.w, noise * &turn.w + grip * turn.t.square());
-    let passes = scene.reads.at_most(&aside, &limit);
-    Witness::unless(passes, Rule::TurnHard, &aside, &limit)
 }

@@ -4,13 +4,8 @@
 pub mod detection_history;
 pub mod h01_matched_pairs;
 pub mod h02_h05_h10_schedule;
-pub mod h03_circumradii;
 pub mod h04_gap;
-pub mod h04_horizon;
 pub mod h06_closed_cells;
 pub mod h07_start;
-pub mod h09_standing;
-pub mod h10_explained;
 pub mod h11_steps;
-pub mod h12_progress;
-pub mod h13_moving;
+pub mod h14_fail_safe;

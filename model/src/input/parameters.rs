@@ -26,15 +26,12 @@ macro_rules! parameters {
             theta_track_max: f64 = 1.0 in 1e-3..=1e3;
             /// H-01: gated tracks that may stay unmatched.
             miss_budget: i64 = 4 in 0..=64;
-            /// H-04: reaction time, s.
+            /// H-14: reaction time, s.
             tau: f64 = 0.1 in 0.0..=60.0;
-            /// H-04, H-12: largest acceleration of the CAV, m/s^2.
+            /// H-14: largest acceleration of the CAV, m/s^2.
             a_max: f64 = 3.0 in 0.1..=100.0;
-            /// H-07, H-12: distance by which a trajectory may start off the CAV, and by which it may be ahead
-            /// of an accelerating one, m.
+            /// H-07: distance by which a trajectory may start off the CAV, m.
             start_tolerance: f64 = 2.0 in 1e-3..=1e3;
-            /// H-12: distance by which a trajectory may lag behind a CAV that brakes, m.
-            lag_tolerance: f64 = 0.5 in 1e-3..=1e3;
             /// H-11: largest speed of a trajectory, m/s.
             v_max: f64 = 150.0 in f64::from_bits(1)..=1000.0;
             /// H-11: longest time between trajectory points, ns.
@@ -43,11 +40,13 @@ macro_rules! parameters {
             theta_velocity: f64 = 2.0 in f64::from_bits(1)..=1000.0;
             /// H-07: how far aside of its first heading a trajectory may start, m.
             lateral_tolerance: f64 = 0.5 in 1e-3..=1e3;
-            /// H-13: the greatest speed of an object that is looked for, m/s.
+            /// H-14: the greatest speed of an object that is looked for, m/s.
             v_object: f64 = 70.0 in f64::from_bits(1)..=1000.0;
-            /// H-13: moving objects are examined for this time longer than the CAV needs to stop, s.
-            tau_motion: f64 = 0.3 in 0.0..=60.0;
-            /// Stage i: the strict reading fails when the assignment takes more work.
+            /// H-14: after this time others brake for a standing CAV, s.
+            t_yield: f64 = 1.5 in 0.0..=60.0;
+            /// H-14: how hard others brake for a standing CAV, m/s^2.
+            a_yield: f64 = 3.0 in 0.1..=100.0;
+            /// Stage i, H-14: the strict reading fails when the assignment, or H-14, takes more work.
             work_limit: i64 = 10_000_000_000 in 0..=i64::MAX;
             /// Margin of the strict and the lax reading, m (`spec/4-arithmetic.md#strict-and-lax`).
             delta: f64 = 1e-6 in 1e-8..=1e-2;

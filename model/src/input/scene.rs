@@ -4,6 +4,7 @@ use crate::input::cycle::{self, Cycle, DetectionList, TrackList};
 use crate::input::parameters::Parameters;
 use crate::input::profile::Profile;
 use crate::numbers::cells::{self, Cell, Cells};
+use crate::numbers::polyline::Segment;
 use crate::numbers::reading::{Comparisons, Reading};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::Rectangle;
@@ -175,6 +176,20 @@ pub struct Grid {
     pub height: i64,
     occupied: Vec<u8>,
     unknown: Option<Vec<u8>>,
+}
+
+impl Route {
+    /// Consecutive cross sections; in a closed route the last is followed by the first.
+    pub fn pairs(&self) -> Vec<[&[Vector; 3]; 2]> {
+        let all = &self.cross_sections;
+        let closing = self.closed.then(|| [&all[all.len() - 1], &all[0]]);
+        all.windows(2).map(|pair| [&pair[0], &pair[1]]).chain(closing).collect()
+    }
+
+    /// The polyline of the reference points.
+    pub fn reference_path(&self) -> Vec<Segment> {
+        self.pairs().into_iter().map(|[[a, ..], [b, ..]]| [a.clone(), b.clone()]).collect()
+    }
 }
 
 impl Grid {

@@ -29,6 +29,19 @@ pub fn beside(point: &Vector, segments: &[Segment]) -> Beside {
     Beside { distance: distance.clone(), nearest, distances }
 }
 
+/// The point of a closed segment that is nearest to a point.
+pub fn nearest_point(point: &Vector, [a, b]: &Segment) -> Vector {
+    let segment = b - a;
+    let (along, squared) = (segment.dot(&(point - a)), segment.squared());
+    if along <= Real::zero() {
+        a.clone()
+    } else if along >= squared {
+        b.clone()
+    } else {
+        a + &segment.scaled(&(along / squared))
+    }
+}
+
 /// Distance of a point to a closed segment, m.
 fn distance_to_segment(point: &Vector, [a, b]: &Segment) -> Real {
     let (segment, offset) = (b - a, point - a);

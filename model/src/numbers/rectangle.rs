@@ -34,6 +34,13 @@ impl Rectangle {
         self.half_length < Real::zero() || self.half_width < Real::zero()
     }
 
+    /// The greatest scalar product of the axis with a point of it seen from its centre.
+    fn half_extent(&self, axis: &Vector) -> Real {
+        let Frame { direction, .. } = &self.frame;
+        &self.half_length * direction.dot(axis).abs()
+            + &self.half_width * direction.cross(axis).abs()
+    }
+
     fn corners(&self) -> [Vector; 4] {
         let (l, w) = (&self.half_length, &self.half_width);
         let corner = |a: &Real, b: &Real| self.frame.point(a, b);
@@ -76,6 +83,30 @@ pub fn is_swept_over(a: &Rectangle, b: &Rectangle, w: &Vector) -> bool {
             let separates = extent(&corners_b, normal).0 > extent(&corners_a, normal).1;
             !(separates && normal.dot(w) >= Real::zero())
         })
+    })
+}
+
+/// The rectangle `a` shares a point with `b` moved by some vector between two, both parallel to w. What `b`
+/// sweeps is convex: a side of it is one of `b`, or parallel to w, so the two are disjoint exactly when an
+/// axis parallel to a side of `a`, or of `b`, or the normal of w separates them.
+pub fn is_swept_over_between(
+    a: &Rectangle,
+    b: &Rectangle,
+    w: &Vector,
+    moved: &[Vector; 2],
+) -> bool {
+    if a.is_empty() || b.is_empty() {
+        return false;
+    }
+    let apart = &b.frame.origin - &a.frame.origin;
+    let axes = |direction: &Vector| [direction.clone(), direction.left()];
+    let axes = [axes(&a.frame.direction), axes(&b.frame.direction)];
+    axes.iter().flatten().chain([&w.left()]).all(|axis| {
+        let reach = a.half_extent(axis) + b.half_extent(axis);
+        let beyond = moved.each_ref().map(|moved| (&apart + moved).dot(axis));
+        let all_after = beyond.iter().all(|distance| *distance > reach);
+        let all_before = beyond.iter().all(|distance| -distance > reach);
+        !all_after && !all_before
     })
 }
 

@@ -1,22 +1,15 @@
 //! The trajectory points within a distance s: paper Sec. IV-D, "each trajectory point that is within a
-//! safety distance" (`spec/3-stages.md#distances`, H-04).
+//! safety distance" (`spec/3-stages.md#distances`).
 
-use crate::hardened::h04_horizon::{Places, places_to_s_stop};
-use crate::input::profile::Profile;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 
-/// The places that a stage with the horizon `s` examines: the points whose arc length is <= s, and
-/// always the first.
-pub fn places_examined<'a>(scene: &'a Scene, trajectory: &'a [Point], s: &Real) -> Places<'a> {
-    match scene.profile {
-        Profile::Paper => {
-            let within = |length: &&Real| scene.reads.may_be_at_most(length, s);
-            let count = arc_lengths(trajectory).iter().filter(within).count();
-            Places::of(&trajectory[..count.max(1)])
-        }
-        Profile::Hardened => places_to_s_stop(scene, trajectory, s),
-    }
+/// The points that a stage with the horizon `s` examines: those whose arc length is <= s, and always
+/// the first.
+pub fn points_within<'a>(scene: &Scene, trajectory: &'a [Point], s: &Real) -> &'a [Point] {
+    let within = |length: &&Real| scene.reads.may_be_at_most(length, s);
+    let count = arc_lengths(trajectory).iter().filter(within).count();
+    &trajectory[..count.max(1)]
 }
 
 /// Length of the trajectory polyline from its first point to each point, m.

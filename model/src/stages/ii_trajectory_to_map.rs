@@ -1,19 +1,20 @@
 //! Stage ii: paper Sec. IV-C, "Trajectory to Map Validation"
-//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-12):
+//! (`spec/3-stages.md#stage-ii-trajectory-to-map`, H-07, H-11, H-14):
 //!
 //! distance to the reference path <= theta_map, or inside the path boundaries
 
-use crate::hardened::{h07_start, h11_steps, h12_progress};
+use crate::hardened::h14_fail_safe::reach;
+use crate::hardened::{h07_start, h11_steps};
 use crate::input::profile::Profile;
 use crate::input::scene::{Point, Route, Scene};
 use crate::numbers::polygon::{Triangle, is_in_union};
-use crate::numbers::polyline::{Beside, Segment, beside};
+use crate::numbers::polyline::{Beside, beside};
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
 /// Compares the points of the whole trajectory with the route; `None` passes.
 pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    let (path, corridor) = (reference_path(&scene.route), corridor(&scene.route));
+    let (path, corridor) = (scene.route.reference_path(), corridor(&scene.route));
     let theta_map = &scene.parameters.theta_map;
     let position = |i: usize| &trajectory[i].pose.origin;
     let places: Vec<Beside> = (0..trajectory.len()).map(|i| beside(position(i), &path)).collect();
@@ -28,20 +29,8 @@ pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness>
         Profile::Hardened => failure
             .or_else(|| h07_start::failure(scene, trajectory, &path, &places, is_inside))
             .or_else(|| h11_steps::step_failure(scene, trajectory))
-            .or_else(|| h12_progress::progress_failure(scene, trajectory)),
+            .or_else(|| reach::failure(scene, trajectory)),
     }
-}
-
-/// Consecutive cross sections; in a closed route the last is followed by the first.
-fn pairs(route: &Route) -> Vec<[&[Vector; 3]; 2]> {
-    let all = &route.cross_sections;
-    let closing = route.closed.then(|| [&all[all.len() - 1], &all[0]]);
-    all.windows(2).map(|pair| [&pair[0], &pair[1]]).chain(closing).collect()
-}
-
-/// The polyline of the reference points.
-fn reference_path(route: &Route) -> Vec<Segment> {
-    pairs(route).into_iter().map(|[[a, ..], [b, ..]]| [a.clone(), b.clone()]).collect()
 }
 
 /// The union of (left_i, right_i, right_i+1) and (left_i, right_i+1, left_i+1).
@@ -49,5 +38,5 @@ fn corridor(route: &Route) -> Vec<Triangle> {
     let triangles = |[[_, left, right], [_, next_left, next_right]]: [&[Vector; 3]; 2]| {
         [[left, right, next_right], [left, next_right, next_left]].map(|t| t.map(Vector::clone))
     };
-    pairs(route).into_iter().flat_map(triangles).collect()
+    route.pairs().into_iter().flat_map(triangles).collect()
 }

@@ -1,41 +1,29 @@
 //! Stage iv: paper Sec. IV-E, "Trajectory Validation with Detections", Eq. (4) to (6)
-//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`, H-10, H-13):
+//! (`spec/3-stages.md#stage-iv-trajectory-with-detections`):
 //!
 //! gap > s_follow, and no collision with a detection within s_valid
 
-use crate::hardened::{h10_explained, h13_moving};
-use crate::input::profile::Profile;
 use crate::input::scene::{Detections, Point, Scene};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::{s_follow, s_valid};
-use crate::stages::horizon::places_examined;
+use crate::stages::horizon::points_within;
 use crate::stages::llcc::first_collision;
 
 /// Compares the gap with s_follow, and the trajectory within s_valid with the detections, which are
-/// taken as standing still; `None` passes. `beside_tracks`: stage iii ran in this cycle.
+/// taken as standing still; `None` passes.
 pub fn trajectory_with_detections(
     scene: &Scene,
     trajectory: &[Point],
     detections: &Detections,
-    beside_tracks: bool,
 ) -> Option<Witness> {
-    let failure = gap_failure(scene).or_else(|| {
+    gap_failure(scene).or_else(|| {
         let p = &scene.parameters;
         let v_lead = scene.lead.as_ref().map(|lead| &lead.speed);
         let s_valid = s_valid(&scene.ego.v_now, v_lead, &p.a_b, &p.safety_time);
-        let places = places_examined(scene, trajectory, &s_valid);
-        if scene.profile == Profile::Hardened && beside_tracks {
-            return h10_explained::collision(scene, trajectory, detections, &places);
-        }
-        first_collision(scene, Rule::Collision, places.iter(), &detections.items, |_, d| d.clone())
+        let points = points_within(scene, trajectory, &s_valid);
+        first_collision(scene, points, &detections.items, |_, d| d.clone())
             .map(|(j, witness)| Witness { detection: Some(j), ..witness })
-    });
-    match scene.profile {
-        Profile::Paper => failure,
-        Profile::Hardened => {
-            failure.or_else(|| h13_moving::collision_moving(scene, trajectory, detections))
-        }
-    }
+    })
 }
 
 /// The distance to the leading vehicle must be larger than s_follow.

@@ -1,5 +1,5 @@
 //! Which stages run, in which order, and what the cycle reports: paper Sec. IV-A, Fig. 3
-//! (`spec/3-stages.md#schedule`, H-02, H-04, H-05, H-10).
+//! (`spec/3-stages.md#schedule`, H-02, H-04, H-05, H-10, H-14).
 
 pub mod distances;
 pub mod horizon;
@@ -14,6 +14,7 @@ use crate::hardened::h02_h05_h10_schedule::{
     has_stage_v_in_plan_remote, no_obstacle_check, runs_whatever_else_ran,
 };
 use crate::hardened::h04_gap::failure_without_stage_iv;
+use crate::hardened::h14_fail_safe;
 use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
 use crate::input::profile::Profile;
@@ -27,7 +28,7 @@ use crate::stages::ii_trajectory_to_map::trajectory_to_map;
 use crate::stages::iii_tracks::trajectory_with_tracks;
 use crate::stages::iv_detections::trajectory_with_detections;
 use crate::stages::v_grid_map::trajectory_with_grid_map;
-use crate::work::Work;
+use crate::work::{self, Work};
 
 /// How a configuration applies a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,20 +134,43 @@ impl Run<'_> {
             Some(input) if scheduled == Scheduled::Always => Outcome::NotApplicable(input),
             Some(input) => Outcome::Skipped(Reason::NoCurrent(input)),
             None => {
-                self.work.add(self.scene, stage)?;
+                self.work.add(work::of_stage(self.scene, stage))?;
                 let failure = self.run(stage);
                 self.ran.push(stage);
                 failure.map_or(Outcome::Passed, Outcome::Failed)
             }
         };
-        let outcome = match (outcome, failure_without_stage_iv(self.scene, stage)) {
-            (Outcome::Skipped(_), Some(witness)) => Outcome::Failed(witness),
-            (outcome, _) => outcome,
+        let failure = match (stage, &outcome) {
+            (Stage::Iv, Outcome::Passed) => self.fail_safe()?,
+            (Stage::Iv, Outcome::Skipped(_)) => self.in_place_of_stage_iv()?,
+            _ => None,
         };
+        let outcome = failure.map_or(outcome, Outcome::Failed);
         if let Outcome::Failed(_) = outcome {
             self.failed = Some(stage);
         }
         Ok(outcome)
+    }
+
+    /// H-04, then H-14, where stage iv did not run.
+    fn in_place_of_stage_iv(&mut self) -> Result<Option<Witness>, InvalidInput> {
+        let gap = match (self.scene.profile, &self.scene.trajectory) {
+            (Profile::Hardened, Some(_)) => failure_without_stage_iv(self.scene),
+            (Profile::Hardened, None) | (Profile::Paper, _) => None,
+        };
+        gap.map_or_else(|| self.fail_safe(), |witness| Ok(Some(witness)))
+    }
+
+    /// H-14.
+    fn fail_safe(&mut self) -> Result<Option<Witness>, InvalidInput> {
+        let scene = self.scene;
+        match (scene.profile, scene.trajectory.as_deref()) {
+            (Profile::Hardened, Some(trajectory)) => {
+                self.work.add(work::of_fail_safe(scene, trajectory))?;
+                Ok(h14_fail_safe::failure(scene, trajectory))
+            }
+            (Profile::Hardened, None) | (Profile::Paper, _) => Ok(None),
+        }
     }
 
     fn has_run(&self, stage: Stage) -> bool {
@@ -201,14 +225,8 @@ impl Run<'_> {
             Stage::I => track_validation(scene, tracks?, &detections?.items),
             Stage::Ii => trajectory_to_map(scene, trajectory?),
             Stage::Iii => trajectory_with_tracks(scene, trajectory?, tracks?),
-            Stage::Iv => {
-                let beside_tracks = self.has_run(Stage::Iii);
-                trajectory_with_detections(scene, trajectory?, detections?, beside_tracks)
-            }
-            Stage::V => {
-                let grid = scene.grid.as_ref()?;
-                trajectory_with_grid_map(scene, trajectory?, grid, self.has_run(Stage::Iv))
-            }
+            Stage::Iv => trajectory_with_detections(scene, trajectory?, detections?),
+            Stage::V => trajectory_with_grid_map(scene, trajectory?, scene.grid.as_ref()?),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Stage v: paper Sec. IV-F, "Trajectory Validation with a Grid Map", within Eq. (4)
-//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-06):
+//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-04, H-06):
 //!
 //! the footprint is covered by disks of one radius r; the grid is dilated by r; no disk centre at a
 //! trajectory point within s_b lies in a marked cell
 
 use crate::hardened::h06_closed_cells;
+use crate::hardened::h14_fail_safe::path;
 use crate::input::profile::Profile;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
@@ -13,23 +14,21 @@ use crate::numbers::rectangle::Rectangle;
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
-use crate::stages::horizon::places_examined;
-use crate::stages::llcc::centre;
+use crate::stages::horizon::points_within;
+use crate::stages::llcc::cav;
 
-/// Checks the trajectory in the dilated grid; `None` passes. `stage_iv_ran`: in this cycle (H-06).
+/// Checks the trajectory in the dilated grid; `None` passes.
 pub fn trajectory_with_grid_map(
     scene: &Scene,
     trajectory: &[Point],
     grid: &Grid,
-    stage_iv_ran: bool,
 ) -> Option<Witness> {
     let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
     let r = disk_radius(&ego.length, &ego.width, &n);
-    let places = places_examined(scene, trajectory, &s_b);
     let first = |rule: Rule, collides: &dyn Fn(&Rectangle, &Vector) -> Option<Hit>| {
-        places.iter().enumerate().find_map(|(i, place)| {
-            let cav = Rectangle::new(centre(scene, &place), &ego.length, &ego.width);
+        places(scene, trajectory, &s_b).find_map(|(i, pose)| {
+            let cav = cav(scene, &pose);
             disk_centres(scene, grid, &cav.frame).iter().enumerate().find_map(|(d, centre)| {
                 let Hit { cell, distance } = collides(&cav, centre)?;
                 let witness = Witness::new(rule, &distance, &r).at_point(i);
@@ -41,8 +40,24 @@ pub fn trajectory_with_grid_map(
         Profile::Paper => first(Rule::Occupied, &|_, centre| {
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
-        Profile::Hardened => (h06_closed_cells::rules(scene, grid, stage_iv_ran).into_iter())
+        Profile::Hardened => (h06_closed_cells::rules(scene, grid).into_iter())
             .find_map(|(rule, reaches)| first(rule, &|cav, centre| reaches(cav, centre, &r))),
+    }
+}
+
+/// The places that are examined, with their number: the points within s, and then (H-04) those of H-14.
+fn places<'a>(
+    scene: &'a Scene,
+    trajectory: &'a [Point],
+    s: &Real,
+) -> Box<dyn Iterator<Item = (usize, Frame)> + 'a> {
+    let points = points_within(scene, trajectory, s).iter().map(|point| point.pose.clone());
+    match scene.profile {
+        Profile::Paper => Box::new(points.enumerate()),
+        Profile::Hardened => {
+            let places = path::places(scene, trajectory).map(|place| place.pose);
+            Box::new(points.enumerate().chain((trajectory.len()..).zip(places)))
+        }
     }
 }
 

@@ -29,11 +29,11 @@ fn defaults_are_the_nearest_doubles() {
         ("tau", parameters.tau),
         ("a_max", parameters.a_max),
         ("start_tolerance", parameters.start_tolerance),
-        ("lag_tolerance", parameters.lag_tolerance),
         ("v_max", parameters.v_max),
         ("theta_velocity", parameters.theta_velocity),
         ("v_object", parameters.v_object),
-        ("tau_motion", parameters.tau_motion),
+        ("t_yield", parameters.t_yield),
+        ("a_yield", parameters.a_yield),
         ("lateral_tolerance", parameters.lateral_tolerance),
     ] {
         assert_eq!(after(name).to_bits(), value.to_bits(), "{name}");
@@ -107,6 +107,11 @@ const NEAR: &[Near] = &[
         c.parameters.safety_time = 1.5;
         c.lead = lead(15.0 - e, 10.0);
     }),
+    ("gap <= s_react + m", PlanRemote, Profile::Hardened, |c, e| {
+        // s_stop = 2.5 + 3/32 + 10.75^2 / 16, and s_b(10) = 6.25.
+        c.parameters.tau = 0.25;
+        c.lead = lead(9.816_406_25 - 6.25 - e, 10.0);
+    }),
     ("half length of the CAV + m", PlanRemote, Profile::Paper, |c, e| {
         c.ego.speed = 0.0;
         c.tracks = tracks(vec![track(1, 4.0 - e, 0.0)]);
@@ -165,7 +170,7 @@ fn the_filter_changes_no_report() {
     the_filter_changes_nothing(NEAR);
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.1: a track on the edge of the field of view counts both
+/// spec/4-arithmetic.md#strict-and-lax.3: a track on the edge of the field of view counts both
 /// ways; with more than six of them strict rejects and lax accepts.
 #[test]
 fn tracks_on_the_edge_count_both_ways() {
@@ -245,7 +250,7 @@ fn ages_never_move() {
     assert_eq!(safe(&cycle), NO);
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.2: two gated tracks and three detections are 2^2 * 3 steps, with
+/// spec/4-arithmetic.md#strict-and-lax.4: two gated tracks and three detections are 2^2 * 3 steps, with
 /// one more column for a backed track that may be left out 2^2 * 4; a limit below fails the strict
 /// reading alone, and nothing where no track has to be assigned.
 #[test]

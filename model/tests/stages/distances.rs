@@ -1,6 +1,5 @@
 //! `spec/3-stages.md#distances`
 
-use mufasa_model::hardened::h04_horizon::s_stop;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
@@ -18,11 +17,6 @@ fn distances_are_the_formulas() {
     assert_eq!(s_follow(&r(8.0), &r(16.0), &r(8.0), &r(1.5)), r(12.0));
     assert_eq!(s_valid(&r(16.0), Some(&r(8.0)), &r(8.0), &r(1.5)), r(36.0));
     assert_eq!(s_valid(&r(16.0), None, &r(8.0), &r(1.5)), r(16.0));
-    // H-04: 2 + 16/4 + 4/32 + (16 + 1)^2 / 16
-    assert_eq!(
-        s_stop(&r(2.0), &r(16.0), &r(0.25), &r(4.0), &r(8.0)),
-        r(2.0 + 4.0 + 0.125 + 18.0625)
-    );
 }
 
 /// Published numbers of others: 100 km/h braked with 6 m/s^2 takes 64.3 m.

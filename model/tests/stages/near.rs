@@ -30,19 +30,10 @@ pub fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
 
 pub fn two_points(cycle: &mut Cycle, millis: i64, [x, y]: [f64; 2]) {
     cycle.ego.speed = 0.0;
-    (cycle.parameters.start_tolerance, cycle.parameters.lag_tolerance) = (100.0, 100.0);
+    cycle.parameters.start_tolerance = 100.0;
     let points = vec![at_time(0, 0.0, 0.0), at_time(millis * 1_000_000, x, y)];
     cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
     cycle.tracks = tracks(vec![]);
-}
-
-pub fn arc(cycle: &mut Cycle, x: f64) {
-    two_points(cycle, 500, [x, 0.0]);
-    cycle.parameters.step_max_ns = 1_000_000_000;
-    (cycle.parameters.start_tolerance, cycle.parameters.lag_tolerance) = (0.5, 0.25);
-    cycle.parameters.a_b = 20.0;
-    cycle.ego.length = 20.0;
-    cycle.ego.speed = 10.0;
 }
 
 /// Strict and lax move each comparison by the margin, towards rejection and towards acceptance, by no

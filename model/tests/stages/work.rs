@@ -2,18 +2,19 @@
 //! comparisons is an error.
 
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
-use mufasa_model::report::{InvalidInput, Reading, Rule, Stage};
+use mufasa_model::report::{InvalidInput, Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 use mufasa_model::stages::{check, readings};
 
 use crate::base::*;
 
-/// 2000 detections, as many in the reference list and `others` in another one: H-13 needs 2000 * 2000
-/// (2000 + others + 51 points) comparisons, the rest of the cycle 51 * 2 + 51 * 2000. The gap fails stage iv
-/// before any of them is made.
+/// 2000 detections, as many in the reference list and `others` in another one: H-14 needs 2000 * 2000
+/// (2000 + others + 32 places + 51 points) comparisons and (32 + 2 * 2000 * 2000) * 2 with the route, the rest
+/// of the cycle 51 * 2 + 32 + 51 * 2000.
+/// The strict reading makes none of H-14, whose work is above work_limit.
 fn crowded(others: usize) -> Cycle {
     let mut cycle = base(Profile::Hardened, PlanRemote);
-    (cycle.tracks, cycle.lead) = (None, lead(0.0, 0.0));
+    (cycle.tracks, cycle.parameters.work_limit) = (None, 0);
     cycle.detections = detections(vec![detection(60.0, 0.0); 2000]);
     let list = |ms: i64, count: usize| DetectionList {
         stamp_ns: NOW - ms * 1_000_000,
@@ -25,23 +26,29 @@ fn crowded(others: usize) -> Cycle {
 
 #[test]
 fn more_than_ten_to_the_ten_comparisons_are_an_error() {
-    assert_eq!(rule(&crowded(448), Stage::Iv), Some(Rule::Gap));
-    for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
-        let error = check(&crowded(449), reading).expect_err("too much work");
+    let strict = check(&crowded(412), Reading::Strict).expect("not too much work");
+    assert!(matches!(&strict.stages[3], Outcome::Failed(it) if it.rule == Rule::WorkLimit));
+    for reading in [Reading::Strict, Reading::Exact] {
+        let error = check(&crowded(413), reading).expect_err("too much work");
         let InvalidInput { field, index, message } = error;
         assert_eq!((field.as_str(), index), ("work", None));
-        assert!(message.contains("10000102102 comparisons"), "{message}");
+        assert!(message.contains("10000102198 comparisons"), "{message}");
     }
-    assert!(readings(&crowded(449)).is_err());
+    assert!(check(&crowded(414), Reading::Lax).is_err(), "one place less");
+    assert!(readings(&crowded(413)).is_err());
 }
 
 /// Work that no stage comes to is not counted.
 #[test]
 fn only_what_a_stage_is_about_to_do_counts() {
-    let mut cycle = crowded(449);
+    let mut cycle = crowded(413);
     cycle.ego.y = 2.5;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
-    let mut paper = crowded(449);
+    let mut paper = crowded(413);
     paper.profile = Profile::Paper;
-    assert_eq!(rule(&paper, Stage::Iv), Some(Rule::Gap));
+    assert!(passes(&paper, Stage::Iv));
+    // The gap fails stage iv before H-14 is come to.
+    let mut near = crowded(413);
+    near.lead = lead(0.0, 0.0);
+    assert_eq!(rule(&near, Stage::Iv), Some(Rule::Gap));
 }

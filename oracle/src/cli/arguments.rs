@@ -64,7 +64,7 @@ pub(super) struct RecordingArguments {
     /// Length of the planned trajectories, s.
     #[arg(long, value_name = "S", default_value = "5", value_parser = number(0.1, 60.0))]
     pub(super) horizon: f64,
-    /// Keep the last cycles, whose trajectories end before the CAV could stand (H-12 rejects them).
+    /// Keep the last cycles, whose trajectories end before the CAV could stand; beyond their ends the way is taken as straight on.
     #[arg(long)]
     pub(super) keep_tail: bool,
     /// Range of the local detectors, m.

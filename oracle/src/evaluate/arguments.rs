@@ -21,7 +21,7 @@ use crate::limits::whole;
     after_help = "\
 Of the cycles that the stages decide one in a hundred is checked by the exact model, too (not of `cpu`).
 
-Exit codes: 0 done, 1 a run that was checked by the hardened profile (of `rules` also without a rule) failed (a collision, or too late), 2 bad input or a
+Exit codes: 0 done, 1 a run that was checked by the hardened profile failed (a collision, or too late), 2 bad input or a
 file cannot be written, 3 model and implementation disagree."
 )]
 pub struct EvaluateArguments {
@@ -53,8 +53,6 @@ pub enum Experiment {
     Combinations(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
-    /// Price of each rule: fallbacks and time not offloaded without an attack, with all rules and without each alone.
-    Rules(SizeArguments),
     /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
     /// this machine.
     Cpu(SizeArguments),
@@ -70,7 +68,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures, combinations and rules 10, cpu 6, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures and combinations 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,

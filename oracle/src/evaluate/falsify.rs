@@ -13,7 +13,6 @@ use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::checks::Checks;
 pub(super) use mufasa_sim::experiment::falsify::NAME;
 use mufasa_sim::experiment::falsify::found::Found;
@@ -33,7 +32,7 @@ use super::merge::MergeArguments;
 use super::parts::{self, shard};
 use super::plots::figures::Figure;
 use super::plots::search;
-use super::replay::{kind, variant, without};
+use super::replay::{kind, variant};
 use super::report::{self, FailedRun, Section};
 use super::tables::{self, Rows};
 use super::text::{csv, json, said};
@@ -54,7 +53,7 @@ only counted. `mufasa evaluate replay FILE` draws a kept one.
 An interrupt ends the search: what was found until then is written and called interrupted, and no document is
 changed. A second one ends it at once.
 
-Exit codes: 0 done, 1 a collision was found in the hardened profile with all rules, 2 bad input or a file
+Exit codes: 0 done, 1 a collision was found in the hardened profile, 2 bad input or a file
 cannot be written, 130 interrupted.")]
 pub struct FalsifyArguments {
     /// Runs with attacks [default: 400, without --minutes]. The same seed gives the same then.
@@ -73,9 +72,6 @@ pub struct FalsifyArguments {
     /// What is checked of remote data.
     #[arg(long, value_name = "VARIANT", default_value = "hardened", value_parser = variant())]
     pub profile: Variant,
-    /// A rule of the hardened profile that is left out.
-    #[arg(long, value_name = "RULE", value_parser = without())]
-    pub without: Option<Without>,
     /// Only attacks of this kind; may be given several times [default: all but flood and slow].
     #[arg(long, value_name = "KIND", value_parser = kind())]
     pub attack: Vec<Kind>,
@@ -135,10 +131,6 @@ pub fn run(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    if arguments.without.is_some() && arguments.profile != Variant::Hardened {
-        complain(err, "--without: only the hardened profile has rules that can be left out");
-        return Ok(BAD_INPUT);
-    }
     if let Some(shard) = arguments.shard {
         let made = search(arguments, stop, |town, options, caller| {
             let rounds = part(town, options, shard, caller)?;
@@ -236,8 +228,8 @@ fn ended(
     if made.interrupted {
         return Ok(INTERRUPTED);
     }
-    let is_whole = made.options.variant == Variant::Hardened && made.options.without.is_none();
-    Ok(if is_whole && !made.found.is_empty() { FAILED } else { 0 })
+    let is_hardened = made.options.variant == Variant::Hardened;
+    Ok(if is_hardened && !made.found.is_empty() { FAILED } else { 0 })
 }
 
 /// What the search makes in a pool of threads, with its map and its options.
@@ -246,7 +238,7 @@ fn search<M: Send>(
     stop: &AtomicBool,
     make: impl FnOnce(&Town, &Options, &Bar<'_>) -> Result<M, RunError> + Send,
 ) -> Result<(Town, Options, M), String> {
-    let &FalsifyArguments { profile, without, vehicles, seed, minutes, rounds, .. } = arguments;
+    let &FalsifyArguments { profile, vehicles, seed, minutes, rounds, .. } = arguments;
     prepared(arguments.out.as_deref())?;
     let town = maps::of(arguments.map.as_deref())?;
     let map = town.id;
@@ -254,7 +246,7 @@ fn search<M: Send>(
     let runs = if is_bounded { None } else { Some(arguments.runs.unwrap_or(RUNS)) };
     let vehicles = vehicles.into();
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
-    let options = Options { variant: profile, without, kinds, runs, rounds, vehicles, seed, map };
+    let options = Options { variant: profile, kinds, runs, rounds, vehicles, seed, map };
     document::has_place(arguments.into.as_deref(), &command(&options))?;
     let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
     let bar = progress::bar(runs.unwrap_or(0), template);
@@ -355,14 +347,12 @@ fn file_of(found: &Found, ending: &str) -> PathBuf {
 
 /// The command, but for how long and from which seed.
 fn command(options: &Options) -> String {
-    let without =
-        options.without.map_or_else(String::new, |it| format!(" --without {}", it.name()));
     let profile = match options.variant {
         Variant::Hardened => String::new(),
         other => format!(" --profile {}", other.name()),
     };
     let on = maps::option(options.map);
-    format!("mufasa evaluate {NAME}{on}{profile}{without}")
+    format!("mufasa evaluate {NAME}{on}{profile}")
 }
 
 fn section<'s>(made: &Falsified, table: &'s Rows, figures: &'s [Figure]) -> Section<'s> {

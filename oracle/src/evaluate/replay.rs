@@ -11,7 +11,6 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::cav::recorder::Share;
-use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::falsify::found::Found;
 use mufasa_sim::experiment::job::{Job, Options, kind_name};
 use mufasa_sim::map::Town;
@@ -236,12 +235,5 @@ pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {
 pub(super) fn variant() -> impl TypedValueParser<Value = Variant> {
     PossibleValuesParser::new(Variant::ALL.map(Variant::name)).try_map(|given| {
         Variant::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown variant")
-    })
-}
-
-/// The names of the rules that can be left out.
-pub(super) fn without() -> impl TypedValueParser<Value = Without> {
-    PossibleValuesParser::new(Without::ALL.map(Without::name)).try_map(|given| {
-        Without::ALL.into_iter().find(|it| it.name() == given).ok_or("unknown rule")
     })
 }

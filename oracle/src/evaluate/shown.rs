@@ -7,7 +7,6 @@ use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
-use mufasa_sim::experiment::rules::{self, Rules};
 use mufasa_sim::experiment::stages::{self, Stages};
 use mufasa_sim::map::Town;
 use mufasa_sim::run::End;
@@ -99,6 +98,5 @@ shown! {
     attacks: Attacks, |run| Some(run.end);
     combinations: Combinations, |run| Some(run.end);
     availability: Availability, |run| Some(run.end);
-    rules: Rules, |run| Some(run.end);
     cpu: Cpu, |_| None;
 }

@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, Table, presets};
 use mufasa_drives::pictures::escape;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, rules, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, scenes, stages,
 };
 
 use super::published;
@@ -183,30 +183,6 @@ pub fn availability(of: &availability::Availability) -> Rows {
             number("MOT remote", |row| share(row.share_mot)),
             number("PLAN remote", |row| share(row.share_plan)),
             number("both", |row| share(row.share_both)),
-        ],
-    )
-}
-
-/// The price of each rule.
-pub fn rules(of: &rules::Rules) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("checked by", |row| row.variant.name().to_owned()),
-            text("without", |row| row.without.map_or_else(String::new, |it| it.name().to_owned())),
-            number("runs", |row| row.runs.to_string()),
-            number("failures", |row| row.failures.to_string()),
-            number("minutes", |row| format!("{:.1}", row.hours * 60.0)),
-            number("fallbacks", |row| row.fallbacks.to_string()),
-            number("in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
-            number("overruled", |row| {
-                row.without.map_or_else(String::new, |_| row.overruled.to_string())
-            }),
-            number("link lost", |row| row.lost.to_string()),
-            number("MOT remote", |row| format!("{:.1} %", row.share_mot * 100.0)),
-            number("PLAN remote", |row| format!("{:.1} %", row.share_plan * 100.0)),
-            number("both", |row| format!("{:.1} %", row.share_both * 100.0)),
-            text("fallbacks by stage and rule of the witness", |row| row.by.clone()),
         ],
     )
 }

@@ -228,8 +228,8 @@ fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a m
         52 => &mut before.cos,
         53 => &mut p.lateral_tolerance,
         54 => &mut p.v_object,
-        55 => &mut p.tau_motion,
-        _ => &mut p.lag_tolerance,
+        55 => &mut p.t_yield,
+        _ => &mut p.a_yield,
     };
     let owner = match place {
         40..=47 => Owner::Group(Group::Mot),

@@ -16,8 +16,8 @@ use crate::kani;
 /// compared a current trajectory with obstacles.
 ///
 /// Domain: all configurations, profiles, sets of inputs and answers of the stages. Not covered:
-/// whether the gap is compared where it is asked for (H-04: hardened, not in `Local`), and what the stages
-/// answer.
+/// whether the gap is compared, and H-14 decided, where the gap is asked for (H-04: hardened, not in
+/// `Local`), and what the stages answer.
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_order_is_the_table() {
@@ -47,9 +47,9 @@ pub fn verify_order_is_the_table() {
             TABLE[at][usize::from(column)]
         };
         let missing = first_missing(given, at);
-        // H-10: hardened, stage iii blocks iv in MotRemote and PlanRemote alone, and nothing blocks v.
+        // H-10: hardened, nothing blocks v.
         let blocked = match at {
-            3 => ran[2] && !(hardened && column == 1),
+            3 => ran[2],
             4 => (ran[2] || ran[3]) && !hardened,
             _ => false,
         };

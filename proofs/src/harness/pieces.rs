@@ -16,13 +16,13 @@ use super::world::{ego, parameters};
 #[cfg(not(kani))]
 use crate::kani;
 
-/// Paper: stage v examines the points from the first on, at least that one and no more than there are,
-/// whatever the distances.
+/// Of a trajectory stage v examines the points from the first on, at least that one and no more than there
+/// are, whatever the distances.
 ///
-/// Domain: 3 points and a cycle of any numbers of 64 bits. Not covered: other numbers of points, how
-/// many they are, the hardened profile.
+/// Domain: 3 points and a cycle of any numbers of 64 bits, both profiles. Not covered: other numbers of
+/// points, how many they are, the places that are examined behind them (H-04).
 pub fn verify_points_examined_are_points() {
-    let examined = points_examined(&cycle(Profile::Paper), &points());
+    let examined = points_examined(&cycle(profile()), &points());
     assert!((1..=POINTS).contains(&examined));
     kani::cover!(examined == 1, "the first alone");
     kani::cover!(examined == POINTS, "all");

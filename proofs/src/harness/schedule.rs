@@ -4,7 +4,7 @@
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
-use mufasa::report::{FailedStage, Input, Outcome, Reason, Report, Rule, Stage};
+use mufasa::report::{FailedStage, Input, Outcome, Reason, Report, Stage};
 use mufasa::services::configuration::Configuration;
 use mufasa::stages::check;
 
@@ -112,14 +112,13 @@ fn is_young(cycle: &Cycle<'_>, stamp_ns: i64) -> bool {
 fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
     let hardened = cycle.profile == Profile::Hardened;
     let all_remote = cycle.configuration == Configuration::AllRemote;
-    let lead = cycle.lead.is_some_and(|lead| is_young(cycle, lead.stamp_ns));
     let mut ran = [false; 5];
     let mut failed = None;
     for (at, stage) in Stage::ALL.into_iter().enumerate() {
         let outcome = report.stages[at];
-        // H-10: in AllRemote stage iii does not block iv, and nothing blocks v.
+        // H-10: hardened, nothing blocks v.
         let blocked = match at {
-            3 => ran[2] && !(hardened && all_remote),
+            3 => ran[2],
             4 => (ran[2] || ran[3]) && !hardened,
             _ => false,
         };
@@ -138,12 +137,15 @@ fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
             (Always | Conditional, None) => None,
         };
         ran[at] = expected.is_none();
-        let too_close = matches!(outcome, Outcome::Failed(witness) if witness.rule == Rule::Gap);
-        // H-04: the gap is compared at this place although stage iv does not run.
-        let gap_alone = at == 3 && hardened && lead && is_current(cycle, Input::Trajectory);
+        // H-04, H-14: what is compared at this place although stage iv does not run.
+        let instead = at == 3 && law::fails_instead_of_iv(cycle, &outcome);
         let as_expected = match expected {
             None => matches!(outcome, Outcome::Passed | Outcome::Failed(_)),
-            Some(_) if too_close => gap_alone && failed.is_none() && mark(cycle, at) == Conditional,
+            Some(_) if instead => {
+                failed.is_none()
+                    && mark(cycle, at) == Conditional
+                    && is_current(cycle, Input::Trajectory)
+            }
             Some(expected) => outcome == expected,
         };
         if !as_expected {

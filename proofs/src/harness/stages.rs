@@ -18,8 +18,8 @@ use crate::kani;
 /// Columns of the largest assignment: a spare one for each track.
 const COLUMNS: usize = DETECTIONS + TRACKS;
 
-/// Stage i, with H-01 and H-09, panics at no input, refuses only what is invalid or does not fit
-/// the scratch, and reports what the schedule says.
+/// Stage i, with H-01, panics at no input, refuses only what is invalid or does not fit the scratch, and
+/// reports what the schedule says.
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `MotRemote`.
 /// Not covered: longer lists, other configurations.
@@ -33,8 +33,8 @@ pub fn verify_stage_i_never_panics() {
     kani::cover!(outcome.is_none(), "refused");
 }
 
-/// Stage ii, with H-07, H-11 and H-12, panics at no input, refuses only what is invalid or does not
-/// fit the scratch, and reports what the schedule says.
+/// Stage ii, with H-07, H-11 and the reach of H-14, panics at no input, refuses only what is invalid or does
+/// not fit the scratch, and reports what the schedule says.
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,
 /// `PlanRemote`. Not covered: longer lists, other configurations.
@@ -48,8 +48,8 @@ pub fn verify_stage_ii_never_panics() {
     kani::cover!(outcome.is_none(), "refused");
 }
 
-/// Stage iii, with H-09, panics at no input, refuses only what is invalid or does not fit the
-/// scratch, and reports what the schedule says.
+/// Stage iii panics at no input, refuses only what is invalid or does not fit the scratch, and reports what
+/// the schedule says.
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `AllRemote`.
 /// Not covered: longer lists, other configurations.
@@ -63,7 +63,7 @@ pub fn verify_stage_iii_never_panics() {
     kani::cover!(outcome.is_none(), "refused");
 }
 
-/// Stage iv, with H-04, panics at no input, refuses only what is invalid or does not fit the
+/// Stage iv, with H-04 and H-14, panics at no input, refuses only what is invalid or does not fit the
 /// scratch, and reports what the schedule says.
 ///
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,

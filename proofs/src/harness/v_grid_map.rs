@@ -105,9 +105,9 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
     let metres = |halves: i64| f64::from(i32::try_from(halves).unwrap_or(0)) / 2.0;
     let (x, y) = (metres(x), metres(y) + LOW);
     let point = TrajectoryPoint { t_ns: NOW_NS, x, y, cos: 1.0, sin: 0.0 };
-    // The CAV is where its trajectory starts, or H-12 would ask for a way to there.
+    // The CAV is where its trajectory starts: the place of H-14 that is examined, too, is the same.
     let ego = Ego { x, y, speed: 0.0, length: SIDE, width: SIDE, ..EGO };
-    // At standstill and without a reaction nothing is examined beyond the end (H-04).
+    // At standstill and without a reaction the CAV has no other place.
     let parameters = Parameters {
         n: 1,
         tau: 0.0,

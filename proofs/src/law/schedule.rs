@@ -2,7 +2,7 @@
 
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
-use mufasa::report::{FailedStage, Outcome, Report, Stage};
+use mufasa::report::{FailedStage, Outcome, Report, Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration;
 
 /// A law of a cycle with valid input and its report.
@@ -62,24 +62,19 @@ pub fn unsafe_exactly_when_something_failed(cycle: &Cycle<'_>, report: &Report) 
 }
 
 /// Stage i needs current detections, ii to v a current trajectory, iii current tracks, v a
-/// current grid; iv fails without detections only by its gap, which needs a lead (H-04).
+/// current grid; iv fails without detections only by what stands in its place.
 pub fn nothing_runs_without_its_input(cycle: &Cycle<'_>, report: &Report) -> bool {
-    let current = |stamp_ns: Option<i64>| {
-        stamp_ns.is_some_and(|stamp_ns| {
-            (0..=cycle.parameters.max_age_ns).contains(&(cycle.now_ns - stamp_ns))
-        })
-    };
+    let current =
+        |stamp_ns: Option<i64>| stamp_ns.is_some_and(|stamp_ns| is_young(cycle, stamp_ns));
     let trajectory = current(cycle.trajectory.map(|list| list.stamp_ns));
     let tracks = current(cycle.tracks.map(|list| list.stamp_ns));
     let detections = current(cycle.detections.map(|list| list.stamp_ns));
-    let lead = current(cycle.lead.map(|lead| lead.stamp_ns));
     let grid = current(cycle.grid.map(|grid| grid.stamp_ns));
-    let gap_alone = cycle.profile == Profile::Hardened && lead && failed(&report.stages[3]);
     let inputs = [
         cycle.tracks.is_some() && detections,
         trajectory,
         trajectory && tracks,
-        trajectory && (detections || gap_alone),
+        trajectory && (detections || fails_instead_of_iv(cycle, &report.stages[3])),
         trajectory && grid,
     ];
     report.stages.iter().zip(inputs).all(|(outcome, is_there)| is_there || !ran(outcome))
@@ -88,9 +83,7 @@ pub fn nothing_runs_without_its_input(cycle: &Cycle<'_>, report: &Report) -> boo
 /// H-05: a safe cycle of the hardened profile with a current trajectory had one of iii, iv and v
 /// run, and in `AllRemote` a iii that stage i has not checked does not count (H-02).
 pub fn no_trajectory_is_accepted_unexamined(cycle: &Cycle<'_>, report: &Report) -> bool {
-    let current = cycle.trajectory.is_some_and(|list| {
-        (0..=cycle.parameters.max_age_ns).contains(&(cycle.now_ns - list.stamp_ns))
-    });
+    let current = cycle.trajectory.is_some_and(|list| is_young(cycle, list.stamp_ns));
     if cycle.profile == Profile::Paper
         || cycle.configuration == Configuration::Local
         || report.failed_stage.is_some()
@@ -107,6 +100,29 @@ pub fn no_trajectory_is_accepted_unexamined(cycle: &Cycle<'_>, report: &Report) 
 /// positions and leaves no track out (H-01): as in the scene.
 pub fn hardened_accepts_nothing_that_paper_rejects(paper: &Report, hardened: &Report) -> bool {
     paper.failed_stage.is_none() || hardened.failed_stage.is_some()
+}
+
+/// Whether the outcome of stage iv is that of a rule that stands in its place where it does not run: the gap,
+/// which needs a lead (H-04), and H-14, which needs an object, or in `PlanRemote` tracks and detections that
+/// are too close to call.
+pub fn fails_instead_of_iv(cycle: &Cycle<'_>, outcome: &Outcome) -> bool {
+    let Outcome::Failed(Witness { rule, .. }) = outcome else { return false };
+    let lead = cycle.lead.is_some_and(|lead| is_young(cycle, lead.stamp_ns));
+    let tracks =
+        cycle.tracks.is_some_and(|list| is_young(cycle, list.stamp_ns) && !list.items.is_empty());
+    let detections = cycle
+        .detections
+        .is_some_and(|list| is_young(cycle, list.stamp_ns) && !list.items.is_empty());
+    let both = cycle.configuration == Configuration::PlanRemote && tracks && detections;
+    cycle.profile == Profile::Hardened
+        && (*rule == Rule::Gap && lead
+            || [Rule::FailSafe, Rule::WorkLimit].contains(rule) && (tracks || detections)
+            || *rule == Rule::Ambiguous && both)
+}
+
+fn is_young(cycle: &Cycle<'_>, stamp_ns: i64) -> bool {
+    let age_ns = i128::from(cycle.now_ns) - i128::from(stamp_ns);
+    0 <= age_ns && age_ns <= i128::from(cycle.parameters.max_age_ns)
 }
 
 fn failed(outcome: &Outcome) -> bool {

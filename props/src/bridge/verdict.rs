@@ -85,9 +85,8 @@ both_ways! {
         Ambiguous, MeanCost, WorkLimit, NoAssignment,
         ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
         StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,
-        TurnReversed, TurnOnTheSpot, TurnHard,
-        ArcTooShort, ArcTooLong, EndsTooSoon,
-        Gap, Collision, CollisionStanding, CollisionMoving,
+        Reach,
+        Gap, Collision, FailSafe,
         Occupied, Unknown, Outside,
     }
 }

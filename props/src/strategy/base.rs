@@ -100,10 +100,10 @@ fn parameters(draw: &mut Draw<'_>) -> Parameters {
         parameters.a_max = draw.pick(&[2.0, 1.0, 4.0]);
         parameters.theta_track_max = draw.pick(&[0.5, 2.0, 0.3]);
         parameters.start_tolerance = draw.pick(&[1.0, 0.5, 3.0]);
-        parameters.lag_tolerance = draw.pick(&[1.0, 0.5, 0.1]);
         parameters.miss_budget = draw.pick(&[0, 1, 2, 64]);
         parameters.theta_velocity = draw.pick(&[1.0, 0.5, 4.0]);
-        parameters.tau_motion = draw.pick(&[0.0, 0.25, 1.0]);
+        parameters.t_yield = draw.pick(&[0.0, 0.5, 30.0]);
+        parameters.a_yield = draw.pick(&[1.0, 8.0]);
         parameters.lateral_tolerance = draw.pick(&[0.25, 1.0, 4.0]);
         parameters.work_limit = draw.pick(&[0, 1, 7, 8, 9, 30, i64::MAX]);
     }

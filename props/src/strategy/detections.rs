@@ -7,7 +7,7 @@ use mufasa_model::services::configuration::Configuration;
 use super::base::{self, Obstacle};
 use super::draw::Draw;
 use super::track_validation::detection;
-use super::{moving, obstacle};
+use super::{fail_safe, obstacle};
 
 /// A cycle that stage iv decides.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -25,11 +25,9 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         }
     }
     if profile == Profile::Hardened && draw.one_in(2) {
-        return if draw.one_in(4) {
-            moving::explained(draw, cycle)
-        } else {
-            moving::cycle(draw, cycle)
-        };
+        let aim = draw.below(fail_safe::AIMS.len());
+        fail_safe::decide(draw, &mut cycle, aim);
+        return cycle;
     }
     let horizon = obstacle::horizon_of_detections(&cycle);
     let found = obstacle::decisive(draw, &mut cycle, horizon);
@@ -43,22 +41,26 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle
 }
 
-/// A lead whose gap is near `s_follow`, with nothing else that could fail; in the hardened
-/// profile at times without detections, or beside a stage iii that ran (H-04).
+/// A lead whose gap is near `s_follow`, with nothing else that could fail; in the hardened profile at
+/// times near `s_react`, without detections, or beside a stage iii that ran (H-04).
 fn at_gap(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    let gap = draw.near(obstacle::s_follow(&cycle)).max(0.0);
+    let follows = cycle.profile == Profile::Paper || draw.one_in(2);
+    let gap = if follows { obstacle::s_follow(&cycle) } else { obstacle::s_react(&cycle) };
+    let gap = draw.near(gap).max(0.0);
     if let Some(lead) = &mut cycle.lead {
         lead.gap = gap;
     }
-    let empty = DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() };
-    let tracks = TrackList { stamp_ns: cycle.now_ns, items: Vec::new() };
-    match (cycle.profile, draw.below(4)) {
-        (Profile::Hardened, 0) => cycle.tracks = Some(tracks),
-        (Profile::Hardened, 1) => {
-            cycle.tracks = Some(tracks);
-            cycle.detections = Some(empty);
+    let stamp_ns = cycle.now_ns;
+    cycle.detections = Some(DetectionList { stamp_ns, items: Vec::new() });
+    if !follows {
+        // Stage iii runs in the place of stage iv.
+        cycle.tracks = Some(TrackList { stamp_ns, items: Vec::new() });
+        if cycle.configuration == Configuration::MotRemote {
+            cycle.configuration = Configuration::AllRemote;
         }
-        (Profile::Paper | Profile::Hardened, _) => cycle.detections = Some(empty),
+        if cycle.configuration == Configuration::PlanRemote && draw.one_in(2) {
+            cycle.detections = None;
+        }
     }
     cycle
 }

@@ -1,13 +1,14 @@
-//! Trajectories that end before `s_stop`, and what stands beyond their end (H-04, H-12 of
-//! `spec/3-stages.md#hardened-profile`).
+//! Trajectories that end before `s_stop`, and what stands at the last place of the path
+//! (`spec/7-fail-safe.md#the-path`).
 
 use mufasa_model::input::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, Obstacle, s_stop, seconds};
 use super::draw::Draw;
+use super::fail_safe::path::Path;
 
-/// Whether the cycle's trajectory is examined beyond its end.
+/// Whether the path of the cycle is examined beyond the end of its trajectory.
 pub fn is_examined(cycle: &Cycle) -> bool {
     cycle.profile == Profile::Hardened && cycle.configuration != Configuration::Local
 }
@@ -15,8 +16,6 @@ pub fn is_examined(cycle: &Cycle) -> bool {
 /// The CAV stands at the end of a new trajectory, `missing` before `s_stop`.
 pub fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle, missing: f64) {
     let ego = cycle.ego.clone();
-    // Mostly enough that the bound of the end, not that of braking, decides.
-    cycle.parameters.lag_tolerance = draw.pick(&[30.0, 30.0, 0.5]);
     let ahead = draw.pick(&[0.0, 0.0, 0.5, -0.5, 1.75]);
     let stop = s_stop(cycle) + f64::max(ahead, 0.0);
     let length = (stop - missing).max(0.0);
@@ -50,34 +49,21 @@ pub fn missing(draw: &mut Draw<'_>, ego: &Ego) -> f64 {
     }
 }
 
-/// Such a trajectory, and an object that touches the CAV's front at some place beyond the end, or
-/// just does not.
+/// Such a trajectory, and an object that touches the CAV's front at its last place, or just does not.
 pub fn obstacle(draw: &mut Draw<'_>, cycle: &mut Cycle) -> Obstacle {
     let missing = missing(draw, &cycle.ego);
     shorten(draw, cycle, missing);
-    let at = place(draw, cycle);
+    let at = place(cycle);
     let size = draw.pick(&[(1.0, 3.0), (0.01, 0.01), (4.5, 1.8)]);
     let reach = draw.near(0.5 * (cycle.ego.length + size.0));
+    let (x, y) = at.at(reach, 0.0);
+    let frame = Frame { x, y, ..at };
     let points = cycle.trajectory.as_ref().map_or(0, |list| list.points.len());
-    let centre = at.at(reach, 0.0);
-    let frame = Frame { x: centre.0, y: centre.1, ..at };
     Obstacle { frame, size, point: points.saturating_sub(1), away: (at.cos, at.sin) }
 }
 
-/// The centre of the CAV at one of the places, which may be one more than is examined.
-pub fn place(draw: &mut Draw<'_>, cycle: &Cycle) -> Frame {
-    let points = cycle.trajectory.as_ref().map_or(&[][..], |list| &list.points);
-    let (Some(first), Some(last)) = (points.first(), points.last()) else {
-        return Frame { x: 0.0, y: 0.0, cos: 1.0, sin: 0.0 };
-    };
-    let ego = &cycle.ego;
-    let ahead = (ego.x - first.x) * first.cos + (ego.y - first.y) * first.sin;
-    let length = (last.x - first.x).hypot(last.y - first.y);
-    let missing = (s_stop(cycle) + ahead.max(0.0) - length).clamp(0.0, ego.length);
-    let (from, to) = (4.0 * ego.center_offset, 4.0 * (ego.center_offset + missing));
-    let before: u8 = draw.pick(&[1, 1, 1, 0, 1, 1, 2]);
-    let quarters = (to.ceil() + 1.0 - f64::from(before)).max(from.floor() + 1.0);
-    let (x, y) =
-        Frame { x: last.x, y: last.y, cos: last.cos, sin: last.sin }.at(0.25 * quarters, 0.0);
-    Frame { x, y, cos: last.cos, sin: last.sin }
+/// The centre of the CAV at the last place.
+pub fn place(cycle: &Cycle) -> Frame {
+    let path = Path::of(cycle);
+    path.body(cycle, path.places.len() - 1).frame
 }

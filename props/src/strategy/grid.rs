@@ -32,7 +32,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     match draw.below(8) {
         0..=2 => cell_at_radius(draw, &mut cycle),
         3 | 4 => border(draw, &mut cycle),
-        5 | 6 if end::is_examined(&cycle) && draw.one_in(2) => beyond(draw, &mut cycle),
+        5 | 6 if end::is_examined(&cycle) => beyond(draw, &mut cycle),
         5 | 6 => horizon(draw, &mut cycle),
         _ => scattered(draw, &mut cycle),
     }
@@ -246,7 +246,7 @@ fn beyond(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     cycle.ego.speed = draw.pick(&[5.0, 8.0, 0.0]);
     let missing = end::missing(draw, &cycle.ego);
     end::shorten(draw, cycle, missing);
-    let place = end::place(draw, cycle);
+    let place = end::place(cycle);
     let n = cycle.parameters.n as f64;
     let front = 0.5 * cycle.ego.length - cycle.ego.length / (2.0 * n);
     let ahead = front + draw.near(radius(cycle));

@@ -99,3 +99,16 @@ pub fn of_moving(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx
         cycle.detection_history.push(DetectionList { stamp_ns: seen_ns - dt_ns, items });
     }
 }
+
+/// Lists in which one item is where the thing was, to the last bit or nearly so.
+pub fn exact(draw: &mut Draw<'_>, cycle: &mut Cycle, (x, y): (f64, f64), (vx, vy): (f64, f64)) {
+    let seen_ns = cycle.detections.as_ref().map_or(cycle.now_ns, |list| list.stamp_ns);
+    let ages = draw.pick(&[&[500_000_000][..], &[300_000_000, 500_000_000, 800_000_000]]);
+    let list = |dt_ns: &i64| {
+        let dt = seconds(*dt_ns);
+        let (x, y) = (x - vx * dt, y - vy * dt);
+        let item = Detection { x, y, cos: 1.0, sin: 0.0, length: 4.5, width: 1.8 };
+        DetectionList { stamp_ns: seen_ns - dt_ns, items: vec![item] }
+    };
+    cycle.detection_history = ages.iter().map(list).collect();
+}

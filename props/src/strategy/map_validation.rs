@@ -1,5 +1,5 @@
 //! Stage ii at its thresholds: distance to the reference path, edges of the corridor, H-07, H-11
-//! and H-12 (`spec/3-stages.md#stage-ii-trajectory-to-map`).
+//! and H-14's reach (`spec/3-stages.md#stage-ii-trajectory-to-map`).
 
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, DetectionList, Profile, Route, Trajectory, TrajectoryPoint,
@@ -8,7 +8,8 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, cross_section, seconds};
 use super::draw::Draw;
-use super::{end, steps};
+use super::fail_safe::reach;
+use super::steps;
 
 /// A cycle that stage ii decides: an empty detection list is its passing obstacle check.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
@@ -28,12 +29,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
         (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
         (Profile::Hardened, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
-        (Profile::Hardened, 9) => arc_length(draw, frame, &mut cycle),
-        (Profile::Hardened, _) if draw.one_in(3) => {
-            let missing = draw.near(cycle.ego.length);
-            end::shorten(draw, &mut cycle, missing);
-        }
-        (Profile::Hardened, _) => stops_short(draw, frame, &mut cycle),
+        (Profile::Hardened, _) => reach::cycle(draw, &mut cycle),
     }
     cycle
 }
@@ -253,79 +249,6 @@ fn direction(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     let t_ns = cycle.now_ns;
     let point = TrajectoryPoint { t_ns, x, y, cos, sin };
     cycle.trajectory = Some(Trajectory { stamp_ns: t_ns, points: vec![point] });
-}
-
-/// H-12: the arc length of the last points near what braking or accelerating covers, or a last
-/// point near the end of braking.
-fn arc_length(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    let p = cycle.parameters.clone();
-    let late_ns = draw.pick(&[0, 20_000_000, -20_000_000]);
-    let (d, v) = (seconds(late_ns).abs(), cycle.ego.speed);
-    let (slower, faster) = if late_ns < 0 { (p.a_b, p.a_max) } else { (p.a_max, p.a_b) };
-    let (v_lo, v_hi) = ((v - slower * d).max(0.0), v + faster * d);
-    let (stop, length) = (base::s_stop(cycle), cycle.ego.length);
-    let aim = draw.below(3);
-    let wobble = draw.near(0.0);
-    let Some(trajectory) = &mut cycle.trajectory else { return };
-    let first_ns = cycle.now_ns - late_ns;
-    let dt_ns = trajectory.points.get(1).map_or(200_000_000, |next| next.t_ns - cycle.now_ns);
-    if aim == 2 {
-        let end_ns = base::to_ns((v_lo / p.a_b).min(50.0));
-        trajectory.points.truncate(1);
-        let steps = end_ns / dt_ns + 1;
-        let end_ns = draw.near_ns(end_ns).max(1);
-        for i in 1..=steps {
-            let t_ns = if i == steps { end_ns } else { end_ns * i / steps };
-            let (x, y) = frame.at(v * seconds(t_ns), 0.0);
-            let (cos, sin) = (frame.cos, frame.sin);
-            let late = first_ns + t_ns.max(i);
-            trajectory.points.push(TrajectoryPoint { t_ns: late, x, y, cos, sin });
-        }
-        trajectory.points[0].t_ns = first_ns;
-        return;
-    }
-    let from = draw.between(1, 3);
-    let end = trajectory.points.len() - 1;
-    for (i, point) in trajectory.points.iter_mut().enumerate() {
-        let t_ns = dt_ns * i64::try_from(i).unwrap_or(0);
-        let t = seconds(t_ns);
-        let braking = if t < v_lo / p.a_b {
-            v_lo * t - p.a_b * t * t / 2.0
-        } else {
-            v_lo * v_lo / (2.0 * p.a_b)
-        };
-        let least = (braking - p.lag_tolerance).max(0.0);
-        let most = v_hi * t + p.a_max * t * t / 2.0 + p.start_tolerance;
-        let along = match aim {
-            _ if i == 0 => 0.0,
-            0 if i == end => least.max(stop - length) + wobble.max(0.0),
-            0 => least + wobble.max(-least),
-            _ if i < from => v_hi * t,
-            _ => most + wobble,
-        };
-        point.t_ns = first_ns + t_ns;
-        (point.x, point.y) = frame.at(along, 0.0);
-    }
-}
-
-/// H-12: a trajectory that goes on at `v_now` and then stands for a while, near the place that the
-/// CAV cannot stop before.
-fn stops_short(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
-    cycle.ego.speed = draw.pick(&[10.0, 8.0, 13.9]);
-    let (ego, p) = (cycle.ego.clone(), cycle.parameters.clone());
-    let mut trajectory = base::straight(&ego, frame, cycle.now_ns, &p);
-    let dt_ns = trajectory.points[1].t_ns - cycle.now_ns;
-    for _ in 0..draw.between(1, 4) {
-        let last = trajectory.points[trajectory.points.len() - 1].clone();
-        trajectory.points.push(TrajectoryPoint { t_ns: last.t_ns + dt_ns, ..last });
-    }
-    let braking = ego.speed * ego.speed / (2.0 * p.a_b) - p.lag_tolerance;
-    let stop = draw.near(braking.max(base::s_stop(cycle) - ego.length)).max(0.0);
-    for point in &mut trajectory.points {
-        let along = (ego.speed * seconds(point.t_ns - cycle.now_ns)).min(stop);
-        (point.x, point.y) = frame.at(along, 0.0);
-    }
-    cycle.trajectory = Some(trajectory);
 }
 
 /// The trajectory point of this index, if there is one.

@@ -1,107 +1,66 @@
-//! Things that move as the CAV saw them move, at the thresholds of H-13
-//! (`spec/3-stages.md#hardened-profile`).
+//! Things that move as the CAV saw them move, at the thresholds of H-14
+//! (`spec/7-fail-safe.md#motions`).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;
 
-use super::base::{Frame, Obstacle, seconds};
+use super::base::{Frame, seconds};
 use super::draw::Draw;
 use super::history;
-use super::track_validation::detection;
-use super::{obstacle, waiting};
 
-/// A cycle that the motion of one detection decides: it is beside the trajectory now, and in its
-/// way, nearly, when the CAV is at a point.
-pub fn cycle(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    let (found, velocity) = if draw.one_in(2) {
-        waiting::decisive(draw, &mut cycle)
-    } else {
-        let horizon = obstacle::horizon_of_moving(&cycle);
-        let found = obstacle::decisive(draw, &mut cycle, horizon);
-        (found, velocity(draw, found))
-    };
-    let seen_ns = cycle.now_ns - draw.pick(&[0, 30_000_000, 100_000_000]);
-    let dt = seconds(time_of(&cycle, found) - seen_ns);
-    let at = (found.frame.x - velocity.0 * dt, found.frame.y - velocity.1 * dt);
-    let mut items = vec![seen(found, at)];
+/// An object at the time of its list.
+#[derive(Clone, Copy, Debug)]
+pub struct Aimed {
+    /// Centre and direction then.
+    pub frame: Frame,
+    /// Length and width, m.
+    pub size: (f64, f64),
+    /// Its velocity, m/s.
+    pub velocity: (f64, f64),
+    /// Age of the list, ns.
+    pub age_ns: i64,
+}
+
+/// The object as a detection that the CAV saw move, at times explained by a track that says another
+/// velocity.
+pub fn carry(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
+    let seen_ns = cycle.now_ns - aimed.age_ns;
+    let velocity = aimed.velocity;
+    let at = (aimed.frame.x, aimed.frame.y);
+    let mut items = vec![detection(aimed)];
     if draw.one_in(4) {
-        let behind = Frame { x: cycle.ego.x, y: cycle.ego.y, ..found.frame };
-        items.insert(0, detection(behind, (-40.0, 9.0)));
+        let ego = &cycle.ego;
+        let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
+        let (x, y) = road.at(-90.0, 20.0);
+        let frame = Frame { x, y, ..aimed.frame };
+        items.insert(0, detection(Aimed { frame, ..aimed }));
     }
     cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items });
-    history::of_moving(draw, &mut cycle, at, velocity);
     if draw.one_in(4) {
+        history::of_moving(draw, cycle, at, velocity);
+    } else {
+        history::exact(draw, cycle, at, velocity);
+    }
+    if draw.one_in(6) {
         // The fastest that is looked for, or just not.
         cycle.parameters.v_object = draw.near(velocity.0.hypot(velocity.1)).clamp(1e-3, 1e3);
     }
-    if cycle.configuration != Configuration::PlanRemote && draw.below(3) > 0 {
-        explain(draw, &mut cycle, found, at, velocity);
+    if draw.one_in(2) {
+        explain(draw, cycle, aimed);
     }
-    cycle
-}
-
-/// H-10: a cycle in `AllRemote` with a detection near the end of `s_stop` that a confirmed track
-/// explains, or at times just not: it moves off, so that only as standing it is in the way.
-pub fn explained(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    cycle.configuration = Configuration::AllRemote;
-    let horizon = obstacle::horizon_of_explained(&cycle);
-    let found = obstacle::decisive(draw, &mut cycle, horizon);
-    let Frame { x, y, cos, sin } = found.frame;
-    let (seen_ns, speed) = (cycle.now_ns, draw.pick(&[12.0, 30.0]));
-    let (vx, vy) = (speed * found.away.0, speed * found.away.1);
-    let items = vec![seen(found, (x, y))];
-    cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items });
-    let (length, width) = found.size;
-    let track = Track { id: 7, x, y, cos, sin, vx, vy, length, width };
-    let ages = if draw.one_in(4) { vec![500] } else { vec![300, 500, 800] };
-    let list = |age: i64| {
-        let dt_ns = 1_000_000 * age;
-        let dt = seconds(dt_ns);
-        let items = vec![history::item(&track, (x - vx * dt, y - vy * dt))];
-        DetectionList { stamp_ns: seen_ns - dt_ns, items }
-    };
-    cycle.detection_history = ages.into_iter().map(list).collect();
-    cycle.tracks = Some(TrackList { stamp_ns: seen_ns, items: vec![track] });
-    cycle
-}
-
-/// The time of the point at which the obstacle is where it is.
-fn time_of(cycle: &Cycle, found: Obstacle) -> i64 {
-    let points = cycle.trajectory.as_ref().map_or(&[][..], |list| &list.points);
-    points.get(found.point).map_or(cycle.now_ns, |point| point.t_ns)
-}
-
-/// Off the trajectory: the thing comes from there.
-fn velocity(draw: &mut Draw<'_>, found: Obstacle) -> (f64, f64) {
-    let speed = draw.pick(&[8.0, 25.0, 60.0, 3.0, 0.5]);
-    let (cos, sin) = match draw.below(3) {
-        0 | 1 => (-found.away.0, -found.away.1),
-        _ => draw.direction(),
-    };
-    (speed * cos, speed * sin)
-}
-
-/// The obstacle as a detection at a place.
-fn seen(found: Obstacle, (x, y): (f64, f64)) -> Detection {
-    let Frame { cos, sin, .. } = found.frame;
-    let (length, width) = found.size;
-    Detection { x, y, cos, sin, length, width }
 }
 
 /// A track of the detection that says another velocity: so near the true one that its past still
 /// holds where the thing came from, or just does not; along the detection's direction, or just
 /// not. At times a second thing was nearer to that past and is its origin.
-fn explain(
-    draw: &mut Draw<'_>,
-    cycle: &mut Cycle,
-    found: Obstacle,
-    at: (f64, f64),
-    velocity: (f64, f64),
-) {
-    let Some(seen_ns) = cycle.detections.as_ref().map(|list| list.stamp_ns) else { return };
+fn explain(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
+    let seen_ns = cycle.now_ns - aimed.age_ns;
     let p = &cycle.parameters;
-    let Frame { cos, sin, .. } = found.frame;
-    let (vx, vy) = if draw.one_in(4) {
+    let Aimed { frame: Frame { x, y, cos, sin }, velocity, .. } = aimed;
+    let at = (x, y);
+    let (vx, vy) = if draw.one_in(3) {
+        velocity
+    } else if draw.one_in(4) {
         let forward = draw.range(-20.0, 20.0);
         let speed = (1.01 * forward * forward + 5.0).sqrt();
         let aside = draw.near(p.theta_velocity + 0.1 * speed);
@@ -113,11 +72,12 @@ fn explain(
     };
     let stamp_ns = cycle.now_ns - draw.pick(&[0, 50_000_000]);
     let t = seconds(seen_ns - stamp_ns);
-    let (length, width) = found.size;
+    let (length, width) = aimed.size;
     let (x, y) = (at.0 - vx * t, at.1 - vy * t);
     let bounded = |speed: f64| speed.clamp(-150.0, 150.0);
     let track = Track { id: 7, x, y, cos, sin, vx: bounded(vx), vy: bounded(vy), length, width };
-    if !draw.one_in(3) {
+    // In `PlanRemote` its tracks are the CAV's own.
+    if cycle.configuration == Configuration::PlanRemote || !draw.one_in(3) {
         for list in &mut cycle.detection_history {
             let dt = seconds(seen_ns - list.stamp_ns);
             let past = (at.0 - track.vx * dt, at.1 - track.vy * dt);
@@ -159,4 +119,11 @@ fn dispute(draw: &mut Draw<'_>, cycle: &mut Cycle, track: &Track) {
     if let Some(list) = &mut cycle.detections {
         list.items.push(history::item(track, at));
     }
+}
+
+/// As a detection.
+pub fn detection(aimed: Aimed) -> Detection {
+    let Frame { x, y, cos, sin } = aimed.frame;
+    let (length, width) = (aimed.size.0.clamp(0.01, 100.0), aimed.size.1.clamp(0.01, 100.0));
+    Detection { x, y, cos, sin, length, width }
 }

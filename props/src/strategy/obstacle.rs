@@ -7,24 +7,25 @@ use super::base::{self, Frame, Obstacle, s_stop, to_ns};
 use super::draw::Draw;
 use super::end;
 
-/// How far a stage looks.
+/// How far a stage looks, rounded, m.
 #[derive(Clone, Copy, Debug)]
 pub struct Horizon {
-    /// Rounded, m; H-04 included.
+    /// Rounded, m.
     pub metres: f64,
-    /// Whether the next point is examined, too.
-    pub next: bool,
 }
 
 /// An object that decides a cycle with this horizon.
 pub fn decisive(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obstacle {
-    if end::is_examined(cycle) && draw.one_in(4) {
+    let in_path = end::is_examined(cycle);
+    if in_path && draw.one_in(4) {
         return end::obstacle(draw, cycle);
     }
     match draw.below(8) {
         0..=2 => touching(draw, cycle),
         3 => corner_to_corner(draw, cycle),
         4 => far_centre(draw, cycle),
+        // H-14 finds what stands so near wherever the horizon is.
+        _ if in_path && horizon.metres <= s_stop(cycle) + 1e-3 => end::obstacle(draw, cycle),
         _ => at_horizon(draw, cycle, horizon),
     }
 }
@@ -89,8 +90,7 @@ fn far_centre(draw: &mut Draw<'_>, cycle: &Cycle) -> Obstacle {
     obstacle(ego, at, (cos, sin), (length.max(0.5), 2.5), (-1.0, 0.0))
 }
 
-/// A new trajectory with one point at the horizon, and an object that only the last point examined
-/// hits: this one, or the next.
+/// A new trajectory with one point at the horizon, and an object that only this one hits.
 pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obstacle {
     let hardened = cycle.profile == Profile::Hardened;
     let speed = cycle.ego.speed;
@@ -99,7 +99,7 @@ pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> O
     let most = if hardened { 40 } else { draw.between(2, 8) };
     let steps = base::count(reach / spacing).clamp(1, most);
     let behind = draw.between(1, 2);
-    let hit = if horizon.next { steps + 1 } else { steps };
+    let hit = steps;
     let (now_ns, ego) = (cycle.now_ns, cycle.ego.clone());
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
     let zigzag = !hardened && draw.one_in(3);
@@ -148,31 +148,19 @@ fn later(points: &mut [TrajectoryPoint]) {
     }
 }
 
-/// The horizon of iii (`s_CAV`) in the profile.
+/// The horizon of iii (`s_CAV`).
 pub fn horizon_of_tracks(cycle: &Cycle) -> Horizon {
-    with_stop(cycle, cycle.parameters.safety_time * cycle.ego.speed)
+    Horizon { metres: cycle.parameters.safety_time * cycle.ego.speed }
 }
 
-/// The horizon of iv (`s_valid`) in the profile.
+/// The horizon of iv (`s_valid`).
 pub fn horizon_of_detections(cycle: &Cycle) -> Horizon {
-    let braking = cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b);
-    with_stop(cycle, if cycle.lead.is_some() { s_follow(cycle) } else { braking })
+    if cycle.lead.is_some() { Horizon { metres: s_follow(cycle) } } else { horizon_of_grid(cycle) }
 }
 
-/// The horizon of v (`s_b`) in the profile.
+/// The horizon of v (`s_b`).
 pub fn horizon_of_grid(cycle: &Cycle) -> Horizon {
-    with_stop(cycle, cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b))
-}
-
-/// The horizon of what is explained (H-10).
-pub fn horizon_of_explained(cycle: &Cycle) -> Horizon {
-    Horizon { metres: (1.0 + 1e-6) * s_stop(cycle), next: true }
-}
-
-/// The horizon of H-13.
-pub fn horizon_of_moving(cycle: &Cycle) -> Horizon {
-    let metres = (1.0 + 1e-6) * (s_stop(cycle) + cycle.parameters.tau_motion * cycle.ego.speed);
-    Horizon { metres, next: true }
+    Horizon { metres: cycle.ego.speed.powi(2) / (2.0 * cycle.parameters.a_b) }
 }
 
 /// `s_follow`, rounded, m; the lead counts as standing when there is none.
@@ -182,13 +170,10 @@ pub fn s_follow(cycle: &Cycle) -> f64 {
     ((v * v - lead * lead) / (2.0 * p.a_b)).max(0.0) + p.safety_time * v
 }
 
-/// H-04: behind a horizon that is longer than `s_stop` no point is next.
-fn with_stop(cycle: &Cycle, s: f64) -> Horizon {
-    let s_stop = s_stop(cycle);
-    match cycle.profile {
-        Profile::Paper => Horizon { metres: s, next: false },
-        Profile::Hardened => Horizon { metres: (1.0 + 1e-6) * s.max(s_stop), next: s <= s_stop },
-    }
+/// `s_react`, rounded, m; the lead counts as standing when there is none.
+pub fn s_react(cycle: &Cycle) -> f64 {
+    let lead = cycle.lead.as_ref().map_or(0.0, |lead| lead.speed);
+    (s_stop(cycle) - lead * lead / (2.0 * cycle.parameters.a_b)).max(0.0)
 }
 
 /// The object at a place of the CAV's rectangle's frame.

@@ -9,7 +9,7 @@ use super::draw::Draw;
 /// A trajectory on a wide road that one limit of H-11 decides.
 pub fn cycle(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle) {
     cycle.route = base::road(frame, 40.0);
-    (cycle.parameters.start_tolerance, cycle.parameters.lag_tolerance) = (20.0, 20.0);
+    cycle.parameters.start_tolerance = 20.0;
     match draw.below(7) {
         0 | 1 => turn(draw, frame, cycle),
         2 => slide(draw, frame, cycle),

@@ -96,8 +96,8 @@ fn moving(draw: &mut Draw<'_>, cycle: &Cycle, found: Obstacle, stamp_ns: i64) ->
     Track { id: 7, x, y, cos: found.frame.cos, sin: found.frame.sin, vx, vy, length, width }
 }
 
-/// The obstacle as a track that is said to move off fast: only as standing still it is in the way
-/// (H-09).
+/// The obstacle as a track that is said to move off fast: as its detection, which nothing confirms, it is
+/// in the way where it is now (H-14).
 fn fleeing(found: Obstacle) -> Track {
     let base::Frame { x, y, cos, sin } = found.frame;
     let (length, width) = found.size;

@@ -5,17 +5,20 @@ use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
 use super::draw::Draw;
-use super::{attack, detections, grid, map_validation, schedule, track_validation, tracks};
+use super::{
+    attack, detections, fail_safe, grid, map_validation, schedule, track_validation, tracks,
+};
 
 /// A cycle aimed at one stage, an attack or a schedule, with further inputs beside what it has.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    let mut cycle = match draw.below(13) {
+    let mut cycle = match draw.below(14) {
         0 | 1 => track_validation::cycle(draw, profile),
         2 | 3 => map_validation::cycle(draw, profile),
         4 | 5 => tracks::cycle(draw, profile),
         6..=8 => detections::cycle(draw, profile),
         9 | 10 => grid::cycle(draw, profile),
         11 => attack::cycle(draw, profile),
+        12 => fail_safe::cycle(draw, profile),
         _ => schedule::cycle(draw, profile),
     };
     if draw.one_in(8) {

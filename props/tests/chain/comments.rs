@@ -62,7 +62,7 @@ pub fn item(line: &str) -> Option<&str> {
 }
 
 /// Names of headings and rules in a text; behind a heading `#another` is one of the same file.
-/// `H-01 to H-12` names the profile and none of its rules.
+/// `H-01 to H-14` names the profile and none of its rules.
 pub fn names(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (at, _) in text.match_indices("H-").chain(text.match_indices("I-")) {
@@ -88,7 +88,7 @@ pub fn names(text: &str) -> Vec<String> {
 
 #[test]
 fn comments_are_about_what_they_stand_at() {
-    let text = "//! Top (`spec/3-stages.md#distances`,\n//! `#schedule`).\n\n/// H-04, H-01 to H-12.\n#[must_use]\n\
+    let text = "//! Top (`spec/3-stages.md#distances`,\n//! `#schedule`).\n\n/// H-04, H-01 to H-14.\n#[must_use]\n\
                 pub(crate) const fn f() {\n    let x = 1; // spec/3-stages.md#distances.2\n}\n";
     let found: Vec<_> = mentions(text).into_iter().map(|it| (it.name, it.at)).collect();
     let [heading, f] = ["spec/3-stages.md#distances".to_owned(), "f".to_owned()];

@@ -159,7 +159,7 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
         assert_eq!(forgotten.map(|report| report.failed_stage), Ok(None), "at {i}");
         found = found.or(period(&mut monitor, &mut station, &world));
     }
-    assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::CollisionMoving))));
+    assert_eq!(found, Some((FailedStage::Stage(Stage::Iv), Some(Rule::FailSafe))));
 }
 
 /// Detections that were not current are no history: in the same drive with late scans until its last cycle
@@ -227,7 +227,7 @@ fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     assert_eq!(actions.len(), 2, "dropped and released");
 }
 
-/// A gap of 10 m bumper to bumper, below s_follow at 5 m/s behind a car that stands, is 13.65 m from the
+/// A gap of 2 m bumper to bumper, below s_react at 5 m/s behind a car that stands, is 5.65 m from the
 /// rear axle, above it. `Gap` says from where; a bare number does not compile.
 #[test]
 fn a_gap_from_the_rear_axle_is_not_taken_for_one_between_bumpers() {
@@ -238,7 +238,7 @@ fn a_gap_from_the_rear_axle_is_not_taken_for_one_between_bumpers() {
         cycle.lead = lead(gap);
         check_plainly(&cycle).expect("valid").failed_stage
     };
-    let (free, measured) = (10.0, 13.65);
+    let (free, measured) = (2.0, 5.65);
     assert_eq!((verdict(measured), verdict(free)), (None, Some(FailedStage::Stage(Stage::Iv))));
     let gap = Gap::from_reference_point(measured, &world.ego).metres();
     assert!((gap - free).abs() < 1e-9, "{gap}");

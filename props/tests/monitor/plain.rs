@@ -152,7 +152,7 @@ impl<'a> Plain<'a> {
         actions
     }
 
-    /// Whether H-13 would have a list to judge motion by.
+    /// Whether H-14 would have a list to judge motion by.
     fn has_seen_enough(&self, t_ns: i64) -> bool {
         let age_ns = |stamp_ns: i64| i128::from(t_ns) - i128::from(stamp_ns);
         let usable = i128::from(500 * MS)..=i128::from(1000 * MS);

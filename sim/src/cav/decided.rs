@@ -12,8 +12,6 @@ pub struct Decided {
     pub is_safe: bool,
     /// The report of the stages, or what was wrong with the input; none where nothing is checked.
     pub report: Option<Result<Report, InvalidInput>>,
-    /// Whether all rules decide otherwise than those in force: where one is left out.
-    pub is_overruled: bool,
     /// The trajectory that control may follow. None in `Local` where something is checked: there the
     /// CAV's own is not.
     pub trajectory: Option<Vec<TrajectoryPoint>>,

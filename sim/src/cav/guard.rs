@@ -23,7 +23,6 @@ use super::assembled::{Chosen, Last, Stamped};
 pub use super::decided::{Decided, Local};
 use super::recorder::Recorder;
 use super::sensing::Sensed;
-use super::without::Rules;
 
 /// What is checked of remote data.
 #[derive(
@@ -80,7 +79,6 @@ enum Kind<'a> {
         tracks: Option<Accepted<Vec<Track>>>,
         points: Option<Accepted<Vec<TrajectoryPoint>>>,
     },
-    Without(Box<Rules<'a>>),
 }
 
 impl<'a> Guard<'a> {
@@ -110,11 +108,6 @@ impl<'a> Guard<'a> {
         Self { kind, last: Last::default(), recorder: Recorder::default() }
     }
 
-    /// The hardened rules without one of them.
-    pub fn without(rules: Rules<'a>) -> Self {
-        Self::of(Kind::Without(Box::new(rules)))
-    }
-
     /// The same; of what the monitor decides this is recorded.
     pub fn recording(mut self, recorder: Recorder) -> Self {
         self.recorder = recorder;
@@ -129,10 +122,6 @@ impl<'a> Guard<'a> {
         match &mut self.kind {
             Kind::Plain(_) => Ok(()),
             Kind::Checked { monitor, .. } => monitor.set_route(route),
-            Kind::Without(rules) => {
-                rules.set_route(route);
-                Ok(())
-            }
         }
     }
 
@@ -151,28 +140,20 @@ impl<'a> Guard<'a> {
         match &self.kind {
             Kind::Plain(requester) => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),
-            Kind::Without(rules) => &rules.requester,
         }
     }
 
     /// The tracks of a station that the next cycle will have.
     pub(super) fn remote_tracks(&self) -> Option<Stamped<'_, Track>> {
         let none = Local { tracks: None, points: None };
-        Chosen::new(self.requester(), self.last(), none).tracks
+        Chosen::new(self.requester(), &self.last, none).tracks
     }
 
     /// The last results of stations that were accepted, whatever became of them: for who looks on.
     pub fn accepted(&self) -> (Option<&[Track]>, Option<&[TrajectoryPoint]>) {
-        let Last { tracks, points } = self.last();
+        let Last { tracks, points } = &self.last;
         let tracks = tracks.as_ref().map(|it| it.items.as_slice());
         (tracks, points.as_ref().map(|it| it.items.as_slice()))
-    }
-
-    fn last(&self) -> &Last {
-        match &self.kind {
-            Kind::Without(rules) => &rules.last,
-            Kind::Plain(_) | Kind::Checked { .. } => &self.last,
-        }
     }
 
     /// Something happened that is no data.
@@ -182,7 +163,6 @@ impl<'a> Guard<'a> {
         let now = time(t_ns);
         let actions = match &mut self.kind {
             Kind::Plain(requester) => requester.step(&Event { t_ns, kind }),
-            Kind::Without(rules) => return rules.step(t_ns, kind),
             Kind::Checked { monitor, .. } => {
                 let Some(actions) = call::event(monitor, now, kind) else { return Ok(Vec::new()) };
                 actions
@@ -206,7 +186,6 @@ impl<'a> Guard<'a> {
                 let copy = message.clone();
                 Ok(accept(monitor.tracks(time(t_ns), message)?, tracks, copy, last))
             }
-            Kind::Without(rules) => rules.tracks(t_ns, message),
         }
     }
 
@@ -225,7 +204,6 @@ impl<'a> Guard<'a> {
                 let copy = message.clone();
                 Ok(accept(monitor.trajectory(time(t_ns), message)?, points, copy, last))
             }
-            Kind::Without(rules) => rules.trajectory(t_ns, message),
         }
     }
 
@@ -234,7 +212,6 @@ impl<'a> Guard<'a> {
         let (last, recorder) = (&self.last, &mut self.recorder);
         match &mut self.kind {
             Kind::Plain(requester) => unchecked(requester, t_ns, last, local),
-            Kind::Without(rules) => rules.decide(t_ns, ego, sensed, local),
             Kind::Checked { monitor, tracks, points } => {
                 let chosen = Chosen::new(monitor.requester(), last, local);
                 let record = recorder.cycle(monitor.requester(), (t_ns, ego), sensed, chosen);
@@ -246,7 +223,6 @@ impl<'a> Guard<'a> {
                     Decision::Safe { tracks, trajectory, report } => Decided {
                         is_safe: true,
                         report: Some(Ok(report)),
-                        is_overruled: false,
                         brake_by_ns: trajectory
                             .and_then(|it| it.brake_by())
                             .map(Time::as_nanoseconds),
@@ -258,7 +234,6 @@ impl<'a> Guard<'a> {
                     Decision::Unsafe { report } => Decided {
                         is_safe: false,
                         report: Some(report),
-                        is_overruled: false,
                         trajectory: None,
                         brake_by_ns: None,
                         tracks: None,
@@ -302,7 +277,6 @@ fn unchecked(
     Decided {
         is_safe: true,
         report: None,
-        is_overruled: false,
         trajectory,
         brake_by_ns: None,
         tracks,

@@ -10,7 +10,6 @@ pub mod own_plans;
 pub mod recorder;
 mod seen;
 pub mod sensing;
-pub mod without;
 
 use mufasa::input::cycle::{Detection, Track, TrackList, TrajectoryPoint};
 use mufasa::monitor::{Message as Received, Time};

@@ -2,7 +2,7 @@
 //!
 //! In `Local` no stage runs, and what follows a fallback is trusted. Here each own plan of such a cycle goes through
 //! the hardened stages as in PlanRemote, with the CAV's own tracks, detections and grid; where one fails, control
-//! brakes. Stage iii runs, so that neither iv nor H-13 does: what the own tracker misses the grid alone shows.
+//! brakes. H-14 examines the way to a stop against own tracks and own detections, the grid what neither shows.
 
 use mufasa::input::cycle::{Ego, Route, Track, TrackList, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;

@@ -11,8 +11,6 @@ use mufasa::input::cycle::{Detection, DetectionList};
 const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
 const USABLE_NS: RangeInclusive<i64> = 200_000_000..=1_000_000_000;
 const SPACING_NS: i64 = 83_333_334;
-/// Ages of a list with which stations are asked, ns (`spec/5-interfaces.md#monitor`).
-const ENOUGH_NS: RangeInclusive<i64> = 500_000_000..=1_000_000_000;
 
 /// Lists with their stamps, the oldest first.
 #[derive(Clone, Debug, Default)]
@@ -29,11 +27,6 @@ impl Seen {
         while self.0.front().is_some_and(|it| now_ns - it.0 > *USABLE_NS.end()) {
             self.0.pop_front();
         }
-    }
-
-    /// Whether detections reach back half a second.
-    pub(super) fn reaches_back(&self, t_ns: i64) -> bool {
-        self.0.iter().any(|(stamp_ns, _)| ENOUGH_NS.contains(&(t_ns - stamp_ns)))
     }
 
     /// The lists whose ages are nearest to those wanted, the youngest first.

@@ -12,7 +12,6 @@ pub mod cpu;
 pub mod failures;
 pub mod falsify;
 pub mod job;
-pub mod rules;
 pub mod scenes;
 pub mod select;
 pub mod stages;

@@ -10,8 +10,6 @@ mod precheck;
 mod radio;
 mod records;
 mod replay;
-mod rules;
 mod same;
 mod services;
 mod sessions;
-mod without;

@@ -35,7 +35,6 @@ fn scale(parameters: &mut Parameters, factor: f64) {
         &mut parameters.theta_obj,
         &mut parameters.theta_track_max,
         &mut parameters.start_tolerance,
-        &mut parameters.lag_tolerance,
         &mut parameters.v_max,
         &mut parameters.theta_velocity,
     ] {
@@ -170,6 +169,27 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
         let now_ns = c.now_ns;
         c.tracks.iter_mut().for_each(|list| list.stamp_ns = now_ns);
     }),
+    sees!("detections of now", |c| {
+        let now_ns = c.now_ns;
+        c.detections.iter_mut().for_each(|list| list.stamp_ns = now_ns);
+    }),
+    sees!("history a nanosecond older", |c| {
+        c.detection_history.iter_mut().for_each(|list| list.stamp_ns -= 1);
+    }),
+    sees!("history a nanosecond younger", |c| {
+        c.detection_history.iter_mut().for_each(|list| list.stamp_ns += 1);
+    }),
+    sees!("trajectory begins at the CAV", |c| {
+        let (x, y) = (c.ego.x, c.ego.y);
+        let first = c.trajectory.iter_mut().filter_map(|it| it.points.first_mut());
+        first.for_each(|point| (point.x, point.y) = (x, y));
+    }),
+    sees!("route without ends", |c| {
+        let far = [(0, -1e3), (c.route.cross_sections.len().wrapping_sub(1), 1e3)];
+        for (end, by) in far {
+            c.route.cross_sections.get_mut(end).into_iter().for_each(|it| it.x += by);
+        }
+    }),
     sees!("center_offset ignored", |c| c.ego.center_offset = 0.0),
     sees!("center_offset backwards", |c| c.ego.center_offset = -c.ego.center_offset),
     sees!("routes open", |c| c.route.closed = false),
@@ -199,6 +219,12 @@ pub const MUTANTS: &[(&str, Mutant)] = &[
     sees!("longer safety time", |c| c.parameters.safety_time *= 2.0),
     sees!("no safety time", |c| c.parameters.safety_time = 0.0),
     sees!("stronger engine", |c| c.parameters.a_max *= 2.0),
+    sees!("later brakes", |c| c.parameters.tau += 1e-3),
+    sees!("earlier brakes", |c| c.parameters.tau = (c.parameters.tau - 1e-3).max(0.0)),
+    sees!("others yield in twice the time", |c| c.parameters.t_yield *= 2.0),
+    sees!("others yield at once", |c| c.parameters.t_yield = 0.0),
+    sees!("others brake half as hard for the CAV", |c| c.parameters.a_yield *= 0.5),
+    sees!("objects of any speed", |c| c.parameters.v_object = 1e3),
     sees!("one disk", |c| c.parameters.n = 1),
     sees!("64 disks", |c| c.parameters.n = 64),
     sees!("one miss allowed", |c| c.parameters.miss_budget =

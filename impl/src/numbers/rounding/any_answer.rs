@@ -32,6 +32,10 @@ impl Real {
         arbitrary::any_f64()
     }
 
+    pub(crate) fn off(self) -> f64 {
+        arbitrary::any_f64()
+    }
+
     pub(crate) fn widened(self, _by: f64) -> Self {
         Self
     }

@@ -10,7 +10,7 @@ use crate::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
 use crate::numbers::range::{EMPTY, extend, larger};
 
 /// m
-pub(super) const MARGIN: f64 = 1e-6;
+pub(crate) const MARGIN: f64 = 1e-6;
 
 /// A rectangle that moves with constant velocity.
 #[derive(Clone, Copy, Debug)]
@@ -49,27 +49,19 @@ impl MovingRectangle {
     }
 
     /// Where the centre is after a time in s.
-    pub(super) fn after(&self, seconds: f64) -> [f64; 2] {
+    fn after(&self, seconds: f64) -> [f64; 2] {
         let ([x, y], [vx, vy]) = (self.centre, self.velocity);
         [x + vx * seconds, y + vy * seconds]
     }
 
     /// At least half the extent along any direction.
-    pub(super) fn reach(&self) -> f64 {
+    pub(crate) fn reach(&self) -> f64 {
         let [length, width] = self.size;
         (length + width) * (0.5 * (1.0 + 1e-6))
     }
 
-    /// Half the extents along the axes of the plane.
-    #[inline]
-    pub(super) fn upright(&self) -> [f64; 2] {
-        let ([length, width], [cos, sin]) = (self.size, self.direction);
-        let (cos, sin) = (0.5 * cos.abs(), 0.5 * sin.abs());
-        [length * cos + width * sin, length * sin + width * cos]
-    }
-
     /// Half the extents along a direction and across it.
-    pub(super) fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn extents(&self, axis: [f64; 2]) -> [f64; 2] {
         let ([length, width], [along, across]) = (self.size, split(axis, self.direction));
         let (along, across) = (0.5 * along.abs(), 0.5 * across.abs());
         [length * along + width * across, length * across + width * along]
@@ -116,14 +108,11 @@ pub(crate) struct Sweep {
 
 impl Sweep {
     /// `seconds`: the first and the last time.
-    pub(crate) fn new<'p>(
-        poses: impl Iterator<Item = (Ego, &'p TrajectoryPoint)> + Clone,
-        seconds: [f64; 2],
-    ) -> Self {
-        let footprints = poses.map(|(ego, point)| MovingRectangle::footprint(&ego, point));
+    pub(crate) fn new(ego: &Ego, points: &[TrajectoryPoint], seconds: [f64; 2]) -> Self {
+        let footprints = points.iter().map(|point| MovingRectangle::footprint(ego, point));
         let place = |footprint: MovingRectangle| footprint.centre;
         let origin = footprints.clone().next().map_or([0.0; 2], place);
-        let [x, y] = minus(footprints.clone().last().map_or(origin, place), origin);
+        let [x, y] = minus(footprints.clone().next_back().map_or(origin, place), origin);
         let length = libm::sqrt(x * x + y * y);
         let along = if length > 1e-3 { [x / length, y / length] } else { [1.0, 0.0] };
         let (mut turned, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
@@ -144,16 +133,6 @@ impl Sweep {
         }
     }
 
-    /// Nothing misses it.
-    pub(super) const EVERYWHERE: Self = Self {
-        upright: [[0.0; 2], [f64::INFINITY; 2]],
-        origin: [0.0; 2],
-        along: [1.0, 0.0],
-        centre: [0.0; 2],
-        half: [f64::INFINITY; 2],
-        seconds: [0.0; 2],
-    };
-
     /// Whether the object certainly touches the CAV at none of the points.
     #[inline]
     pub(crate) fn misses(&self, object: &MovingRectangle) -> bool {
@@ -164,39 +143,12 @@ impl Sweep {
     /// of the time of stages iii and iv.
     #[inline]
     fn misses_upright(&self, object: &MovingRectangle) -> bool {
-        self.gap_upright(object) > object.reach() + MARGIN
-    }
-
-    /// How far the centre of an object stays away from the upright box along one of its axes, m.
-    #[inline]
-    fn gap_upright(&self, object: &MovingRectangle) -> f64 {
         let [middle, spread] = self.seconds;
         let [[cx, cy], [hx, hy]] = self.upright;
         let ([x, y], [vx, vy]) = (object.after(middle), object.velocity);
         let gap_x = (x - cx).abs() - vx.abs() * spread - hx;
         let gap_y = (y - cy).abs() - vy.abs() * spread - hy;
-        larger(gap_x, gap_y)
-    }
-
-    /// As `misses`, when the velocity may also be up to `off` m/s another one.
-    pub(crate) fn misses_all_near(&self, object: &MovingRectangle, off: f64) -> bool {
-        let [middle, spread] = self.seconds;
-        let reach = off * (middle.abs() + spread) * (1.0 + 1e-6);
-        if self.gap_upright(object) > object.reach() + reach + MARGIN {
-            return true;
-        }
-        let [length, width] = object.size;
-        let size = [length + reach + reach, width + reach + reach];
-        self.misses_turned(&MovingRectangle { size, ..*object })
-    }
-
-    /// The box in which the centre of an object is at the time 0 that may touch the CAV at one of the
-    /// points, when it reaches so far, in m, and moves at most so fast, in m/s.
-    pub(crate) fn surroundings(&self, reach: f64, speed: f64) -> [[f64; 2]; 2] {
-        let [middle, spread] = self.seconds;
-        let away = reach + speed * (middle.abs() + spread) * (1.0 + 1e-6) + MARGIN;
-        let ([cx, cy], [hx, hy]) = (self.upright[0], self.upright[1]);
-        [[cx - hx - away, cx + hx + away], [cy - hy - away, cy + hy + away]]
+        larger(gap_x, gap_y) > object.reach() + MARGIN
     }
 
     #[inline(never)]
@@ -211,12 +163,12 @@ impl Sweep {
     }
 }
 
-pub(super) fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
     [ax - bx, ay - by]
 }
 
 /// The components of a vector along an axis and to the left of it.
-pub(super) fn split([cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+pub(crate) fn split([cos, sin]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
     [x * cos + y * sin, y * cos - x * sin]
 }
 

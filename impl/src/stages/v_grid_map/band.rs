@@ -87,17 +87,20 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    pub(crate) fn new(frame: &CellFrame, points: &[TrajectoryPoint]) -> Self {
-        let origin = points.first().map_or([0.0; 2], |point| frame.centres(point)[0]);
-        let [x, y] = points.last().map_or(origin, |point| frame.centres(point)[1]);
+    pub(crate) fn new(
+        frame: &CellFrame,
+        points: impl Iterator<Item = TrajectoryPoint> + Clone,
+    ) -> Self {
+        let origin = points.clone().next().map_or([0.0; 2], |point| frame.centres(&point)[0]);
+        let [x, y] = points.clone().last().map_or(origin, |point| frame.centres(&point)[1]);
         let (dx, dy) = (x - origin[0], y - origin[1]);
         let length = libm::sqrt(dx * dx + dy * dy);
         let along = if length > 1e-3 { [dx / length, dy / length] } else { [1.0, 0.0] };
         let (mut ranges, mut upright) = ([EMPTY; 2], [EMPTY; 2]);
         let turn = |[x, y]: [f64; 2]| [x * along[0] + y * along[1], y * along[0] - x * along[1]];
         for point in points {
-            let aside = if frame.beside > 0.0 { frame.aside(point) } else { [0.0; 2] };
-            for [x, y] in frame.centres(point) {
+            let aside = if frame.beside > 0.0 { frame.aside(&point) } else { [0.0; 2] };
+            for [x, y] in frame.centres(&point) {
                 let turned = turn([x - origin[0], y - origin[1]]);
                 extend(&mut ranges, turned, turn(aside).map(f64::abs));
                 extend(&mut upright, [x, y], aside.map(f64::abs));

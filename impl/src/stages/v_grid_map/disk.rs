@@ -1,16 +1,17 @@
 //! One disk of the footprint on the grid: whether a cell of the dilated grid collides with it,
 //! decided with error bounds (`spec/3-stages.md#stage-v-trajectory-with-grid-map`).
 
-use crate::input::cycle::{Cycle, Grid, TrajectoryPoint};
+use crate::input::cycle::{Cycle, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::rounding::Real;
+use crate::stages::llcc::{Pose, vector};
 use crate::stages::v_grid_map::bitmap::{Bitmap, NearCell};
 
 /// A disk centre in the grid's frame, m, and where the CAV is.
 pub(crate) struct Disk<'p> {
     pub(crate) column: Real,
     pub(crate) row: Real,
-    pub(crate) at: &'p TrajectoryPoint,
+    pub(crate) pose: &'p Pose,
 }
 
 /// A cell, unless it is beyond the array, and its distance as the stage means it, m.
@@ -49,23 +50,18 @@ impl GridGeometry {
         }
     }
 
-    /// Disk `i` of the footprint at a point: (2i+1) L/(2n) - L/2 from the rectangle's centre.
-    pub(crate) fn disk<'p>(
-        &self,
-        cycle: &Cycle<'_>,
-        point: &'p TrajectoryPoint,
-        i: i64,
-    ) -> Disk<'p> {
+    /// Disk `i` of the footprint at a pose: (2i+1) L/(2n) - L/2 from the rectangle's centre.
+    pub(crate) fn disk<'p>(&self, cycle: &Cycle<'_>, pose: &'p Pose, i: i64) -> Disk<'p> {
         let n = cycle.parameters.n;
         let odd = Real::integer(i) + Real::integer(i) + Real::ONE;
         let share = odd.over(Real::integer(n) + Real::integer(n)) - Real::new(0.5);
         let shift = Real::new(cycle.ego.length) * share + Real::new(cycle.ego.center_offset);
-        let centre = Vector::new(point.x, point.y) + Vector::new(point.cos, point.sin).times(shift);
+        let centre = pose.at + vector(pose.heading).times(shift);
         let relative = centre - self.origin;
         Disk {
             column: relative.dot(self.direction).over(self.norm_squared),
             row: self.direction.cross(relative).over(self.norm_squared),
-            at: point,
+            pose,
         }
     }
 

@@ -2,7 +2,9 @@
 //! sides that cross, in integers.
 
 use mufasa_model::numbers::real::Real;
-use mufasa_model::numbers::rectangle::{Rectangle, is_swept_over, share_a_point};
+use mufasa_model::numbers::rectangle::{
+    Rectangle, is_swept_over, is_swept_over_between, share_a_point,
+};
 use mufasa_model::numbers::vector::{Frame, Vector};
 
 use super::Draw;
@@ -243,6 +245,35 @@ fn a_rectangle_beside_the_way_is_swept_over_where_it_touches() {
             assert_eq!(swept(&moved), expected, "{moved:?} {b:?} {w:?}");
             seen[usize::from(expected)] += 1;
         }
+    }
+    assert!(seen.iter().all(|count| *count > 300), "{seen:?}");
+}
+
+/// `a` meets what `b` covers moved by r w, r from `from` to `to`.
+fn is_met_between(a: &Whole, b: &Whole, w: [i64; 2], [from, to]: [i64; 2]) -> bool {
+    let moved = |r: i64| b.corners().map(|[x, y]| [x + r * w[0], y + r * w[1]]);
+    polygons_meet(&a.corners(), &around([moved(from), moved(to)].concat()))
+}
+
+/// Moved by no more than to a point that is on the way: it is met there or not, with both ends.
+#[test]
+fn a_rectangle_that_moves_so_far_sweeps_over_what_its_convex_hull_meets() {
+    let mut draw = Draw::new(9);
+    let mut seen = [0; 2];
+    for _ in 0..3000 {
+        let (a, b) = (drawn(&mut draw), drawn(&mut draw));
+        let w = drawn_velocity(&mut draw, &b);
+        let from = i64::from(draw.between(-3, 4));
+        let ends = [from, from + i64::from(draw.between(0, 3))];
+        let moved = ends.map(|r| velocity_of(w).scaled(&Real::from_integer(r.into())));
+        let expected = is_met_between(&a, &b, w, ends);
+        let swept = is_swept_over_between(&a.exact(), &b.exact(), &velocity_of(w), &moved);
+        assert_eq!(swept, expected, "{a:?} {b:?} {w:?} {ends:?}");
+        seen[usize::from(expected)] += 1;
+        let none = velocity_of([0, 0]);
+        let stays = [none.clone(), none.clone()];
+        let stays = is_swept_over_between(&a.exact(), &b.exact(), &none, &stays);
+        assert_eq!(stays, meet(&a, &b), "{a:?} {b:?}");
     }
     assert!(seen.iter().all(|count| *count > 300), "{seen:?}");
 }

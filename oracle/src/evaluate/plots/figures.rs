@@ -2,14 +2,12 @@
 
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::cav::without::Without;
 use mufasa_sim::experiment::attacks::{self, Attacks, Offered};
 use mufasa_sim::experiment::availability::{self, Availability, Factor};
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu, Who};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::rules::{self, Rules};
 use mufasa_sim::experiment::stages::{self, Stages};
 
 use super::bars::{self, Bar, Bars, Group};
@@ -255,31 +253,6 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
     let key = [Series::PAPER, Series::HARDENED];
     let svg = lines::draw("What the checks cost without an attack", &about, &key, &rows);
     vec![figure(availability::NAME, svg)]
-}
-
-/// The price of each rule.
-pub fn rules(of: &Rules) -> Vec<Figure> {
-    let group = |row: &rules::Row| {
-        let whole = if row.variant == Variant::Paper { "paper" } else { "all" };
-        let name = row.without.map_or(whole, Without::name).to_owned();
-        let (series, value) = (series(row.variant), row.fallbacks_per_hour);
-        let label = format!("{value:.0}\n{:.0} %", 100.0 * row.share_mot);
-        let bars = vec![Bar { series, value, paler: 0.0, label, published: vec![] }];
-        Group { name, bars, note: String::new() }
-    };
-    let most = of.rows.iter().map(|row| row.fallbacks_per_hour).fold(100.0, f64::max);
-    let svg = bars::draw(&Bars {
-        title: "False alarms with all rules, and without each alone",
-        about: &[
-            "No attack. Above each bar: its value, and the share of the time with remote tracks.",
-        ],
-        key: &[Series::PAPER, Series::HARDENED],
-        unit: "fallbacks in an hour, each a false alarm",
-        most: 200.0 * (most / 200.0).ceil(),
-        step: 200.0,
-        groups: of.rows.iter().map(group).collect(),
-    });
-    vec![figure(rules::NAME, svg)]
 }
 
 /// The value that is set, short enough to stand beside others.

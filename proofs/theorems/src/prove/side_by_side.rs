@@ -102,7 +102,7 @@ impl Drop for Busy<'_> {
 mod tests {
     use super::*;
     use crate::prove::prove_claim;
-    use crate::theorem::h13_moving::THEOREMS;
+    use crate::theorem::h14_fail_safe::motions::THEOREMS;
 
     #[test]
     fn the_paths_and_the_answer_are_those_of_one_worker() {

@@ -39,23 +39,23 @@ pub const THEOREMS: &[Theorem] = &[
         "x from 0 to 50",
         None
     ),
-    closure!("F-03", "a lorry of 12 m meets the CAV: rejected by H-03", "x from 0 to 7.9", None),
+    closure!("F-03", "a lorry of 12 m meets the CAV: rejected by H-14", "x from 0 to 7.9", None),
     closure!(
         "F-04",
-        "a standing car meets the CAV at a trajectory point within its braking distance: rejected by H-04",
-        "v_now from 35 to 40, x from 0 to 110",
+        "a standing car meets the CAV behind s_CAV, within its braking distance: rejected by H-14",
+        "safety_time = 0.2 s, v_now from 4 to 4.25, x from 4 to 4.95",
         None
     ),
     closure!(
         "F-05",
-        "a detection meets the CAV at a trajectory point within its braking distance: rejected by H-04",
-        "v_now from 35 to 40, v_lead from 0 to 40, x from 0 to 110",
+        "a detection meets the CAV behind s_follow, within its braking distance: rejected by H-14",
+        "safety_time = 0.2 s, v_now from 4 to 4.25, v_lead from 0 to 10, x from 4 to 4.95",
         None
     ),
     closure!(
         "F-06",
-        "the first step of a standing CAV ends in a car: rejected by H-04",
-        "x from 0 to 4.9",
+        "the first step of a standing CAV ends in a car, which it cannot stop before any more when it goes on for tau: rejected by H-14",
+        "x from 0 to 4.02",
         None
     ),
     closure!(
@@ -86,23 +86,23 @@ pub const THEOREMS: &[Theorem] = &[
         "F-11",
         "a car of 1 m between two points, where the CAV is at neither of them: rejected by H-11",
         "the second point at most 13 m ahead, the car in between",
-        None
+        Some(Stage::Ii)
     ),
     closure!(
         "F-13",
-        "a car that stands in the way, with a made-up velocity: rejected by H-09",
+        "a car that stands in the way, with a made-up velocity: rejected by H-14",
         "velocities along x from -50 to 50 m/s",
-        Some(Stage::Iii)
+        None
     ),
     closure!(
         "F-14",
-        "a car stands where the CAV is, and the remote list is empty: rejected by H-10",
+        "a car stands where the CAV is, and the remote list is empty: rejected by H-10 and H-14",
         "x from -4 to 4",
         None
     ),
     closure!(
         "F-15",
-        "a car that stands in the way, with a made-up length: rejected by H-10",
+        "a car that stands in the way, with a made-up length: rejected by H-14",
         "lengths from 1 to 10 m",
         None
     ),
@@ -119,39 +119,33 @@ pub const THEOREMS: &[Theorem] = &[
         None
     ),
     closure!(
-        "F-22",
-        "a standing CAV is said to be more than start_tolerance farther after 0.2 s than a_max allows: rejected by H-12",
-        "the second point above 2.06 to 4 m ahead",
-        None
-    ),
-    closure!(
         "F-23",
-        "a trajectory that ends before the car in the braking distance: rejected by H-12",
+        "a trajectory that ends before the car in the braking distance: rejected by H-14",
         "the last point at most 0.9 m ahead",
-        Some(Stage::Ii)
+        Some(Stage::Iv)
     ),
     closure!(
         "F-26",
-        "a car behind the end of the trajectory, and within the braking distance: rejected by H-04",
-        "the last point above 4.5 to 6 m ahead, the car from there on to 10.25 m",
-        None
+        "a car behind the end of the trajectory, and within the braking distance: rejected by H-14",
+        "the last point above 1 to 1.25 m ahead, the car from there on to 5.5 m",
+        Some(Stage::Iv)
     ),
     closure!(
         "F-28",
-        "a zigzag of y m on the spot, while a car stands 0.5 m ahead of the CAV: rejected by H-04",
+        "a zigzag of y m on the spot, while a car stands 0.5 m ahead of the CAV: rejected by H-14, or by H-11",
         "y from 0 to 1",
         None
     ),
     closure!(
         "F-30",
-        "a car at (10, -8), said to stand, that crosses before a CAV at 10 m/s: rejected by H-13",
-        "seen at (10, -12) to (10, -11) 500 ms ago; a list of one item",
+        "a car at (4.5, -4), said to stand, that crosses before a CAV at 3 m/s: rejected by H-14",
+        "seen at (4.5, -8) to (4.5, -7.5) 500 ms ago; a list of one item",
         Some(Stage::Iv)
     ),
     closure!(
         "F-31",
-        "a car at (10, -8), left out, that crosses before a CAV at 10 m/s: rejected by H-13",
-        "seen at (10, -12) to (10, -11) 500 ms ago; a list of one item",
+        "a car at (4.5, -4), left out, that crosses before a CAV at 3 m/s: rejected by H-14",
+        "seen at (4.5, -8) to (4.5, -7.5) 500 ms ago; a list of one item",
         Some(Stage::Iv)
     ),
     closure!(

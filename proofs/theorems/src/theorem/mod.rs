@@ -4,12 +4,11 @@
 pub mod base;
 pub mod closure;
 pub mod distances;
-pub mod h04_horizon;
+pub mod h04_gap;
 pub mod h11_steps;
-pub mod h13_moving;
+pub mod h14_fail_safe;
 pub mod i_track_validation;
 pub mod lemma;
-pub mod llcc;
 pub mod rectangle;
 pub mod rounding;
 pub mod v_grid_map;
@@ -47,10 +46,12 @@ pub fn all() -> impl Iterator<Item = &'static Theorem> {
         distances::THEOREMS,
         lemma::THEOREMS,
         rectangle::THEOREMS,
-        llcc::THEOREMS,
-        h04_horizon::THEOREMS,
         h11_steps::THEOREMS,
-        h13_moving::THEOREMS,
+        h14_fail_safe::path::THEOREMS,
+        h14_fail_safe::times::THEOREMS,
+        h14_fail_safe::motions::THEOREMS,
+        h14_fail_safe::meeting::THEOREMS,
+        h04_gap::THEOREMS,
         v_grid_map::THEOREMS,
         i_track_validation::THEOREMS,
         closure::THEOREMS,

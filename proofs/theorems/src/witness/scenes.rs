@@ -3,24 +3,21 @@
 use crate::input::cycle::{
     Cycle, Detection, DetectionList, Grid, Profile, Track, TrackList, Trajectory,
 };
-use crate::input::scene::Scene;
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{Formula, at_most, less};
+use crate::numbers::real::formula::{Formula, at_most};
 use crate::numbers::real::hole::open_number;
 use crate::services::configuration::Configuration::{self, MotRemote};
-use crate::stages::distances::s_b;
 use crate::theorem::base::{self, NOW_NS};
 
-/// The CAV at 10 m/s; a car at (10, -8), seen 500 ms ago at (10, before), and one at 60 m that is tracked.
+/// The CAV at 3 m/s; a car at (4.5, -4), seen 500 ms ago at (4.5, before), and one at 60 m that is tracked.
 pub fn crossed(profile: Profile) -> Cycle {
     let mut cycle = bare(profile, MotRemote);
-    cycle.ego.speed = 10.0;
-    let places: Vec<f64> = (0..=13).map(f64::from).collect();
-    cycle.trajectory = Some(every(100_000_000, &places));
+    cycle.ego.speed = 3.0;
+    cycle.trajectory = Some(straight(&[0.0, 0.5, 1.0]));
     cycle.tracks = Some(tracks(vec![track(1, 60.0)]));
-    let car = |y: f64| Detection { y, ..detections(10.0).items[0].clone() };
+    let car = |y: f64| Detection { y, ..detections(4.5).items[0].clone() };
     let mut seen = detections(60.0);
-    seen.items.push(car(-8.0));
+    seen.items.push(car(-4.0));
     cycle.detections = Some(seen);
     let items = vec![car(open_number("before"))];
     cycle.detection_history = vec![DetectionList { stamp_ns: NOW_NS - 500_000_000, items }];
@@ -29,13 +26,30 @@ pub fn crossed(profile: Profile) -> Cycle {
 
 /// It crosses at 7 to 8 m/s.
 pub fn crossing() -> Formula {
-    within("before", -12, -11)
+    both(within("before", -8, -7), at_most(&Real::named("before"), &Real::ratio(-15, 2)))
 }
 
-/// Nothing but a CAV that stands at a point; H-07 and H-12 forgive what is off by 1 km.
+/// The CAV at v_now, above 2 a_b safety_time = 3.2 m/s (F-04).
+pub fn hurried(profile: Profile, configuration: Configuration) -> Cycle {
+    let mut cycle = bare(profile, configuration);
+    cycle.ego.speed = open_number("v_now");
+    cycle.parameters.safety_time = 0.2;
+    cycle.trajectory = Some(straight(&[0.0, 0.4, 0.8, 0.95, 1.35]));
+    cycle
+}
+
+/// v_now is at most 4.25 m/s, and the car at x meets the CAV 0.95 m along: behind s_CAV, which is at
+/// most 0.85 m, and before s_b, which is 1 m at least.
+pub fn met_too_late() -> Formula {
+    let [x, v_now] = ["x", "v_now"].map(Real::named);
+    let slow = at_most(&v_now, &Real::ratio(17, 4));
+    both(slow, both(within("x", 4, 5), at_most(&x, &Real::ratio(495, 100))))
+}
+
+/// Nothing but a CAV that stands at a point; H-07 forgives what is off by 1 km.
 pub fn bare(profile: Profile, configuration: Configuration) -> Cycle {
     let mut cycle = base::cycle(profile, configuration);
-    (cycle.parameters.start_tolerance, cycle.parameters.lag_tolerance) = (1000.0, 1000.0);
+    cycle.parameters.start_tolerance = 1000.0;
     cycle
 }
 
@@ -52,26 +66,9 @@ pub fn within(name: &str, least: i64, most: i64) -> Formula {
     both(at_most(&integer(least), &number), at_most(&number, &integer(most)))
 }
 
-/// The car at x meets the CAV at the point this far along, which is within s_b.
-pub fn met(scene: &Scene, along: i64) -> Formula {
-    let (x, reach) = (Real::named("x"), Real::ratio(39, 10));
-    let s_b = s_b(&scene.ego.v_now, &scene.parameters.a_b);
-    Formula::All(vec![
-        less(&integer(along), &s_b),
-        at_most(&(integer(along) - &reach), &x),
-        at_most(&x, &(integer(along) + reach)),
-    ])
-}
-
 /// Points along x, 200 ms apart.
 pub fn straight(places: &[f64]) -> Trajectory {
     every(200_000_000, places)
-}
-
-/// Points along x, from 0 to 100 m.
-pub fn every_four_metres() -> Trajectory {
-    let places: Vec<f64> = (0..=25).map(|i| 4.0 * f64::from(i)).collect();
-    straight(&places)
 }
 
 /// Points along x, so many ns apart.

@@ -3,7 +3,7 @@
 
 use super::Search;
 use super::scenes::{
-    bare, both, crossed, crossing, detections, every, every_four_metres, grid, integer, met,
+    bare, both, crossed, crossing, detections, every, grid, hurried, integer, met_too_late,
     straight, track, tracks, within,
 };
 use crate::input::cycle::{CrossSection, Lead, Track};
@@ -15,7 +15,7 @@ use crate::theorem::base::NOW_NS;
 
 /// All searches. Objects are as large as the CAV and along x, so that two of them meet when their
 /// centres on the x axis are at most 4 m apart.
-pub const SEARCHES: [Search; 26] = [
+pub const SEARCHES: [Search; 25] = [
     Search {
         finding: "F-02",
         cycle: |profile| {
@@ -38,28 +38,21 @@ pub const SEARCHES: [Search; 26] = [
     Search {
         finding: "F-04",
         cycle: |profile| {
-            let mut cycle = bare(profile, PlanRemote);
-            cycle.ego.speed = open_number("v_now");
-            cycle.trajectory = Some(every_four_metres());
+            let mut cycle = hurried(profile, PlanRemote);
             cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
-        conditions: |scene| [both(within("v_now", 35, 40), within("x", 0, 110)), met(scene, 80)],
+        conditions: |_| [within("v_now", 4, 5), met_too_late()],
     },
     Search {
         finding: "F-05",
         cycle: |profile| {
-            let mut cycle = bare(profile, MotRemote);
-            cycle.ego.speed = open_number("v_now");
-            cycle.trajectory = Some(every_four_metres());
+            let mut cycle = hurried(profile, MotRemote);
             cycle.lead = Some(Lead { stamp_ns: NOW_NS, gap: 200.0, speed: open_number("v_lead") });
             cycle.detections = Some(detections(open_number("x")));
             cycle
         },
-        conditions: |scene| {
-            let speeds = both(within("v_now", 35, 40), within("v_lead", 0, 40));
-            [both(speeds, within("x", 0, 110)), met(scene, 80)]
-        },
+        conditions: |_| [both(within("v_now", 4, 5), within("v_lead", 0, 10)), met_too_late()],
     },
     Search {
         finding: "F-06",
@@ -69,7 +62,7 @@ pub const SEARCHES: [Search; 26] = [
             cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
-        conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(49, 10))],
+        conditions: |_| [within("x", 0, 60), at_most(&Real::named("x"), &Real::ratio(402, 100))],
     },
     Search {
         finding: "F-07",
@@ -167,8 +160,8 @@ pub const SEARCHES: [Search; 26] = [
             cycle.ego.speed = 0.3;
             cycle.trajectory = Some(straight(&[0.0, 0.5]));
             cycle.tracks =
-                Some(tracks(vec![Track { length: open_number("length"), ..track(1, 4.2) }]));
-            cycle.detections = Some(detections(4.2));
+                Some(tracks(vec![Track { length: open_number("length"), ..track(1, 4.05) }]));
+            cycle.detections = Some(detections(4.05));
             cycle
         },
         conditions: |_| [within("length", 1, 10), Formula::Known(true)],
@@ -196,17 +189,6 @@ pub const SEARCHES: [Search; 26] = [
         conditions: |_| [within("x", -60, 60), Formula::Known(true)],
     },
     Search {
-        finding: "F-22",
-        cycle: |profile| {
-            let mut cycle = bare(profile, PlanRemote);
-            cycle.parameters.start_tolerance = 2.0;
-            cycle.trajectory = Some(straight(&[0.0, open_number("end")]));
-            cycle.tracks = Some(tracks(Vec::new()));
-            cycle
-        },
-        conditions: |_| [within("end", 0, 4), less(&Real::ratio(206, 100), &Real::named("end"))],
-    },
-    Search {
         finding: "F-23",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
@@ -221,23 +203,21 @@ pub const SEARCHES: [Search; 26] = [
         finding: "F-26",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.ego.speed = 10.0;
-            cycle.trajectory =
-                Some(straight(&[0.0, 1.5, 3.0, 3.6, 4.0, 4.3, 4.5, open_number("end")]));
+            cycle.ego.speed = 4.0;
+            cycle.trajectory = Some(straight(&[0.0, 0.5, 1.0, open_number("end")]));
             cycle.tracks = Some(tracks(vec![track(1, open_number("x"))]));
             cycle
         },
         conditions: |_| {
             let [x, end] = ["x", "end"].map(Real::named);
-            let reached = both(within("end", 4, 6), less(&Real::ratio(9, 2), &end));
-            [reached, both(less(&(end + integer(4)), &x), at_most(&x, &Real::ratio(41, 4)))]
+            let reached = both(within("end", 1, 2), at_most(&end, &Real::ratio(5, 4)));
+            [reached, both(less(&(end + integer(4)), &x), at_most(&x, &Real::ratio(11, 2)))]
         },
     },
     Search {
         finding: "F-28",
         cycle: |profile| {
             let mut cycle = bare(profile, PlanRemote);
-            cycle.parameters.lag_tolerance = 2.0;
             cycle.ego.speed = 10.0;
             let mut zigzag = every(100_000_000, &[0.0; 14]);
             zigzag
@@ -259,7 +239,7 @@ pub const SEARCHES: [Search; 26] = [
             cycle
                 .tracks
                 .iter_mut()
-                .for_each(|list| list.items.push(Track { y: -8.0, ..track(2, 10.0) }));
+                .for_each(|list| list.items.push(Track { y: -4.0, ..track(2, 4.5) }));
             cycle
         },
         conditions: |_| [crossing(), Formula::Known(true)],

@@ -25,7 +25,7 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     if ahead {
         let missing = end::missing(draw, &cycle.ego);
         end::shorten(draw, cycle, missing);
-        place = end::place(draw, cycle);
+        place = end::place(cycle);
     }
     let plan = plan(draw, cycle);
     let cav = beside_cell(draw, cycle, &plan, ahead);

@@ -141,7 +141,8 @@ impl Danger {
         near.into_iter().map(|(id, _)| id).collect()
     }
 
-    fn time_left(&self, route: &Route, at: usize) -> f64 {
+    /// The time left to react at a moment, s.
+    pub fn time_left(&self, route: &Route, at: usize) -> f64 {
         let moment = &self.moments[at];
         let speed = moment.ego.speed;
         if speed < STANDING {

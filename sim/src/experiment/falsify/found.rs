@@ -8,7 +8,6 @@ use super::super::job::Job;
 use super::danger::{Danger, LastUse};
 use crate::attack::Attack;
 use crate::cav::guard::Variant;
-use crate::cav::without::Without;
 use crate::map::Town;
 use crate::map::id::MapId;
 use crate::run::{End, Outcome, RunError, Settings, Watcher};
@@ -24,8 +23,6 @@ const POSITION_M: f64 = 0.02;
 pub struct Case {
     /// What is checked.
     pub variant: Variant,
-    /// A rule that is left out.
-    pub without: Option<Without>,
     /// `tau` of the hardened profile, s; less than `TAU_S` is less than A-07 asks for.
     pub tau_s: f64,
     /// Whether control drives on along what was verified however long nothing newer comes (F-47).
@@ -88,7 +85,6 @@ impl Case {
         // Who attacks asks nobody, and what was kept stays the run that it was.
         settings.prechecks = false;
         settings.attacks.clone_from(&self.attacks);
-        settings.without = self.without;
         settings.stages.tau = self.tau_s;
         settings.drives_on = self.drives_on;
         settings.has_no_lead = self.has_no_lead;
@@ -133,10 +129,9 @@ impl Case {
 
     /// A name for files and pages.
     pub fn name(&self) -> String {
-        let without = self.without.map_or_else(String::new, |it| format!("-without-{}", it.name()));
         let kinds = self.kinds().replace(" + ", "-and-");
         let (variant, offered) = (self.variant.name(), self.offered.name());
         let route = self.map.route(self.route);
-        format!("{variant}{without}-{offered}-{kinds}-{route}-{}", self.scenario)
+        format!("{variant}-{offered}-{kinds}-{route}-{}", self.scenario)
     }
 }

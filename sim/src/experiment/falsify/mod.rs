@@ -207,7 +207,7 @@ impl<'a, C: Caller> Search<'a, C> {
 
     /// The scenarios of a round, and what the attacker learns from their runs without an attack.
     fn starts(&mut self) -> Result<Vec<Start>, RunError> {
-        let &Options { variant, without, vehicles, seed, .. } = self.options();
+        let &Options { variant, vehicles, seed, .. } = self.options();
         let (town, round, caller) = (self.town, self.number, self.caller);
         let one = |index: u64| {
             if caller.is_interrupted() {
@@ -220,7 +220,6 @@ impl<'a, C: Caller> Search<'a, C> {
             let (tau_s, attacks, map) = (TAU_S, Vec::new(), town.id);
             let case = Case {
                 variant,
-                without,
                 tau_s,
                 drives_on,
                 has_no_lead,

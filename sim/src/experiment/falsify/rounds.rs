@@ -10,7 +10,6 @@ use super::found::Found;
 use super::shrink::shrunk;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;
-use crate::cav::without::Without;
 use crate::map::Town;
 use crate::map::id::MapId;
 use crate::run::RunError;
@@ -20,8 +19,6 @@ use crate::run::RunError;
 pub struct Options {
     /// What is checked of remote data.
     pub variant: Variant,
-    /// A rule that is left out.
-    pub without: Option<Without>,
     /// Kinds of attacks that are tried, at least one.
     pub kinds: Vec<Kind>,
     /// Most runs with attacks.

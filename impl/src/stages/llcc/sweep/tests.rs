@@ -53,8 +53,7 @@ fn what_is_certainly_apart_does_not_touch() {
             })
             .collect();
         let object = object(&mut random, far);
-        let poses = points.iter().map(|point| (ego, point));
-        let sweep = Sweep::new(poses, [0.0, 0.3]);
+        let sweep = Sweep::new(&ego, &points, [0.0, 0.3]);
         let misses = sweep.misses(&object);
         missed += u32::from(misses);
         for point in &points {

@@ -10,7 +10,7 @@ use crate::numbers::plane::Vector;
 use crate::numbers::rectangle::{Rectangle, possibly_touch};
 use crate::random::Random;
 use crate::services::configuration::Configuration;
-use crate::stages::llcc::footprint;
+use crate::stages::llcc::{Pose, footprint};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 
 fn grid(random: &mut Random, occupied: &'static [u8]) -> Grid<'static> {
@@ -69,7 +69,7 @@ fn try_cell(
     grid: &Grid<'_>,
     points: &[TrajectoryPoint],
 ) -> (bool, bool) {
-    let band = Band::new(&CellFrame::new(cycle, grid), points);
+    let band = Band::new(&CellFrame::new(cycle, grid), points.iter().copied());
     let all: Vec<_> = points.iter().flat_map(|point| disks(cycle, grid, point)).collect();
     let [x, y] = all[random.below(all.len() as u64) as usize];
     let mut around = |at: f64, count: i64| {
@@ -143,7 +143,7 @@ fn what_a_rectangle_can_touch_is_in_the_band() {
                 TrajectoryPoint { t_ns: i as i64, x: x + i as f64, y, cos, sin }
             })
             .collect();
-        let band = Band::new(&CellFrame::with_rectangle(&cycle, &grid), &points);
+        let band = Band::new(&CellFrame::with_rectangle(&cycle, &grid), points.iter().copied());
         for _ in 0..20 {
             let (column, row) = (random.below(90) as i64, random.below(70) as i64);
             let mut bits = [0; 90 * 70 / 8 + 1];
@@ -151,7 +151,7 @@ fn what_a_rectangle_can_touch_is_in_the_band() {
             bits[bit / 8] |= 1 << (bit % 8);
             let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
             let square = cell(column, row);
-            let touches = |point| possibly_touch(&footprint(&cycle.ego, point), &square);
+            let touches = |point| possibly_touch(&footprint(&cycle.ego, &Pose::of(point)), &square);
             let touches = points.iter().any(touches);
             assert!(!(touches && is_free), "{column} {row} {band:?}");
             free += u32::from(is_free);

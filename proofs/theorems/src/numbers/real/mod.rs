@@ -140,8 +140,11 @@ impl Real {
     /// The largest integer not above the number, by as many branches as it takes.
     ///
     /// # Panics
-    /// If the number may be farther than 100 from 0: assume bounds.
+    /// If the number, not a constant, may be farther than 100 from 0: assume bounds.
     pub fn floor(&self) -> i64 {
+        if let Some(value) = self.0.as_constant() {
+            return value.floor().try_into().expect("a small constant");
+        }
         let mut floor = 0;
         while *self < Self::from_integer(floor.into()) {
             floor -= 1;

@@ -1,0 +1,202 @@
+"""H-14, the fail-safe rule of spec/7-fail-safe.md: what the CAV can always do, going on for tau at
+most and then braking to a stop along its path, and whom it meets then.
+
+Which points of the trajectory are ahead, how many places a piece has and where the path ends has no
+cautious side: the path is made of fractions. Positions are relative to the CAV's reference point.
+"""
+import itertools
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from beside import Beside
+from detection_history import S
+from geometry import EPS, edges, from_centre, reach
+from stopping import Stop, between, displacement
+
+
+@dataclass
+class Place:
+    x: Fraction
+    y: Fraction
+    way: Fraction
+    heading: dict
+
+    @cached_property
+    def pose(self):
+        return {"x": float(self.x), "y": float(self.y),
+                "cos": self.heading["cos"], "sin": self.heading["sin"]}
+
+
+def ahead(x, y, heading):
+    return x * Fraction(heading["cos"]) + y * Fraction(heading["sin"])
+
+
+def pieces(cycle):
+    """Of each piece: from one place to the next (x, y, way), how often, and the headings on the
+    piece and at its end. The last one goes straight on without an end."""
+    ego = cycle["ego"]
+    d = min(Fraction(1, 4), Fraction(ego["length"]))
+    nodes = [ego, *itertools.dropwhile(
+        lambda point: ahead(*displacement(ego, point), ego) <= Fraction(1, 8),
+        cycle["trajectory"]["points"])]
+    for a, b in zip(nodes, nodes[1:]):
+        x, y = displacement(a, b)
+        n = max(1, math.ceil(abs(x) / d), math.ceil(abs(y) / d))
+        yield (x / n, y / n, max(ahead(x, y, a), 0) / n), range(1, n + 1), a, b
+    end = nodes[-1]
+    yield (d * Fraction(end["cos"]), d * Fraction(end["sin"]), d), itertools.count(1), end, end
+
+
+def path(cycle, s_stop):
+    """The places, the last one where the way is s_stop."""
+    places = [Place(Fraction(0), Fraction(0), Fraction(0), cycle["ego"])]
+    for step, numbers, heading, end in pieces(cycle):
+        node = places[-1]
+        for k in numbers:
+            o, x = places[-1], node.x + k * step[0]
+            y, way = node.y + k * step[1], node.way + k * step[2]
+            if way > s_stop:
+                part = (s_stop - o.way) / (way - o.way)
+                x, y = o.x + part * (x - o.x), o.y + part * (y - o.y)
+                return [*places, Place(x, y, s_stop, heading)]
+            places.append(Place(x, y, way, heading))
+        places[-1].heading = end
+
+
+def sweeps(sides, dx, dy, ux, uy, r1, r2):
+    """Whether two rectangles (the sides of both; from centre to centre dx, dy) share a point when
+    the second one is moved along (ux, uy) by some r from r1 to r2."""
+    dx, dy, half = dx + (r1 + r2) / 2 * ux, dy + (r1 + r2) / 2 * uy, (r2 - r1) / 2
+    most = sum(h for _, _, h in sides) + half
+    if math.hypot(dx, dy) > 1.01 * most:
+        return False
+    sides = [(-uy, ux, 0.0), *sides, (ux, uy, half)]
+    return all(abs(dx * nx + dy * ny) <= reach(sides, nx, ny) for nx, ny, _ in sides[:-1])
+
+
+class Motion:
+    """An object, its velocity w (in fractions), and the age of its list."""
+
+    def __init__(self, cycle, item, w, stamp_ns):
+        self.ego, parameters = cycle["ego"], cycle["parameters"]
+        self.item = {**item, "x": item["x"] - self.ego["x"], "y": item["y"] - self.ego["y"]}
+        self.age_ns, self.a_b = cycle["now_ns"] - stamp_ns, parameters["a_b"]
+        self.age, self.source = self.age_ns / S, item
+        self.w, velocity = w, [float(part) for part in w]
+        self.speed = math.hypot(*velocity)
+        self.u = [part / self.speed if self.speed else 0.0 for part in velocity]
+        self.t_yield = parameters["t_yield"] + self.speed / (2 * parameters["a_yield"])
+        self.now = {"x": 0.0, "y": 0.0, "cos": self.ego["cos"], "sin": self.ego["sin"]}
+
+    def braked(self, t):
+        """How far the object goes in a time when it brakes."""
+        t = min(t, self.speed / self.a_b)
+        return self.speed * t - self.a_b * t * t / 2
+
+    def meets(self, cav, pose, t1, t2):
+        """Whether it sweeps over the CAV, of some length and width, at a place from t1 to t2."""
+        return sweeps(edges(pose, cav, EPS, self.item), *self.from_cav(pose), *self.u,
+                      self.braked(self.age + t1), self.speed * (self.age + t2))
+
+    def from_cav(self, pose):
+        return from_centre(pose, self.ego["center_offset"], self.item, 0.0, 0.0)
+
+    @cached_property
+    def comes_across(self):
+        """Whether it comes across the CAV where that is now, each side moved in by 0.3 m."""
+        if not self.speed or min(self.ego["length"], self.ego["width"]) / 2 < 0.3 + EPS:
+            return False
+        sides = edges(self.now, self.ego, -0.3 - EPS, self.item)
+        dx, dy = self.from_cav(self.now)
+        # Farther than this it is past the CAV.
+        far = self.speed * self.age + math.hypot(dx, dy) + 2 * sum(h for _, _, h in sides)
+        return sweeps(sides, dx, dy, *self.u, self.speed * self.age, far)
+
+    @property
+    def centre(self):
+        """Where it is now, in fractions."""
+        age = Fraction(self.age_ns, S)
+        return [at + w * age for at, w in zip(displacement(self.ego, self.source), self.w)]
+
+    @cached_property
+    def is_behind(self):
+        """Whether it goes the CAV's way, and all of it is behind the CAV's rear now."""
+        (dx, dy), c, s = self.from_cav(self.now), self.ego["cos"], self.ego["sin"]
+        along = float(self.w[0]) * c + float(self.w[1]) * s
+        rear = dx * c + dy * s + along * self.age
+        half = reach(edges(self.now, self.ego, 0.0, self.item)[2:], c, s)
+        return along > EPS and rear + half < -self.ego["length"] / 2 - EPS
+
+    @property
+    def follows(self):
+        """Who follows keeps its own distance."""
+        (wx, wy), c, s = map(float, self.w), self.ego["cos"], self.ego["sin"]
+        return (self.is_behind and self.comes_across
+                and abs(wx * s - wy * c) <= wx * c + wy * s - EPS)
+
+
+class FailSafe:
+    """The rule, for a cycle with a trajectory."""
+
+    def __init__(self, cycle):
+        self.cycle, self.ego, self.stop = cycle, cycle["ego"], Stop(cycle)
+
+    @cached_property
+    def places(self):
+        return path(self.cycle, self.stop.s_stop)
+
+    def within_reach(self):
+        """Tyres can bring the CAV there, when it brakes at once."""
+        for place in self.places[1:]:
+            f = max(ahead(place.x, place.y, self.ego), 0)
+            aside = abs(place.pose["x"] * self.ego["sin"] - place.pose["y"] * self.ego["cos"])
+            if f < self.stop.s_b and (
+                    aside > 0.5 + 0.17 * float(f) + 5.75 * self.stop.last(f)**2 - EPS):
+                return False
+        return True
+
+    def windows(self):
+        """Of each place its pose and its window; no end where the CAV may stand."""
+        befores, afters = [None, *self.places], [*self.places[1:], None]
+        for before, place, after in zip(befores, self.places, afters):
+            begins = self.stop.first(before.way) if before else 0.0
+            moves_on = after is not None and after.way < self.stop.s_b
+            yield place.pose, begins, self.stop.last(after.way) if moves_on else None
+
+    @cached_property
+    def a(self):
+        """How far beside the CAV the trajectory begins: it may join it anywhere."""
+        first = self.cycle["trajectory"]["points"][0]
+        return abs(between(first, self.ego, first)[1])
+
+    def motions(self, seen, tracks):
+        for track in tracks:
+            w = Fraction(track["vx"]), Fraction(track["vy"])
+            yield Motion(self.cycle, track, w, self.cycle["tracks"]["stamp_ns"])
+        for detection, item, age_ns in seen.motions():
+            w = [part * S / age_ns for part in displacement(item, detection)]
+            yield Motion(self.cycle, detection, w, self.cycle["detections"]["stamp_ns"])
+
+    def meets_nobody(self, seen, tracks):
+        """Whether no object that is seen, or a current track, may meet the CAV before it stands,
+        nor later when it cannot stop for it."""
+        if self.work(seen, tracks) > self.cycle["parameters"]["work_limit"]:
+            return False
+        cav = {**self.ego, "width": self.ego["width"] + 2 * self.a}
+        beside = Beside(self.cycle, self.places, self.a, self.stop.T)
+        windows = list(self.windows())
+        for motion in self.motions(seen, tracks):
+            latest = self.stop.T + (0.0 if motion.comes_across else motion.t_yield)
+            if (any(motion.meets(cav, pose, begins, latest if ends is None else ends)
+                    for pose, begins, ends in windows)
+                    and not motion.follows and not beside.keeps_beside(motion)):
+                return False
+        return True
+
+    def work(self, seen, tracks):
+        items = [len(one["items"]) for one in seen.lists]
+        places = len(self.places) + len(self.cycle["trajectory"]["points"])
+        return (places * len(tracks)
+                + len(seen.detections) * max([1, *items]) * (sum(items) + places))

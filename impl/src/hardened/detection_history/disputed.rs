@@ -1,0 +1,163 @@
+//! Which explained detections are disputed (`spec/3-stages.md#what-the-cav-saw-itself`).
+//!
+//! In plain doubles, with `CLOSE` on the side that disputes more. The own origin is found again: what
+//! is as near to the past as the nearest item, but for `CLOSE`, is at the same place, or stage i has
+//! failed (`ambiguous`).
+//!
+//! What it costs, with D detections, U items of all usable lists and R of the longest, of the work
+//! D R U of H-14: each confirmed track is asked about once at most, and compares its origin with every
+//! unexplained detection, and of each of these one place in every other list with the items there, at
+//! most U. Confirmed tracks have two own origins at least, and no two tracks have the same one, so that
+//! there are at most U / 2 of them, which is at most 2 R: together 2 R D (U + 1) steps.
+
+use crate::hardened::detection_history::explained::Explained;
+use crate::hardened::detection_history::lists::{Lists, Past};
+use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
+use crate::input::cycle::{Detection, Track, TrackList};
+use crate::input::detection_index::DetectionIndex;
+use crate::input::scratch::{Column, Scratch};
+
+/// What is asked of the current detections, and what is known.
+pub(crate) struct Disputes<'m, 'c, 'a> {
+    detections: &'c [Detection],
+    index: Option<&'c DetectionIndex<'a>>,
+    tracks: Option<&'c TrackList<'a>>,
+    explained: &'m Explained,
+    /// Where the unexplained ones are, if they are few.
+    unexplained: Option<[[f64; 2]; FEW]>,
+    /// Whether the detection of one track is disputed, the last one asked for.
+    last: Option<(usize, bool)>,
+}
+
+/// So many unexplained detections are compared with each past before anything else is done.
+const FEW: usize = 8;
+
+impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
+    pub(crate) fn new(
+        detections: &'c [Detection],
+        index: Option<&'c DetectionIndex<'a>>,
+        tracks: Option<&'c TrackList<'a>>,
+        explained: &'m Explained,
+        scratch: &Scratch<'_>,
+    ) -> Self {
+        let unexplained = few_unexplained(detections, explained, scratch);
+        Self { detections, index, tracks, explained, unexplained, last: None }
+    }
+
+    /// Whether the detection of a confirmed track may be disputed: whether any unexplained one is as
+    /// near to its past as that takes, or there are many.
+    pub(crate) fn may_be_disputed(
+        &self,
+        track: usize,
+        lists: &Lists<'_, '_, '_>,
+        scratch: &Scratch<'_>,
+    ) -> bool {
+        let Some(unexplained) = &self.unexplained else { return true };
+        if self.explained.count == self.detections.len() {
+            return false;
+        }
+        let row_of = |list: &'c TrackList<'a>| list.items.get(track).zip(scratch.rows.get(track));
+        let Some((track, row)) = self.tracks.and_then(row_of) else { return true };
+        let Some(past) = lists.past_of(row) else { return true };
+        let (dx, dy) = past.moved(track);
+        let reach = lists.v_object() * past.usable.age + past.reach + MARGIN;
+        let is_near = |at: f64, place: f64| (at - place).abs() <= reach;
+        unexplained.iter().any(|&[x, y]| is_near(x, track.x + dx) && is_near(y, track.y + dy))
+    }
+
+    /// Whether the detection of a confirmed track is disputed. The lists are listed by squares.
+    pub(crate) fn is_disputed(
+        &mut self,
+        track: usize,
+        lists: &Lists<'_, '_, '_>,
+        scratch: &Scratch<'_>,
+    ) -> bool {
+        if let Some((_, known)) = self.last.filter(|&(last, _)| last == track) {
+            return known;
+        }
+        let known = self
+            .own_origin(track, lists, scratch)
+            .is_some_and(|(past, origin)| self.any_may_come_from(origin, &past, lists, scratch));
+        self.last = Some((track, known));
+        known
+    }
+
+    /// The list of a confirmed track, and where its own origin in it is.
+    fn own_origin<'l>(
+        &self,
+        track: usize,
+        lists: &Lists<'_, 'l, '_>,
+        scratch: &Scratch<'_>,
+    ) -> Option<(Past<'l>, [f64; 2])> {
+        let (track, row) = self.tracks?.items.get(track).zip(scratch.rows.get(track))?;
+        let past = lists.past_of(row)?;
+        let origin = nearest_to_past(track, &past, lists, scratch.columns)?;
+        Some((past, origin))
+    }
+
+    /// Whether any unexplained detection may come from there.
+    fn any_may_come_from(
+        &self,
+        origin: [f64; 2],
+        past: &Past<'_>,
+        lists: &Lists<'_, '_, '_>,
+        scratch: &Scratch<'_>,
+    ) -> bool {
+        let items = self.detections;
+        let farthest = lists.v_object() * past.usable.age + CLOSE;
+        let comes = |detection: usize, now: &Detection| {
+            let (x, y) = (now.x - origin[0], now.y - origin[1]);
+            x * x + y * y <= farthest * farthest
+                && self.explained.by(detection, scratch.rows, scratch.columns).is_none()
+                && lists.is_supported(now, origin, (past.list, &past.usable), scratch.columns)
+        };
+        let Some(index) = self.index else {
+            return items.iter().enumerate().any(|(detection, now)| comes(detection, now));
+        };
+        let mut any = false;
+        let around = |at: f64| [at - farthest - MARGIN, at + farthest + MARGIN];
+        index.for_each_in(origin.map(around), |detection, _| {
+            any = any || items.get(detection).is_some_and(|now| comes(detection, now));
+        });
+        any
+    }
+}
+
+fn nearest_to_past(
+    track: &Track,
+    past: &Past<'_>,
+    lists: &Lists<'_, '_, '_>,
+    columns: &[Column],
+) -> Option<[f64; 2]> {
+    let (dx, dy) = past.moved(track);
+    let around = |at: f64| [at - past.reach - MARGIN, at + past.reach + MARGIN];
+    let near = [around(track.x + dx), around(track.y + dy)];
+    let (mut nearest, mut origin) = (f64::INFINITY, None);
+    lists.listed(past.list)?.for_each_in(columns, near, |_, at| {
+        let (x, y) = ((track.x - at[0]) + dx, (track.y - at[1]) + dy);
+        let squared = x * x + y * y;
+        if squared < nearest {
+            (nearest, origin) = (squared, Some(at));
+        }
+    });
+    origin
+}
+
+/// `None` for more than a few; what is left of the few is nowhere.
+fn few_unexplained(
+    items: &[Detection],
+    explained: &Explained,
+    scratch: &Scratch<'_>,
+) -> Option<[[f64; 2]; FEW]> {
+    let count = items.len().saturating_sub(explained.count);
+    let mut places = [[f64::INFINITY; 2]; FEW];
+    if count > FEW {
+        return None;
+    }
+    let is_unexplained = |&(detection, _): &(usize, &Detection)| {
+        explained.by(detection, scratch.rows, scratch.columns).is_none()
+    };
+    let found = items.iter().enumerate().filter(is_unexplained).take(count);
+    places.iter_mut().zip(found).for_each(|(place, (_, item))| *place = [item.x, item.y]);
+    Some(places)
+}

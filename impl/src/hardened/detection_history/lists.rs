@@ -1,0 +1,147 @@
+//! The usable lists, as H-14 looks into them (`spec/3-stages.md#what-the-cav-saw-itself`).
+
+use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
+use crate::hardened::detection_history::{DetectionHistory, UsableList};
+use crate::input::cycle::{Cycle, Detection, Track, TrackList};
+use crate::input::scratch::{Column, Row};
+use crate::numbers::range::larger;
+use crate::numbers::time::{elapsed_ns, seconds};
+
+/// The list of a track.
+#[derive(Clone, Copy)]
+pub(crate) struct Past<'c> {
+    /// Its place in the history.
+    pub(crate) list: usize,
+    pub(crate) usable: UsableList<'c>,
+    /// How far from the past an item may be, m.
+    pub(crate) reach: f64,
+    /// How much the mean velocity may differ from that of the track, m/s.
+    pub(crate) off: f64,
+    /// From the stamp of the tracks to that of the list, s.
+    since: f64,
+}
+
+impl Past<'_> {
+    /// From the position of a track to its past, m.
+    pub(crate) fn moved(&self, track: &Track) -> (f64, f64) {
+        (track.vx * self.since, track.vy * self.since)
+    }
+
+    /// A box that holds what is as near to the past as an item may be.
+    pub(crate) fn around(&self, track: &Track) -> [[f64; 2]; 2] {
+        let (dx, dy) = self.moved(track);
+        let around = |at: f64| [at - self.reach - MARGIN, at + self.reach + MARGIN];
+        [around(track.x + dx), around(track.y + dy)]
+    }
+}
+
+/// All that is asked of the usable lists.
+pub(crate) struct Lists<'m, 'c, 'a> {
+    cycle: &'m Cycle<'a>,
+    history: &'m DetectionHistory<'c, 'a>,
+    /// The lists in which the past of a confirmed track is looked for, the first one first.
+    pasts: [Option<Past<'c>>; 4],
+    /// By squares, once they are needed.
+    squares: [Option<Squares<'c>>; 4],
+}
+
+impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
+    pub(crate) fn new(
+        cycle: &'m Cycle<'a>,
+        history: &'m DetectionHistory<'c, 'a>,
+        tracks: Option<&TrackList<'_>>,
+    ) -> Self {
+        let mut pasts = [None; 4];
+        if let Some((tracks, detections)) = tracks.zip(history.detections) {
+            let since_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
+            for (past, list) in pasts.iter_mut().zip(history.by_reference_age()) {
+                *past = history.usable.get(list).copied().flatten().map(|usable| {
+                    let reach = usable.reach(cycle) + CLOSE;
+                    let off = (cycle.parameters.theta_track_max + reach) / usable.age;
+                    let since = seconds(since_ns.saturating_sub(usable.age_ns));
+                    Past { list, usable, reach, off, since }
+                });
+            }
+        }
+        Self { cycle, history, pasts, squares: [None; 4] }
+    }
+
+    /// By how much the mean velocity of a confirmed track's detection may differ from that of the
+    /// track at most, m/s.
+    pub(crate) fn greatest_off(&self) -> f64 {
+        self.pasts.iter().flatten().map(|past| past.off).fold(0.0, larger)
+    }
+
+    pub(crate) const fn v_object(&self) -> f64 {
+        self.cycle.parameters.v_object
+    }
+
+    pub(crate) fn usable(&self, list: usize) -> Option<UsableList<'c>> {
+        self.history.usable.get(list).copied().flatten()
+    }
+
+    /// The list by squares. All usable ones are listed at the first call.
+    pub(crate) fn by_squares(
+        &mut self,
+        list: usize,
+        columns: &mut [Column],
+    ) -> Option<Squares<'c>> {
+        if self.squares.iter().all(Option::is_none) {
+            // Of a few squares for what comes from anywhere, and of a few things in a square.
+            let parameters = &self.cycle.parameters;
+            let side = larger(4.0 * parameters.theta_track_max, 0.25 * parameters.v_object);
+            let usable = self.history.usable.iter().zip(Links::ALL);
+            for (squares, (list, links)) in self.squares.iter_mut().zip(usable) {
+                *squares =
+                    list.map(|list| Squares::of((list.items, list.index), side, links, columns));
+            }
+        }
+        self.listed(list)
+    }
+
+    /// The same after that call.
+    pub(crate) fn listed(&self, list: usize) -> Option<Squares<'c>> {
+        self.squares.get(list).copied().flatten()
+    }
+
+    /// The list of the confirmed track with this row.
+    pub(crate) fn past_of(&self, row: &Row) -> Option<Past<'c>> {
+        let origins = row.origins();
+        let is_held = |past: &&Past<'_>| origins & [1, 2, 4, 8].get(past.list).unwrap_or(&0) != 0;
+        self.pasts.iter().flatten().find(is_held).copied()
+    }
+
+    /// Whether a detection may come from an item of a list, but for the distance: whether an item of
+    /// another list is where the object was then, when there are other lists. All are listed.
+    pub(crate) fn is_supported(
+        &self,
+        now: &Detection,
+        before: [f64; 2],
+        (place, own): (usize, &UsableList<'_>),
+        columns: &[Column],
+    ) -> bool {
+        let reach = self.cycle.parameters.theta_track_max + CLOSE;
+        let [before_x, before_y] = before;
+        let mut alone = true;
+        for (list, squares) in self.squares.iter().enumerate() {
+            let (Some(squares), Some(other)) = (squares, self.usable(list)) else { continue };
+            if list == place {
+                continue;
+            }
+            alone = false;
+            let mut supported = false;
+            let share = other.age / own.age;
+            let (dx, dy) = ((before_x - now.x) * share, (before_y - now.y) * share);
+            let around = |at: f64| [at - reach - MARGIN, at + reach + MARGIN];
+            let near = [around(now.x + dx), around(now.y + dy)];
+            squares.for_each_in(columns, near, |_, [item_x, item_y]| {
+                let (x, y) = ((now.x - item_x) + dx, (now.y - item_y) + dy);
+                supported |= x * x + y * y <= reach * reach;
+            });
+            if supported {
+                return true;
+            }
+        }
+        alone
+    }
+}

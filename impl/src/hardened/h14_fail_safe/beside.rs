@@ -1,0 +1,222 @@
+//! Who keeps beside the path (`spec/7-fail-safe.md#meeting`).
+//!
+//! An object is compared with how far places reach to the sides of the reference path, all of them
+//! together: in plain doubles, of which each distance errs by less than 2e-6 m, `ERROR` being more than
+//! what is compared does. Only what these leave open is asked of one place after the other.
+
+use crate::hardened::h14_fail_safe::path::{Path, Place};
+use crate::input::cycle::Ego;
+use crate::numbers::plane::{Vector, from_segment};
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rectangle::Rectangle;
+use crate::numbers::rounding::Real;
+use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
+use crate::stages::llcc::{footprint, vector};
+
+/// m
+const ERROR: f64 = 1e-4;
+/// What the sine of the heading may be, and more for each m of the way: a path that bends.
+const BEND: f64 = 0.05;
+const RADIUS: f64 = 30.0;
+/// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
+const DRIFT: f64 = 10.0;
+/// So many places are looked at together.
+const FEW: f64 = 4096.0;
+
+/// An object that moves.
+pub(super) struct Passing {
+    /// Where it is now.
+    pub(super) now: Rectangle,
+    pub(super) velocity: Vector,
+    pub(super) speed: Real,
+    pub(super) is_behind: bool,
+    /// `t_H`, unless it keeps to its lane, s.
+    pub(super) until: Real,
+}
+
+/// The CAV's path beside the reference path.
+pub(super) struct Beside<'c, 'a> {
+    path: Path<'c, 'a>,
+    route: IndexedRoute<'c, 'a>,
+    /// a, m.
+    aside: Real,
+    lane: Option<Lane>,
+}
+
+impl<'c, 'a> Beside<'c, 'a> {
+    pub(super) const fn new(path: &Path<'c, 'a>, route: IndexedRoute<'c, 'a>, aside: Real) -> Self {
+        Self { path: *path, route, aside, lane: None }
+    }
+
+    /// Whether the object certainly does.
+    pub(super) fn keeps(&mut self, object: &Passing) -> bool {
+        let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
+        if lane.is_open == Some(false) {
+            return false;
+        }
+        let Some((away, needed)) = self.needed(object, lane.hint) else { return false };
+        lane.has_room_for(away.value(), needed.value()).unwrap_or_else(|| {
+            let has_none = |place: &Place| (!self.has_room(place, away, needed)).then_some(());
+            !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
+        })
+    }
+
+    /// D, and what has to be less than the room beside the CAV times D; of several nearest points of the
+    /// reference path the most. `None` where the object certainly keeps beside nothing.
+    fn needed(&self, object: &Passing, hint: usize) -> Option<(Real, Real)> {
+        let Rectangle { centre, direction, length, width } = object.now;
+        let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
+        let nearest = self.route.nearest(centre, hint);
+        let away = nearest.0;
+        if !self.route.certainly_has_beside(centre) || !Real::ZERO.certainly_below(away) {
+            return None;
+        }
+        let most = (object.speed * away).over(Real::new(DRIFT));
+        let mut needed = Real::ZERO;
+        self.route.each_nearest(centre, nearest, |segment| {
+            for q in from_segment(centre, segment.from, segment.to).into_iter().flatten() {
+                let drift = object.velocity.dot(q).abs();
+                let keeps_lane = object.is_behind && drift.certainly_at_most(most);
+                let drifts = if keeps_lane { Real::ZERO } else { drift * object.until };
+                let reach = direction.dot(q).abs() * length + direction.cross(q).abs() * width;
+                needed = needed.max(reach + drifts);
+            }
+        });
+        Some((away, needed))
+    }
+
+    /// Whether there certainly is room at a place.
+    fn has_room(&self, place: &Place, away: Real, needed: Real) -> bool {
+        let ego = &self.path.nodes.cycle.ego;
+        let (h, h_k) = (vector([ego.cos, ego.sin]), vector(place.pose.heading));
+        let most = Real::new(BEND) + place.way.over(Real::new(RADIUS));
+        let centre = footprint(ego, &place.pose).centre;
+        if !h.cross(h_k).abs().certainly_at_most(most) || !self.route.certainly_has_beside(centre) {
+            return false;
+        }
+        let nearest = self.route.nearest(centre, self.lane.map_or(0, |lane| lane.hint));
+        let mut extent = Real::ZERO;
+        self.route.each_nearest(centre, nearest, |segment| {
+            let g = Vector::between(segment.from, segment.to);
+            let [length, width] = [ego.length, ego.width].map(|size| Real::new(0.5 * size));
+            let across = h_k.dot(g).abs() * width + h_k.cross(g).abs() * length;
+            extent = extent.max(across.over(g.norm()));
+        });
+        let room = (away - nearest.0).abs() - (extent + self.aside);
+        needed.certainly_below(room * away)
+    }
+}
+
+/// How far places reach to the sides of the reference path.
+#[derive(Clone, Copy, Debug)]
+struct Lane {
+    /// The least `D_k` - `E_k` and the greatest `D_k` + `E_k`: with the most and with the least `E_k` that may
+    /// be, m.
+    outer: [f64; 2],
+    inner: [f64; 2],
+    /// Whether the path bends little everywhere, and lies beyond no end of the route, if that is certain.
+    is_open: Option<bool>,
+    /// Whether nothing is between two places that follow each other.
+    is_closed_up: bool,
+    /// A segment that is near.
+    hint: usize,
+}
+
+impl Lane {
+    fn new(path: &Path<'_, '_>, route: IndexedRoute<'_, '_>, aside: Real) -> Self {
+        let &Ego { x, y, .. } = &path.nodes.cycle.ego;
+        let none = [f64::MAX, f64::MIN];
+        let mut lane =
+            Self { outer: none, inner: none, is_open: Some(true), is_closed_up: true, hint: 0 };
+        route.in_corridor([x, y], &mut lane.hint);
+        if path.nodes.most_places() > FEW {
+            return Self { is_open: None, ..lane };
+        }
+        let mut before = [f64::MIN, f64::MAX];
+        for piece in path.pieces() {
+            for k in 0..piece.count() {
+                let Some(place) = piece.plainly(k) else {
+                    lane.is_open = None;
+                    continue;
+                };
+                lane.add(
+                    &path.nodes.cycle.ego,
+                    (place, piece.heading()),
+                    route,
+                    (aside, &mut before),
+                );
+                if lane.is_open == Some(false) {
+                    return lane;
+                }
+            }
+        }
+        lane
+    }
+
+    /// With one more place: x, y and way, and the heading. `before`: how far the one before reaches.
+    fn add(
+        &mut self,
+        ego: &Ego,
+        ([x, y, way], [cos, sin]): ([f64; 3], [f64; 2]),
+        route: IndexedRoute<'_, '_>,
+        (aside, before): (Real, &mut [f64; 2]),
+    ) {
+        let centre = [x + ego.center_offset * cos, y + ego.center_offset * sin];
+        let more = (ego.cos * sin - ego.sin * cos).abs() - BEND - way / RADIUS;
+        let bends_little = if more.abs() > ERROR { Some(more < 0.0) } else { None };
+        self.is_open = both(self.is_open, both(bends_little, route.plainly_has_beside(centre)));
+        let (away, near) = route.about(centre, self.hint);
+        self.hint = near;
+        let extents = extents(ego, [cos, sin], route, (centre, away));
+        let [outer, inner] = extents.map(|extent| {
+            let reach = extent + aside.value();
+            [away - reach, away + reach]
+        });
+        (self.outer, self.inner) = (joined(self.outer, outer), joined(self.inner, inner));
+        self.is_closed_up &= inner[0] < before[1] - ERROR && before[0] < inner[1] - ERROR;
+        *before = inner;
+    }
+
+    /// Whether there is room beside all places for what is so far from the reference path, if that is
+    /// certain.
+    fn has_room_for(&self, away: f64, needed: f64) -> Option<bool> {
+        let needed = needed / away;
+        let room = |[least, greatest]: [f64; 2]| larger(least - away, away - greatest) - needed;
+        let has_room = self.is_open == Some(true) && room(self.outer) > ERROR;
+        let has_none = self.is_closed_up && room(self.inner) < -ERROR;
+        if has_room || has_none { Some(has_room) } else { None }
+    }
+}
+
+/// The most and the least of half the extent of the CAV across segments that may be nearest, m.
+fn extents(
+    ego: &Ego,
+    [cos, sin]: [f64; 2],
+    route: IndexedRoute<'_, '_>,
+    (centre, away): ([f64; 2], f64),
+) -> [f64; 2] {
+    let (mut most, mut least) = (0.0, f64::MAX);
+    for Segment { from, to, index } in route.segments(centre, away + ERROR) {
+        if route.at_most(centre, index) > away + ERROR {
+            continue;
+        }
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let (along, across) = ((cos * x + sin * y).abs(), (cos * y - sin * x).abs());
+        let extent = 0.5 * (along * ego.width + across * ego.length) / libm::sqrt(x * x + y * y);
+        (most, least) = (larger(most, extent), smaller(least, extent));
+    }
+    [most, least]
+}
+
+/// Whether both are so, if that is known.
+fn both(one: Option<bool>, other: Option<bool>) -> Option<bool> {
+    match (one, other) {
+        (Some(false), _) | (_, Some(false)) => Some(false),
+        (Some(true), Some(true)) => Some(true),
+        (None, _) | (_, None) => None,
+    }
+}
+
+fn joined([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [smaller(a, c), larger(b, d)]
+}

@@ -1,0 +1,277 @@
+//! Boxes around the CAV's rectangles at consecutive places, with the time when it may be there: what
+//! certainly sweeps over no point of such a box meets the CAV at none of them.
+//!
+//! Plain doubles. Places count from the CAV's reference point and are below 2^26 m, so that with less than
+//! 32 roundings they err by less than 2^-20 m; what is longer errs by less than 1e-12 of itself.
+
+use crate::hardened::h14_fail_safe::path::{Line, Nodes};
+use crate::hardened::h14_fail_safe::times::Times;
+use crate::input::cycle::{Cycle, Ego};
+use crate::numbers::range::{EMPTY, extend, larger, smaller};
+use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
+
+/// More than plain doubles err, m.
+const ERROR: f64 = 1e-6;
+/// The same, of what is long.
+const ROUGH: f64 = 1e-12;
+/// No two places that follow each other are farther apart, m.
+pub(super) const APART: f64 = 0.4;
+
+/// What decides when an object may meet the CAV, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    pub(super) times: Times<f64>,
+    /// T + `t_yield`
+    yields: f64,
+    /// 1 / (2 `a_yield`), 1 / (2 `a_b`)
+    yielding: f64,
+    braking: f64,
+    a_b: f64,
+}
+
+impl Clock {
+    pub(super) fn new(cycle: &Cycle<'_>) -> Self {
+        let (times, parameters) = (Times::new(cycle), &cycle.parameters);
+        Self {
+            times,
+            yields: times.until_stop + parameters.t_yield,
+            yielding: 0.5 / parameters.a_yield,
+            braking: 0.5 / parameters.a_b,
+            a_b: parameters.a_b,
+        }
+    }
+
+    /// For how long an object of that speed and age moves on, rounded up.
+    pub(super) fn longest(&self, speed: f64, age: f64) -> f64 {
+        (age + self.yields + speed * self.yielding) * (1.0 + 1e-9) + 1e-9
+    }
+
+    /// After what time an object that goes on is where it is now when it brakes, rounded down.
+    fn braked(&self, speed: f64, seconds: f64) -> f64 {
+        let left = larger(speed - self.a_b * seconds, 0.0);
+        if speed > 1e-3 { (speed - left * left / speed) * self.braking - 1e-9 } else { 0.0 }
+    }
+}
+
+/// An object as plain doubles have it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Object {
+    /// The centre from the CAV's reference point, at the time of its list.
+    pub(super) at: MovingRectangle,
+    pub(super) speed: f64,
+    /// By how much the velocity may be another one, m/s.
+    pub(super) off: f64,
+    /// Age of its list, s.
+    pub(super) age: f64,
+}
+
+/// A box, and when the CAV may be in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cover {
+    axis: [f64; 2],
+    /// Along the axis and across it, from the CAV's reference point.
+    ranges: [[f64; 2]; 2],
+    /// From when on the CAV may be there, s, and until when, if it may not stand there.
+    start: f64,
+    end: Option<f64>,
+}
+
+impl Cover {
+    /// Of nothing, yet. `ways`: the least and the greatest.
+    pub(super) fn new(axis: [f64; 2], [from, to]: [f64; 2], times: &Times<f64>) -> Self {
+        let round = |way: f64| way * ROUGH + ERROR;
+        let start = times.first(larger(from - round(from), 0.0)) * (1.0 - 1e-9) - 1e-9;
+        let to = to + round(to);
+        let passes = to < times.s_b * (1.0 - ROUGH);
+        let end = passes.then(|| times.last(to) * (1.0 + 1e-9) + 1e-9);
+        Self { axis, ranges: [EMPTY; 2], start, end }
+    }
+
+    /// With the CAV at two places and between, of that heading.
+    #[inline]
+    pub(super) fn add(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
+        let cav = rectangle(ego, heading);
+        let (reach, forward) = (cav.extents(self.axis), split(self.axis, cav.centre));
+        for place in places {
+            let [along, across] = split(self.axis, place);
+            extend(&mut self.ranges, [along + forward[0], across + forward[1]], reach);
+        }
+    }
+
+    /// The box as seen from an object.
+    #[inline]
+    pub(super) fn seen_from(&self, at: &MovingRectangle) -> Seen {
+        let [a, b] = split(self.axis, at.centre);
+        let [[back, front], [right, left]] = self.ranges;
+        let error = ERROR + ROUGH * self.size();
+        Seen {
+            axis: self.axis,
+            from: [a - 0.5 * (back + front), b - 0.5 * (right + left)],
+            half: [0.5 * (front - back) + error, 0.5 * (left - right) + error],
+            direction: split(self.axis, at.direction),
+            size: at.size.map(|size| 0.5 * size),
+        }
+    }
+
+    /// Whether the object certainly sweeps over no point of the box in this time.
+    #[inline]
+    pub(super) fn misses(&self, object: &Object, clock: &Clock) -> bool {
+        let &Object { at, speed, off, age } = object;
+        let until = match self.end {
+            Some(end) => age + end,
+            None => clock.longest(speed + off, age),
+        };
+        let mut seen = self.seen_from(&at);
+        seen.half = seen.half.map(|it| it + (off + ROUGH * speed) * until);
+        if seen.is_passed(at.velocity) {
+            return true;
+        }
+        let Seen { from: [middle_a, middle_b], half, direction: [along, across], .. } = seen;
+        let [half_a, half_b] = half;
+        let (along, across, [length, width]) = (along.abs(), across.abs(), seen.size);
+        let [va, vb] = split(self.axis, at.velocity);
+        let from = if off > 0.0 { 0.0 } else { clock.braked(speed, age + self.start) };
+        let apart = |middle: f64, rate: f64, half: f64| {
+            let (one, other) = (middle + rate * from, middle + rate * until);
+            smaller(one, other) > half || larger(one, other) < -half
+        };
+        apart(middle_a, va, half_a + along * length + across * width)
+            || apart(middle_b, vb, half_b + across * length + along * width)
+    }
+
+    fn size(&self) -> f64 {
+        let [[back, front], [right, left]] = self.ranges;
+        larger(front.abs(), back.abs()) + larger(left.abs(), right.abs())
+    }
+}
+
+/// See `Cover::seen_from`: where the object is from the middle of the box, half of the box, m, and the
+/// object's direction and half its size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    axis: [f64; 2],
+    from: [f64; 2],
+    half: [f64; 2],
+    direction: [f64; 2],
+    size: [f64; 2],
+}
+
+impl Seen {
+    /// Whether the strip that it sweeps over with this velocity certainly misses the box.
+    #[inline]
+    pub(super) fn is_passed(&self, velocity: [f64; 2]) -> bool {
+        let ([a, b], [half_a, half_b]) = (self.from, self.half);
+        let [va, vb] = split(self.axis, velocity);
+        let ([along, across], [length, width]) = (self.direction, self.size);
+        let aside = (va * across - vb * along).abs() * length;
+        let reach = va.abs() * half_b + vb.abs() * half_a + aside;
+        (va * b - vb * a).abs() > reach + (va * along + vb * across).abs() * width
+    }
+}
+
+/// The CAV's rectangle, its reference point at the origin.
+fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
+    MovingRectangle {
+        centre: [ego.center_offset * cos, ego.center_offset * sin],
+        direction: [cos, sin],
+        velocity: [0.0; 2],
+        size: [ego.length, ego.width],
+    }
+}
+
+/// Some places that follow each other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) cover: Cover,
+    /// On which lines they are: the first and the last one.
+    pub(super) lines: [usize; 2],
+}
+
+/// All places, and stretches of them.
+pub(super) struct Covers {
+    pub(super) all: Cover,
+    stretches: [Stretch; MOST],
+    count: usize,
+    /// Along the axes of the plane.
+    pub(super) upright: [[f64; 2]; 2],
+}
+
+/// So many stretches, each of at least a metre.
+pub(super) const MOST: usize = 16;
+
+impl Covers {
+    /// Of a path, with the CAV so large.
+    pub(super) fn new(ego: &Ego, path: Nodes<'_, '_>, times: &Times<f64>) -> Self {
+        let end = times.s_stop * (1.0 + 1e-9) + ERROR;
+        let all = Cover::new([ego.cos, ego.sin], [0.0, end], times);
+        let mut covers = Self {
+            all,
+            stretches: [Stretch { cover: all, lines: [0; 2] }; MOST],
+            count: 0,
+            upright: [EMPTY; 2],
+        };
+        let length = larger(end / f64::from(u8::try_from(MOST).unwrap_or(u8::MAX)), 1.0);
+        let mut to = 0.0;
+        for line in path.lines().enumerate() {
+            covers.add_line(ego, line, (&mut to, length), times);
+        }
+        covers
+    }
+
+    /// Cut where stretches of that length end; the latest one ends at that way.
+    fn add_line(
+        &mut self,
+        ego: &Ego,
+        (number, Line { from, to, heading, way: start, advance }): (usize, Line),
+        (end, length): (&mut f64, f64),
+        times: &Times<f64>,
+    ) {
+        let (u, next) = (minus(to, from), start + advance);
+        let at = |way: f64| {
+            let share = smaller((way - start) / advance, 1.0);
+            [from[0] + u[0] * share, from[1] + u[1] * share]
+        };
+        let (mut place, mut way) = (from, start);
+        loop {
+            if self.count == 0 || way >= *end && self.count < MOST {
+                *end += length;
+                let cover = Cover::new(heading, [*end - length - APART, *end + APART], times);
+                let stretch = Stretch { cover, lines: [number; 2] };
+                self.stretches.iter_mut().skip(self.count).take(1).for_each(|it| *it = stretch);
+                self.count = self.count.saturating_add(1);
+            }
+            let is_last = self.count >= MOST || next <= *end;
+            let stop = if is_last { to } else { at(*end) };
+            let latest = self.count.saturating_sub(1);
+            for stretch in self.stretches.iter_mut().skip(latest).take(1) {
+                stretch.cover.add(ego, [place, stop], heading);
+                stretch.lines[1] = number;
+            }
+            self.all.add(ego, [place, stop], heading);
+            self.extend_upright(ego, [place, stop], heading);
+            if is_last {
+                return;
+            }
+            (place, way) = (stop, *end);
+        }
+    }
+
+    fn extend_upright(&mut self, ego: &Ego, places: [[f64; 2]; 2], heading: [f64; 2]) {
+        let cav = rectangle(ego, heading);
+        for [x, y] in places {
+            let centre = [x + cav.centre[0], y + cav.centre[1]];
+            extend(&mut self.upright, centre, [cav.reach(); 2]);
+        }
+    }
+
+    /// All places are on these, in order.
+    pub(super) fn stretches(&self) -> impl Iterator<Item = &Stretch> {
+        self.stretches.iter().take(self.count)
+    }
+
+    /// Whether the object certainly meets the CAV at no place.
+    #[inline]
+    pub(super) fn miss(&self, object: &Object, clock: &Clock) -> bool {
+        self.all.misses(object, clock) || self.stretches().all(|it| it.cover.misses(object, clock))
+    }
+}

@@ -1,0 +1,304 @@
+//! Whether an object meets the CAV (`spec/7-fail-safe.md#meeting`).
+//!
+//! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
+//! error bounds; that an object comes across the CAV, follows it or keeps beside it only when it is sure.
+
+use crate::hardened::h14_fail_safe::beside::{Beside, Passing};
+use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
+use crate::hardened::h14_fail_safe::motion::Motion;
+use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
+use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::numbers::plane::Vector;
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
+use crate::numbers::rounding::Real;
+use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::llcc::sweep::{MovingRectangle, minus};
+use crate::stages::llcc::{Pose, footprint, vector};
+
+/// Where an object meets the CAV: the number of the place, its way and `s_stop` in m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub(super) number: i64,
+    pub(super) point: usize,
+    pub(super) ways: [f64; 2],
+}
+
+/// The CAV on its path.
+pub(super) struct Meeting<'c, 'a> {
+    nodes: Nodes<'c, 'a>,
+    trajectory: &'c [TrajectoryPoint],
+    /// As wide as at the places.
+    ego: Ego,
+    aside: Real,
+    clock: Clock,
+    covers: Covers,
+    route: IndexedRoute<'c, 'a>,
+    /// Once they are needed.
+    places: Option<Places<'c, 'a>>,
+}
+
+impl<'c, 'a> Meeting<'c, 'a> {
+    pub(super) fn new(
+        nodes: Nodes<'c, 'a>,
+        trajectory: &'c [TrajectoryPoint],
+        route: IndexedRoute<'c, 'a>,
+    ) -> Self {
+        let (cycle, aside) = (nodes.cycle, aside(&nodes.cycle.ego, trajectory.first()));
+        // As wide as at the places, or by less than 1e-13 of it more.
+        let width = (cycle.ego.width + 2.0 * aside.magnitude()) * (1.0 + 1e-15);
+        let (ego, clock) = (Ego { width, ..cycle.ego }, Clock::new(cycle));
+        let covers = Covers::new(&ego, nodes, &clock.times);
+        Self { nodes, trajectory, ego, aside, clock, covers, route, places: None }
+    }
+
+    const fn cycle(&self) -> &'c Cycle<'a> {
+        self.nodes.cycle
+    }
+
+    /// As plain doubles have it; `off`: by how much the velocity may be another one, m/s.
+    #[inline]
+    fn plainly(&self, motion: &Motion, off: f64) -> Object {
+        let ego = &self.cycle().ego;
+        let centre = minus(motion.now.centre, [ego.x, ego.y]);
+        let [x, y] = motion.now.velocity;
+        Object {
+            at: MovingRectangle { centre, ..motion.now },
+            speed: libm::sqrt(x * x + y * y),
+            off,
+            age: motion.age,
+        }
+    }
+
+    /// Whether the object certainly misses the CAV, with whatever velocity is so near to its own.
+    #[inline]
+    pub(super) fn is_missed(&self, motion: &Motion, off: f64) -> bool {
+        self.covers.all.misses(&self.plainly(motion, off), &self.clock)
+    }
+
+    /// All places as an object sees them, whatever its velocity.
+    pub(super) fn seen_from(&self, motion: &Motion) -> Seen {
+        self.covers.all.seen_from(&self.plainly(motion, 0.0).at)
+    }
+
+    /// The box in which an item of an earlier list of that age has to be, so that an object that comes
+    /// from there, no faster than that, may meet the CAV: as far as it has to go at least, in the time
+    /// that it takes at the fastest, or that it has. Empty when there is no such place.
+    pub(super) fn comes_from(&self, now: &Motion, speed: f64, dt: f64) -> [[f64; 2]; 2] {
+        let ego = &self.ego;
+        let latest = self.clock.longest(speed, now.age);
+        let ([x, y], reach) = (now.now.centre, now.now.reach() + 1e-3);
+        let to_go =
+            |at: f64, [least, greatest]: [f64; 2]| [least - reach - at, greatest + reach - at];
+        let [across, up] = self.covers.upright;
+        let (across, up) = (to_go(x - ego.x, across), to_go(y - ego.y, up));
+        let gap = |[least, greatest]: [f64; 2]| larger(larger(least, -greatest), 0.0);
+        let soonest = larger(gap(across), gap(up)) / speed;
+        let range = |at: f64, [least, greatest]: [f64; 2]| {
+            let slowest = least / if least < 0.0 { soonest } else { latest };
+            let fastest = greatest / if greatest > 0.0 { soonest } else { latest };
+            let (slowest, fastest) = (larger(slowest, -speed), smaller(fastest, speed));
+            [at - fastest * dt - 1e-3, at - slowest * dt + 1e-3]
+        };
+        [range(x, across), range(y, up)]
+    }
+
+    /// Whether boxes leave open whether the object meets the CAV.
+    pub(super) fn may_be_met(&self, motion: &Motion) -> bool {
+        !self.covers.miss(&self.plainly(motion, 0.0), &self.clock)
+    }
+
+    /// The first place before that with a number where the object may meet the CAV, if it is examined.
+    pub(super) fn first(&mut self, motion: &Motion, before: i64) -> Option<Met> {
+        let (object, exact) = (self.plainly(motion, 0.0), Exact::new(self.cycle(), motion));
+        let Self { nodes, trajectory, ego, aside, clock, covers, route, places } = self;
+        let places = places.get_or_insert_with(|| {
+            let path = Path::new(*nodes);
+            let points = trajectory.len();
+            let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
+            Places { path, points, ego: *ego, starts, beside }
+        });
+        let met = places.first((&object, &exact), before, (covers, clock));
+        met.filter(|met| met.number < before).filter(|_| !places.is_exempt(&exact))
+    }
+}
+
+/// The path from the first line of each stretch on.
+fn starts<'a>(path: &Path<'_, 'a>, covers: &Covers) -> [Option<Pieces<'a>>; MOST] {
+    let (mut pieces, mut line) = (path.pieces(), 0);
+    let mut starts = [const { None }; MOST];
+    for (start, stretch) in starts.iter_mut().zip(covers.stretches()) {
+        while line < stretch.lines[0] && pieces.next().is_some() {
+            line = line.saturating_add(1);
+        }
+        *start = Some(pieces.clone());
+    }
+    starts
+}
+
+/// The CAV at the places, with error bounds.
+struct Places<'c, 'a> {
+    path: Path<'c, 'a>,
+    /// How many points the trajectory has.
+    points: usize,
+    ego: Ego,
+    starts: [Option<Pieces<'a>>; MOST],
+    beside: Beside<'c, 'a>,
+}
+
+impl<'c, 'a> Places<'c, 'a> {
+    const fn cycle(&self) -> &'c Cycle<'a> {
+        self.path.nodes.cycle
+    }
+
+    /// The first place where the object may meet the CAV, if that is before the place with that number.
+    fn first(
+        &self,
+        (object, exact): (&Object, &Exact),
+        before: i64,
+        (covers, clock): (&Covers, &Clock),
+    ) -> Option<Met> {
+        let mut done = 0;
+        self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
+            let [first, last] = stretch.lines;
+            if last < done || stretch.cover.misses(object, clock) {
+                return None;
+            }
+            let from = first.max(done);
+            done = last.saturating_add(1);
+            let pieces =
+                start.clone()?.take(done.saturating_sub(first)).skip(from.saturating_sub(first));
+            pieces.take_while(|piece| piece.first < before).find_map(|piece| {
+                let misses = |run| self.run(&piece, run, clock).misses(object, clock);
+                piece.first_place(misses, |place| self.meets(place, exact))
+            })
+        })
+    }
+
+    /// The box around some places of a piece.
+    fn run(&self, piece: &Piece, run: [i64; 2], clock: &Clock) -> Cover {
+        let ego = &self.ego;
+        let [[x, y, way], [to_x, to_y, to]] = piece.between(run, [ego.x, ego.y]);
+        let ways = [larger(way - APART, 0.0), to + APART];
+        let mut cover = Cover::new(piece.heading(), ways, &clock.times);
+        cover.add(ego, [[x, y], [to_x, to_y]], piece.heading());
+        cover
+    }
+
+    /// Whether the object may sweep over a point of the CAV's rectangle in the window of the place.
+    fn meets(&self, place: &Place, object: &Exact) -> Option<Met> {
+        let (cycle, times) = (self.cycle(), &self.path.times);
+        let passes = place.after.filter(|after| after.certainly_below(times.s_b));
+        let start = times.first(place.before);
+        let end = match passes {
+            Some(after) => times.last(after),
+            None if object.comes_across => times.until_stop,
+            None => self.until_yielded(object.speed),
+        };
+        let cav = footprint(&self.ego, &place.pose);
+        let number = place.number;
+        let ways = [place.way, times.s_stop].map(Real::value);
+        let met = || Met { number, point: place.point(self.points), ways };
+        object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
+    }
+
+    /// Whether the object certainly follows the CAV, or keeps beside its path.
+    fn is_exempt(&mut self, object: &Exact) -> bool {
+        let ego = &self.cycle().ego;
+        let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
+        let (along, across) = (w.dot(h), w.cross(h).abs());
+        let cav = footprint(ego, &Pose::of_cav(ego));
+        let Rectangle { centre, direction, length, width } = object.now;
+        let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
+        let reach = direction.dot(h).abs() * length + direction.cross(h).abs() * width;
+        let front = (centre - cav.centre).dot(h) + reach;
+        let is_behind = Real::ZERO.certainly_below(along)
+            && front.certainly_below(Real::new(-0.5 * ego.length));
+        is_behind && object.comes_across && across.certainly_at_most(along)
+            || object.moves && {
+                let Exact { now, velocity, speed, .. } = *object;
+                let until = self.until_yielded(speed);
+                self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
+            }
+    }
+
+    /// T + `t_yield` + abs(w) / (2 `a_yield`), s.
+    fn until_yielded(&self, speed: Real) -> Real {
+        let parameters = &self.cycle().parameters;
+        let [t_yield, a_yield] = [parameters.t_yield, parameters.a_yield].map(Real::new);
+        self.path.times.until_stop + t_yield + speed.over(a_yield + a_yield)
+    }
+}
+
+/// By how much the rectangle is smaller on each side that an object comes across, m.
+const INNER: f64 = 0.3;
+
+/// By how much half the CAV is wider, m: as far as it is aside of the trajectory's first point. One that
+/// begins beside it does not say where it joins.
+fn aside(ego: &Ego, start: Option<&TrajectoryPoint>) -> Real {
+    start.map_or(Real::ZERO, |start| {
+        let from = Vector::between([start.x, start.y], [ego.x, ego.y]);
+        from.cross(vector([start.cos, start.sin])).abs()
+    })
+}
+
+/// An object with error bounds.
+struct Exact {
+    /// At the time of its list.
+    at: Rectangle,
+    /// Now.
+    now: Rectangle,
+    /// m/s; 0 where that makes no difference.
+    velocity: Vector,
+    speed: Real,
+    age: Real,
+    /// Whether it does, however little.
+    moves: bool,
+    /// Whether it certainly does.
+    comes_across: bool,
+}
+
+impl Exact {
+    fn new(cycle: &Cycle<'_>, motion: &Motion) -> Self {
+        /// What is slower moves less than 2^-290 m.
+        const SLOW: f64 = f64::from_bits((1023 - 400) << 52);
+        let velocity = motion.velocity();
+        let moves = [velocity.x, velocity.y].iter().any(|it| it.value().abs() > 0.0);
+        let is_slow = velocity.x.magnitude() < SLOW && velocity.y.magnitude() < SLOW;
+        let stays = Real::ZERO.widened(if is_slow { SLOW } else { 0.0 });
+        let velocity = if is_slow { Vector { x: stays, y: stays } } else { velocity };
+        let (speed, age) =
+            (if is_slow { stays } else { velocity.norm() }, Real::seconds(motion.age_ns));
+        let at = motion.now.displaced(vector([0.0; 2]));
+        let now = Rectangle { centre: at.centre + velocity.times(age), ..at };
+        let comes_across = !is_slow && comes_across(&cycle.ego, &now, velocity);
+        Self { at, now, velocity, speed, age, moves, comes_across }
+    }
+
+    /// Whether it may sweep over a point of the rectangle between two times after now.
+    fn possibly_sweeps(&self, cav: &Rectangle, start: Real, end: Real, a_b: f64) -> bool {
+        let Self { at, velocity, speed, age, .. } = *self;
+        let (braking, until) = (Real::new(a_b), age + end);
+        let left = (speed - braking * (age + start)).max(Real::ZERO);
+        let is_still = speed.magnitude() < STILL;
+        let from = if is_still {
+            Real::ZERO
+        } else {
+            (speed - left * left.over(speed)).over(braking + braking)
+        };
+        let swept = Rectangle { centre: at.centre + velocity.times(from), ..at };
+        possibly_swept(cav, &swept, velocity.times(until - from))
+    }
+}
+
+/// m/s; so slow is only what counts as standing.
+const STILL: f64 = f64::from_bits((1023 - 300) << 52);
+
+/// Whether the object certainly shares a point with the inner part of the CAV's rectangle, now or
+/// later. That is made smaller by 5e-10 m on each side, more than it is rounded.
+fn comes_across(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
+    let inner = |size: f64| size - (INNER + INNER) - 1e-9;
+    let (length, width) = (inner(ego.length), inner(ego.width));
+    let cav = Rectangle { length, width, ..footprint(ego, &Pose::of_cav(ego)) };
+    length > 0.0 && width > 0.0 && certainly_met(&cav, now, velocity)
+}

@@ -1,0 +1,109 @@
+//! The fail-safe rule: what the CAV can always do, going on for tau at most and then braking along its
+//! path, is examined against everything that moves or stands (H-14, `spec/7-fail-safe.md`).
+
+mod beside;
+mod cover;
+mod meeting;
+mod motion;
+mod motions;
+pub(crate) mod path;
+pub(crate) mod reach;
+pub(crate) mod times;
+
+use crate::hardened::detection_history::disputed::Disputes;
+use crate::hardened::detection_history::explained::Explained;
+use crate::hardened::detection_history::lists::Lists;
+use crate::hardened::detection_history::{DetectionHistory, Seen};
+use crate::hardened::h14_fail_safe::meeting::Meeting;
+use crate::hardened::h14_fail_safe::motions::Motions;
+use crate::hardened::h14_fail_safe::path::{Nodes, Path};
+use crate::input::cycle::{Cycle, TrackList, Trajectory};
+use crate::input::scratch::Scratch;
+use crate::numbers::rounding::Real;
+use crate::numbers::time::elapsed_ns;
+use crate::report::{Rule, Witness};
+use crate::services::configuration::Configuration;
+use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+
+/// What the rule examines; all of it current.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FailSafe<'c, 'a> {
+    pub(crate) cycle: &'c Cycle<'a>,
+    pub(crate) trajectory: &'c Trajectory<'a>,
+    pub(crate) tracks: Option<&'c TrackList<'a>>,
+    pub(crate) history: &'c DetectionHistory<'c, 'a>,
+    pub(crate) route: IndexedRoute<'c, 'a>,
+    /// What looking back at the tracks said.
+    pub(crate) seen: Seen,
+}
+
+impl FailSafe<'_, '_> {
+    /// Why stage iv fails, or the cycle in its place, if it does. After `look_back`, which left in the
+    /// scratch what the CAV saw of the tracks.
+    pub(crate) fn failure(&self, scratch: &mut Scratch<'_>) -> Option<Witness> {
+        let &Self { cycle, trajectory, tracks, history, .. } = self;
+        let detections = history.detections;
+        let objects = tracks.map_or(0, |list| list.items.len());
+        let detected = detections.map_or(0, |list| list.items.len());
+        if objects.max(detected) == 0 {
+            return None;
+        }
+        let nodes = Nodes::new(cycle, trajectory.points);
+        if let Some(witness) = self.over_work_limit(nodes, [objects, detected]) {
+            return Some(witness);
+        }
+        if let (Configuration::PlanRemote, Seen::Unclear(witness)) =
+            (cycle.configuration, self.seen)
+        {
+            return Some(witness);
+        }
+        let explained = Explained::new(history, tracks, scratch);
+        let items = detections.map_or(&[][..], |list| list.items);
+        let mut motions = Motions {
+            meeting: Meeting::new(nodes, trajectory.points, self.route),
+            history,
+            lists: Lists::new(cycle, history, tracks),
+            explained: &explained,
+            disputes: Disputes::new(items, history.index, tracks, &explained, scratch),
+            first: None,
+        };
+        let age = |stamp_ns: i64| elapsed_ns(stamp_ns, cycle.now_ns);
+        if let Some(list) = tracks {
+            motions.tracks(list, age(list.stamp_ns));
+        }
+        if let Some(list) = detections {
+            motions.detections(list, age(list.stamp_ns), tracks, scratch);
+        }
+        motions.first.map(|found| found.witness)
+    }
+
+    /// (Places + points) times tracks, plus detections times items of the longest usable list times (items
+    /// of all usable lists + places + points). The places are counted only where it may be too much.
+    fn over_work_limit(&self, nodes: Nodes<'_, '_>, objects: [usize; 2]) -> Option<Witness> {
+        let count = |number: usize| i64::try_from(number).unwrap_or(i64::MAX);
+        let [tracks, detections] = objects.map(count);
+        let items = || self.history.usable.iter().flatten().map(|list| count(list.items.len()));
+        let longest = items().fold(1, i64::max);
+        let limit = self.cycle.parameters.work_limit;
+        let work = |places: i64| {
+            let places = places.saturating_add(count(self.trajectory.points.len()));
+            let each = longest.saturating_mul(items().fold(places, i64::saturating_add));
+            places.saturating_mul(tracks).saturating_add(detections.saturating_mul(each))
+        };
+        if work(at_least(nodes.most_places())) <= limit {
+            return None;
+        }
+        let work = work(Path::new(nodes).count());
+        let compared = || [work, limit].map(|steps| Real::integer(steps).value());
+        (work > limit).then(|| Witness::of(Rule::WorkLimit, compared()))
+    }
+}
+
+/// A whole number that is not less.
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "what is larger than any integer is the largest"
+)]
+fn at_least(number: f64) -> i64 {
+    -libm::floor(-number) as i64
+}

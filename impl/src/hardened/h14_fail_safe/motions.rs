@@ -1,0 +1,198 @@
+//! The motions that are examined: of tracks, and of detections as the CAV saw them move
+//! (`spec/7-fail-safe.md#motions`).
+//!
+//! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which pairs of
+//! a detection and an earlier item are examined; whether they meet the CAV, `meeting` decides. That an
+//! explained detection is disputed is asked late, of a pair that boxes let meet it (`disputed`, with what
+//! it costs).
+
+use crate::hardened::detection_history::DetectionHistory;
+use crate::hardened::detection_history::disputed::Disputes;
+use crate::hardened::detection_history::explained::Explained;
+use crate::hardened::detection_history::lists::{Lists, Past};
+use crate::hardened::detection_history::squares::{CLOSE, MARGIN};
+use crate::hardened::h14_fail_safe::meeting::{Meeting, Met};
+use crate::hardened::h14_fail_safe::motion::Motion;
+use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
+use crate::input::scratch::{Row, Scratch};
+use crate::numbers::range::is_empty;
+use crate::report::{Rule, Witness};
+use crate::stages::llcc::sweep::MovingRectangle;
+
+/// Where to look for motions.
+pub(super) struct Motions<'m, 'c, 'a> {
+    pub(super) meeting: Meeting<'m, 'a>,
+    pub(super) history: &'m DetectionHistory<'c, 'a>,
+    pub(super) lists: Lists<'m, 'c, 'a>,
+    pub(super) explained: &'m Explained,
+    pub(super) disputes: Disputes<'m, 'c, 'a>,
+    pub(super) first: Option<Found>,
+}
+
+/// One that meets the CAV; the first has the least number of its place, then kind of motion, order in
+/// its list, and item.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    number: i64,
+    order: [usize; 3],
+    pub(super) witness: Witness,
+}
+
+/// The kinds of motions in their order.
+const TRACK: usize = 0;
+const CONFIRMED: usize = 1;
+const ANYWHERE: usize = 2;
+const STANDING: usize = 3;
+
+/// A pair of a detection and an item of a list.
+#[derive(Clone, Copy)]
+struct Pair {
+    /// Kind and order.
+    order: [usize; 2],
+    detection: usize,
+    item: usize,
+    dt_ns: i64,
+}
+
+impl Motions<'_, '_, '_> {
+    pub(super) fn tracks(&mut self, list: &TrackList<'_>, age_ns: i64) {
+        for (index, track) in list.items.iter().enumerate() {
+            let motion = Motion::new(MovingRectangle::track(track), age_ns);
+            if !self.meeting.is_missed(&motion, 0.0) {
+                let order = [TRACK, index, 0];
+                let witness = |it: Witness| Witness { track: Some(track.id), ..it };
+                self.keep(&motion, order, witness, |_| true);
+            }
+        }
+    }
+
+    pub(super) fn detections(
+        &mut self,
+        list: &DetectionList<'_>,
+        age_ns: i64,
+        tracks: Option<&TrackList<'_>>,
+        scratch: &mut Scratch<'_>,
+    ) {
+        if let Some(tracks) = tracks.filter(|_| self.explained.count > 0) {
+            let off = self.lists.greatest_off();
+            for (order, track) in tracks.items.iter().enumerate() {
+                let item = scratch.rows.get(order).and_then(Row::confirmed_by);
+                let Some(detection) = item.map(usize::from) else { continue };
+                let Some(now) = list.items.get(detection) else { continue };
+                let now = Motion::new(MovingRectangle::detection(now), age_ns);
+                self.confirmed((order, track), (detection, &now), off, scratch);
+            }
+        }
+        for (detection, now) in list.items.iter().enumerate() {
+            let motion = Motion::new(MovingRectangle::detection(now), age_ns);
+            let by = self.explained.by(detection, scratch.rows, scratch.columns);
+            self.anywhere((detection, now), &motion, by, scratch);
+            if by.is_none() && !self.meeting.is_missed(&motion, 0.0) {
+                let witness = |it: Witness| Witness { detection: Some(detection), ..it };
+                self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
+            }
+        }
+    }
+
+    /// Keeps a motion that meets the CAV before the first one so far. `counts`: asked when boxes leave it
+    /// open.
+    fn keep(
+        &mut self,
+        motion: &Motion,
+        order: [usize; 3],
+        witness: impl FnOnce(Witness) -> Witness,
+        counts: impl FnOnce(&mut Self) -> bool,
+    ) {
+        let end = self
+            .first
+            .map_or(i64::MAX, |first| first.number.saturating_add(i64::from(order < first.order)));
+        if !self.meeting.may_be_met(motion) || !counts(self) {
+            return;
+        }
+        if let Some(Met { number, point, ways }) = self.meeting.first(motion, end) {
+            let found = Witness::of(Rule::FailSafe, ways).at_point(point);
+            self.first = Some(Found { number, order, witness: witness(found) });
+        }
+    }
+
+    fn keep_pair(&mut self, motion: &Motion, pair: &Pair, counts: impl FnOnce(&mut Self) -> bool) {
+        let &Pair { order: [kind, order], detection, item, dt_ns } = pair;
+        let witness = |it: Witness| Witness {
+            detection: Some(detection),
+            item: Some(item),
+            age_ns: Some(dt_ns),
+            ..it
+        };
+        self.keep(motion, [kind, order, item], witness, counts);
+    }
+
+    /// The detection of a confirmed track, from every item that may have been the track.
+    fn confirmed(
+        &mut self,
+        (order, track): (usize, &Track),
+        (detection, now): (usize, &Motion),
+        off: f64,
+        scratch: &mut Scratch<'_>,
+    ) {
+        let at = MovingRectangle { velocity: [track.vx, track.vy], ..now.now };
+        if self.meeting.is_missed(&Motion { now: at, ..*now }, off) {
+            return;
+        }
+        let past = scratch.rows.get(order).and_then(|row| self.lists.past_of(row));
+        let Some(Past { list, usable, reach, .. }) = past else { return };
+        let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
+        let Some((around, (dx, dy))) = past.map(|it| (it.around(track), it.moved(track))) else {
+            return;
+        };
+        let rate = 1.0 / usable.age;
+        squares.for_each_in(scratch.columns, around, |item, before| {
+            let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
+            let motion = now.coming_from(before, usable.age_ns, rate);
+            if x * x + y * y <= reach * reach && !self.meeting.is_missed(&motion, 0.0) {
+                let order = [CONFIRMED, order];
+                let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
+                self.keep_pair(&motion, &pair, |_| true);
+            }
+        });
+    }
+
+    /// A detection that is unexplained, or disputed, from every item that some other list supports.
+    /// `track`: which explains it.
+    fn anywhere(
+        &mut self,
+        (detection, now): (usize, &Detection),
+        motion: &Motion,
+        track: Option<usize>,
+        scratch: &mut Scratch<'_>,
+    ) {
+        let Some(reference) = self.history.reference() else { return };
+        let Some(list) = self.lists.usable(reference) else { return };
+        if track.is_some_and(|it| !self.disputes.may_be_disputed(it, &self.lists, scratch)) {
+            return;
+        }
+        let farthest = self.lists.v_object() * list.age + CLOSE;
+        let rate = 1.0 / list.age;
+        let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
+        if is_empty(area) {
+            return;
+        }
+        let Some(squares) = self.lists.by_squares(reference, scratch.columns) else { return };
+        let (scratch, seen) = (&*scratch, self.meeting.seen_from(motion));
+        squares.for_each_in(scratch.columns, area, |item, before| {
+            let (x, y) = (now.x - before[0], now.y - before[1]);
+            if seen.is_passed([x, y]) || x * x + y * y > farthest * farthest {
+                return;
+            }
+            let motion = motion.coming_from(before, list.age_ns, rate);
+            let order = [ANYWHERE, detection];
+            let pair = Pair { order, detection, item, dt_ns: list.age_ns };
+            if !self.meeting.is_missed(&motion, 0.0)
+                && self.lists.is_supported(now, before, (reference, &list), scratch.columns)
+            {
+                self.keep_pair(&motion, &pair, |it| {
+                    track.is_none_or(|track| it.disputes.is_disputed(track, &it.lists, scratch))
+                });
+            }
+        });
+    }
+}

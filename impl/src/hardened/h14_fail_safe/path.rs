@@ -1,0 +1,360 @@
+//! The path of the CAV: nodes, pieces and places (`spec/7-fail-safe.md#the-path`). Nothing is kept: a
+//! piece says where each of its places is.
+//!
+//! The places of a piece are taken with the node from which it leads, not with the one to which, so
+//! that all of them have one heading.
+
+use core::cmp::Ordering;
+use core::iter;
+
+use crate::hardened::h14_fail_safe::times::Times;
+use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
+use crate::numbers::exact::{Product, compare};
+use crate::numbers::plane::Vector;
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rounding::Real;
+use crate::stages::llcc::sweep::minus;
+use crate::stages::llcc::{Pose, vector};
+
+/// How far ahead the first point has to be that is a node, m.
+const AHEAD: f64 = 0.125;
+/// A quarter of a metre; less for a CAV that is shorter.
+const QUARTER: f64 = 0.25;
+
+/// From the CAV through the points of the trajectory that are ahead of it, and on.
+#[derive(Clone, Copy)]
+pub(crate) struct Nodes<'c, 'a> {
+    pub(crate) cycle: &'c Cycle<'a>,
+    /// Those of the trajectory.
+    points: &'a [TrajectoryPoint],
+    /// d, m.
+    d: f64,
+}
+
+impl<'c, 'a> Nodes<'c, 'a> {
+    pub(crate) fn new(cycle: &'c Cycle<'a>, points: &'a [TrajectoryPoint]) -> Self {
+        let ahead = points.iter().position(|point| is_ahead(&cycle.ego, point));
+        let points = ahead.and_then(|first| points.get(first..)).unwrap_or(&[]);
+        Self { cycle, points, d: smaller(QUARTER, cycle.ego.length) }
+    }
+
+    /// The pieces in plain doubles, the last one cut off not before `s_stop`.
+    pub(crate) fn lines(self) -> impl Iterator<Item = Line> + Clone {
+        let ego = &self.cycle.ego;
+        let s_stop = Times::<f64>::new(self.cycle).s_stop * (1.0 + 1e-9) + 1e-3;
+        let mut nodes = self.points.iter();
+        let mut next = Some(([0.0; 2], [ego.cos, ego.sin], 0.0));
+        iter::from_fn(move || {
+            let (from, heading, way) = next.take()?;
+            let Some(node) = nodes.next() else {
+                let left = larger(s_stop - way, 0.0);
+                let along = heading.map(|part| part * left * (1.0 + 1e-6));
+                let to = [from[0] + along[0], from[1] + along[1]];
+                return Some(Line { from, to, heading, way, advance: left });
+            };
+            let to = [node.x - ego.x, node.y - ego.y];
+            let u = [to[0] - from[0], to[1] - from[1]];
+            let advance = larger(u[0] * heading[0] + u[1] * heading[1], 0.0);
+            let beyond = way + advance;
+            next = (beyond <= s_stop).then_some((to, [node.cos, node.sin], beyond));
+            Some(Line { from, to, heading, way, advance })
+        })
+    }
+
+    /// How many places there are at most: of each piece as many as fit, the last one, and few more where
+    /// rounding leaves it open.
+    pub(crate) fn most_places(self) -> f64 {
+        let places = |line: Line| {
+            let [x, y] = minus(line.to, line.from).map(f64::abs);
+            larger(larger(x, y), line.advance) / self.d + 5.0
+        };
+        self.lines().map(places).sum()
+    }
+}
+
+/// The same with times, in numbers with error bounds.
+#[derive(Clone, Copy)]
+pub(crate) struct Path<'c, 'a> {
+    pub(crate) nodes: Nodes<'c, 'a>,
+    pub(crate) times: Times<Real>,
+}
+
+impl<'c, 'a> Path<'c, 'a> {
+    pub(crate) fn new(nodes: Nodes<'c, 'a>) -> Self {
+        Self { nodes, times: Times::new(nodes.cycle) }
+    }
+
+    /// The pieces with a place, in order.
+    pub(crate) fn pieces(&self) -> Pieces<'a> {
+        let Nodes { cycle, points, d } = self.nodes;
+        let &Ego { x, y, cos, sin, .. } = &cycle.ego;
+        let next = Node { at: [x, y], heading: [cos, sin], way: Real::ZERO, before: None };
+        Pieces { next: Some(next), nodes: points, s_stop: self.times.s_stop, d, first: 0 }
+    }
+
+    /// How many places there are.
+    pub(crate) fn count(&self) -> i64 {
+        self.pieces().fold(0, |count, piece| count.saturating_add(piece.count()))
+    }
+}
+
+/// A piece in plain doubles, from the CAV's reference point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) from: [f64; 2],
+    pub(crate) to: [f64; 2],
+    pub(crate) heading: [f64; 2],
+    /// To where it begins, and how much of it is ahead, m.
+    pub(crate) way: f64,
+    pub(crate) advance: f64,
+}
+
+/// Whether the point is more than 1/8 m ahead of the CAV; exact. Plain doubles err by less than 2^-50 of
+/// the sizes.
+fn is_ahead(ego: &Ego, point: &TrajectoryPoint) -> bool {
+    let (x, y) = (point.x - ego.x, point.y - ego.y);
+    let beyond = x * ego.cos + y * ego.sin - AHEAD;
+    if beyond.abs() > (x.abs() + y.abs() + 1.0) * 1e-15 {
+        return beyond > 0.0;
+    }
+    let along =
+        [Product([point.x, ego.x], [ego.cos, 0.0]), Product([point.y, ego.y], [ego.sin, 0.0])];
+    compare(&along, &[Product([AHEAD, 0.0], [1.0, 0.0])]) == Ordering::Greater
+}
+
+/// Where a piece begins.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    at: [f64; 2],
+    heading: [f64; 2],
+    way: Real,
+    /// How the place before came to be: the way and the advance of the piece to the node, and as many
+    /// places as that took.
+    before: Option<(Real, Real, i64)>,
+}
+
+impl Node {
+    /// The way of the place before, m.
+    fn way_before(&self) -> Real {
+        self.before
+            .map_or(Real::ZERO, |(way, advance, n)| way + advance * share(n.saturating_sub(1), n))
+    }
+}
+
+/// Place k of n on a piece: what part of it is behind.
+fn share(k: i64, n: i64) -> Real {
+    if n == 1 { Real::integer(k) } else { Real::integer(k).over(Real::integer(n)) }
+}
+
+/// See `Path::pieces`.
+#[derive(Clone)]
+pub(crate) struct Pieces<'p> {
+    next: Option<Node>,
+    nodes: &'p [TrajectoryPoint],
+    s_stop: Real,
+    d: f64,
+    first: i64,
+}
+
+/// From a node to the next one, or from the last one on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    node: Node,
+    /// To the next node, or to the first place behind the last one.
+    u: Vector,
+    advance: Real,
+    /// As many places as that takes.
+    n: i64,
+    /// The number of the place at the node.
+    pub(crate) first: i64,
+    /// How many places there are, but for the last of all.
+    places: i64,
+    /// Where the last of all is, if it is here: this times u from the node.
+    end: Option<Real>,
+    s_stop: Real,
+}
+
+/// A place, and where the CAV has been before and is after.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    /// 0 is that of the CAV now.
+    pub(crate) number: i64,
+    pub(crate) pose: Pose,
+    pub(crate) way: Real,
+    /// Of the place before.
+    pub(crate) before: Real,
+    /// Of the place after, if there is one.
+    pub(crate) after: Option<Real>,
+}
+
+impl Place {
+    /// As what point of the trajectory a witness counts it.
+    pub(crate) fn point(&self, points: usize) -> usize {
+        points.saturating_add(usize::try_from(self.number).unwrap_or(usize::MAX))
+    }
+}
+
+impl Iterator for Pieces<'_> {
+    type Item = Piece;
+
+    /// Where it is open whether a node is beyond `s_stop`, the last place is on the piece to it, and the
+    /// node and what follows are there, too.
+    fn next(&mut self) -> Option<Piece> {
+        let node = self.next.take()?;
+        let Node { at, heading, way, .. } = node;
+        let (s_stop, d) = (self.s_stop, self.d);
+        let to = self.nodes.split_first();
+        let (u, n, advance) = match to {
+            Some((to, _)) => {
+                let u = Vector::between(at, [to.x, to.y]);
+                let n = steps(at[0], to.x, d).max(steps(at[1], to.y, d)).max(1);
+                (u, n, u.dot(vector(heading)).max(Real::ZERO))
+            }
+            None => (vector(heading).times(Real::new(d)), 1, Real::new(d)),
+        };
+        let next = way + advance;
+        let ends = to.is_none() || !next.certainly_at_most(s_stop) && advance.magnitude() > 0.0;
+        let mut piece =
+            Piece { node, u, advance, n, first: self.first, places: n, end: None, s_stop };
+        if ends {
+            let share = (s_stop - way).over(advance);
+            let most = if to.is_some() { n } else { i64::MAX };
+            piece.places = piece.first_beyond(share).min(most);
+            piece.end = Some(if to.is_some() { within_unit(share) } else { share });
+        }
+        if let Some((to, rest)) = to.filter(|_| !ends || next.possibly_at_most(s_stop)) {
+            let (at, heading) = ([to.x, to.y], [to.cos, to.sin]);
+            let before = (way, advance, n);
+            self.next = Some(Node { at, heading, way: next, before: Some(before) });
+            self.nodes = rest;
+            self.first = self.first.saturating_add(piece.count());
+        }
+        Some(piece)
+    }
+}
+
+/// The least n with abs(to - from) <= n d; exact. A quotient in plain doubles is below 2^33, so that it
+/// errs by less than 1e-5.
+#[allow(clippy::cast_possible_truncation, reason = "below 2^33")]
+fn steps(from: f64, to: f64, d: f64) -> i64 {
+    let quotient = (to - from).abs() / d;
+    let nearest = libm::floor(quotient + 0.5);
+    if quotient <= 0.0 || (quotient - nearest).abs() > 1e-5 {
+        return -libm::floor(-quotient) as i64;
+    }
+    let fewer = nearest as i64;
+    let size = Real::difference(to, from).abs();
+    let reached = Real::new(nearest) * Real::new(d);
+    let fits = size.certainly_at_most(reached)
+        || !reached.certainly_below(size) && {
+            let sign = if to < from { -1.0 } else { 1.0 };
+            let reached = [Product([nearest, 0.0], [d, 0.0])];
+            compare(&reached, &[Product([to, from], [sign, 0.0])]) != Ordering::Less
+        };
+    if fits { fewer } else { fewer.saturating_add(1) }
+}
+
+/// A number from 0 to 1, of which nothing is known when its error is large.
+fn within_unit(share: Real) -> Real {
+    let known = share.magnitude() < 2.0;
+    if known { share } else { Real::new(0.5).widened(0.5) }
+}
+
+impl Piece {
+    /// The number of places.
+    pub(crate) fn count(&self) -> i64 {
+        self.places.saturating_add(i64::from(self.end.is_some()))
+    }
+
+    /// The least k >= 1 whose way is certainly above `s_stop`; `share` of u leads to that.
+    #[allow(clippy::cast_possible_truncation, reason = "below 2^35, or a few more than there are")]
+    fn first_beyond(&self, share: Real) -> i64 {
+        let guess = libm::floor(share.value() * Real::integer(self.n).value()) as i64;
+        let mut near = guess.max(1)..=guess.saturating_add(2).max(1);
+        let found = near.find(|&k| self.s_stop.certainly_below(self.way(k)));
+        found.unwrap_or(guess.saturating_add(3).max(1))
+    }
+
+    fn share(&self, k: i64) -> Real {
+        match self.end {
+            Some(end) if k >= self.places => end,
+            _ => share(k, self.n),
+        }
+    }
+
+    /// The way of place k, but for the last one.
+    fn way(&self, k: i64) -> Real {
+        self.node.way + self.advance * share(k, self.n)
+    }
+
+    /// Place k from the node on.
+    pub(crate) fn place(&self, k: i64) -> Place {
+        let (after, is_last) = (k.saturating_add(1), self.end.is_some() && k >= self.places);
+        let ends_after = self.end.is_some() && after >= self.places;
+        let after = if ends_after { self.s_stop } else { self.way(after) };
+        Place {
+            number: self.first.saturating_add(k),
+            pose: Pose {
+                at: vector(self.node.at) + self.u.times(self.share(k)),
+                heading: self.node.heading,
+            },
+            way: if is_last { self.s_stop } else { self.way(k) },
+            before: if k == 0 { self.node.way_before() } else { self.way(k.saturating_sub(1)) },
+            after: (!is_last).then_some(after),
+        }
+    }
+
+    /// Between which two places, x and y from another point, and way, all of these certainly are; in
+    /// plain doubles. The last one is somewhere behind the one before.
+    pub(crate) fn between(&self, [first, last]: [i64; 2], [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
+        let first = first.min(self.places.saturating_sub(1)).max(0);
+        [first, last].map(|k| {
+            let share = Real::integer(k).value() / Real::integer(self.n).value();
+            [
+                (self.node.at[0] - x) + self.u.x.value() * share,
+                (self.node.at[1] - y) + self.u.y.value() * share,
+                self.node.way.value() + self.advance.value() * share,
+            ]
+        })
+    }
+
+    /// Place k in plain doubles, x, y and way, if it is known so well.
+    pub(crate) fn plainly(&self, k: i64) -> Option<[f64; 3]> {
+        let (share, [x, y]) = (self.share(k), self.node.at);
+        let at = |from: f64, by: Real| from + by.value() * share.value();
+        let way = at(self.node.way.value(), self.advance);
+        (share.off() < 1e-9).then(|| [at(x, self.u.x), at(y, self.u.y), way])
+    }
+
+    pub(crate) const fn heading(&self) -> [f64; 2] {
+        self.node.heading
+    }
+
+    /// The first place where `find` finds something. `is_free`: whether it certainly finds nothing from
+    /// the first to the last of these places.
+    pub(crate) fn first_place<T>(
+        &self,
+        mut is_free: impl FnMut([i64; 2]) -> bool,
+        mut find: impl FnMut(&Place) -> Option<T>,
+    ) -> Option<T> {
+        let count = self.count();
+        let (mut at, mut size) = (0_i64, count);
+        while at < count {
+            let end = at.saturating_add(size).min(count);
+            let last = end.saturating_sub(1);
+            if is_free([at, last]) {
+                at = end;
+                size = size.saturating_mul(2);
+            } else if last > at {
+                size = end.saturating_sub(at) >> 1;
+            } else {
+                let found = find(&self.place(at));
+                if found.is_some() {
+                    return found;
+                }
+                at = end;
+            }
+        }
+        None
+    }
+}

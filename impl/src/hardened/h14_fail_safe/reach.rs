@@ -1,0 +1,78 @@
+//! Whether the path is within reach (`spec/7-fail-safe.md#reach`).
+
+use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
+use crate::input::cycle::{Cycle, TrajectoryPoint};
+use crate::numbers::plane::Vector;
+use crate::numbers::range::{larger, smaller};
+use crate::numbers::rounding::Real;
+use crate::report::{Rule, Witness};
+use crate::stages::distances::s_b;
+use crate::stages::llcc::sweep::split;
+use crate::stages::llcc::vector;
+
+/// What a trajectory may start aside, m.
+const ASIDE: f64 = 0.5;
+/// For each m ahead: what it may start turned.
+const TURNED: f64 = 0.17;
+/// Half of what tyres hold, m/s^2.
+const TYRES: f64 = 5.75;
+
+/// The first place that is not certainly within reach.
+pub(crate) fn reach_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
+    let (nodes, plain) = (Nodes::new(cycle, points), Plain::new(cycle));
+    if nodes.lines().all(|line| plain.is_within(line.from, line.to)) {
+        return None;
+    }
+    let (path, p) = (Path::new(nodes), [cycle.ego.x, cycle.ego.y]);
+    path.pieces().find_map(|piece| {
+        let is_within = |run: [i64; 2]| {
+            let [from, to] = piece.between(run, p).map(|[x, y, _]| [x, y]);
+            plain.is_within(from, to)
+        };
+        piece.first_place(is_within, |place| failure_at(&path, points.len(), place))
+    })
+}
+
+fn failure_at(path: &Path<'_, '_>, points: usize, place: &Place) -> Option<Witness> {
+    let ego = &path.nodes.cycle.ego;
+    let away = place.pose.at - Vector::new(ego.x, ego.y);
+    let h = vector([ego.cos, ego.sin]);
+    let (f, aside) = (away.dot(h).max(Real::ZERO), away.cross(h).abs());
+    if place.number == 0 || path.times.s_b.certainly_at_most(f) {
+        return None;
+    }
+    let bound =
+        Real::new(ASIDE) + Real::new(TURNED) * f + Real::new(TYRES) * path.times.last(f).squared();
+    let witness = || Witness::of(Rule::Reach, [aside.value(), bound.value()]);
+    (!aside.certainly_at_most(bound)).then(|| witness().at_point(place.point(points)))
+}
+
+/// What plain doubles say, from p on: they err by less than 2^-20 m up to 2^26 m, and by less than 1e-12
+/// of what is farther.
+struct Plain {
+    h: [f64; 2],
+    v: f64,
+    s_b: f64,
+}
+
+impl Plain {
+    fn new(cycle: &Cycle<'_>) -> Self {
+        let s_b = s_b(&cycle.parameters, cycle.ego.speed);
+        Self { h: [cycle.ego.cos, cycle.ego.sin], v: cycle.ego.speed, s_b }
+    }
+
+    /// Whether what is between two places certainly is: the distance is greatest at one of them, the
+    /// bound least where that is nearest. To be at f takes at least f / v.
+    fn is_within(&self, from: [f64; 2], to: [f64; 2]) -> bool {
+        let [[f, aside], [f_to, aside_to]] = [from, to].map(|place| split(self.h, place));
+        let size = larger(f.abs(), f_to.abs()) + larger(aside.abs(), aside_to.abs());
+        let error = 1e-6 + 1e-12 * size;
+        let f = smaller(f, f_to) - error;
+        if f > self.s_b * (1.0 + 1e-12) {
+            return true;
+        }
+        let t = if f > 0.0 { f / self.v } else { 0.0 };
+        let bound = ASIDE + TURNED * larger(f, 0.0) + TYRES * (1.0 - 1e-9) * t * t;
+        larger(aside.abs(), aside_to.abs()) + error < bound
+    }
+}

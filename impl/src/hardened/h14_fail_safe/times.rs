@@ -1,0 +1,73 @@
+//! When the CAV is where (`spec/7-fail-safe.md#when-the-cav-is-where`), in numbers with error bounds or
+//! in plain doubles.
+
+use crate::input::cycle::Cycle;
+use crate::stages::distances::{Number, s_b};
+
+/// What the CAV can do from now on; m, s, m/s.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Times<N> {
+    v: N,
+    a_b: N,
+    a_max: N,
+    tau: N,
+    v_tau: N,
+    s_tau: N,
+    /// `s_stop`
+    pub(crate) s_stop: N,
+    /// T
+    pub(crate) until_stop: N,
+    /// `s_b(v)`: from here on the CAV may stand.
+    pub(crate) s_b: N,
+    /// What plain doubles err in the square of a speed.
+    rough: N,
+}
+
+impl<N: Number> Times<N> {
+    pub(crate) fn new(cycle: &Cycle<'_>) -> Self {
+        let parameters = &cycle.parameters;
+        let [v, a_b, a_max, tau] =
+            [cycle.ego.speed, parameters.a_b, parameters.a_max, parameters.tau].map(N::from_double);
+        let half = N::from_double(0.5);
+        let v_tau = v.plus(a_max.times(tau));
+        let s_tau = v.times(tau).plus(a_max.times(tau.times(tau)).times(half));
+        Self {
+            v,
+            a_b,
+            a_max,
+            tau,
+            v_tau,
+            s_tau,
+            s_stop: s_tau.plus(s_b(parameters, v_tau)),
+            until_stop: tau.plus(v_tau.divided_by(a_b)),
+            s_b: s_b(parameters, v),
+            rough: N::from_double(N::ROUGH).times(v_tau.times(v_tau)),
+        }
+    }
+
+    /// The earliest time at way f, or less: where it is open which of the two formulas holds, the one
+    /// for less way is below the other one. In plain doubles up to 1e-9 s more.
+    pub(crate) fn first(&self, f: N) -> N {
+        let zero = N::from_double(0.0);
+        if f.exceeds(self.s_tau) {
+            let braked = double(self.a_b).times(f.minus(self.s_tau));
+            let squared = self.v_tau.times(self.v_tau).minus(braked).plus(self.rough);
+            let left = squared.or_larger(zero).root();
+            return self.tau.plus(self.v_tau.minus(left).divided_by(self.a_b));
+        }
+        let gained = double(self.a_max).times(f);
+        let squared = self.v.times(self.v).plus(gained).minus(self.rough);
+        squared.or_larger(zero).root().minus(self.v).divided_by(self.a_max)
+    }
+
+    /// The latest time at way f < `s_b(v)`. In plain doubles up to 1e-9 s less.
+    pub(crate) fn last(&self, f: N) -> N {
+        let squared = self.v.times(self.v).minus(double(self.a_b).times(f)).minus(self.rough);
+        let left = squared.or_larger(N::from_double(0.0)).root();
+        self.v.minus(left).divided_by(self.a_b)
+    }
+}
+
+fn double<N: Number>(number: N) -> N {
+    number.plus(number)
+}

@@ -1,0 +1,218 @@
+//! Where an object that neither follows the CAV nor keeps beside its path meets it
+//! (`spec/7-fail-safe.md#meeting`).
+
+use std::cell::LazyCell;
+
+use crate::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
+use crate::hardened::h14_fail_safe::path::{Place, places};
+use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
+use crate::input::scene::{Object, Point, Scene};
+use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
+use crate::numbers::real::Real;
+use crate::numbers::rectangle::{Rectangle, is_swept_over, is_swept_over_between};
+use crate::numbers::vector::{Frame, Vector};
+use crate::report::{Rule, Witness};
+use crate::stages::llcc::cav;
+
+/// The first place at which a motion that is examined sweeps over the CAV in its window, and of these
+/// motions the first.
+pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
+    let examined: Vec<(Motion, bool)> = (all_motions(scene).into_iter())
+        .filter_map(|motion| {
+            let (comes_across, behind) = (comes_across(scene, &motion), is_behind(scene, &motion));
+            let is_examined = !follows(scene, &motion, comes_across, behind)
+                && !beside_route.keeps_beside(scene, &motion, behind);
+            is_examined.then_some((motion, comes_across))
+        })
+        .collect();
+    let driving = Driving::of(scene);
+    places(scene, trajectory).enumerate().find_map(|(k, place)| {
+        let window = window(&scene.reads, &driving, &place.way_before, place.way_after.as_ref());
+        let cav = wider(scene, trajectory, &place.pose);
+        let (motion, _) = examined.iter().find(|(motion, comes_across)| {
+            sweeps_over(scene, &cav, &window, motion, *comes_across)
+        })?;
+        let Named { track, detection, item, age_ns } = motion.named;
+        let witness = Witness::new(Rule::FailSafe, &place.way, &driving.s_stop());
+        let witness = Witness { track, detection, item, age_ns, ..witness };
+        Some(witness.at_point(trajectory.len() + k))
+    })
+}
+
+/// The rectangle of the CAV at a pose as in LLCC, with a half width that is greater by a.
+fn wider(scene: &Scene, trajectory: &[Point], pose: &Frame) -> Rectangle {
+    let cav = cav(scene, pose);
+    let half_width = &cav.half_width + a(scene, trajectory);
+    Rectangle { half_width, ..cav }.with_halves(|half| scene.reads.raised(half))
+}
+
+/// a = abs((p - x_0) x h_0), m: a trajectory that begins beside the CAV does not say where it joins.
+fn a(scene: &Scene, trajectory: &[Point]) -> Real {
+    let Frame { origin: x_0, direction: h_0 } = &trajectory[0].pose;
+    (&scene.ego.position - x_0).cross(h_0).abs()
+}
+
+/// Over the window, which ends at T + t_yield + abs(w) / (2 a_yield) where the CAV may stand, and at T
+/// where the object comes across, the object sweeps over a point of the CAV's rectangle.
+fn sweeps_over(
+    scene: &Scene,
+    cav: &Rectangle,
+    window: &Window,
+    motion: &Motion,
+    comes_across: bool,
+) -> bool {
+    let end = match &window.end {
+        Some(last) => last.clone(),
+        None if comes_across => Driving::of(scene).t_stop(),
+        None => t_yielded(scene, motion),
+    };
+    let least = motion.r_b(&scene.parameters.a_b, &(&motion.age + &window.begin));
+    let most = &motion.speed * (&motion.age + end);
+    let between = [least, most].map(|r| motion.moved_by(&r));
+    is_swept_over_between(cav, &motion.object.rectangle(), &motion.w, &between)
+}
+
+/// w is not 0, and the rectangle of the CAV at p, half length and half width less by 0.3 m, shares a point
+/// with the object as it is now and goes on.
+pub fn comes_across(scene: &Scene, motion: &Motion) -> bool {
+    let inner = Real::from_double(0.3);
+    let cav = cav(scene, &p(scene)).with_halves(|half| scene.reads.lowered(&(half - &inner)));
+    motion.w.squared() > Real::zero() && is_swept_over(&cav, &now(motion).rectangle(), &motion.w)
+}
+
+/// w . h > 0 and all of its rectangle where it is now is behind the CAV's rear:
+/// (c - c_CAV) . h + (abs(dir . h) length + abs(dir x h) width) / 2 < - L / 2.
+pub fn is_behind(scene: &Scene, motion: &Motion) -> bool {
+    let (reads, h, two) = (&scene.reads, &scene.ego.heading, Real::from_integer(2));
+    let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
+    let c_cav = cav(scene, &p(scene)).frame.origin;
+    let half = (dir.dot(h).abs() * length + dir.cross(h).abs() * width) / &two;
+    reads.greater(&motion.w.dot(h), &Real::zero())
+        && reads.less(&((&c - &c_cav).dot(h) + half), &-(&scene.ego.length / two))
+}
+
+/// It is behind, comes across, and has abs(w x h) <= w . h.
+pub fn follows(scene: &Scene, motion: &Motion, comes_across: bool, behind: bool) -> bool {
+    let h = &scene.ego.heading;
+    let (along, across) = (motion.w.dot(h), motion.w.cross(h).abs());
+    behind && comes_across && scene.reads.at_most(&across, &along)
+}
+
+/// The path of the CAV beside the route.
+#[derive(Debug)]
+pub struct BesideRoute {
+    reference_path: Vec<Segment>,
+    /// D_k and E_k of each place, m; of several E_k the greatest.
+    places: Vec<(Real, Real)>,
+    /// No c_k lies beyond an end of an open route, and the path bends, it does not turn off.
+    is_along: bool,
+}
+
+impl BesideRoute {
+    /// That of the places of a trajectory.
+    pub fn new(scene: &Scene, trajectory: &[Point]) -> Self {
+        // A closing segment of length 0 is none.
+        let mut reference_path = scene.route.reference_path();
+        reference_path.retain(|[from, to]| from != to);
+        let a = a(scene, trajectory);
+        let mut is_along = true;
+        let distances = |place: Place| {
+            let Frame { origin: c_k, direction: h_k } = cav(scene, &place.pose).frame;
+            is_along &=
+                is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.way);
+            let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
+            let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &a);
+            (d_k, e_k.max().unwrap_or_else(Real::zero))
+        };
+        let places = places(scene, trajectory).map(distances).collect();
+        Self { reference_path, places, is_along }
+    }
+
+    /// Nothing of it comes to where the path leads, measured along the route:
+    /// (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    pub fn keeps_beside(&self, scene: &Scene, motion: &Motion, behind: bool) -> bool {
+        let (w, zero) = (&motion.w, Real::zero());
+        if w.squared() == zero {
+            return false;
+        }
+        let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
+        let (d, nearest) = nearest(scene, &self.reference_path, &c);
+        let comes_near = |segment: &&Segment| {
+            let q = &c - &nearest_point(&c, segment);
+            let half = (dir.dot(&q).abs() * &length + dir.cross(&q).abs() * &width)
+                / Real::from_integer(2);
+            let needed = half + w.dot(&q).abs() * t_h(scene, motion, &q, &d, behind);
+            let is_apart = |(d_k, e_k): &(Real, Real)| {
+                scene.reads.lowered(&((&d - d_k).abs() - e_k)) * &d > needed
+            };
+            !self.places.iter().all(is_apart)
+        };
+        d > zero
+            && self.is_along
+            && is_within_ends(scene, &self.reference_path, &c)
+            && !nearest.iter().any(comes_near)
+    }
+}
+
+/// E_k without a: (abs(h_k . g) W + abs(h_k x g) L) / (2 abs(g)), m.
+fn e_k(scene: &Scene, h_k: &Vector, g: &Vector) -> Real {
+    let twice = h_k.dot(g).abs() * &scene.ego.width + h_k.cross(g).abs() * &scene.ego.length;
+    twice * g.length() / (Real::from_integer(2) * g.squared())
+}
+
+/// t_H = T + t_yield + abs(w) / (2 a_yield), but 0 for who is behind and drifts by at most abs(w . q) <=
+/// abs(w) D / 10, s.
+fn t_h(scene: &Scene, motion: &Motion, q: &Vector, d: &Real, behind: bool) -> Real {
+    let most = &motion.speed * d / Real::from_integer(10);
+    if behind && scene.reads.at_most(&motion.w.dot(q).abs(), &most) {
+        return Real::zero();
+    }
+    t_yielded(scene, motion)
+}
+
+/// T + t_yield + abs(w) / (2 a_yield), s: who comes later can still stop.
+fn t_yielded(scene: &Scene, motion: &Motion) -> Real {
+    let p = &scene.parameters;
+    let braking = &motion.speed / (Real::from_integer(2) * &p.a_yield);
+    Driving::of(scene).t_stop() + &p.t_yield + braking
+}
+
+/// abs(h x h_k) <= 0.05 + way / 30 m.
+fn bends(scene: &Scene, h_k: &Vector, way: &Real) -> bool {
+    let limit = Real::from_double(0.05) + way / Real::from_integer(30);
+    scene.reads.at_most(&scene.ego.heading.cross(h_k).abs(), &limit)
+}
+
+/// The distance of a point to the reference path, m, and its segments at that distance; strictly those at
+/// most delta farther, too.
+fn nearest<'a>(scene: &Scene, path: &'a [Segment], point: &Vector) -> (Real, Vec<&'a Segment>) {
+    let Beside { distance, distances, .. } = beside(point, path);
+    let most =
+        if scene.reads.is_strict() { &distance + &scene.reads.delta } else { distance.clone() };
+    let is_near = |(_, far): &(&Segment, &Real)| **far <= most;
+    let nearest = path.iter().zip(&distances).filter(is_near).map(|(segment, _)| segment);
+    (distance.clone(), nearest.collect())
+}
+
+/// Of an open route (x - end) . (neighbour of the end - end) > 0 for both end points of the reference
+/// path.
+fn is_within_ends(scene: &Scene, path: &[Segment], x: &Vector) -> bool {
+    let ([first, second], [before_last, last]) = (&path[0], &path[path.len() - 1]);
+    let is_inside = |(end, neighbour): (&Vector, &Vector)| {
+        scene.reads.greater(&(x - end).dot(&(neighbour - end)), &Real::zero())
+    };
+    scene.route.closed || [(first, second), (last, before_last)].into_iter().all(is_inside)
+}
+
+/// The object where it is now, moved by w age.
+fn now(motion: &Motion) -> Object {
+    let Object { frame: Frame { origin, direction }, .. } = &motion.object;
+    let origin = origin + &motion.w.scaled(&motion.age);
+    Object { frame: Frame { origin, direction: direction.clone() }, ..motion.object.clone() }
+}
+
+/// The pose of the CAV.
+fn p(scene: &Scene) -> Frame {
+    Frame { origin: scene.ego.position.clone(), direction: scene.ego.heading.clone() }
+}

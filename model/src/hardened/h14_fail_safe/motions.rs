@@ -1,0 +1,152 @@
+//! Which objects are examined, and how they move (`spec/7-fail-safe.md#motions`).
+
+use crate::hardened::detection_history::{
+    Seen, Usable, confirmed, is_disputed, is_within, list_of, may_come_from, nearest_to_reference,
+    origin_limit, past, usable, velocity,
+};
+use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
+use crate::numbers::real::Real;
+use crate::numbers::vector::Vector;
+use crate::stages::distances::s_b;
+
+/// An object at the time of its list, and its velocity.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Its rectangle at the time of its list.
+    pub object: Object,
+    /// Now minus that time, s.
+    pub age: Real,
+    /// w, m/s.
+    pub w: Vector,
+    /// abs(w), m/s.
+    pub speed: Real,
+    /// What a witness names.
+    pub named: Named,
+}
+
+/// Where a motion is from: a track, a detection as it stands, or a detection and the item d' of a list of
+/// the history.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Named {
+    /// Id of the track.
+    pub track: Option<i64>,
+    /// Index of the detection.
+    pub detection: Option<usize>,
+    /// Index of d' in its list.
+    pub item: Option<usize>,
+    /// Age of that list, ns.
+    pub age_ns: Option<i64>,
+}
+
+impl Motion {
+    fn new(scene: &Scene, object: &Object, stamp_ns: i64, w: Vector, named: Named) -> Self {
+        let age = Real::seconds(i128::from(scene.now_ns) - i128::from(stamp_ns));
+        Self { object: object.clone(), age, speed: w.length(), w, named }
+    }
+
+    /// r_b(t) = abs(w) t - a_b t^2 / 2 up to t = abs(w) / a_b, and s_b(abs(w)) from then on, m.
+    pub fn r_b(&self, a_b: &Real, t: &Real) -> Real {
+        if a_b * t <= self.speed {
+            &self.speed * t - a_b * t.square() / Real::from_integer(2)
+        } else {
+            s_b(&self.speed, a_b)
+        }
+    }
+
+    /// r w / abs(w), m; 0 where w is.
+    pub fn moved_by(&self, r: &Real) -> Vector {
+        let squared = self.w.squared();
+        if squared == Real::zero() {
+            return self.w.clone();
+        }
+        self.w.scaled(&(r * &self.speed / squared))
+    }
+}
+
+/// All that is examined, in the order of the text.
+pub fn all_motions(scene: &Scene) -> Vec<Motion> {
+    let of_tracks = scene.tracks.iter().filter(|_| scene.tracks_current).flat_map(|list| {
+        let motion = |track| of_track(scene, list, track);
+        list.items.iter().map(motion)
+    });
+    let of_detections = scene.detections.iter().flat_map(|list| of_detections(scene, list));
+    of_tracks.chain(of_detections).collect()
+}
+
+/// A track with its own velocity.
+fn of_track(scene: &Scene, list: &Tracks, track: &Track) -> Motion {
+    let (w, named) = (track.velocity.clone(), Named { track: Some(track.id), ..Named::default() });
+    Motion::new(scene, &track.object, list.stamp_ns, w, named)
+}
+
+/// The detections as the CAV saw them move, and those that nothing explains as standing.
+fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
+    let lists = usable(scene);
+    let confirmed = confirmed(scene);
+    let explaining = |d: usize| confirmed.iter().find(|(_, seen)| seen.detection == Some(d));
+    let (explained, unexplained): (Vec<usize>, Vec<usize>) =
+        (0..list.items.len()).partition(|d| explaining(*d).is_some());
+    let disputed = explained.into_iter().filter(|d| {
+        let Some((_, seen)) = explaining(*d) else { return false };
+        is_disputed(scene, &lists, seen, unexplained.iter().map(|other| &list.items[*other]))
+    });
+    let mut examined: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
+    examined.sort_unstable();
+    let of_tracks =
+        confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, &lists, track, seen));
+    let pairs =
+        of_tracks.chain(examined.into_iter().flat_map(|d| of_detection(scene, &lists, list, d)));
+    let moving = pairs.map(|pair| {
+        let d = &list.items[pair.detection];
+        let w = velocity(d, &pair.list.items[pair.item], &pair.list.dt);
+        let named = Named {
+            track: None,
+            detection: Some(pair.detection),
+            item: Some(pair.item),
+            age_ns: i64::try_from(pair.list.age_ns).ok(),
+        };
+        Motion::new(scene, d, list.stamp_ns, w, named)
+    });
+    let standing = unexplained.iter().map(|d| {
+        let w = Vector { x: Real::zero(), y: Real::zero() };
+        let named = Named { detection: Some(*d), ..Named::default() };
+        Motion::new(scene, &list.items[*d], list.stamp_ns, w, named)
+    });
+    moving.chain(standing).collect()
+}
+
+/// A detection d and the item d' of an earlier list that it may have come from.
+struct Pair<'a> {
+    detection: usize,
+    item: usize,
+    list: &'a Usable<'a>,
+}
+
+/// The detection of a confirmed track and each item at distance <= theta_track_max + theta_velocity dt
+/// from its past, in the list of the track.
+fn of_confirmed<'a>(
+    scene: &Scene,
+    lists: &'a [Usable<'a>],
+    track: &Track,
+    seen: &Seen,
+) -> Vec<Pair<'a>> {
+    let Some((k, detection)) = list_of(lists, seen).zip(seen.detection) else { return Vec::new() };
+    let list = &lists[k];
+    let past = past(&seen.place, &track.velocity, &list.dt);
+    let limit = origin_limit(scene, &list.dt);
+    let is_near = |item: &usize| is_within(scene, &past, &list.items[*item], &limit);
+    (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
+}
+
+/// A detection and each item of the reference list that it may come from.
+fn of_detection<'a>(
+    scene: &Scene,
+    lists: &'a [Usable<'a>],
+    detections: &Detections,
+    detection: usize,
+) -> Vec<Pair<'a>> {
+    let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
+    let d = &detections.items[detection];
+    let is_pair = |item: &usize| may_come_from(scene, lists, d, [k, *item]);
+    (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
+}

@@ -1,0 +1,47 @@
+//! Reach: no place is farther aside than tyres can carry the CAV (`spec/7-fail-safe.md#reach`).
+
+use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
+use crate::hardened::h14_fail_safe::times::Driving;
+use crate::input::scene::{Point, Scene};
+use crate::numbers::real::Real;
+use crate::numbers::vector::Vector;
+use crate::report::{Rule, Witness};
+
+/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2; then, strictly, whether a
+/// point is a node is too close to call.
+pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let mut places = places(scene, trajectory).enumerate().skip(1);
+    places
+        .find_map(|(k, place)| {
+            let witness = aside_failure(scene, &place.pose.origin)?;
+            Some(witness.at_point(trajectory.len() + k))
+        })
+        .or_else(|| ambiguous_failure(scene, trajectory))
+}
+
+/// abs((place - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
+fn aside_failure(scene: &Scene, place: &Vector) -> Option<Witness> {
+    let driving = Driving::of(scene);
+    let f = ahead(scene, place).max(Real::zero());
+    if !scene.reads.may_be_less(&f, &driving.s_b()) {
+        return None;
+    }
+    let aside = (place - &scene.ego.position).cross(&scene.ego.heading).abs();
+    let [offset, turn, grip] = [0.5, 0.17, 5.75].map(Real::from_double);
+    let limit = offset + turn * &f + grip * driving.last(&f).square();
+    Witness::unless(scene.reads.at_most(&aside, &limit), Rule::Reach, &aside, &limit)
+}
+
+/// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before
+/// it, the strict reading cannot say whether it is.
+fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    if !scene.reads.is_strict() {
+        return None;
+    }
+    let count = first_ahead(scene, trajectory).map_or(trajectory.len(), |first| first + 1);
+    trajectory[..count].iter().enumerate().find_map(|(i, point)| {
+        let (f, least) = (ahead(scene, &point.pose.origin), least_ahead());
+        let is_clear = (&f - &least).abs() > scene.reads.delta;
+        Witness::unless(is_clear, Rule::Ambiguous, &f, &least).map(|witness| witness.at_point(i))
+    })
+}

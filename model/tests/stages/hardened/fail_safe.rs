@@ -1,0 +1,46 @@
+//! H-14, `spec/7-fail-safe.md`: each requirement on both sides of its bounds, in the three readings.
+
+mod following;
+mod meeting;
+mod motions;
+mod path;
+mod random;
+mod reach;
+mod schedule;
+mod times;
+
+use mufasa_model::input::cycle::{Cycle, Track};
+use mufasa_model::input::scene::Scene;
+use mufasa_model::report::{Outcome, Reading, Rule, Stage, Witness};
+use mufasa_model::services::configuration::Configuration::MotRemote;
+
+use crate::base::*;
+
+/// A track of a current list is the only object; stage iv does not run. The CAV at 8 m/s takes 0.5 s and
+/// 4.5 m before it brakes, at 10 m/s, and stands after 1.75 s and 10.75 m; s_b(8) = 4.
+fn alone(cycle: &mut Cycle, track: Track) {
+    (cycle.configuration, cycle.ego.speed) = (MotRemote, 8.0);
+    (cycle.parameters.tau, cycle.parameters.a_max) = (0.5, 4.0);
+    cycle.tracks = tracks(vec![track]);
+    cycle.detections = None;
+}
+
+/// An object of this length along y and this width that drives along y at 10 m/s.
+fn crossing(x: f64, y: f64, [length, width]: [f64; 2]) -> Track {
+    Track { cos: 0.0, sin: 1.0, vy: 10.0, length, width, ..track(1, x, y) }
+}
+
+fn scene(cycle: &Cycle, reading: Reading) -> Scene {
+    Scene::new(cycle, reading)
+}
+
+/// The witness of H-14, if it failed; no other rule did in stage iv.
+fn found(cycle: &Cycle) -> Option<Witness> {
+    match outcome(cycle, Stage::Iv) {
+        Outcome::Failed(witness) => {
+            assert_eq!(witness.rule, Rule::FailSafe);
+            Some(witness)
+        }
+        _ => None,
+    }
+}

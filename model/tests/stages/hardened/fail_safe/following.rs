@@ -1,0 +1,282 @@
+//! `spec/7-fail-safe.md#meeting`: who comes across, who follows and who keeps beside, each condition on both
+//! sides.
+
+use mufasa_model::hardened::h14_fail_safe::meeting::{
+    BesideRoute, comes_across, follows, is_behind,
+};
+use mufasa_model::hardened::h14_fail_safe::motions::all_motions;
+use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
+use mufasa_model::report::{Reading, Stage};
+use mufasa_model::services::configuration::Configuration::MotRemote;
+
+use super::{alone, found, scene};
+use crate::base::*;
+use crate::near::points;
+
+const READINGS: [Reading; 3] = [Reading::Strict, Reading::Exact, Reading::Lax];
+
+fn cycle(track: Track) -> Cycle {
+    let mut cycle = base(Profile::Hardened, MotRemote);
+    alone(&mut cycle, track);
+    cycle
+}
+
+/// Follows in the readings strict, exact, lax; whether it comes across is said.
+fn is_follower(cycle: &Cycle, comes_across: bool) -> [bool; 3] {
+    READINGS.map(|reading| {
+        let scene = scene(cycle, reading);
+        let motion = &all_motions(&scene)[0];
+        follows(&scene, motion, comes_across, is_behind(&scene, motion))
+    })
+}
+
+/// Keeps beside the path in the readings strict, exact, lax.
+fn keeps_beside(cycle: &Cycle) -> [bool; 3] {
+    READINGS.map(|reading| {
+        let scene = scene(cycle, reading);
+        let motion = &all_motions(&scene)[0];
+        let trajectory = scene.trajectory.as_ref().expect("it is current");
+        let beside_route = BesideRoute::new(&scene, trajectory);
+        beside_route.keeps_beside(&scene, motion, is_behind(&scene, motion))
+    })
+}
+
+fn across(cycle: &Cycle) -> [bool; 3] {
+    READINGS.map(|reading| {
+        let scene = scene(cycle, reading);
+        comes_across(&scene, &all_motions(&scene)[0])
+    })
+}
+
+/// A bound is moved by a margin: on which sides of it who follows (`safe` at `-1`) follows.
+fn moves(name: &str, with: impl Fn(f64) -> [bool; 3]) {
+    assert_eq!(with(-2e-6), [true; 3], "{name}");
+    assert_eq!(with(-0.5e-6), [false, true, true], "{name}");
+    assert_eq!(with(0.5e-6), [false, false, true], "{name}");
+    assert_eq!(with(2e-6), [false; 3], "{name}");
+}
+
+fn behind(vx: f64, vy: f64) -> Track {
+    Track { vx, vy, ..track(1, -10.0, 0.0) }
+}
+
+/// Each condition alone decides.
+#[test]
+fn who_follows_is_behind_and_comes_along() {
+    moves("w . h > m", |e| is_follower(&cycle(behind(-e, 0.0)), true));
+    moves("all of it behind by more than m", |e| {
+        is_follower(&cycle(Track { vx: 20.0, ..track(1, -4.0 + e, 0.0) }), true)
+    });
+    moves("abs(w x h) <= w . h - m", |e| is_follower(&cycle(behind(8.0, 8.0 + e)), true));
+    moves("to the right", |e| is_follower(&cycle(behind(8.0, -8.0 - e)), true));
+    assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), true), [true; 3]);
+    assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), false), [false; 3]);
+}
+
+/// All of its rectangle where it is now, as it looks; the rear is that of the rectangle of the CAV.
+#[test]
+fn behind_is_behind_the_rear() {
+    let with = |x: f64, change: &dyn Fn(&mut Cycle)| {
+        let mut cycle = cycle(Track { vx: 20.0, width: 3.0, ..track(1, x, 0.0) });
+        change(&mut cycle);
+        is_follower(&cycle, true)[1]
+    };
+    assert!(with((-4.0f64).next_down(), &|_| ()) && !with(-4.0, &|_| ()));
+    // Seen 50 ms ago it is a metre farther now.
+    let old = |c: &mut Cycle| c.tracks.as_mut().expect("set").stamp_ns -= 50_000_000;
+    assert!(with(-5.01, &old) && !with(-4.99, &old));
+    let turned = |c: &mut Cycle| {
+        let item = &mut c.tracks.as_mut().expect("set").items[0];
+        (item.cos, item.sin) = (0.0, -1.0);
+    };
+    assert!(with(-3.51, &turned) && !with(-3.49, &turned));
+    let shifted = |c: &mut Cycle| c.ego.center_offset = 1.0;
+    assert!(with(-3.01, &shifted) && !with(-2.99, &shifted));
+}
+
+/// What is 0.3 m inside of the CAV's sides is met by who goes on; not by who stands, nor by who came.
+#[test]
+fn who_comes_across_meets_the_smaller_rectangle() {
+    let at = |y: f64, vx: f64| across(&cycle(Track { vx, ..track(1, -10.0, y) }));
+    moves("0.3 m inside", |e| {
+        let met = at(1.7 + e, 8.0);
+        [met[0], met[1], met[2]]
+    });
+    moves("0.3 m inside, to the right", |e| at(-1.7 - e, 8.0));
+    assert_eq!([at(0.0, 8.0), at(0.0, 0.0), at(0.0, -8.0)], [[true; 3], [false; 3], [false; 3]]);
+    let overlapping = |vx: f64| across(&cycle(Track { vx, ..track(1, -3.0, 0.0) }));
+    assert_eq!([overlapping(-8.0), overlapping(0.0)], [[true; 3], [false; 3]]);
+}
+
+/// An object beside the straight route, which the CAV drives along.
+fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
+    cycle(Track { vx, vy, ..track(1, x, y) })
+}
+
+/// The distance of its centre to the reference path differs from that of each place by more than half of both
+/// widths, which are 2 m here.
+#[test]
+fn who_keeps_beside_is_beside_the_path() {
+    for (x, vx) in [(-10.0, 8.0), (20.0, 8.0), (20.0, -8.0), (0.0, 8.0)] {
+        moves("more than half of both widths + m", |e| keeps_beside(&beside(x, 2.0 - e, vx, 0.0)));
+        moves("to the right", |e| keeps_beside(&beside(x, -2.0 + e, vx, 0.0)));
+    }
+    assert_eq!(keeps_beside(&beside(20.0, 0.0, 8.0, 0.0)), [false; 3]);
+    assert_eq!(keeps_beside(&beside(20.0, 2.5, 0.0, 0.0)), [false; 3], "it may set off");
+    // As it looks: now its length counts.
+    let turned = |y: f64| {
+        let it = Track { cos: 0.0, sin: 1.0, vx: 8.0, ..track(1, -10.0, y) };
+        keeps_beside(&cycle(it))[1]
+    };
+    assert!(turned(3.01) && !turned(2.99));
+    // Where it is now: 0.1 s ago it was 0.07 m to the right.
+    let mut moving = beside(-10.0, 1.95, 8.0, 0.7);
+    assert_eq!(keeps_beside(&moving), [false; 3]);
+    moving.tracks.as_mut().expect("set").stamp_ns -= 100_000_000;
+    assert_eq!(keeps_beside(&moving), [true; 3]);
+    // The distance is what counts, not the side: the CAV is 0.5 m to the left.
+    let mut left = beside(-10.0, -2.45, 8.0, 0.0);
+    left.ego.y = 0.5;
+    points(&mut left).iter_mut().for_each(|point| point.y = 0.5);
+    assert_eq!(keeps_beside(&left), [false; 3]);
+    // The centre of the CAV's rectangle counts: 10 m ahead of p, which looks 0.04 to the left.
+    let ahead = |center_offset: f64| {
+        let mut cycle = beside(-20.0, 2.3, 8.0, 0.0);
+        (cycle.ego.cos, cycle.ego.sin) = ((1.0 - 0.04f64 * 0.04).sqrt(), 0.04);
+        cycle.ego.center_offset = center_offset;
+        keeps_beside(&cycle)
+    };
+    assert_eq!([ahead(0.0), ahead(10.0)], [[true; 3], [false; 3]]);
+}
+
+/// It drifts until it would have stopped for a standing CAV, T + t_yield + abs(w) / (2 a_yield); not where it
+/// is behind and drifts by at most a tenth.
+#[test]
+fn who_keeps_beside_does_not_drift_into_the_path() {
+    let t_h = |w: f64| 1.75 + 1.5 + w / 6.0;
+    let drift = 0.25 * t_h(8f64.hypot(0.25));
+    for vy in [0.25, -0.25] {
+        moves("drift ahead", |e| keeps_beside(&beside(20.0, 2.0 + drift - e, 8.0, vy)));
+    }
+    assert_eq!(keeps_beside(&beside(-10.0, 2.01, 8.0, -0.25)), [true; 3]);
+    // abs(vy) 4 m = abs(w) 4 m / 10, and that grows by 0.04 m for 1 m/s.
+    moves("abs(w . q) <= abs(w) D / 10 - m", |e| {
+        keeps_beside(&beside(-10.0, 4.0, 8.0, -(8.0 / 99f64.sqrt() + e / 3.96)))
+    });
+    assert_eq!(keeps_beside(&beside(-10.0, 8.0, 8.0, -0.9)), [true; 3], "far enough for more");
+}
+
+/// Each place counts: the CAV drives to the lane where the other one is, or begins beside its trajectory.
+#[test]
+fn every_place_is_beside_its_lane() {
+    let with = |aside: f64| {
+        let mut cycle = beside(-10.0, 3.0, 8.0, 0.0);
+        for point in points(&mut cycle) {
+            point.y = (point.x / 10.0).min(1.0) * aside;
+        }
+        keeps_beside(&cycle)
+    };
+    moves("at the last place, too", |e| with(1.0 + e));
+    // p is 0.25 m aside, and every place 0.25 m wider to each side.
+    let begins_beside = |y: f64| {
+        let mut cycle = beside(-10.0, y, 8.0, 0.0);
+        cycle.ego.y = 0.25;
+        keeps_beside(&cycle)[1]
+    };
+    assert!(begins_beside(2.51) && !begins_beside(2.49));
+}
+
+/// abs(h x h_k) <= 0.05 + way / 30 m; a turned CAV is wider.
+#[test]
+fn the_path_bends_and_does_not_turn_off() {
+    let with = |sin: f64, y: f64| {
+        let mut cycle = beside(-10.0, y, 8.0, 0.0);
+        let turned = &mut points(&mut cycle)[1];
+        (turned.cos, turned.sin) = ((1.0 - sin * sin).sqrt(), sin);
+        keeps_beside(&cycle)
+    };
+    let bound = 0.05 + 1.0 / 30.0;
+    moves("abs(h x h_k) <= bound - m", |e| with(bound + e, 4.0));
+    moves("to the right", |e| with(-bound - e, 4.0));
+    // (abs(cos) W + abs(sin) L) / 2, and half of its own width.
+    let e_k = |sin: f64| (1.0 - sin * sin).sqrt() + 2.0 * sin;
+    moves("E_k", |e| with(0.08, e_k(0.08) + 1.0 - e));
+}
+
+/// Several nearest points or segments are all asked; strictly those that are nearly as near, too.
+#[test]
+fn every_nearest_point_and_segment_is_asked() {
+    let on_route = |cycle: &mut Cycle, corner: [f64; 2], end: [f64; 2]| {
+        let at = |[x, y]: [f64; 2]| CrossSection { x, y, left: [x, y + 9.0], right: [x, y - 9.0] };
+        cycle.route.cross_sections = [[-100.0, 0.0], corner, end].map(at).into();
+    };
+    // Inside of a bend by a right angle, as far from both sides of it; along the first it keeps beside.
+    let inside = |y: f64| {
+        let mut cycle = beside(10.0, y, 8.0, 0.0);
+        on_route(&mut cycle, [20.0, 0.0], [20.0, 40.0]);
+        keeps_beside(&cycle)
+    };
+    assert_eq!([inside(10.0), inside(10.0 - 0.5e-6)], [[false; 3], [false, true, true]]);
+    assert_eq!([inside(10.0 - 2e-6), inside(10.0 + 2e-6)], [[true; 3], [false; 3]]);
+    // The last place is at a corner, where the next segment leads aside: half of W and L along it.
+    let corner = |x: f64, y: f64| {
+        let mut cycle = beside(-10.0, y, 8.0, 0.0);
+        on_route(&mut cycle, [x, 0.0], [x + 100.0, 100.0]);
+        keeps_beside(&cycle)[1]
+    };
+    assert!(corner(11.0, 3.1) && !corner(10.75, 3.1) && corner(10.75, 3.2));
+}
+
+/// Neither it nor a place lies beyond an end of an open route; a closing segment of length 0 is none.
+#[test]
+fn nobody_keeps_beside_beyond_the_ends_of_an_open_route() {
+    let with = |from: f64, to: f64, closed: bool| {
+        let mut cycle = beside(-10.0, 2.5, 8.0, 0.0);
+        cycle.route = straight_route(from, to);
+        cycle.route.closed = closed;
+        keeps_beside(&cycle)
+    };
+    // Dot products with a vector of about 110 m.
+    moves("it is before the first point", |e| with(-10.0 + e / 110.0, 100.0, false));
+    // The last place is at s_stop, where the lax reading has none.
+    let ending = |e: f64| with(-100.0, 10.75 - e / 110.75, false);
+    assert_eq!([ending(-2e-6), ending(-0.5e-6)], [[true; 3], [false, true, true]]);
+    assert_eq!([ending(0.5e-6), ending(2e-6)], [[false, false, true]; 2]);
+    assert_eq!([with(-9.9, 100.0, true), with(-100.0, 10.5, true)], [[true; 3]; 2]);
+    let mut round = beside(20.0, 2.5, 8.0, 0.0);
+    round.route = straight_route(0.0, 200.0);
+    round.route.closed = true;
+    let last = round.route.cross_sections[0].clone();
+    round.route.cross_sections.push(last);
+    assert_eq!(keeps_beside(&round), [true; 3]);
+}
+
+/// spec/7-fail-safe.md#meeting.1: who follows or keeps beside is not examined, whoever else comes is.
+#[test]
+fn who_follows_keeps_its_own_distance() {
+    let fast = |y: f64| Track { vx: 30.0, ..track(1, -12.0, y) };
+    let meets = |track: Track| found(&cycle(track)).is_some();
+    assert!(!meets(fast(0.0)), "in the way already");
+    assert!(meets(fast(1.9)), "it meets the side of the CAV");
+    // Beside the path it is not examined, though on a straight line it would meet the CAV.
+    let wide = |y: f64| {
+        let mut cycle = cycle(Track { vy: -2.0, ..fast(y) });
+        cycle
+            .route
+            .cross_sections
+            .iter_mut()
+            .for_each(|it| (it.left[1], it.right[1]) = (9.0, -9.0));
+        cycle
+    };
+    let with = |y: f64, slope: f64| {
+        let mut cycle = wide(y);
+        points(&mut cycle).iter_mut().for_each(|point| point.y = slope * point.x);
+        assert!(passes(&cycle, Stage::Ii));
+        found(&cycle).is_some()
+    };
+    assert!(!with(3.0, 0.0) && with(3.0, 0.1), "the CAV ends 1.075 m to the left");
+    // Who cuts in from beside comes against the side of the CAV.
+    assert!(meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.0) }));
+    // Beside the CAV it is not behind.
+    assert!(meets(Track { vx: 8.0, vy: -1.0, ..track(1, -3.9, 2.5) }));
+}

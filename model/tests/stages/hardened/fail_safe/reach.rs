@@ -1,0 +1,135 @@
+//! `spec/7-fail-safe.md#reach`
+
+use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};
+use mufasa_model::report::{Outcome, Reading, Rule, Stage, Witness};
+use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
+use mufasa_model::stages::check;
+
+use crate::base::*;
+use crate::near::*;
+
+const HARDENED: Profile = Profile::Hardened;
+
+/// The CAV at 8 m/s, on a trajectory that leads `aside` m to its left.
+fn beside(cycle: &mut Cycle, aside: f64) {
+    cycle.ego.speed = 8.0;
+    cycle.parameters.lateral_tolerance = 2.0;
+    points(cycle).iter_mut().for_each(|point| point.y = aside);
+}
+
+/// 0.5 m + 0.17 f + 5.75 t^2 at f = 1 m, where braking from 8 m/s leads to after (8 - sqrt(48)) / 8 s.
+fn bound() -> f64 {
+    let t = (8.0 - 48f64.sqrt()) / 8.0;
+    0.5 + 0.17 + 5.75 * t * t
+}
+
+const NEAR: &[Near] = &[
+    ("aside <= bound - m", PlanRemote, HARDENED, |c, e| beside(c, bound() + e)),
+    ("aside to the right <= bound - m", PlanRemote, HARDENED, |c, e| beside(c, -bound() - e)),
+    ("f < s_b(v) + m", PlanRemote, HARDENED, |c, e| {
+        // s_b(4) = 0.25, and there 0.5 + 0.0425 + 5.75 / 64 m; no place before is so far aside.
+        (c.ego.speed, c.parameters.a_b, c.parameters.lateral_tolerance) = (4.0, 32.0, 2.0);
+        let points = vec![at_time(0, 0.25 - e, 0.65)];
+        c.trajectory = Some(Trajectory { stamp_ns: NOW, points });
+    }),
+];
+
+#[test]
+fn margins_move_the_reach() {
+    margins_move(NEAR);
+    for (name, configuration, profile, with) in NEAR {
+        let mut cycle = base(*profile, *configuration);
+        with(&mut cycle, 3e-6);
+        assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::Reach), "{name}");
+        cycle.profile = Profile::Paper;
+        assert_eq!(rule(&cycle, Stage::Ii), None, "{name}");
+    }
+}
+
+#[test]
+fn the_filter_changes_no_report_of_the_reach() {
+    the_filter_changes_nothing(NEAR);
+}
+
+fn witness(cycle: &Cycle) -> Option<Witness> {
+    match outcome(cycle, Stage::Ii) {
+        Outcome::Failed(witness) => Some(witness),
+        _ => None,
+    }
+}
+
+/// spec/7-fail-safe.md#reach.1: in every configuration, with or without objects; the witness counts places
+/// behind the points.
+#[test]
+fn a_path_that_tyres_cannot_drive_fails_stage_ii() {
+    for configuration in [MotRemote, AllRemote, PlanRemote] {
+        let mut cycle = base(HARDENED, configuration);
+        (cycle.tracks, cycle.detections) = (tracks(vec![]), detections(vec![]));
+        beside(&mut cycle, bound() - 0.01);
+        assert_eq!(witness(&cycle), None);
+        beside(&mut cycle, bound() + 0.01);
+        let witness = witness(&cycle).expect("too far aside");
+        // The first node is 1 m ahead, the fourth place behind p.
+        assert_eq!((witness.rule, witness.point), (Rule::Reach, Some(51 + 4)));
+        let [aside, limit] = witness.compared;
+        assert!((aside - bound() - 0.01).abs() < 1e-12 && (limit - bound()).abs() < 1e-12);
+    }
+}
+
+/// What is ahead is along the heading of the CAV, what is aside across it; p itself is not asked.
+#[test]
+fn reach_counts_from_the_heading_of_the_cav() {
+    let turned = |sin: f64| {
+        let mut cycle = base(HARDENED, PlanRemote);
+        cycle.ego.speed = 8.0;
+        (cycle.ego.cos, cycle.ego.sin) = ((1.0 - sin * sin).sqrt(), sin);
+        cycle.ego.y = 0.5;
+        rule(&cycle, Stage::Ii)
+    };
+    // To the left, where the CAV comes from: at 1 m it is 0.5 - 0.15 m aside, or 0.5 + 0.15 m.
+    assert_eq!(turned(-0.16), None);
+    assert_eq!(turned(0.16), None, "0.66 m of 0.77 m");
+    // Standing, nothing is asked: f < s_b(0) = 0 never holds.
+    let mut standing = base(HARDENED, PlanRemote);
+    beside(&mut standing, 1.9);
+    standing.ego.speed = 0.0;
+    assert_eq!(rule(&standing, Stage::Ii), None);
+}
+
+/// spec/4-arithmetic.md#strict-and-lax.2: whether a point is 1/8 m ahead is asked of the first that is, and of
+/// those before it, after `reach`.
+#[test]
+fn a_point_at_an_eighth_of_a_metre_is_ambiguous() {
+    let with = |xs: [f64; 3]| {
+        let mut cycle = base(HARDENED, PlanRemote);
+        cycle.ego.speed = 0.5;
+        points(&mut cycle).truncate(3);
+        for (point, x) in points(&mut cycle).iter_mut().zip(xs) {
+            point.x = x;
+        }
+        let strict = check(&cycle, Reading::Strict).expect("valid");
+        match &strict.stages[Stage::Ii as usize] {
+            Outcome::Failed(it) => {
+                assert_eq!(safe(&cycle), NEAR_SAFE);
+                Some((it.rule, it.point))
+            }
+            _ => None,
+        }
+    };
+    let ambiguous = |point| Some((Rule::Ambiguous, Some(point)));
+    assert_eq!(with([0.125, 1.0, 2.0]), ambiguous(0));
+    assert_eq!(with([0.125 - 0.9e-6, 1.0, 2.0]), ambiguous(0));
+    assert_eq!(with([0.125 + 0.9e-6, 1.0, 2.0]), ambiguous(0));
+    assert_eq!(with([0.125 - 1.1e-6, 1.0, 2.0]), None);
+    assert_eq!(with([0.125 + 1.1e-6, 1.0, 2.0]), None);
+    assert_eq!(with([0.0, 0.125, 2.0]), ambiguous(1), "the point before the first");
+    assert_eq!(with([0.25, 0.25, 0.25]), None);
+    assert_eq!(with([0.131, 0.125, 2.0]), None, "behind the first it is a node anyway");
+    assert_eq!(with([0.0, 0.1, 0.125]), ambiguous(2), "none is more than that ahead");
+    let mut aside = base(HARDENED, PlanRemote);
+    beside(&mut aside, bound() + 0.01);
+    points(&mut aside)[0].x = 0.125;
+    let strict = check(&aside, Reading::Strict).expect("valid");
+    let expected = |it: &Outcome| matches!(it, Outcome::Failed(it) if it.rule == Rule::Reach);
+    assert!(expected(&strict.stages[Stage::Ii as usize]), "reach comes first");
+}

@@ -1,0 +1,68 @@
+//! `spec/7-fail-safe.md#when-the-cav-is-where`
+
+use mufasa_model::hardened::h04_gap::s_react;
+use mufasa_model::hardened::h14_fail_safe::times::{Driving, window};
+use mufasa_model::numbers::reading::Comparisons;
+use mufasa_model::numbers::real::Real;
+use mufasa_model::report::Reading;
+
+fn r(value: f64) -> Real {
+    Real::from_double(value)
+}
+
+/// 8 m/s, and 10 m/s after half a second.
+fn with<T>(judge: impl FnOnce(&Driving) -> T) -> T {
+    let [v, tau, a_max, a_b] = [8.0, 0.5, 4.0, 8.0].map(r);
+    judge(&Driving { v: &v, tau: &tau, a_max: &a_max, a_b: &a_b })
+}
+
+/// The formulas against values worked out by hand.
+#[test]
+fn times_and_distances_are_the_formulas() {
+    with(|driving| {
+        assert_eq!([driving.v_tau(), driving.s_tau()], [10.0, 4.5].map(r));
+        assert_eq!([driving.s_stop(), driving.t_stop()], [4.5 + 100.0 / 16.0, 1.75].map(r));
+        assert_eq!([driving.s_b(), s_react(driving, &r(8.0))], [4.0, 6.75].map(r));
+        assert_eq!(s_react(driving, &r(14.0)), Real::zero());
+        // 64 + 8 f is 81 and 100; then 100 - 16 (f - 4.5) is 36 and 0, and less than 0 beyond.
+        let first = [0.0, 17.0 / 8.0, 4.5, 8.5, 10.75, 11.0].map(|f| driving.first(&r(f)));
+        assert_eq!(first, [0.0, 0.25, 0.5, 1.0, 1.75, 1.75].map(r));
+        // 64 - 16 f is 64, 16, 0.
+        let last = [0.0, 3.0, 4.0, 4.5].map(|f| driving.last(&r(f)));
+        assert_eq!(last, [0.0, 0.5, 1.0, 1.0].map(r));
+    });
+}
+
+#[test]
+fn a_cav_that_stands_may_stand_at_once() {
+    let [v, tau, a_max, a_b] = [0.0, 0.0, 4.0, 8.0].map(r);
+    let driving = Driving { v: &v, tau: &tau, a_max: &a_max, a_b: &a_b };
+    assert_eq!([driving.s_stop(), driving.t_stop(), driving.s_b()], [0.0; 3].map(r));
+    assert_eq!(driving.first(&Real::zero()), Real::zero());
+}
+
+/// spec/7-fail-safe.md#when-the-cav-is-where.1: from first(way before) to last(way after); without an end
+/// from s_b(v) on, as the reading moves it, and at the last place.
+#[test]
+fn windows_reach_from_the_place_before_to_the_place_after() {
+    with(|driving| {
+        let end = |reading: Reading, way_after: Option<f64>| {
+            let reads = Comparisons::new(reading, r(1e-6));
+            let window = window(&reads, driving, &r(17.0 / 8.0), way_after.map(r).as_ref());
+            assert_eq!(window.begin, r(0.25));
+            window.end
+        };
+        let exact = Reading::Exact;
+        assert_eq!([end(exact, Some(3.0)), end(exact, None)], [Some(r(0.5)), None]);
+        assert!(end(exact, Some(4.0f64.next_down())).is_some());
+        assert_eq!(end(exact, Some(4.0)), None);
+        let stands = |way: f64| {
+            let of = |reading| end(reading, Some(way)).is_none();
+            [Reading::Strict, exact, Reading::Lax].map(of)
+        };
+        assert_eq!(stands(4.0 - 2e-6), [false; 3]);
+        assert_eq!(stands(4.0 - 0.5e-6), [true, false, false]);
+        assert_eq!(stands(4.0 + 0.5e-6), [true, true, false]);
+        assert_eq!(stands(4.0 + 2e-6), [true; 3]);
+    });
+}

@@ -1,0 +1,6 @@
+//! H-14, the fail-safe rule (`spec/7-fail-safe.md`), a file for each of the model's.
+
+pub mod meeting;
+pub mod motions;
+pub mod path;
+pub mod times;

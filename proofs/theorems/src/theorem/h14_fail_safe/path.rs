@@ -1,0 +1,136 @@
+//! H-14: the places of the CAV on its path (`spec/7-fail-safe.md#the-path`).
+
+use crate::hardened::h14_fail_safe::path::{Place, places};
+use crate::hardened::h14_fail_safe::times::Driving;
+use crate::input::cycle::Profile;
+use crate::input::scene::{Point, Scene};
+use crate::numbers::real::Real;
+use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
+use crate::numbers::vector::{Frame, Vector};
+use crate::stages::llcc::cav;
+use crate::theorem::base::{NOW_NS, any_cav};
+use crate::theorem::rectangle::{point_of, vector};
+use crate::theorem::{Theorem, Wrong};
+
+/// The theorems of this file.
+pub const THEOREMS: &[Theorem] = &[
+    Theorem {
+        id: "the_last_place_is_at_s_stop_and_the_ways_of_places_do_not_fall",
+        statement: "H-14: the way of the first place is 0, that of the last one s_stop, and of any two that follow each \
+                    other the second is not less; a place knows the ways of both its neighbours",
+        domain: "a CAV at the origin along x, of 1/4 m and more; two points with any headings, each at most 1/4 m in x and in y \
+                 from what is before; s_stop at most 1/2 m; tau = 0",
+        claim: || ways(at_most),
+        wrong: Wrong { statement: "is greater", claim: || ways(less) },
+    },
+    Theorem {
+        id: "places_that_follow_each_other_are_at_most_d_apart",
+        statement: "H-14: in x and in y",
+        domain: "a CAV at the origin along x, of 1/4 m and more; a point with any heading, at most 1/2 m in x and in y \
+                 from what is before; s_stop at most 1/2 m; tau = 0",
+        claim: || apart(&Real::ratio(1, 4)),
+        wrong: Wrong { statement: "d/2 apart", claim: || apart(&Real::ratio(1, 8)) },
+    },
+    Theorem {
+        id: "of_a_CAV_between_two_places_of_a_straight_path_every_point_is_in_its_rectangle_at_one_of_them",
+        statement: "H-14: so that nothing lies between the places; that the CAV is examined at both whenever it is between \
+                    them, the_window_of_a_place_holds_when_the_CAV_is_there_and_at_its_neighbours says",
+        domain: "a CAV at the origin with any heading, of 3/8 m and more; a point straight ahead, at most 1/2 m; s_stop at most \
+                 1/2 m; tau = 0",
+        claim: || between_places(&Real::ratio(3, 8)),
+        wrong: Wrong {
+            statement: "a CAV of 1/4 m and more: across x and y places are up to 0.354 m apart",
+            claim: || between_places(&Real::ratio(1, 4)),
+        },
+    },
+];
+
+/// A scene and a trajectory of points of these names, each at most so far in x and in y from what is before.
+fn any<const N: usize>(names: [&str; N], most: &Real) -> (Scene, [Point; N]) {
+    let mut scene = any_cav(Profile::Hardened);
+    given(at_most(&Real::zero(), &scene.ego.v_now));
+    given(at_most(&Real::ratio(1, 4), &scene.ego.length));
+    scene.parameters.tau = Real::zero();
+    let mut origin = scene.ego.position.clone();
+    let trajectory = names.map(|name| {
+        let step = vector(name);
+        given(is_within(&step, most));
+        origin = &origin + &step;
+        let [x, y] = Real::unit(name);
+        let pose = Frame { origin: origin.clone(), direction: Vector { x, y } };
+        Point { t_ns: NOW_NS, pose }
+    });
+    (scene, trajectory)
+}
+
+fn is_within(vector: &Vector, most: &Real) -> Formula {
+    let sides = [&vector.x, &vector.y];
+    Formula::All(
+        sides.iter().flat_map(|side| [at_most(side, most), at_most(&-most, side)]).collect(),
+    )
+}
+
+fn all_places(scene: &Scene, trajectory: &[Point]) -> Vec<Place> {
+    let s_stop = Driving::of(scene).s_stop();
+    given(at_most(&s_stop, &Real::ratio(1, 2)));
+    places(scene, trajectory).collect()
+}
+
+fn ways(order: fn(&Real, &Real) -> Formula) -> Formula {
+    let (scene, trajectory) = any(["1", "2"], &Real::ratio(1, 4));
+    let places = all_places(&scene, &trajectory);
+    let (first, last) = (&places[0], &places[places.len() - 1]);
+    let mut claims = vec![
+        equal(&first.way, &Real::zero()),
+        equal(&first.way_before, &Real::zero()),
+        equal(&last.way, &Driving::of(&scene).s_stop()),
+        Formula::from(last.way_after.is_none()),
+    ];
+    for pair in places.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let after = a.way_after.as_ref().map_or(Formula::Known(false), |way| equal(way, &b.way));
+        claims.extend([order(&a.way, &b.way), equal(&b.way_before, &a.way), after]);
+    }
+    Formula::All(claims)
+}
+
+fn apart(most: &Real) -> Formula {
+    let (scene, trajectory) = any(["1"], &Real::ratio(1, 2));
+    let places = all_places(&scene, &trajectory);
+    let near = |pair: &[Place]| is_within(&(&pair[1].pose.origin - &pair[0].pose.origin), most);
+    Formula::All(places.windows(2).map(near).collect())
+}
+
+fn between_places(least: &Real) -> Formula {
+    let mut scene = any_cav(Profile::Hardened);
+    let [x, y] = Real::unit("heading");
+    let heading = Vector { x, y };
+    scene.ego.heading = heading.clone();
+    scene.parameters.tau = Real::zero();
+    let (far, share) = (Real::variable("far"), Real::variable("share"));
+    for number in [&scene.ego.v_now, &scene.ego.width, &far, &share] {
+        given(at_most(&Real::zero(), number));
+    }
+    given(at_most(least, &scene.ego.length));
+    given(at_most(&far, &Real::ratio(1, 2)));
+    given(at_most(&share, &Real::from_integer(1)));
+    let pose = Frame { origin: heading.scaled(&far), direction: heading };
+    let places = all_places(&scene, &[Point { t_ns: NOW_NS, pose }]);
+    let covered = |pair: &[Place]| {
+        let [o, q] = [0, 1].map(|k| &pair[k].pose);
+        let between = &o.origin + &(&q.origin - &o.origin).scaled(&share);
+        let here = cav(&scene, &Frame { origin: between, direction: o.direction.clone() });
+        let point = point_of("CAV", &here);
+        let is_at = |pose: &Frame| {
+            let at = cav(&scene, pose);
+            let off = &point - &at.frame.origin;
+            let along = off.dot(&at.frame.direction);
+            let across = off.cross(&at.frame.direction);
+            let within = |part: &Real, most: &Real| [at_most(part, most), at_most(&-most, part)];
+            let sides = [within(&along, &at.half_length), within(&across, &at.half_width)];
+            Formula::All(sides.concat())
+        };
+        Formula::Any(vec![is_at(o), is_at(q)])
+    };
+    Formula::All(places.windows(2).map(covered).collect())
+}

@@ -1,0 +1,142 @@
+//! Objects that keep beside the path along the route, or just do not
+//! (`spec/7-fail-safe.md#meeting`).
+
+use mufasa_model::input::cycle::{Cycle, Route, Trajectory, TrajectoryPoint};
+
+use super::super::base::{self, Frame, cross_section, seconds};
+use super::super::draw::Draw;
+use super::super::moving::Aimed;
+use super::path::Path;
+use super::{shape, unit};
+
+/// Beside a straight road: from behind it comes nearer by a tenth of its way or less, or it is ahead and
+/// would come nearer in the time that it has.
+pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    let apart = draw.pick(&[0.0, 6.0, 10.0]);
+    let (x, y) = road.at(0.0, -apart);
+    let on_route = Frame { x, y, ..road };
+    cycle.route = base::road(on_route, 20.0);
+    if draw.one_in(6) {
+        // It, or the last place of the CAV, is about at the end of the route.
+        let stop = base::s_stop(cycle) + cycle.ego.center_offset;
+        let end = draw.pick(&[8.0, stop, -9.0]);
+        let end = draw.near(end);
+        let from = if end < 0.0 { end } else { -60.0 };
+        let to = if end < 0.0 { 60.0 } else { end };
+        let cross_sections = [from, 0.5 * (from + to), to];
+        let cross_sections = cross_sections.map(|a| cross_section(on_route, a, 0.0, 20.0)).to_vec();
+        cycle.route = Route { closed: false, cross_sections };
+    }
+    let is_behind = draw.below(5) > 0;
+    let speed = if is_behind { draw.pick(&[10.0, 6.0, 25.0]) } else { draw.pick(&[1.0, 0.5, 2.0]) };
+    let side = if apart > 0.0 { 1.0 } else { draw.pick(&[1.0, -1.0]) };
+    // So far aside that who is behind does not come across the CAV as it is now: it would follow.
+    let (share, gap) = draw.pick(&[(0.1, 1.3), (0.015, 0.0), (0.1, 1.3), (0.01, 0.0)]);
+    let (share, gap) = if is_behind { (share, gap) } else { (0.3, 0.0) };
+    let drift = share * speed;
+    let drift = if draw.one_in(2) { draw.near(drift) } else { drift };
+    let e = (((speed * speed - drift * drift).max(0.0)).sqrt(), -side * drift);
+    let velocity = road.turn(e);
+    let path = Path::of(cycle);
+    let p = &cycle.parameters;
+    let horizon = path.t_stop() + p.t_yield + speed / (2.0 * p.a_yield);
+    let free = if is_behind { 0.0 } else { drift * horizon };
+    let size = draw.pick(&[(4.5, 1.8), (8.0, 2.5)]);
+    let gap = draw.near(gap + free);
+    let aside = 0.5 * cycle.ego.width + path.aside + 0.5 * size.1 + gap;
+    let ahead = if is_behind { -draw.pick(&[9.0, 12.0]) } else { draw.pick(&[4.0, 1.0]) };
+    let age = seconds(age_ns);
+    let at = (ahead - age * e.0, side * aside - age * e.1);
+    let (x, y) = road.at(at.0, at.1);
+    Aimed { frame: Frame { x, y, ..road }, size, velocity, age_ns }
+}
+
+/// On the inner side of a bend that the CAV follows: straight on it would meet the CAV, and along the route
+/// it is beside it, or just is not.
+pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    let radius = draw.pick(&[35.0, 30.0, 45.0, 32.0]);
+    let side = draw.pick(&[1.0, -1.0]);
+    let on_arc = |way: f64, inside: f64| {
+        let angle = way / radius;
+        let (cos, sin) = (angle.cos(), side * angle.sin());
+        let (x, y) = road
+            .at((radius - inside) * angle.sin(), side * (radius - (radius - inside) * angle.cos()));
+        let (cos, sin) = unit(road.turn((cos, sin)));
+        Frame { x, y, cos, sin }
+    };
+    let section = |way: f64| cross_section(on_arc(way, 0.0), 0.0, 0.0, 8.0);
+    let cross_sections = (-6_i8..12).map(|k| section(5.0 * f64::from(k))).collect();
+    cycle.route = Route { closed: false, cross_sections };
+    cycle.ego.speed = draw.pick(&[8.0, 5.0, 10.0]);
+    let speed = cycle.ego.speed;
+    let dt = (0.9 * cycle.ego.length / speed).min(0.2);
+    let points = (0_i32..12).map(|k| {
+        let way = speed * dt * f64::from(k);
+        let Frame { x, y, cos, sin } = on_arc(way, 0.0);
+        let t_ns = cycle.now_ns + base::to_ns(dt * f64::from(k));
+        TrajectoryPoint { t_ns, x, y, cos, sin }
+    });
+    cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points: points.collect() });
+    let inside = draw.pick(&[3.2, 3.5, 2.8]);
+    // In the middle of a segment of the route, along which it drives: it does not drift. Who is behind would follow.
+    let now = on_arc(draw.pick(&[-2.5, -2.5, -2.5, 2.5]), inside);
+    let velocity = draw.pick(&[6.0, 9.0, 12.0]);
+    let w = (velocity * now.cos, velocity * now.sin);
+    let length = draw.pick(&[2.0, 4.5]);
+    let width = Lane::of(cycle).width(now, length, w);
+    let width = draw.near(width).clamp(0.3, 5.0);
+    let age = seconds(age_ns);
+    let frame = Frame { x: now.x - age * w.0, y: now.y - age * w.1, ..now };
+    Aimed { frame, size: (length, width), velocity: w, age_ns }
+}
+
+/// The CAV's places beside the reference path, rounded.
+struct Lane<'a> {
+    cycle: &'a Cycle,
+    path: Path,
+}
+
+impl<'a> Lane<'a> {
+    fn of(cycle: &'a Cycle) -> Self {
+        Self { cycle, path: Path::of(cycle) }
+    }
+
+    /// How wide an object of this length may be, m.
+    fn width(&self, at: Frame, length: f64, w: (f64, f64)) -> f64 {
+        let (near, _) = self.nearest((at.x, at.y));
+        let q = (at.x - near.0, at.y - near.1);
+        let distance = q.0.hypot(q.1);
+        let ego = &self.cycle.ego;
+        let least = (0..self.path.places.len()).map(|k| {
+            let body = self.path.body(self.cycle, k);
+            let Frame { x, y, cos, sin } = body.frame;
+            let (near, g) = self.nearest((x, y));
+            let (aside, g_length) = ((x - near.0).hypot(y - near.1), g.0.hypot(g.1));
+            let (along, across) = ((cos * g.0 + sin * g.1).abs(), (cos * g.1 - sin * g.0).abs());
+            let half = (along * ego.width + across * ego.length) / (2.0 * g_length);
+            (distance - aside).abs() - half - self.path.aside
+        });
+        let least = least.fold(f64::INFINITY, f64::min);
+        let p = &self.cycle.parameters;
+        let speed = w.0.hypot(w.1);
+        let horizon = self.path.t_stop() + p.t_yield + speed / (2.0 * p.a_yield);
+        let drift = (w.0 * q.0 + w.1 * q.1).abs() / distance;
+        let room = least - drift * horizon;
+        let (along, across) = (at.cos * q.0 + at.sin * q.1, at.cos * q.1 - at.sin * q.0);
+        (2.0 * room * distance - along.abs() * length) / across.abs()
+    }
+
+    /// The nearest point of the reference path and its segment.
+    fn nearest(&self, (x, y): (f64, f64)) -> ((f64, f64), (f64, f64)) {
+        let pairs = self.cycle.route.cross_sections.windows(2).map(|pair| {
+            let g = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
+            let share = ((x - pair[0].x) * g.0 + (y - pair[0].y) * g.1) / (g.0 * g.0 + g.1 * g.1);
+            let share = share.clamp(0.0, 1.0);
+            ((pair[0].x + share * g.0, pair[0].y + share * g.1), g)
+        });
+        let far = |(near, _): &((f64, f64), (f64, f64))| (near.0 - x).hypot(near.1 - y);
+        pairs.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(((x, y), (1.0, 0.0)))
+    }
+}

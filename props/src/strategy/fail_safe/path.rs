@@ -1,0 +1,178 @@
+//! The path of the CAV in plain doubles, and when it is where
+//! (`spec/7-fail-safe.md#the-path`): where generators aim, not what decides.
+
+use mufasa_model::input::cycle::Cycle;
+
+use super::super::base::{self, Frame};
+
+/// More places than any aim needs.
+const MOST: usize = 4_000;
+
+/// Where the reference point of the CAV is, and its way, m.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Pose of the reference point.
+    pub pose: Frame,
+    /// From where the CAV is now, m.
+    pub way: f64,
+}
+
+/// The CAV's rectangle at a place.
+#[derive(Clone, Copy, Debug)]
+pub struct Body {
+    /// Centre and direction.
+    pub frame: Frame,
+    /// Half length and half width, m.
+    pub half: (f64, f64),
+}
+
+impl Body {
+    /// Half of its extent along an axis, m.
+    pub fn extent(&self, (x, y): (f64, f64)) -> f64 {
+        let Frame { cos, sin, .. } = self.frame;
+        self.half.0 * (cos * x + sin * y).abs() + self.half.1 * (cos * y - sin * x).abs()
+    }
+
+    /// From which to which distance along `way` another rectangle touches this one, if it ever does.
+    pub fn met_by(&self, other: &Self, way: (f64, f64)) -> Option<(f64, f64)> {
+        let axes = [self.frame, other.frame].map(|it| [(it.cos, it.sin), (-it.sin, it.cos)]);
+        let apart = (other.frame.x - self.frame.x, other.frame.y - self.frame.y);
+        axes.into_iter().flatten().try_fold((f64::NEG_INFINITY, f64::INFINITY), |(lo, hi), axis| {
+            let reach = self.extent(axis) + other.extent(axis);
+            let (start, rate) = (dot(apart, axis), dot(way, axis));
+            if rate.abs() < 1e-9 {
+                return (start.abs() <= reach).then_some((lo, hi));
+            }
+            let (one, two) = ((-reach - start) / rate, (reach - start) / rate);
+            let (lo, hi) = (lo.max(one.min(two)), hi.min(one.max(two)));
+            (lo <= hi).then_some((lo, hi))
+        })
+    }
+}
+
+/// The scalar product.
+pub fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
+    a.0 * b.0 + a.1 * b.1
+}
+
+/// The path of a cycle.
+#[derive(Clone, Debug)]
+pub struct Path {
+    /// At least that of the CAV now.
+    pub places: Vec<Place>,
+    /// By how much the CAV is wider to each side, m.
+    pub aside: f64,
+    v: f64,
+    tau: f64,
+    a_max: f64,
+    a_b: f64,
+}
+
+impl Path {
+    /// That of a cycle, rounded.
+    pub fn of(cycle: &Cycle) -> Self {
+        let (p, ego) = (&cycle.parameters, &cycle.ego);
+        let first = cycle.trajectory.as_ref().and_then(|list| list.points.first());
+        let aside =
+            first.map_or(0.0, |it| ((ego.x - it.x) * it.sin - (ego.y - it.y) * it.cos).abs());
+        let (v, tau, a_max, a_b) = (ego.speed, p.tau, p.a_max, p.a_b);
+        Self { places: places(cycle), aside, v, tau, a_max, a_b }
+    }
+
+    /// `s_b(v)`, m.
+    pub fn s_b(&self) -> f64 {
+        self.v * self.v / (2.0 * self.a_b)
+    }
+
+    /// T, s.
+    pub fn t_stop(&self) -> f64 {
+        self.tau + (self.v + self.a_max * self.tau) / self.a_b
+    }
+
+    /// The earliest time at a way, s.
+    pub fn first(&self, way: f64) -> f64 {
+        let s_tau = self.v * self.tau + 0.5 * self.a_max * self.tau * self.tau;
+        if way <= s_tau {
+            return ((self.v * self.v + 2.0 * self.a_max * way).sqrt() - self.v) / self.a_max;
+        }
+        let v_tau = self.v + self.a_max * self.tau;
+        let squared = v_tau * v_tau - 2.0 * self.a_b * (way - s_tau);
+        self.tau + (v_tau - squared.max(0.0).sqrt()) / self.a_b
+    }
+
+    /// The latest time at a way below `s_b(v)`, s.
+    pub fn last(&self, way: f64) -> f64 {
+        (self.v - (self.v * self.v - 2.0 * self.a_b * way).max(0.0).sqrt()) / self.a_b
+    }
+
+    /// When the window of a place begins, s.
+    pub fn begin(&self, k: usize) -> f64 {
+        self.first(self.places[k.saturating_sub(1)].way)
+    }
+
+    /// When it ends, s, if the CAV may not stand there.
+    pub fn end(&self, k: usize) -> Option<f64> {
+        let after = self.places.get(k + 1).map(|place| place.way)?;
+        (after < self.s_b()).then(|| self.last(after))
+    }
+
+    /// The CAV at a place.
+    pub fn body(&self, cycle: &Cycle, k: usize) -> Body {
+        let pose = self.places[k].pose;
+        let (x, y) = pose.at(cycle.ego.center_offset, 0.0);
+        let half = (0.5 * cycle.ego.length, 0.5 * cycle.ego.width + self.aside);
+        Body { frame: Frame { x, y, ..pose }, half }
+    }
+}
+
+/// The places of a cycle, rounded.
+fn places(cycle: &Cycle) -> Vec<Place> {
+    let (ego, end) = (&cycle.ego, base::s_stop(cycle));
+    let d = ego.length.min(0.25);
+    let p = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
+    let points = cycle.trajectory.as_ref().map_or(&[][..], |list| &list.points);
+    let ahead = |x: f64, y: f64| (x - p.x) * p.cos + (y - p.y) * p.sin > 0.125;
+    let from = points.iter().position(|it| ahead(it.x, it.y)).unwrap_or(points.len());
+    let nodes =
+        points[from..].iter().map(|it| Frame { x: it.x, y: it.y, cos: it.cos, sin: it.sin });
+    let mut found = vec![Place { pose: p, way: 0.0 }];
+    for node in nodes {
+        let Place { pose, way } = found[found.len() - 1];
+        let u = (node.x - pose.x, node.y - pose.y);
+        let n = base::count(u.0.abs().max(u.1.abs()) / d).max(1);
+        let advance = dot(u, (pose.cos, pose.sin)).max(0.0);
+        for k in 1..=n {
+            let share = k as f64 / n as f64;
+            let between = Frame { x: pose.x + share * u.0, y: pose.y + share * u.1, ..pose };
+            let way = way + share * advance;
+            let pose = if k == n { node } else { between };
+            if !push(&mut found, Place { pose, way }, end) {
+                return found;
+            }
+        }
+    }
+    let Place { pose, way } = found[found.len() - 1];
+    for k in 1_i32.. {
+        let far = f64::from(k) * d;
+        let (x, y) = pose.at(far, 0.0);
+        if !push(&mut found, Place { pose: Frame { x, y, ..pose }, way: way + far }, end) {
+            break;
+        }
+    }
+    found
+}
+
+/// Whether there are more; the last one is where the way is `end`.
+fn push(found: &mut Vec<Place>, next: Place, end: f64) -> bool {
+    let before = found[found.len() - 1];
+    if next.way <= end && found.len() < MOST {
+        found.push(next);
+        return true;
+    }
+    let share = ((end - before.way) / (next.way - before.way)).min(1.0);
+    let at = |from: f64, to: f64| from + share * (to - from);
+    let (x, y) = (at(before.pose.x, next.pose.x), at(before.pose.y, next.pose.y));
+    // Behind a node its heading is that of the piece.
+    found.push(Place { pose: Frame { x, y, ..before.pose }, way: end.min(next.way) });
+    false
+}

@@ -1,0 +1,106 @@
+//! Paths of every shape (`spec/7-fail-safe.md#the-path`).
+
+use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
+
+use super::super::base::{self, Frame};
+use super::super::draw::Draw;
+
+/// A path that ends early, begins elsewhere, stands for a while, bends, or is a CAV's of another size.
+pub fn draw(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    match draw.below(8) {
+        0 | 1 => {}
+        2 => shorten(draw, cycle),
+        3 => shift(draw, cycle),
+        4 => stand(draw, cycle),
+        5 => bend(draw, cycle),
+        6 => {
+            bend(draw, cycle);
+            shift(draw, cycle);
+        }
+        _ => resize(draw, cycle),
+    }
+}
+
+fn points(cycle: &mut Cycle) -> &mut Vec<TrajectoryPoint> {
+    let stamp_ns = cycle.now_ns;
+    let empty = || Trajectory { stamp_ns, points: Vec::new() };
+    &mut cycle.trajectory.get_or_insert_with(empty).points
+}
+
+/// Ends anywhere, at least behind its first point.
+fn shorten(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let points = points(cycle);
+    points.truncate(draw.between(1, points.len()));
+}
+
+/// Begins ahead of the CAV, behind it or beside it.
+fn shift(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let along = draw.pick(&[1.5, -1.5, 0.3, -0.3, 0.2, 0.0]);
+    let aside = draw.pick(&[0.0, 0.3, -0.3, 0.45, -0.1]);
+    let Frame { x, y, .. } = frame(cycle);
+    let (to_x, to_y) = frame(cycle).at(along, aside);
+    if along < -0.5 {
+        cycle.parameters.start_tolerance = 3.0;
+    }
+    for point in points(cycle) {
+        (point.x, point.y) = (point.x - x + to_x, point.y - y + to_y);
+    }
+}
+
+/// Stands at a point, or comes back a little, for some steps.
+fn stand(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let back = draw.pick(&[0.0, 0.01, 0.019]);
+    let (count, Frame { cos, sin, .. }) = (draw.between(1, 3), frame(cycle));
+    let points = points(cycle);
+    let at = draw.below(points.len());
+    let place = points[at].clone();
+    for _ in 0..count {
+        let (x, y) = (place.x - back * cos, place.y - back * sin);
+        points.insert(at + 1, TrajectoryPoint { x, y, ..place.clone() });
+    }
+    let from = place.t_ns;
+    for (point, step) in points[at..].iter_mut().zip(0..) {
+        point.t_ns = from + 200_000_000 * step;
+    }
+}
+
+/// An arc on a wide road, in the same steps.
+fn bend(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let curvature = draw.pick(&[0.01, -0.02, 0.05, -0.1]);
+    let frame = frame(cycle);
+    let speed = cycle.ego.speed;
+    let points = points(cycle);
+    let (mut at, mut heading, mut before) = ((0.0, 0.0), 0.0_f64, points[0].t_ns);
+    for point in points {
+        let step = speed * base::seconds(point.t_ns - before);
+        before = point.t_ns;
+        let along = heading + 0.5 * curvature * step;
+        at = (at.0 + step * along.cos(), at.1 + step * along.sin());
+        heading += curvature * step;
+        (point.x, point.y) = frame.at(at.0, at.1);
+        (point.cos, point.sin) = frame.turn((heading.cos(), heading.sin()));
+    }
+    cycle.route = base::road(frame, 30.0);
+}
+
+/// A tiny CAV or a huge one, which stays where its trajectory begins and ends.
+fn resize(draw: &mut Draw<'_>, cycle: &mut Cycle) {
+    let (length, width, speed) = draw.pick(&[
+        (0.01, 0.01, 0.3),
+        (0.05, 0.4, 1.0),
+        (100.0, 100.0, 8.0),
+        (100.0, 0.01, 2.0),
+        (0.3, 20.0, 5.0),
+    ]);
+    (cycle.ego.length, cycle.ego.width, cycle.ego.speed) = (length, width, speed);
+    if length < 0.1 {
+        cycle.ego.center_offset = 0.0;
+    }
+    points(cycle).truncate(1);
+}
+
+/// Where the CAV is.
+pub fn frame(cycle: &Cycle) -> Frame {
+    let ego = &cycle.ego;
+    Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin }
+}
