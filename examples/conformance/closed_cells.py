@@ -6,19 +6,21 @@ from paper import disk_centres, disk_radius, points_within, s_b
 
 
 def poses(cycle, places):
-    """The points that the paper names, then the places of H-14, from the CAV's reference point."""
+    """The points that the paper names, then the places of H-14, from the CAV's reference point; which of
+    them the paper does not ask to examine beside other stages."""
     ego = cycle["ego"]
     for point in points_within(cycle, s_b(cycle, ego["speed"])):
-        yield {**point, "x": point["x"] - ego["x"], "y": point["y"] - ego["y"]}
-    yield from (place.pose for place in places)
+        pose = {**point, "x": point["x"] - ego["x"], "y": point["y"] - ego["y"]}
+        yield pose, cycle["configuration"] != "MotRemote"
+    yield from ((place.pose, True) for place in places)
 
 
 def stage_v(cycle, detections, places):
     """H-06: disks against the squares of cells; the unknown counts unless detections are current.
-    Where there is one, and not in MotRemote, an occupied one has to meet the CAV's rectangle, too."""
+    Where there is one, an occupied one has to meet the CAV's rectangle, too, and none of theirs, whose
+    half sizes are greater by 1/4 m; in MotRemote at the places alone."""
     ego, grid, r = cycle["ego"], cycle["grid"], disk_radius(cycle) + EPS
-    is_exact = (detections and cycle["detections"]["items"]
-                and cycle["configuration"] != "MotRemote")
+    items = cycle["detections"]["items"] if detections else []
     high_u, high_v = (grid[key] * grid["resolution"] for key in ("width", "height"))
     bitmaps = [grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]
     bits = [int.from_bytes(bitmap, "little") for bitmap in bitmaps]
@@ -27,9 +29,12 @@ def stage_v(cycle, detections, places):
             for k in range(grid["height"])]
     cycle = {**cycle, "grid": {**grid, "x": grid["x"] - ego["x"], "y": grid["y"] - ego["y"]}}
     offset = ego["center_offset"]
-    for pose in poses(cycle, places):
-        if is_exact:
-            if rectangle_meets_cell(cycle, rows, pose, offset, r):
+    seen = [rectangle(cycle["grid"], {**item, "x": item["x"] - ego["x"], "y": item["y"] - ego["y"]},
+                      0.0, item, 0.25 - EPS)
+            for item in items]
+    for pose, is_exact in poses(cycle, places):
+        if items and is_exact:
+            if rectangle_meets_cell(cycle, rows, pose, offset, r, seen):
                 return False
             continue
         for u, v in disk_centres(cycle, pose, offset):
@@ -57,37 +62,44 @@ def meets_cell(grid, rows, u, v, r):
     return False
 
 
-def rectangle_meets_cell(cycle, rows, pose, offset, r):
-    """Whether the closed square of a marked cell may share a point with the CAV's rectangle, and with
-    a disk: where a direction is longer than 1 a corner is outside of them."""
-    disks = list(disk_centres(cycle, pose, offset))
-    ego, grid, res = cycle["ego"], cycle["grid"], cycle["grid"]["resolution"]
+def rectangle(grid, pose, offset, box, more):
+    """A rectangle in the frame of the grid: its centre, its direction, its half sizes, greater by more."""
     norm = grid["cos"]**2 + grid["sin"]**2
     c, s = grid["cos"] / norm, grid["sin"] / norm
     x = (pose["x"] - grid["x"]) + offset * pose["cos"]
     y = (pose["y"] - grid["y"]) + offset * pose["sin"]
-    u, v = x * c + y * s, y * c - x * s
     along = pose["cos"] * c + pose["sin"] * s, pose["sin"] * c - pose["cos"] * s
-    half = ego["length"] / 2 + EPS, ego["width"] / 2 + EPS
-    reach = math.hypot(*half) + EPS
+    return x * c + y * s, y * c - x * s, along, (box["length"] / 2 + more, box["width"] / 2 + more)
+
+
+def rectangle_meets_cell(cycle, rows, pose, offset, r, seen):
+    """Whether the closed square of a marked cell may share a point with the CAV's rectangle and with
+    a disk (where a direction is longer than 1 a corner is outside of them), and with none of seen."""
+    disks = list(disk_centres(cycle, pose, offset))
+    ego, grid, res = cycle["ego"], cycle["grid"], cycle["grid"]["resolution"]
+    cav = u, v, along, half = rectangle(grid, pose, offset, ego, EPS)
+    reach = math.hypot(*half) * math.hypot(*along) + EPS
     low, high = (max(math.floor((u + side) / res), 0) for side in (-reach, reach))
     for k in range(max(math.floor((v - reach) / res), 0),
                    min(math.floor((v + reach) / res) + 1, grid["height"])):
         row = rows[k] >> low
         for i in range(low, min(high + 1, grid["width"])) if row else ():
             x, y = (i + 0.5) * res, (k + 0.5) * res
-            if (row >> (i - low) & 1 and square_meets(res / 2, u - x, v - y, along, half)
+            if (row >> (i - low) & 1 and square_meets(res / 2, x, y, cav)
                     and any(math.hypot(max(abs(x - disk[0]) - res / 2, 0.0),
                                        max(abs(y - disk[1]) - res / 2, 0.0)) <= r
                             for disk in disks)):
-                return True
+                if not any(square_meets(res / 2, x, y, detection) for detection in seen):
+                    return True
+                rows[k] &= ~(1 << i)  # It is left out at every place.
     return False
 
 
-def square_meets(half, du, dv, along, box):
-    """Whether a square along the axes and a rectangle at (du, dv) along a direction share a point:
-    no axis of either separates them."""
-    (c, s), (length, width) = along, box
+def square_meets(half, x, y, other):
+    """Whether a square along the axes around (x, y) and a rectangle share a point: no axis of either
+    separates them."""
+    u, v, (c, s), (length, width) = other
+    du, dv = u - x, v - y
     turned, square = half * (abs(c) + abs(s)), c * c + s * s
     return (abs(du) <= half + length * abs(c) + width * abs(s)
             and abs(dv) <= half + length * abs(s) + width * abs(c)

@@ -89,6 +89,8 @@ BUGS = [
     hardened("unknown-is-free", "closed_cells.py",
              '[grid["occupied"]] if detections else [grid["occupied"], grid["unknown"] or b""]',
              '[grid["occupied"]]', "H-06: unknown cells count as free"),
+    hardened("covered-by-a-metre", "closed_cells.py", "0.25 - EPS", "1.0",
+             "H-06: a detection leaves out what is within 1 m of it, in place of 1/4 m"),
     hardened("against-the-lane", "hardened_ii.py", "        if any(between(a, b, p)[0] < EPS",
              "        if False and any(between(a, b, p)[0] < EPS",
              "H-07: a heading against the lane is accepted"),

@@ -57,6 +57,40 @@ fn rectangles_touch_and_miss_cells_that_a_disk_reaches() {
     }
 }
 
+/// What is drawn beside stage iv: a detection covers the occupied cell, or does not, and 1e-5 m more or less
+/// of it makes the difference; in each configuration.
+#[test]
+fn detections_cover_and_miss_cells_that_the_rectangle_touches() {
+    const DRAWS: u64 = 4000;
+    let mut seen = BTreeMap::new();
+    let mut runner = runner();
+    for _ in 0..DRAWS {
+        let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
+        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::Hardened);
+        if !collides(&exact(&grown(&cycle, 2e-5))) && collides(&exact(&grown(&cycle, -2e-5))) {
+            let kind = (format!("{:?}", cycle.configuration), collides(&exact(&cycle)));
+            *seen.entry(kind).or_insert(0_u64) += 1;
+        }
+    }
+    println!("(configuration, collides): {seen:?} of {DRAWS}");
+    for configuration in ["AllRemote", "MotRemote", "PlanRemote"] {
+        for collides in [true, false] {
+            let kind = (configuration.to_owned(), collides);
+            let count = seen.get(&kind).copied().unwrap_or(0);
+            assert!(count >= 5, "{kind:?}: only {count} of {DRAWS}");
+        }
+    }
+}
+
+/// The same with longer and wider detections.
+fn grown(cycle: &Cycle, by: f64) -> Cycle {
+    let mut cycle = cycle.clone();
+    for item in cycle.detections.iter_mut().flat_map(|list| &mut list.items) {
+        (item.length, item.width) = ((item.length + by).max(0.01), (item.width + by).max(0.01));
+    }
+    cycle
+}
+
 /// The same without stage iv: disks alone decide.
 fn only_disks(cycle: &Cycle) -> Cycle {
     Cycle { detections: None, tracks: None, ..cycle.clone() }

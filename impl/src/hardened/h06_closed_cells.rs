@@ -1,11 +1,15 @@
 //! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
 //! `spec/3-stages.md#hardened-profile`).
 
+mod covered;
+
+use core::cell::Cell;
+
+use crate::hardened::h06_closed_cells::covered::{Covered, plain_square, square};
 use crate::hardened::h14_fail_safe::path::Nodes;
 use crate::input::cycle::{Cycle, DetectionList, Grid, TrajectoryPoint};
-use crate::numbers::plane::Vector;
 use crate::numbers::range::{float, integer, larger, smaller};
-use crate::numbers::rectangle::{Rectangle, possibly_touch};
+use crate::numbers::rectangle::possibly_touch;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::services::configuration::Configuration;
@@ -18,69 +22,95 @@ use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
 /// grid. `points`: those that the paper examines, and all of the trajectory; `detections`: the current
-/// ones, with which the last two do not count.
+/// ones, with which the last two do not count, and no cell that one of them covers.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
     (points, all): (&[TrajectoryPoint], &[TrajectoryPoint]),
     detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
+    let items = detections.map_or(&[][..], |list| list.items);
+    let covered = Covered { grid, items, latest: Cell::new(0) };
     let places = (Nodes::new(cycle, all), all.len());
-    let asks_rectangle = rectangle_counts(cycle, detections);
-    let search = DiskSearch::new(cycle, grid, points);
-    let touched = |rule, cells: &Bitmap<'_>| {
-        let search = DiskSearch::new(cycle, grid, points);
-        let search = if asks_rectangle { search.with_rectangle() } else { search };
-        let hit = |geometry: &GridGeometry, disk: &Disk<'_>| {
-            let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
-            geometry.touched(disk, cells, |i, k| {
-                if asks_rectangle && cav.certainly_apart(&plain_cell(grid, i, k), 0.0) {
-                    return None;
-                }
-                let touches =
-                    || possibly_touch(&footprint(&cycle.ego, disk.pose), &geometry.cell(i, k));
-                geometry.hit(disk, i, k).filter(|_| !asks_rectangle || touches())
-            })
-        };
-        let is_free = |band: &Band| band.is_free(cells);
-        search.first(rule, is_free, hit).or_else(|| search.first_place(places, rule, is_free, hit))
-    };
+    let examined = Examined { cycle, points, places, covered };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
-    let found = touched(Rule::Occupied, &occupied);
+    let found = examined.touched(Rule::Occupied, &occupied);
     if detections.is_some() {
         return found;
     }
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
-    let unknown = || unknown.and_then(|unknown| touched(Rule::Unknown, &unknown));
-    let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
-    let outside = || {
-        let found = search.first(Rule::Outside, is_inside, GridGeometry::outside);
-        found
-            .or_else(|| search.first_place(places, Rule::Outside, is_inside, GridGeometry::outside))
-    };
-    found.or_else(unknown).or_else(outside)
+    let unknown = || unknown.and_then(|unknown| examined.touched(Rule::Unknown, &unknown));
+    found.or_else(unknown).or_else(|| examined.outside())
 }
 
-/// Where the paper does not examine the grid beside another stage, a cell has to touch the CAV's
-/// rectangle, too; where nothing is detected, the disks are all that is left.
-fn rectangle_counts(cycle: &Cycle<'_>, detections: Option<&DetectionList<'_>>) -> bool {
-    let detects = detections.is_some_and(|list| !list.items.is_empty());
-    match cycle.configuration {
-        Configuration::AllRemote | Configuration::PlanRemote => detects,
-        Configuration::Local | Configuration::MotRemote => false,
+/// Where the CAV is examined, on a grid.
+struct Examined<'c, 'a> {
+    cycle: &'c Cycle<'a>,
+    /// The points that the paper names.
+    points: &'c [TrajectoryPoint],
+    /// The path whose places are examined behind them, and how many points there are.
+    places: (Nodes<'c, 'a>, usize),
+    covered: Covered<'c, 'a>,
+}
+
+impl Examined<'_, '_> {
+    /// The first disk that may touch a set cell, at the points, then at the places. Beside a detection a
+    /// cell has to touch the CAV's rectangle, too, and none that is covered counts; but not at the points
+    /// where the paper examines the grid beside every other stage. Where nothing is detected, the disks
+    /// are all that is left.
+    fn touched(&self, rule: Rule, cells: &Bitmap<'_>) -> Option<Witness> {
+        let at_places = !self.covered.items.is_empty();
+        let at_points = at_places && self.cycle.configuration != Configuration::MotRemote;
+        let at = |asks_rectangle| {
+            let search = DiskSearch::new(self.cycle, self.covered.grid, self.points);
+            let search = if asks_rectangle { search.with_rectangle() } else { search };
+            let is_free = move |band: &Band| {
+                band.is_free_but(cells, |i, k| asks_rectangle && self.covered.has(i, k))
+            };
+            let hit = move |grid: &GridGeometry, disk: &Disk<'_>| {
+                self.hit(grid, disk, cells, asks_rectangle)
+            };
+            (search, is_free, hit)
+        };
+        let (search, is_free, hit) = at(at_points);
+        let found = search.first(rule, is_free, hit);
+        found.or_else(|| {
+            let (search, is_free, hit) = at(at_places);
+            search.first_place(self.places, rule, is_free, hit)
+        })
     }
-}
 
-/// The closed square of a cell in plain doubles: its centre is rounded five times, which leaves it
-/// as near as `sweep` needs it.
-fn plain_cell(grid: &Grid<'_>, i: i64, k: i64) -> MovingRectangle {
-    let &Grid { x, y, cos, sin, resolution, .. } = grid;
-    let [along, across] = [i, k].map(|index| (float(index) + 0.5) * resolution);
-    MovingRectangle {
-        centre: [x + along * cos - across * sin, y + along * sin + across * cos],
-        direction: [cos, sin],
-        velocity: [0.0, 0.0],
-        size: [resolution, resolution],
+    /// What the disk hits.
+    fn hit(
+        &self,
+        grid: &GridGeometry,
+        disk: &Disk<'_>,
+        cells: &Bitmap<'_>,
+        asks_rectangle: bool,
+    ) -> Option<Hit> {
+        let Self { cycle, covered, .. } = self;
+        let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
+        grid.touched(disk, cells, |i, k| {
+            if !asks_rectangle {
+                return grid.hit(disk, i, k);
+            }
+            if cav.certainly_apart(&plain_square(covered.grid, i, k), 0.0) || covered.has(i, k) {
+                return None;
+            }
+            let cell = || square(covered.grid, i, k);
+            let touches = || possibly_touch(&footprint(&cycle.ego, disk.pose), &cell());
+            grid.hit(disk, i, k).filter(|_| touches())
+        })
+    }
+
+    /// The first disk that may reach beyond the grid.
+    fn outside(&self) -> Option<Witness> {
+        let grid = self.covered.grid;
+        let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
+        let search = DiskSearch::new(self.cycle, grid, self.points);
+        let (rule, hit) = (Rule::Outside, GridGeometry::outside);
+        let found = search.first(rule, is_inside, hit);
+        found.or_else(|| search.first_place(self.places, rule, is_inside, hit))
     }
 }
 
@@ -99,15 +129,7 @@ impl GridGeometry {
                 return None;
             }
             let (from, to) = self.reach_in_row(disk, k);
-            let mut next = cells.first_in_row(k, from, to);
-            while let Some(i) = next {
-                let found = hit(i, k);
-                if found.is_some() {
-                    return found;
-                }
-                next = cells.first_in_row(k, i.saturating_add(1), to);
-            }
-            None
+            cells.set_in_row(k, from, to).find_map(|i| hit(i, k))
         })
     }
 
@@ -144,15 +166,6 @@ impl GridGeometry {
         let apart = self.gap(disk.column, i).squared() + self.gap(disk.row, k).squared();
         let touches = apart.possibly_at_most(self.radius_squared);
         touches.then(|| Hit { cell: Some((i, k)), distance: apart.sqrt().value() })
-    }
-
-    /// The closed square of the cell.
-    fn cell(&self, i: i64, k: i64) -> Rectangle {
-        let middle = |index| (Real::integer(index) + Real::new(0.5)) * self.resolution;
-        let turned = Vector { x: -self.direction.y, y: self.direction.x };
-        let centre = self.origin + self.direction.times(middle(i)) + turned.times(middle(k));
-        let side = self.resolution.value();
-        Rectangle { centre, direction: self.direction, length: side, width: side }
     }
 
     /// The first and the last column that the disk may touch in row `k`.

@@ -17,15 +17,26 @@ pub(crate) struct Rectangle {
     pub(crate) width: f64,
 }
 
-/// Whether the two rectangles may share a point: unless the extents along a side of one of them
-/// certainly leave a gap (separating axes of two convex sets whose sides are orthogonal).
+/// Whether the two rectangles may share a point.
 pub(crate) fn possibly_touch(a: &Rectangle, b: &Rectangle) -> bool {
+    !separated(a, b, Real::certainly_below)
+}
+
+/// Whether the two rectangles certainly share a point.
+pub(crate) fn certainly_touch(a: &Rectangle, b: &Rectangle) -> bool {
+    !separated(a, b, Real::possibly_below)
+}
+
+/// Separating axes of two convex sets whose sides are orthogonal: the axis of a side separates them
+/// when the extents along it leave a gap (`is_below`: half of both is below the distance of the
+/// centres).
+fn separated(a: &Rectangle, b: &Rectangle, is_below: impl Fn(Real, Real) -> bool) -> bool {
     let (apart, turn) = (b.centre - a.centre, Turn::between(a, b));
-    let separated = |one: &Rectangle, other: &Rectangle| {
+    let separates = |one: &Rectangle, other: &Rectangle| {
         let gaps = one.components(apart).map(Real::abs);
-        turn.reach(one, other).iter().zip(gaps).any(|(reach, gap)| reach.certainly_below(gap))
+        turn.reach(one, other).iter().zip(gaps).any(|(&reach, gap)| is_below(reach, gap))
     };
-    !(separated(a, b) || separated(b, a))
+    separates(a, b) || separates(b, a)
 }
 
 /// Whether the first rectangle may share a point with what the second one sweeps over, whose centre
@@ -104,3 +115,6 @@ impl Turn {
 fn half(length: f64) -> Real {
     Real::new(0.5 * length)
 }
+
+#[cfg(test)]
+mod tests;

@@ -48,7 +48,8 @@ use crate::stages::v_grid_map::trajectory_with_grid_map;
 ///   looks at the square around it (in the paper profile around up to four cells), which is
 ///   (2 r / resolution + 3)^2 cells and at most G; twice with unknown cells. In the hardened profile
 ///   the K places of H-14 count as points, and each occupied cell that a disk reaches is compared with
-///   the CAV's rectangle, too, where detections are current in `AllRemote` or `PlanRemote`;
+///   the CAV's rectangle, too, where detections are current in `AllRemote` or `PlanRemote`, and each in a
+///   band with up to D detections, one for most;
 /// * what the CAV saw itself (hardened, with U items in all usable lists of the history): a few times
 ///   T U distances;
 /// * H-14, with K places, which are `s_stop` / 1/4 m and some for turns: in ii K distances, in iv

@@ -1,30 +1,42 @@
 //! H-06: a disk collides with every cell whose closed square it reaches; what is unknown or outside the
-//! grid counts as occupied, unless detections are current. In `AllRemote` and `PlanRemote`, where the paper
-//! does not examine the grid when another stage ran, with at least one current detection the CAV's
-//! rectangle has to reach the cell, too.
+//! grid counts as occupied, unless detections are current. With at least one current detection the CAV's
+//! rectangle has to reach the cell, too, and no detection may cover it: those iv and H-14 examine. In
+//! `MotRemote` this holds at the places of H-14 alone: at its points the paper examines the grid beside
+//! every other stage.
 
-use crate::input::scene::{Grid, Scene};
+use crate::input::scene::{Grid, Object, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::{Rectangle, may_share_a_point};
+use crate::numbers::rectangle::{Rectangle, may_share_a_point, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Rule;
 use crate::services::configuration::Configuration;
 
-/// What the CAV (its rectangle), a disk of it with its centre (in the frame of the grid) and the radius r must
-/// not reach.
-pub type Test<'a> = Box<dyn Fn(&Rectangle, &Vector, &Real) -> Option<Hit> + 'a>;
+/// The CAV where it is examined.
+pub struct Place {
+    /// Its rectangle.
+    pub cav: Rectangle,
+    /// A point that the paper names, else a place of H-14.
+    pub is_of_paper: bool,
+}
+
+/// What the CAV, a disk of it with its centre (in the frame of the grid) and the radius r must not reach.
+pub type Test<'a> = Box<dyn Fn(&Place, &Vector, &Real) -> Option<Hit> + 'a>;
 
 /// The rules in the order in which they are asked of all disks.
 pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid) -> Vec<(Rule, Test<'a>)> {
     let is_detected = scene.detections.as_ref().is_some_and(|list| !list.items.is_empty());
-    let is_exact = is_detected && scene.configuration != Configuration::MotRemote;
+    let in_paper = scene.configuration == Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
-        Box::new(move |cav, centre, r| {
+        Box::new(move |place, centre, r| {
             touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
+                let is_exact = is_detected && !(in_paper && place.is_of_paper);
                 let square = hit.cell.map(|cell| square(grid, cell));
-                let reaches = |square| may_share_a_point(&scene.reads, cav, &square);
-                !is_exact || square.is_some_and(reaches)
+                let collides = |square: Rectangle| {
+                    may_share_a_point(&scene.reads, &place.cav, &square)
+                        && !is_covered(scene, &square)
+                };
+                !is_exact || square.is_some_and(collides)
             })
         })
     };
@@ -42,6 +54,14 @@ fn square(grid: &Grid, cell: Cell) -> Rectangle {
     let direction = grid.frame.direction.clone();
     let frame = Frame { origin: grid.frame.point(&middle.x, &middle.y), direction };
     Rectangle::new(frame, &grid.resolution, &grid.resolution)
+}
+
+/// A current detection, 1/4 m longer and wider on each side, shares a point with the square.
+fn is_covered(scene: &Scene, square: &Rectangle) -> bool {
+    let quarter = Real::from_integer(1) / Real::from_integer(4);
+    let grown = |half: &Real| scene.reads.lowered(&(half + &quarter));
+    let covers = |it: &Object| share_a_point(&it.rectangle().with_halves(grown), square);
+    scene.detections.iter().flat_map(|list| &list.items).any(covers)
 }
 
 /// The cells of a kind whose closed square is at distance <= r from the centre, by row and column.

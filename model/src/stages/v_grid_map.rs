@@ -4,13 +4,12 @@
 //! the footprint is covered by disks of one radius r; the grid is dilated by r; no disk centre at a
 //! trajectory point within s_b lies in a marked cell
 
-use crate::hardened::h06_closed_cells;
+use crate::hardened::h06_closed_cells::{self, Place};
 use crate::hardened::h14_fail_safe::path;
 use crate::input::profile::Profile;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::Rectangle;
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
@@ -26,14 +25,16 @@ pub fn trajectory_with_grid_map(
     let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
     let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
     let r = disk_radius(&ego.length, &ego.width, &n);
-    let first = |rule: Rule, collides: &dyn Fn(&Rectangle, &Vector) -> Option<Hit>| {
+    let first = |rule: Rule, collides: &dyn Fn(&Place, &Vector) -> Option<Hit>| {
         places(scene, trajectory, &s_b).find_map(|(i, pose)| {
-            let cav = cav(scene, &pose);
-            disk_centres(scene, grid, &cav.frame).iter().enumerate().find_map(|(d, centre)| {
-                let Hit { cell, distance } = collides(&cav, centre)?;
-                let witness = Witness::new(rule, &distance, &r).at_point(i);
-                Some(Witness { disk: Some(d), cell, ..witness })
-            })
+            let place = Place { cav: cav(scene, &pose), is_of_paper: i < trajectory.len() };
+            disk_centres(scene, grid, &place.cav.frame).iter().enumerate().find_map(
+                |(d, centre)| {
+                    let Hit { cell, distance } = collides(&place, centre)?;
+                    let witness = Witness::new(rule, &distance, &r).at_point(i);
+                    Some(Witness { disk: Some(d), cell, ..witness })
+                },
+            )
         })
     };
     match scene.profile {
@@ -41,7 +42,7 @@ pub fn trajectory_with_grid_map(
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
         }),
         Profile::Hardened => (h06_closed_cells::rules(scene, grid).into_iter())
-            .find_map(|(rule, reaches)| first(rule, &|cav, centre| reaches(cav, centre, &r))),
+            .find_map(|(rule, reaches)| first(rule, &|place, centre| reaches(place, centre, &r))),
     }
 }
 

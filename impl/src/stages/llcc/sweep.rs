@@ -83,6 +83,14 @@ impl MovingRectangle {
         separates(self, other) || separates(other, self)
     }
 
+    /// Whether a point is certainly in the rectangle, at the time 0.
+    pub(crate) fn certainly_contains(&self, point: [f64; 2]) -> bool {
+        let [along, across] = split(self.direction, minus(point, self.centre)).map(f64::abs);
+        // The squares of directions may be less than 1 by 1e-6.
+        let [length, width] = self.size.map(|size| 0.5 * (1.0 - 1e-6) * size - MARGIN);
+        along < length && across < width
+    }
+
     /// Whether the centres are certainly at least `limit` apart after so many seconds.
     pub(crate) fn certainly_far(&self, other: &Self, seconds: f64, limit: f64) -> bool {
         let [x, y] = minus(other.after(seconds), self.centre);

@@ -118,6 +118,15 @@ impl Band {
 
     /// Whether no cell in it is set; cells outside the bitmap are not.
     pub(crate) fn is_free(&self, cells: &Bitmap<'_>) -> bool {
+        self.is_free_but(cells, |_, _| false)
+    }
+
+    /// As `is_free`, but for cells that are left out.
+    pub(crate) fn is_free_but(
+        &self,
+        cells: &Bitmap<'_>,
+        left_out: impl Fn(i64, i64) -> bool,
+    ) -> bool {
         let [[left, right], [bottom, top]] = self.upright;
         let ([x, y], [cos, sin]) = (self.origin, self.along);
         let [[back, front], [aside, beside]] = self.ranges;
@@ -142,7 +151,9 @@ impl Band {
             }
             // At least the columns whose centres are between.
             let (from, to) = (larger(from, 1.0) - 1.0, smaller(to, width));
-            cells.row_is_free(row, integer(from), integer(to))
+            let (from, to) = (integer(from), integer(to));
+            cells.row_is_free(row, from, to)
+                || cells.set_in_row(row, from, to).all(|column| left_out(column, row))
         })
     }
 }

@@ -42,6 +42,12 @@ impl Bitmap<'_> {
         None
     }
 
+    /// The set cells of the row with from <= column <= to.
+    pub(crate) fn set_in_row(&self, row: i64, from: i64, to: i64) -> impl Iterator<Item = i64> {
+        let after = move |&i: &i64| self.first_in_row(row, i.saturating_add(1), to);
+        core::iter::successors(self.first_in_row(row, from, to), after)
+    }
+
     /// Whether no cell of the row with from <= column < end is set; all of them have to be within
     /// the array.
     pub(crate) fn row_is_free(&self, row: i64, from: i64, end: i64) -> bool {

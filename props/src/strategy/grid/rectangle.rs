@@ -1,7 +1,7 @@
-//! Occupied cells that the CAV's rectangle touches, or just does not, while a disk reaches them
-//! (H-06 of `spec/3-stages.md#hardened-profile`).
+//! Occupied cells that the CAV's rectangle touches, or just does not, while a disk reaches them, and
+//! that a detection covers, or just does not (H-06 of `spec/3-stages.md#hardened-profile`).
 
-use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, TrackList};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 use super::super::base::Frame;
@@ -11,9 +11,10 @@ use super::{Plan, lay, mark, plan};
 
 /// The CAV's rectangle touches a cell with a corner or a side, or misses it by a little: at the
 /// first point with its rear, its side or a corner, or with its front at a place beyond the end of
-/// the trajectory. At times stage iv does not run, and at times another cell is there, too.
+/// the trajectory. At times stage iv does not run, at times another cell is there, too, and half of the
+/// time something is detected behind the cell, which it covers or just does not.
 pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
-    // There the rectangle does not count.
+    // There the rectangle counts at the places alone.
     if cycle.configuration == MotRemote && !draw.one_in(3) {
         cycle.configuration = draw.pick(&[AllRemote, PlanRemote]);
     }
@@ -21,14 +22,15 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let road = Frame { x: ego.x, y: ego.y, cos: ego.cos, sin: ego.sin };
     let (x, y) = road.at(ego.center_offset, 0.0);
     let mut place = Frame { x, y, ..road };
-    let ahead = draw.one_in(4);
+    let ahead = draw.one_in(if cycle.configuration == MotRemote { 2 } else { 4 });
     if ahead {
         let missing = end::missing(draw, &cycle.ego);
         end::shorten(draw, cycle, missing);
         place = end::place(cycle);
     }
     let plan = plan(draw, cycle);
-    let cav = beside_cell(draw, cycle, &plan, ahead);
+    let side = Side::draw(draw);
+    let cav = beside_cell(draw, cycle, &plan, (&side, ahead));
     let mut grid = laid_under(draw, cycle, &plan, (place, cav));
     let index = |cell: usize| i64::try_from(cell).unwrap_or(0);
     let (column, row) = (index(plan.cell.0), index(plan.cell.1));
@@ -37,17 +39,34 @@ pub fn cell(draw: &mut Draw<'_>, cycle: &mut Cycle) {
         let (i, k) = draw.pick(&[(1, 0), (-1, 0), (0, 1), (0, -1), (2, 1), (-1, 2)]);
         mark(&mut grid.occupied, &plan, (column + i, row + k));
     }
+    let detection = match draw.below(2) {
+        0 => track_validation::detection(road, (-20.0, 30.0)),
+        _ => behind_cell(draw, &plan, &grid, &side.opposite()),
+    };
     cycle.grid = Some(grid);
-    run_iv_or_not(draw, cycle, road);
+    run_iv_or_not(draw, cycle, detection);
+}
+
+/// A detection on a side of the cell, about 1/4 m away from it.
+fn behind_cell(draw: &mut Draw<'_>, plan: &Plan, grid: &Grid, side: &Side) -> Detection {
+    let (length, width) = draw.pick(&[(4.5, 1.75), (0.5, 0.5), (12.0, 2.5), (0.01, 0.01)]);
+    let gap = draw.near(0.0);
+    let it = against(draw, 0.5 * plan.resolution, side, (length + 0.5, width + 0.5), gap);
+    let &Grid { x, y, cos, sin, .. } = grid;
+    let middle = |cell: usize| (cell as f64 + 0.5) * plan.resolution;
+    let (x, y) =
+        Frame { x, y, cos, sin }.at(middle(plan.cell.0) + it.x, middle(plan.cell.1) + it.y);
+    let (cos, sin) = unit(Frame { x, y, cos, sin }.turn((it.cos, it.sin)));
+    Detection { x, y, cos, sin, length, width }
 }
 
 /// Mostly stage iv runs and finds nothing.
-fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
+fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, detection: Detection) {
     let stamp_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
     // Without a detection the disks alone count.
     let items = match draw.below(16) {
         0 => Vec::new(),
-        _ => vec![track_validation::detection(road, (-20.0, 30.0))],
+        _ => vec![detection],
     };
     cycle.detections = Some(DetectionList { stamp_ns, items });
     match draw.below(8) {
@@ -59,21 +78,22 @@ fn run_iv_or_not(draw: &mut Draw<'_>, cycle: &mut Cycle, road: Frame) {
 }
 
 /// The CAV's rectangle in the frame of the cell's centre.
-fn beside_cell(draw: &mut Draw<'_>, cycle: &Cycle, plan: &Plan, ahead: bool) -> Frame {
-    const DIAGONAL: [f64; 2] = [1.0, -1.0];
-    let corner = (draw.pick(&DIAGONAL), draw.pick(&DIAGONAL));
-    let normal = draw.pick(&[(corner.0, 0.0), (0.0, corner.1)]);
-    let side = Side { corner, normal };
+fn beside_cell(
+    draw: &mut Draw<'_>,
+    cycle: &Cycle,
+    plan: &Plan,
+    (side, ahead): (&Side, bool),
+) -> Frame {
     let (length, width) = (cycle.ego.length, cycle.ego.width);
     let gap = draw.near(0.0);
     let sideways = !ahead && draw.below(2) == 0;
     let size = if sideways { (width, length) } else { (length, width) };
-    let mut cav = against(draw, 0.5 * plan.resolution, &side, size, gap);
+    let mut cav = against(draw, 0.5 * plan.resolution, side, size, gap);
     if sideways {
         (cav.cos, cav.sin) = (-cav.sin, cav.cos);
     }
     // Away from the cell, unless that is in front.
-    let leaves = cav.cos * normal.0 + cav.sin * normal.1 > 0.0;
+    let leaves = cav.cos * side.normal.0 + cav.sin * side.normal.1 > 0.0;
     if leaves == ahead {
         (cav.cos, cav.sin) = (-cav.cos, -cav.sin);
     }
@@ -100,6 +120,19 @@ struct Side {
     corner: (f64, f64),
     /// Its outward normal.
     normal: (f64, f64),
+}
+
+impl Side {
+    fn draw(draw: &mut Draw<'_>) -> Self {
+        const DIAGONAL: [f64; 2] = [1.0, -1.0];
+        let corner = (draw.pick(&DIAGONAL), draw.pick(&DIAGONAL));
+        Self { corner, normal: draw.pick(&[(corner.0, 0.0), (0.0, corner.1)]) }
+    }
+
+    fn opposite(&self) -> Self {
+        let turned = |(x, y): (f64, f64)| (-x, -y);
+        Self { corner: turned(self.corner), normal: turned(self.normal) }
+    }
 }
 
 /// A rectangle on that side of a cell, with a gap, in the frame of the cell's centre.

@@ -73,3 +73,32 @@ fn what_is_certainly_apart_does_not_touch() {
     }
     assert!(apart > 10_000 && missed > 2_000 && touching > 4_000, "{apart} {missed} {touching}");
 }
+
+#[test]
+fn what_is_certainly_contained_is_inside() {
+    let mut random = Random::new(12);
+    let (mut inside, mut off) = (0, 0);
+    for round in 0..20_000 {
+        let far = [0.0, 1e7][round % 2];
+        let it = object(&mut random, far);
+        let point = [it.centre[0] + random.number(2.0), it.centre[1] + random.number(2.0)];
+        let at = Vector::between(it.centre, point);
+        let direction = Vector::new(it.direction[0], it.direction[1]);
+        let norm_squared = direction.dot(direction);
+        let parts = [at.dot(direction), direction.cross(at)].map(Real::abs).into_iter();
+        let is_within = |(part, size): (Real, f64)| {
+            part.over(norm_squared).certainly_at_most(Real::new(0.5 * size))
+        };
+        let is_inside = parts.zip(it.size).all(is_within);
+        let certain = it.certainly_contains(point);
+        assert!(is_inside || !certain, "{it:?} {point:?}");
+        // Few are within a margin of a side.
+        inside += u32::from(certain);
+        off += u32::from(is_inside && !certain);
+    }
+    assert!(inside > 2_000 && off < 5, "{inside} {off}");
+    // At a side: a direction that is shorter than 1 makes the rectangle smaller.
+    let it = MovingRectangle { direction: [1.0 - 4e-7, 0.0], ..object(&mut random, 0.0) };
+    let it = MovingRectangle { centre: [0.0; 2], size: [100.0, 100.0], ..it };
+    assert!(it.certainly_contains([49.999, 49.999]) && !it.certainly_contains([49.999_99, 0.0]));
+}

@@ -149,7 +149,11 @@ fn what_a_rectangle_can_touch_is_in_the_band() {
             let mut bits = [0; 90 * 70 / 8 + 1];
             let bit = (row * 90 + column) as usize;
             bits[bit / 8] |= 1 << (bit % 8);
-            let is_free = band.is_free(&Bitmap { bits: &bits, width: 90, height: 70 });
+            let cells = Bitmap { bits: &bits, width: 90, height: 70 };
+            let is_free = band.is_free(&cells);
+            let left_out = |other: i64| move |i, k| (i, k) == (column, row + other);
+            assert!(band.is_free_but(&cells, left_out(0)));
+            assert_eq!(band.is_free_but(&cells, left_out(1)), is_free);
             let square = cell(column, row);
             let touches = |point| possibly_touch(&footprint(&cycle.ego, &Pose::of(point)), &square);
             let touches = points.iter().any(touches);

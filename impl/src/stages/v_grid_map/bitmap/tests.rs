@@ -1,6 +1,7 @@
 //! Against looking at every cell.
 
 use std::vec;
+use std::vec::Vec;
 
 use super::{Bitmap, NearCell};
 use crate::random::Random;
@@ -26,7 +27,10 @@ fn searches_find_what_a_look_at_every_cell_finds() {
         let (from, to) =
             (random.below(width as u64 + 4) as i64 - 2, random.below(width as u64 + 4) as i64 - 2);
         let columns = from.max(0)..=to.min(width - 1);
-        let expected = columns.into_iter().find(|&i| 0 <= row && row < height && set(i, row));
+        let expected = columns.into_iter().filter(|&i| 0 <= row && row < height && set(i, row));
+        let expected: Vec<_> = expected.collect();
+        assert_eq!(map.set_in_row(row, from, to).collect::<Vec<_>>(), expected);
+        let expected = expected.first().copied();
         assert_eq!(map.first_in_row(row, from, to), expected);
         let (start, end) = (from.clamp(0, width), (to + 1).clamp(0, width));
         if 0 <= row && row < height {
