@@ -546,8 +546,8 @@ typedef struct MufasaParameters {
   // H-14: the greatest speed of an object that is looked for, m/s.
   // Default: 70.0
   double v_object;
-  // H-14: when others begin to brake for the CAV once it stands, s.
-  // Default: 1.5
+  // H-14: how long after the CAV others begin to brake for it, s.
+  // Default: 2.0
   double t_yield;
   // H-14: how hard they brake then, m/s^2.
   // Default: 3.0

@@ -94,7 +94,7 @@ class Beside:
         half = (abs(c * x + s * y) * item["length"] + abs(c * y - s * x) * item["width"]) / 2
         drift = abs(float(motion.w[0]) * x + float(motion.w[1]) * y)
         keeps_its_lane = motion.is_behind and drift <= motion.speed * D / 10 - EPS
-        t = 0.0 if keeps_its_lane else self.T + motion.t_yield
+        t = 0.0 if keeps_its_lane else max(self.T, motion.yielded)
         return D > 0 and all((abs(D - offset) - extent - EPS) * D > half + drift * t
                              for offset, extent in self.offsets)
 

@@ -87,7 +87,8 @@ class Motion:
         self.w, velocity = w, [float(part) for part in w]
         self.speed = math.hypot(*velocity)
         self.u = [part / self.speed if self.speed else 0.0 for part in velocity]
-        self.t_yield = parameters["t_yield"] + self.speed / (2 * parameters["a_yield"])
+        can_stop = parameters["t_yield"] + self.speed / (2 * parameters["a_yield"])
+        self.yielded = parameters["tau"] + can_stop
         self.now = {"x": 0.0, "y": 0.0, "cos": self.ego["cos"], "sin": self.ego["sin"]}
 
     def braked(self, t):
@@ -105,11 +106,14 @@ class Motion:
 
     @cached_property
     def comes_across(self):
-        """Whether it comes across the CAV where that is now, each side moved in by 0.3 m."""
-        if not self.speed or min(self.ego["length"], self.ego["width"]) / 2 < 0.3 + EPS:
+        """Whether it comes across the inner rectangle of the CAV where that is now."""
+        b = 0.0 if self.is_behind else min(0.3, self.ego["speed"]**2 / (2 * self.a_b))
+        inner = {"length": self.ego["length"] - 0.3 - b, "width": self.ego["width"] - 2 * b}
+        if not self.speed or min(inner.values()) / 2 < EPS:
             return False
-        sides = edges(self.now, self.ego, -0.3 - EPS, self.item)
+        sides = edges(self.now, inner, -EPS, self.item)
         dx, dy = self.from_cav(self.now)
+        dx, dy = dx + (0.3 - b) / 2 * self.now["cos"], dy + (0.3 - b) / 2 * self.now["sin"]
         # Farther than this it is past the CAV.
         far = self.speed * self.age + math.hypot(dx, dy) + 2 * sum(h for _, _, h in sides)
         return sweeps(sides, dx, dy, *self.u, self.speed * self.age, far)
@@ -188,7 +192,7 @@ class FailSafe:
         beside = Beside(self.cycle, self.places, self.a, self.stop.T)
         windows = list(self.windows())
         for motion in self.motions(seen, tracks):
-            latest = self.stop.T + (0.0 if motion.comes_across else motion.t_yield)
+            latest = self.stop.T if motion.comes_across else max(self.stop.T, motion.yielded)
             if (any(motion.meets(cav, pose, begins, latest if ends is None else ends)
                     for pose, begins, ends in windows)
                     and not motion.follows and not beside.keeps_beside(motion)):

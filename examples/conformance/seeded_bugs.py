@@ -124,6 +124,8 @@ BUGS = [
     hardened("yields-at-once", "fail_safe.py",
              'parameters["t_yield"] + self.speed / (2 * parameters["a_yield"])', "0.0",
              "H-14: whoever meets the CAV after T can stop"),
+    hardened("inner-at-speed", "fail_safe.py", 'min(0.3, self.ego["speed"]**2 / (2 * self.a_b))', "0.0",
+             "H-14: who touches a side of the CAV comes across it at any speed"),
     cpp("off-by-one-lane", "stage ii: the last segment of route and corridor is left out",
         ("  return std::all_of(c.trajectory->", "  pairs.pop_back();\n  return std::all_of(c.trajectory->")),
     cpp("route-kept", "stage ii: a route is kept under its number of cross sections and first x",

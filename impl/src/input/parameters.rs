@@ -43,8 +43,8 @@ macro_rules! parameters {
             lateral_tolerance: f64 = 0.5 in [1e-3, 1e3];
             /// H-14: the greatest speed of an object that is looked for, m/s.
             v_object: f64 = 70.0 in [f64::from_bits(1), 1e3];
-            /// H-14: when others begin to brake for the CAV once it stands, s.
-            t_yield: f64 = 1.5 in [0.0, 60.0];
+            /// H-14: how long after the CAV others begin to brake for it, s.
+            t_yield: f64 = 2.0 in [0.0, 60.0];
             /// H-14: how hard they brake then, m/s^2.
             a_yield: f64 = 3.0 in [0.1, 100.0];
             /// Stage i fails rather than begin an assignment of more work than this.

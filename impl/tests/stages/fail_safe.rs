@@ -10,6 +10,7 @@ use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanR
 
 const MS: i64 = 1_000_000;
 const S_STOP: f64 = 2.270_625;
+const TAU: f64 = 0.1;
 const T: f64 = 0.7625;
 /// Lists are so old, s.
 const AGE: f64 = 0.01;
@@ -191,13 +192,13 @@ fn windows_end_where_the_cav_cannot_stand() {
     assert_eq!(sides(crossing), [false, true]);
 }
 
-/// Where the CAV may stand: until T + 1.5 s and as long as the other one needs to stop at 3 m/s^2; up to T
-/// where it comes across the CAV as it is now.
+/// Where the CAV may stand: until tau + 2 s and as long as the other one needs to stop at 3 m/s^2, and
+/// until T at least; up to T where it comes across the CAV as it is now.
 #[test]
 fn who_comes_late_can_stop() {
     let speed = 6.0;
-    for (t_yield, a_yield) in [(1.5, 3.0), (0.0, 100.0), (30.0, 1.0)] {
-        let latest = T + t_yield + speed / (2.0 * a_yield);
+    for (t_yield, a_yield) in [(2.0, 3.0), (0.0, 100.0), (30.0, 1.0)] {
+        let latest = T.max(TAU + t_yield + speed / (2.0 * a_yield));
         let comes = (latest + AGE) * speed;
         // Only the last places reach 4.9 m + 1 m.
         let found = [-1e-7, 1e-7].map(|off| {
@@ -224,9 +225,47 @@ fn who_comes_across_is_met_up_to_t() {
         });
         found == [false, true]
     };
-    let late = T + 1.5 + speed / 6.0;
+    let late = TAU + 2.0 + speed / 6.0;
     assert!(latest(0.3 + 1e-6, T) && !latest(0.3 + 1e-6, late));
     assert!(latest(0.3 - 1e-6, late) && !latest(0.3 - 1e-6, T));
+}
+
+/// Who touches a side or the rear of a CAV that stands does so whatever the CAV does: less b alone there,
+/// min(0.3 m, `s_b(v)`), but 0.3 m at the front. All that is here comes after T and before `H(w)`.
+#[test]
+fn who_touches_a_standing_cav_comes_across_but_at_its_front() {
+    let met_at = |v: f64, track: Track| {
+        let mut scene = with(vec![track]);
+        scene.ego.speed = v;
+        met(&scene)
+    };
+    // The front is reached after a second, so far inside of the left side or of the right one.
+    let oncoming = |side: f64, inside: f64| {
+        moving(FRONT + 4.0 * (1.0 + AGE), side * (BESIDE - inside), [-4.0, 0.0])
+    };
+    // From the right, so far inside of the front, 3.65 m, or of the rear, -0.85 m.
+    let crossing = |x: f64| Track {
+        cos: 0.0,
+        sin: 1.0,
+        ..moving(x, -0.95 - 2.0 - 6.0 * (1.0 + AGE), [0.0, 6.0])
+    };
+    let front = |inside: f64| crossing(3.65 - inside + 1.0);
+    let rear = |inside: f64| crossing(-0.85 + inside - 1.0);
+    for side in [1.0, -1.0] {
+        assert!(!met_at(0.0, oncoming(side, 0.1)) && met_at(3.0, oncoming(side, 0.1)));
+        for (v, b) in [(0.0, 0.0), (1.6, 0.16), (3.0, 0.3)] {
+            assert!(!met_at(v, oncoming(side, b + 2e-9)), "{v}");
+            // At v = 0 it does not touch the CAV any more.
+            assert_eq!(met_at(v, oncoming(side, b - 2e-9)), v > 0.0, "{v}");
+        }
+    }
+    for v in [0.0, 1.6] {
+        assert!(met_at(v, front(0.1)), "{v}");
+        assert!(met_at(v, front(0.3 - 2e-9)) && !met_at(v, front(0.3 + 2e-9)), "{v}");
+    }
+    // At 1.6 m/s it may stand from the second place on.
+    assert!(!met_at(0.0, rear(0.1)) && !met_at(0.0, rear(2e-9)) && met_at(1.6, rear(0.1)));
+    assert!(met_at(1.6, rear(0.16 - 2e-9)) && !met_at(1.6, rear(0.16 + 2e-9)));
 }
 
 /// A leader that brakes at a_b from when it was seen: where it stops it is met, or not.
@@ -279,10 +318,11 @@ fn who_keeps_beside_the_path_is_not_examined() {
     };
     // D_k + E_k of the last place.
     let least = (S_STOP + 1.4) * sin + 0.5 * (cos * 1.9 + sin * 4.5);
-    // Behind, what drifts by a tenth of its way or less keeps to its lane.
+    // Behind, what drifts by a tenth of its way or less keeps to its lane. It passes the CAV as that is
+    // now, and comes before it farther on.
     let behind = |drift: f64| Track {
         vy: -drift,
-        ..moving(-6.0, least + 1.9 + drift * AGE, [(400.0 - drift * drift).sqrt(), 0.0])
+        ..moving(-6.0, least + 2.15 + drift * AGE, [(400.0 - drift * drift).sqrt(), 0.0])
     };
     assert!(pass(behind(2.0 - 1e-6), &|_| ()));
     assert!(!pass(behind(2.0 + 1e-6), &|_| ()));

@@ -119,6 +119,17 @@ impl<'s> Naive<'s> {
         self.s_tau() + self.v_tau().powi(2) / (2.0 * self.scene.parameters.a_b)
     }
 
+    /// T
+    fn until_stop(&self) -> f64 {
+        self.scene.parameters.tau + self.v_tau() / self.scene.parameters.a_b
+    }
+
+    /// H(w)
+    fn until_yielded(&self, speed: f64) -> f64 {
+        let p = &self.scene.parameters;
+        self.until_stop().max(p.tau + p.t_yield + speed / (2.0 * p.a_yield))
+    }
+
     fn all_places(&self) -> Vec<Place> {
         let (p, h) = self.p();
         let d = self.scene.ego.length.min(0.25);
@@ -189,7 +200,12 @@ impl<'s> Naive<'s> {
 
     fn comes_across(&self, object: &Box2, w: V) -> bool {
         let (p, h) = self.p();
-        w.norm() > 0.0 && sweeps(&self.cav(p, h, -0.3 - self.more), object, w * 1e4)
+        let s_b = self.scene.ego.speed.powi(2) / (2.0 * self.scene.parameters.a_b);
+        let b = if self.is_behind(object, w) { 0.0 } else { s_b.min(0.3) };
+        let mut inner = self.cav(p, h, -self.more);
+        inner.centre = inner.centre + h * (0.5 * (b - 0.3));
+        inner.half = [inner.half[0] - 0.5 * (0.3 + b), inner.half[1] - b];
+        w.norm() > 0.0 && sweeps(&inner, object, w * 1e4)
     }
 
     fn is_behind(&self, object: &Box2, w: V) -> bool {
@@ -232,11 +248,10 @@ impl<'s> Naive<'s> {
 
     fn keeps_beside(&self, object: &Box2, w: V, aside: f64) -> bool {
         let Ego { length, width, .. } = self.scene.ego;
-        let (p, h, speed) = (&self.scene.parameters, self.p().1, w.norm());
+        let (h, speed) = (self.p().1, w.norm());
         let feet = self.nearest(object.centre);
         let away = feet[0].0.norm();
-        let stop = p.tau + self.v_tau() / p.a_b;
-        let late = stop + p.t_yield + speed / (2.0 * p.a_yield);
+        let late = self.until_yielded(speed);
         let needed = |q: V| {
             let drift = w.dot(q).abs();
             let keeps_lane = self.is_behind(object, w) && drift <= speed * away / 10.0 - self.more;
@@ -269,12 +284,8 @@ impl<'s> Naive<'s> {
         if self.follows(&now, w) || self.keeps_beside(&now, w, aside) {
             return false;
         }
-        let stop = p.tau + self.v_tau() / p.a_b;
-        let late = if self.comes_across(&now, w) {
-            stop
-        } else {
-            stop + p.t_yield + w.norm() / (2.0 * p.a_yield)
-        };
+        let comes_across = self.comes_across(&now, w);
+        let late = if comes_across { self.until_stop() } else { self.until_yielded(w.norm()) };
         let speed = w.norm();
         let unit = if speed > 0.0 { w * (1.0 / speed) } else { V(0.0, 0.0) };
         (0..self.places.len()).any(|i| {

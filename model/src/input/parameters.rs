@@ -43,7 +43,7 @@ macro_rules! parameters {
             /// H-14: the greatest speed of an object that is looked for, m/s.
             v_object: f64 = 70.0 in f64::from_bits(1)..=1000.0;
             /// H-14: after this time others brake for a standing CAV, s.
-            t_yield: f64 = 1.5 in 0.0..=60.0;
+            t_yield: f64 = 2.0 in 0.0..=60.0;
             /// H-14: how hard others brake for a standing CAV, m/s^2.
             a_yield: f64 = 3.0 in 0.1..=100.0;
             /// Stage i, H-14: the strict reading fails when the assignment, or H-14, takes more work.

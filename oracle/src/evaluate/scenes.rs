@@ -31,7 +31,8 @@ const FOUND: &str = "collisions";
 A CAV drives along a straight way or a bend, one other comes to where it will be, and what is remote is moved or lied.
 While cycles are safe the CAV drives on; after the first unsafe one it brakes, tau after the last safe one, to a stop, and
 stands. A collision is avoidable if braking from the first cycle on avoids it; who runs into a CAV that stands, and could
-have stopped since (1.5 s, then 3 m/s^2), is counted apart. A scene is clean if nobody comes nearer than 1 m when nobody reacts.
+have stopped since it began to brake (2 s, then 3 m/s^2), is counted apart. A scene is
+clean if nobody comes nearer than 1 m when nobody reacts.
 
 Exit codes: 0 done, 1 an avoidable collision was found in the hardened profile, 2 bad input or a file cannot be
 written.")]

@@ -21,7 +21,7 @@ pub(super) const APART: f64 = 0.4;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     pub(super) times: Times<f64>,
-    /// T + `t_yield`
+    /// tau + `t_yield`
     yields: f64,
     /// 1 / (2 `a_yield`), 1 / (2 `a_b`)
     yielding: f64,
@@ -34,7 +34,7 @@ impl Clock {
         let (times, parameters) = (Times::new(cycle), &cycle.parameters);
         Self {
             times,
-            yields: times.until_stop + parameters.t_yield,
+            yields: parameters.tau + parameters.t_yield,
             yielding: 0.5 / parameters.a_yield,
             braking: 0.5 / parameters.a_b,
             a_b: parameters.a_b,
@@ -43,7 +43,8 @@ impl Clock {
 
     /// For how long an object of that speed and age moves on, rounded up.
     pub(super) fn longest(&self, speed: f64, age: f64) -> f64 {
-        (age + self.yields + speed * self.yielding) * (1.0 + 1e-9) + 1e-9
+        let until = larger(self.times.until_stop, self.yields + speed * self.yielding);
+        (age + until) * (1.0 + 1e-9) + 1e-9
     }
 
     /// After what time an object that goes on is where it is now when it brakes, rounded down.

@@ -12,6 +12,7 @@ use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
 use crate::numbers::rounding::Real;
+use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 use crate::stages::llcc::sweep::{MovingRectangle, minus};
 use crate::stages::llcc::{Pose, footprint, vector};
@@ -207,30 +208,25 @@ impl<'c, 'a> Places<'c, 'a> {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
-        let cav = footprint(ego, &Pose::of_cav(ego));
-        let Rectangle { centre, direction, length, width } = object.now;
-        let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
-        let reach = direction.dot(h).abs() * length + direction.cross(h).abs() * width;
-        let front = (centre - cav.centre).dot(h) + reach;
-        let is_behind = Real::ZERO.certainly_below(along)
-            && front.certainly_below(Real::new(-0.5 * ego.length));
-        is_behind && object.comes_across && across.certainly_at_most(along)
+        object.is_behind && object.comes_across && across.certainly_at_most(along)
             || object.moves && {
-                let Exact { now, velocity, speed, .. } = *object;
+                let Exact { now, velocity, speed, is_behind, .. } = *object;
                 let until = self.until_yielded(speed);
                 self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
             }
     }
 
-    /// T + `t_yield` + abs(w) / (2 `a_yield`), s.
+    /// H(w) = max(T, tau + `t_yield` + abs(w) / (2 `a_yield`)), s.
     fn until_yielded(&self, speed: Real) -> Real {
         let parameters = &self.cycle().parameters;
-        let [t_yield, a_yield] = [parameters.t_yield, parameters.a_yield].map(Real::new);
-        self.path.times.until_stop + t_yield + speed.over(a_yield + a_yield)
+        let [tau, t_yield, a_yield] =
+            [parameters.tau, parameters.t_yield, parameters.a_yield].map(Real::new);
+        let yielded = tau + t_yield + speed.over(a_yield + a_yield);
+        self.path.times.until_stop.max(yielded)
     }
 }
 
-/// By how much the rectangle is smaller on each side that an object comes across, m.
+/// By how much the front of the inner rectangle is moved in, and its other sides at most, m.
 const INNER: f64 = 0.3;
 
 /// By how much half the CAV is wider, m: as far as it is aside of the trajectory's first point. One that
@@ -254,6 +250,8 @@ struct Exact {
     age: Real,
     /// Whether it does, however little.
     moves: bool,
+    /// Whether it certainly is.
+    is_behind: bool,
     /// Whether it certainly does.
     comes_across: bool,
 }
@@ -271,8 +269,9 @@ impl Exact {
             (if is_slow { stays } else { velocity.norm() }, Real::seconds(motion.age_ns));
         let at = motion.now.displaced(vector([0.0; 2]));
         let now = Rectangle { centre: at.centre + velocity.times(age), ..at };
-        let comes_across = !is_slow && comes_across(&cycle.ego, &now, velocity);
-        Self { at, now, velocity, speed, age, moves, comes_across }
+        let is_behind = is_behind(&cycle.ego, &now, velocity);
+        let comes_across = !is_slow && comes_across(cycle, &now, velocity, is_behind);
+        Self { at, now, velocity, speed, age, moves, is_behind, comes_across }
     }
 
     /// Whether it may sweep over a point of the rectangle between two times after now.
@@ -294,11 +293,30 @@ impl Exact {
 /// m/s; so slow is only what counts as standing.
 const STILL: f64 = f64::from_bits((1023 - 300) << 52);
 
-/// Whether the object certainly shares a point with the inner part of the CAV's rectangle, now or
-/// later. That is made smaller by 5e-10 m on each side, more than it is rounded.
-fn comes_across(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
-    let inner = |size: f64| size - (INNER + INNER) - 1e-9;
-    let (length, width) = (inner(ego.length), inner(ego.width));
-    let cav = Rectangle { length, width, ..footprint(ego, &Pose::of_cav(ego)) };
-    length > 0.0 && width > 0.0 && certainly_met(&cav, now, velocity)
+/// Whether the object certainly goes the CAV's way, and all of it is behind the CAV's rear.
+fn is_behind(ego: &Ego, now: &Rectangle, velocity: Vector) -> bool {
+    let (h, cav) = (vector([ego.cos, ego.sin]), footprint(ego, &Pose::of_cav(ego)));
+    let Rectangle { centre, direction, length, width } = *now;
+    let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
+    let reach = direction.dot(h).abs() * length + direction.cross(h).abs() * width;
+    let front = (centre - cav.centre).dot(h) + reach;
+    Real::ZERO.certainly_below(velocity.dot(h))
+        && front.certainly_below(Real::new(-0.5 * ego.length))
+}
+
+/// Whether the object certainly shares a point with the inner rectangle, now or later.
+///
+/// The one here lies inside that of the text, and reaches less than 1e-9 m less far: each side is moved in
+/// by 5e-10 m more, and no side is rounded by 1e-12 m. What b errs by is below 1e-15 m: `s_b(v)` is rounded
+/// twice, by less than 2^-51 of it, and counts up to 0.3 m alone (what underflows is below 1e-290 m); the
+/// minimum errs by no more than `s_b(v)`. The sizes, up to 100 m, are rounded by less than 1e-13 m, the way
+/// back by less than 1e-15 m, and the sum of the centre and that bounds its own error.
+fn comes_across(cycle: &Cycle<'_>, now: &Rectangle, velocity: Vector, is_behind: bool) -> bool {
+    let ego = &cycle.ego;
+    let b = if is_behind { 0.0 } else { smaller(INNER, s_b(&cycle.parameters, ego.speed)) };
+    let (length, width) = (ego.length - (INNER + b) - 1e-9, ego.width - (b + b) - 1e-9);
+    let cav = footprint(ego, &Pose::of_cav(ego));
+    let back = cav.direction.times(Real::new(0.5 * (b - INNER)));
+    let inner = Rectangle { centre: cav.centre + back, length, width, ..cav };
+    length > 0.0 && width > 0.0 && certainly_met(&inner, now, velocity)
 }

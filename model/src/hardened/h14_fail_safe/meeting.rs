@@ -20,7 +20,8 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let beside_route = LazyCell::new(|| BesideRoute::new(scene, trajectory));
     let examined: Vec<(Motion, bool)> = (all_motions(scene).into_iter())
         .filter_map(|motion| {
-            let (comes_across, behind) = (comes_across(scene, &motion), is_behind(scene, &motion));
+            let behind = is_behind(scene, &motion);
+            let comes_across = comes_across(scene, &motion, behind);
             let is_examined = !follows(scene, &motion, comes_across, behind)
                 && !beside_route.keeps_beside(scene, &motion, behind);
             is_examined.then_some((motion, comes_across))
@@ -53,8 +54,7 @@ fn a(scene: &Scene, trajectory: &[Point]) -> Real {
     (&scene.ego.position - x_0).cross(h_0).abs()
 }
 
-/// Over the window, which ends at T + t_yield + abs(w) / (2 a_yield) where the CAV may stand, and at T
-/// where the object comes across, the object sweeps over a point of the CAV's rectangle.
+/// Over the window, which ends at H(w) where the CAV may stand, and at T where the object comes across, the object sweeps over a point of the CAV's rectangle.
 fn sweeps_over(
     scene: &Scene,
     cav: &Rectangle,
@@ -65,7 +65,7 @@ fn sweeps_over(
     let end = match &window.end {
         Some(last) => last.clone(),
         None if comes_across => Driving::of(scene).t_stop(),
-        None => t_yielded(scene, motion),
+        None => h(scene, motion),
     };
     let least = motion.r_b(&scene.parameters.a_b, &(&motion.age + &window.begin));
     let most = &motion.speed * (&motion.age + end);
@@ -73,12 +73,27 @@ fn sweeps_over(
     is_swept_over_between(cav, &motion.object.rectangle(), &motion.w, &between)
 }
 
-/// w is not 0, and the rectangle of the CAV at p, half length and half width less by 0.3 m, shares a point
-/// with the object as it is now and goes on.
-pub fn comes_across(scene: &Scene, motion: &Motion) -> bool {
-    let inner = Real::from_double(0.3);
-    let cav = cav(scene, &p(scene)).with_halves(|half| scene.reads.lowered(&(half - &inner)));
-    motion.w.squared() > Real::zero() && is_swept_over(&cav, &now(motion).rectangle(), &motion.w)
+/// w is not 0, and the inner rectangle shares a point with the object as it is now and goes on.
+pub fn comes_across(scene: &Scene, motion: &Motion, behind: bool) -> bool {
+    let inner = inner(scene, behind).with_halves(|half| scene.reads.lowered(half));
+    motion.w.squared() > Real::zero() && is_swept_over(&inner, &now(motion).rectangle(), &motion.w)
+}
+
+/// The rectangle of the CAV at p, its front moved in by 0.3 m, its other sides by b = min(0.3 m, s_b(v)),
+/// b = 0 for an object that is behind.
+fn inner(scene: &Scene, behind: bool) -> Rectangle {
+    let (front, two) = (Real::from_double(0.3), Real::from_integer(2));
+    let b = match behind {
+        true => Real::zero(),
+        false => Driving::of(scene).s_b().min(front.clone()),
+    };
+    let Rectangle { frame, half_length, half_width } = cav(scene, &p(scene));
+    let back = -((&front - &b) / &two);
+    Rectangle {
+        frame: Frame { origin: frame.point(&back, &Real::zero()), ..frame },
+        half_length: half_length - (&front + &b) / &two,
+        half_width: half_width - b,
+    }
 }
 
 /// w . h > 0 and all of its rectangle where it is now is behind the CAV's rear:
@@ -161,21 +176,21 @@ fn e_k(scene: &Scene, h_k: &Vector, g: &Vector) -> Real {
     twice * g.length() / (Real::from_integer(2) * g.squared())
 }
 
-/// t_H = T + t_yield + abs(w) / (2 a_yield), but 0 for who is behind and drifts by at most abs(w . q) <=
+/// t_H = H(w), but 0 for who is behind and drifts by at most abs(w . q) <=
 /// abs(w) D / 10, s.
 fn t_h(scene: &Scene, motion: &Motion, q: &Vector, d: &Real, behind: bool) -> Real {
     let most = &motion.speed * d / Real::from_integer(10);
     if behind && scene.reads.at_most(&motion.w.dot(q).abs(), &most) {
         return Real::zero();
     }
-    t_yielded(scene, motion)
+    h(scene, motion)
 }
 
-/// T + t_yield + abs(w) / (2 a_yield), s: who comes later can still stop.
-fn t_yielded(scene: &Scene, motion: &Motion) -> Real {
+/// H(w) = max(T, tau + t_yield + abs(w) / (2 a_yield)), s: who comes later can still stop.
+fn h(scene: &Scene, motion: &Motion) -> Real {
     let p = &scene.parameters;
     let braking = &motion.speed / (Real::from_integer(2) * &p.a_yield);
-    Driving::of(scene).t_stop() + &p.t_yield + braking
+    Driving::of(scene).t_stop().max(&p.tau + &p.t_yield + braking)
 }
 
 /// abs(h x h_k) <= 0.05 + way / 30 m.

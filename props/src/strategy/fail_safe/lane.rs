@@ -39,8 +39,7 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let e = (((speed * speed - drift * drift).max(0.0)).sqrt(), -side * drift);
     let velocity = road.turn(e);
     let path = Path::of(cycle);
-    let p = &cycle.parameters;
-    let horizon = path.t_stop() + p.t_yield + speed / (2.0 * p.a_yield);
+    let horizon = path.until(speed);
     let free = if is_behind { 0.0 } else { drift * horizon };
     let size = draw.pick(&[(4.5, 1.8), (8.0, 2.5)]);
     let gap = draw.near(gap + free);
@@ -119,9 +118,7 @@ impl<'a> Lane<'a> {
             (distance - aside).abs() - half - self.path.aside
         });
         let least = least.fold(f64::INFINITY, f64::min);
-        let p = &self.cycle.parameters;
-        let speed = w.0.hypot(w.1);
-        let horizon = self.path.t_stop() + p.t_yield + speed / (2.0 * p.a_yield);
+        let horizon = self.path.until(w.0.hypot(w.1));
         let drift = (w.0 * q.0 + w.1 * q.1).abs() / distance;
         let room = least - drift * horizon;
         let (along, across) = (at.cos * q.0 + at.sin * q.1, at.cos * q.1 - at.sin * q.0);

@@ -182,25 +182,31 @@ impl Aim<'_> {
         let from = draw.near(from);
         let reached = (at.0 + from * e.0, at.1 + from * e.1);
         let after = |seconds: f64| self.found(reached, e, speed * (self.age + seconds), speed);
-        let found = after(end.unwrap_or(self.until(speed)));
+        let found = after(end.unwrap_or(self.path.until(speed)));
         if end.is_none() && self.comes_across(&found) { after(self.path.t_stop()) } else { found }
     }
 
-    /// When who meets the standing CAV can still stop, s.
-    fn until(&self, speed: f64) -> f64 {
-        let p = &self.cycle.parameters;
-        self.path.t_stop() + p.t_yield + speed / (2.0 * p.a_yield)
+    /// The inner rectangle: the CAV now, its front moved in by 0.3 m, its other sides less at low speed, and
+    /// not at all for who is behind.
+    fn inner(&self, is_behind: bool) -> Body {
+        let Body { frame, half } = self.path.body(self.cycle, 0);
+        let b = if is_behind { 0.0 } else { self.path.s_b().min(0.3) };
+        let (x, y) = frame.at(-0.5 * (0.3 - b), 0.0);
+        let half = (half.0 - 0.5 * (0.3 + b), half.1 - self.path.aside - b);
+        Body { frame: Frame { x, y, ..frame }, half }
     }
 
-    /// The CAV now, each side moved in by 0.3 m.
-    fn inner(&self) -> Body {
+    fn is_behind(&self, found: &Found) -> bool {
         let cav = self.path.body(self.cycle, 0);
-        let half = (cav.half.0 - 0.3, cav.half.1 - self.path.aside - 0.3);
-        Body { half, ..cav }
+        let (h, age) = ((cav.frame.cos, cav.frame.sin), self.age);
+        let Found { body: Body { frame, .. }, velocity: w } = found;
+        let now = (frame.x + w.0 * age - cav.frame.x, frame.y + w.1 * age - cav.frame.y);
+        dot(*w, h) > 0.0 && dot(now, h) + found.body.extent(h) < -0.5 * self.cycle.ego.length
     }
 
     fn comes_across(&self, found: &Found) -> bool {
-        let (inner, speed) = (self.inner(), found.velocity.0.hypot(found.velocity.1));
+        let (inner, speed) =
+            (self.inner(self.is_behind(found)), found.velocity.0.hypot(found.velocity.1));
         let met =
             || inner.met_by(&found.body, (found.velocity.0 / speed, found.velocity.1 / speed));
         inner.half.0 >= 0.0
@@ -211,7 +217,7 @@ impl Aim<'_> {
 
     /// It comes from behind in line with the CAV, and across it or just not.
     fn along(&self, draw: &mut Draw<'_>) -> Found {
-        let (inner, speed) = (self.inner(), draw.pick(&[8.0, 20.0, 3.0]));
+        let (inner, speed) = (self.inner(true), draw.pick(&[8.0, 20.0, 3.0]));
         let (h, side) = ((inner.frame.cos, inner.frame.sin), draw.pick(&[1.0, -1.0]));
         let aside = draw.near(inner.half.1 + self.body.extent((-h.1, h.0)));
         let gap = draw.pick(&[1.0, 0.1, 5.0]);
@@ -222,14 +228,14 @@ impl Aim<'_> {
     /// It comes from the side, and across the CAV or just not, between when the CAV surely stands and when it
     /// could have stopped itself.
     fn across(&self, draw: &mut Draw<'_>) -> Found {
-        let (inner, speed) = (self.inner(), draw.pick(&[8.0, 20.0, 3.0]));
+        let (inner, speed) = (self.inner(false), draw.pick(&[8.0, 20.0, 3.0]));
         let (h, side) = ((inner.frame.cos, inner.frame.sin), draw.pick(&[1.0, -1.0]));
         let ahead = draw.near(inner.half.0 + self.body.extent(h));
         let (at, e) = (inner.frame.at(ahead, 0.0), (-side * h.1, side * h.0));
         let cav = self.path.body(self.cycle, 0);
         let from = cav.met_by(&self.at(at), e).map_or(0.0, |(from, _)| from);
         let share = draw.pick(&[0.5, 0.9, 0.1]);
-        let arrives = self.path.t_stop() * (1.0 - share) + self.until(speed) * share;
+        let arrives = self.path.t_stop() * (1.0 - share) + self.path.until(speed) * share;
         self.found((at.0 + from * e.0, at.1 + from * e.1), e, speed * (self.age + arrives), speed)
     }
 

@@ -66,6 +66,8 @@ pub struct Path {
     tau: f64,
     a_max: f64,
     a_b: f64,
+    t_yield: f64,
+    a_yield: f64,
 }
 
 impl Path {
@@ -76,7 +78,8 @@ impl Path {
         let aside =
             first.map_or(0.0, |it| ((ego.x - it.x) * it.sin - (ego.y - it.y) * it.cos).abs());
         let (v, tau, a_max, a_b) = (ego.speed, p.tau, p.a_max, p.a_b);
-        Self { places: places(cycle), aside, v, tau, a_max, a_b }
+        let (t_yield, a_yield) = (p.t_yield, p.a_yield);
+        Self { places: places(cycle), aside, v, tau, a_max, a_b, t_yield, a_yield }
     }
 
     /// `s_b(v)`, m.
@@ -87,6 +90,11 @@ impl Path {
     /// T, s.
     pub fn t_stop(&self) -> f64 {
         self.tau + (self.v + self.a_max * self.tau) / self.a_b
+    }
+
+    /// H(w): when who goes on at this speed can still stop, s.
+    pub fn until(&self, speed: f64) -> f64 {
+        self.t_stop().max(self.tau + self.t_yield + speed / (2.0 * self.a_yield))
     }
 
     /// The earliest time at a way, s.

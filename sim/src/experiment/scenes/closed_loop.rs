@@ -21,7 +21,7 @@ const STOPPED_S: f64 = 8.0;
 const STANDS_S: f64 = 10.0;
 /// Who could have stopped before a CAV that stands, reacting after this time, s, and braking this much, m/s^2, did
 /// not yield.
-const REACTS_S: f64 = 1.5;
+const REACTS_S: f64 = 2.0;
 const YIELDS: f64 = 3.0;
 
 /// Why a cycle was rejected.
@@ -42,7 +42,7 @@ pub struct Hit {
     pub speed_mps: f64,
     /// How long the CAV had stood, s.
     pub stood_s: f64,
-    /// Whether the other could have stopped before a CAV that stood.
+    /// Whether the CAV stood, and the other could have stopped since it began to brake.
     pub has_not_yielded: bool,
 }
 
@@ -113,14 +113,16 @@ fn ride(scene: &Scene, brakes: Option<f64>, end: f64, mut apart: impl FnMut(f64)
         apart(now);
         if now <= 0.0 {
             let stood_s = stands_from.map_or(0.0, |from| t - from);
-            let has_not_yielded = stands_from.is_some_and(|from| could_stop(scene, from, t));
+            let since = brakes.or(stands_from);
+            let could = |from| stands_from.is_some() && could_stop(scene, from, t);
+            let has_not_yielded = since.is_some_and(could);
             return Some(Hit { t_s: t, speed_mps, stood_s, has_not_yielded });
         }
     }
     None
 }
 
-/// Whether the other could have stopped before a CAV that stood from one time to another, s.
+/// Whether the other could have stopped before a CAV that began to brake at one time, until another, s.
 fn could_stop(scene: &Scene, from: f64, until: f64) -> bool {
     let ((start, speed), (end, _)) = (scene.other.pace.at(from), scene.other.pace.at(until));
     let needed = REACTS_S * speed + speed * speed / (2.0 * YIELDS);
