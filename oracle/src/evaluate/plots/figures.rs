@@ -7,34 +7,18 @@ use mufasa_sim::experiment::availability::{self, Availability, Factor};
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu, Who};
 use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::grid::{self, Detectors, Grids};
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::readings::{self, Readings};
 use mufasa_sim::experiment::stages::{self, Stages};
 
 use super::bars::{self, Bar, Bars, Group};
+pub use super::chart::Figure;
+pub(super) use super::chart::figure;
+use super::chart::{float, ratio, series};
 use super::dots::{self, Dot, Dots, Panel};
+pub use super::left_out::{grid, readings};
 use super::lines::{self, COLLIDED, Row, Small};
 use super::page::{Mark, Series};
 use crate::evaluate::published;
-
-/// A chart and the name of its file.
-pub struct Figure {
-    pub file: String,
-    pub svg: String,
-}
-
-pub(super) fn figure(file: &str, svg: String) -> Figure {
-    Figure { file: format!("{file}.svg"), svg }
-}
-
-const fn series(variant: Variant) -> Series {
-    match variant {
-        Variant::Sofof => Series::SOFOF,
-        Variant::Paper => Series::PAPER,
-        Variant::Hardened => Series::HARDENED,
-    }
-}
 
 const VARIANTS: [Series; 4] = [Series::SOFOF, Series::PAPER, Series::HARDENED, Series::PUBLISHED];
 
@@ -78,39 +62,6 @@ fn words(rows: &[failures::Row]) -> String {
     let sofof = rows.iter().find(|row| row.variant == Variant::Sofof);
     let words = sofof.map_or("", |row| published::failures(row.attack, row.variant).words);
     if words.is_empty() { String::new() } else { format!("paper, sofof: {words}") }
-}
-
-/// Collisions by the reading of the paper's text.
-pub fn readings(of: &Readings) -> Vec<Figure> {
-    let bar = |row: &readings::Row| Bar {
-        series: series(row.variant),
-        value: 100.0 * ratio(row.collided, row.runs),
-        paler: 100.0 * ratio(row.late, row.runs),
-        label: format!("{}/{}", row.collided + row.late, row.runs),
-        published: Vec::new(),
-    };
-    let group = |rows: &[readings::Row]| Group {
-        name: format!(
-            "{}, {}",
-            readings::name_of_lists(rows[0].lists),
-            readings::name_of_comes(rows[0].comes)
-        ),
-        bars: rows.iter().filter(|row| row.empty_is_a_list).map(bar).collect(),
-        note: String::new(),
-    };
-    let same = |a: &readings::Row, b: &readings::Row| (a.lists, a.comes) == (b.lists, b.comes);
-    let svg = bars::draw(&Bars {
-        title: "Empty track lists, by whose they are and how they come",
-        about: &[
-            "In full: collisions; paler: target not reached in time. An empty list is a list (I-11).",
-        ],
-        key: &[Series::SOFOF, Series::PAPER, Series::HARDENED],
-        unit: "runs that failed, %",
-        most: 100.0,
-        step: 25.0,
-        groups: of.rows.chunk_by(same).map(group).collect(),
-    });
-    vec![figure(readings::NAME, svg)]
 }
 
 /// What the paper published, as a bar.
@@ -307,40 +258,6 @@ const fn words_of(factor: Factor) -> &'static str {
     }
 }
 
-/// Collisions under attacks by what is left out.
-pub fn grid(of: &Grids) -> Vec<Figure> {
-    let bar = |row: &grid::Row| Bar {
-        series: series(row.variant),
-        value: 100.0 * ratio(row.attacked_collided, row.attacked_runs),
-        paler: 0.0,
-        label: format!("{}/{}", row.attacked_collided, row.attacked_runs),
-        published: Vec::new(),
-    };
-    let figure_of = |detectors: Detectors| {
-        let rows = || of.rows.iter().filter(move |row| row.detectors == detectors);
-        let paper = rows().filter(|row| row.variant == Variant::Paper);
-        let group = |named: &grid::Row| Group {
-            name: grid::name_of(named.left_out).to_owned(),
-            bars: rows().filter(|row| row.left_out == named.left_out).map(bar).collect(),
-            note: String::new(),
-        };
-        let svg = bars::draw(&Bars {
-            title: &format!(
-                "Collisions while offloading, by what is left out: {}",
-                detectors.name()
-            ),
-            about: &["Under three attacks. Above: collisions of runs."],
-            key: &[Series::PAPER, Series::HARDENED],
-            unit: "runs that collided, %",
-            most: 100.0,
-            step: 25.0,
-            groups: paper.map(group).collect(),
-        });
-        figure(&format!("{}-{}", grid::NAME, detectors.name()), svg)
-    };
-    Detectors::ALL.map(figure_of).into()
-}
-
 /// The share that is offloaded, and processor time, by service.
 pub fn cpu(of: &Cpu) -> Vec<Figure> {
     let of_who = |who: Who| of.rows.iter().filter(move |row| row.who == who);
@@ -423,14 +340,4 @@ fn processor(row: &cpu::Row, at: usize) -> Vec<Dot> {
         dots.extend(of);
     }
     dots
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn float(count: u64) -> f64 {
-    count as f64
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn ratio(part: usize, of: usize) -> f64 {
-    if of == 0 { 0.0 } else { part as f64 / of as f64 }
 }
