@@ -34,7 +34,9 @@ use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::combinations::Combinations;
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::Failures;
+use mufasa_sim::experiment::grid::Grids;
 use mufasa_sim::experiment::job::{Campaign, Job, Options};
+use mufasa_sim::experiment::readings::Readings;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
 use mufasa_sim::map::Town;
@@ -79,10 +81,12 @@ pub fn run(
         Some(Experiment::Scenes(it)) => return scenes::run(it, out, err),
         None => (&arguments.size, named::<Failures>()),
         Some(Experiment::Failures(size)) => (size, named::<Failures>()),
+        Some(Experiment::Readings(size)) => (size, named::<Readings>()),
         Some(Experiment::Stages(size)) => (size, named::<Stages>()),
         Some(Experiment::Attacks(size)) => (size, named::<Attacks>()),
         Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
         Some(Experiment::Availability(size)) => (size, named::<Availability>()),
+        Some(Experiment::Grid(size)) => (size, named::<Grids>()),
         Some(Experiment::Cpu(size)) => (size, named::<Cpu>()),
     };
     let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
@@ -209,12 +213,14 @@ const fn named<E: Shown>() -> Named {
 }
 
 /// The experiments.
-const EXPERIMENTS: [Named; 6] = [
+const EXPERIMENTS: [Named; 8] = [
     named::<Failures>(),
+    named::<Readings>(),
     named::<Stages>(),
     named::<Attacks>(),
     named::<Combinations>(),
     named::<Availability>(),
+    named::<Grids>(),
     named::<Cpu>(),
 ];
 

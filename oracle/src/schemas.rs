@@ -10,7 +10,7 @@ use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, grid, readings, scenes, stages,
 };
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 20] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -27,10 +27,12 @@ pub const WRITTEN: [(&str, &str, &[&str]); 18] = [
     ("prove", "out", &["claim"]),
     ("evaluate", "out", &["evaluation-failures"]),
     ("evaluate failures", "out", &["evaluation-failures"]),
+    ("evaluate readings", "out", &["evaluation-readings"]),
     ("evaluate stages", "out", &["evaluation-stages"]),
     ("evaluate attacks", "out", &["evaluation-attacks"]),
     ("evaluate combinations", "out", &["evaluation-combinations"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
+    ("evaluate grid", "out", &["evaluation-grid"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
     ("evaluate scenes", "out", &["evaluation-scenes"]),
@@ -57,12 +59,14 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("station-summary", schema::written::<StationSummary>()));
     schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
     schemas.push(("evaluation-failures", schema::written::<failures::Failures>()));
+    schemas.push(("evaluation-readings", schema::written::<readings::Readings>()));
     schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
     schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
     schemas.push(("evaluation-combinations", schema::written::<combinations::Combinations>()));
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
     schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
+    schemas.push(("evaluation-grid", schema::written::<grid::Grids>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
     let part = schema::written::<Part<falsify::Options>>();

@@ -71,9 +71,9 @@ fn a_folder_has_one_page_with_a_section_of_each_experiment() {
     for name in ["failures.svg", "stages.svg"] {
         let chart = text(&folder, &format!("results/{name}"));
         let chart = Document::parse(&chart).expect("XML");
-        // At least the five bars of the shorter one.
+        // The page, and of the shorter one three bars: without the stages each attack makes runs fail.
         let is_bar = |it: &roxmltree::Node| it.has_tag_name(("http://www.w3.org/2000/svg", "rect"));
-        assert!(chart.descendants().filter(is_bar).count() >= 5);
+        assert!(chart.descendants().filter(is_bar).count() >= 4);
         assert!(page.contains(chart.input_text()), "{name} is in the page");
     }
 }

@@ -17,6 +17,7 @@ use crate::cav::asking::Asking;
 use crate::cav::guard::{Decided, Guard, Variant};
 use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
+use crate::cav::withheld::Withheld;
 use crate::cav::{Areas, Cav, DECIDES_NS};
 use crate::map::Town;
 use crate::radio::{self, Radio, To};
@@ -44,6 +45,8 @@ pub struct Settings {
     pub drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
     pub has_no_lead: bool,
+    /// What the stages do not get.
+    pub withheld: Option<Withheld>,
     /// From when on the CAV examines its own plans in `Local`, and brakes where one fails, s (F-48). Not in `Sofof`.
     pub examines_own: Option<f64>,
     /// Whether the station, and the CAV's own planner in `MotRemote`, ask the stages before they send. Not in `Sofof`.
@@ -78,6 +81,7 @@ impl Settings {
             variant,
             drives_on: false,
             has_no_lead: false,
+            withheld: None,
             examines_own: None,
             prechecks: true,
             offers,
@@ -101,7 +105,7 @@ impl Settings {
     /// What asks before something is sent on this route.
     fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
         let profile = self.variant.profile().filter(|_| self.prechecks)?;
-        Some(Asking::new(profile, self.stages, route))
+        Some(Asking::new(profile, self.stages, route).withholding(self.withheld))
     }
 }
 
@@ -235,7 +239,8 @@ pub fn simulate(
     let period_ns = nominal_ns(stages.tau);
     let mut guard = Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
         .map_err(RunError::Monitor)?
-        .recording(settings.recorder());
+        .recording(settings.recorder())
+        .withholding(settings.withheld);
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
     let corridor = mufasa::input::cycle::Route {
         closed: route.path.is_closed(),

@@ -8,7 +8,9 @@ use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Campaign, Options};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
-use mufasa_sim::experiment::{attacks, availability, combinations, cpu, failures, falsify, stages};
+use mufasa_sim::experiment::{
+    attacks, availability, combinations, cpu, failures, falsify, grid, readings, stages,
+};
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
@@ -78,8 +80,10 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
         assert_eq!((control.runs, control.failures), (runs, 0), "{control:?}");
     }
     for kind in Kind::PAPER {
-        let hardened = row(&made, Some(kind), Variant::Hardened);
-        assert_eq!((hardened.runs, hardened.failures), (runs, 0), "{hardened:?}");
+        for variant in [Variant::Paper, Variant::Hardened] {
+            let checked = row(&made, Some(kind), variant);
+            assert_eq!((checked.runs, checked.failures), (runs, 0), "{checked:?}");
+        }
     }
     for kind in [Kind::MapReplaced, Kind::TracksEmpty] {
         let sofof = row(&made, Some(kind), Variant::Sofof);
@@ -87,6 +91,40 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
     }
     let rows = made.rows.iter().map(|row| row.runs).sum::<usize>();
     assert_eq!((rows, made.rows.len()), (made.runs.len(), 12));
+}
+
+fn collided(only: &str) -> (usize, usize) {
+    let select = Select::only(Some(only));
+    let made = readings::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+    (made.rows.iter().map(|row| row.collided).sum(), made.runs.len())
+}
+
+/// The reading of `failures`, and those that contradict the paper (F-14).
+#[test]
+fn empty_lists_within_the_station_alone_are_found_and_those_for_both_are_not() {
+    assert_eq!(collided("readings/sofof/planner+interleaved+list"), (4, 4));
+    assert_eq!(collided("readings/paper/planner+interleaved+list"), (0, 4));
+    assert_eq!(collided("readings/paper/both+interleaved+list"), (4, 4));
+    // Were an empty list none, stage iv would run, and a list with one far track would do.
+    assert_eq!(collided("readings/paper/both+interleaved+none"), (0, 4));
+    assert_eq!(collided("readings/paper/both+farthest+none"), (4, 4));
+    assert_eq!(collided("readings/hardened/both+farthest+list"), (0, 4));
+}
+
+#[test]
+fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
+    let rows = |only| {
+        let select = Select::only(Some(only));
+        let made = grid::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+        made.rows
+    };
+    let with = rows("grid/hardened/blind+nothing+none+both");
+    let without = rows("grid/hardened/blind+grid+none+both");
+    assert_eq!((with.len(), without.len(), with[0].runs), (1, 1, 4));
+    assert!(with[0].executions_v > 100, "{with:?}");
+    assert_eq!((without[0].executions_v, without[0].detections_v), (0, 0), "{without:?}");
+    let noisy = rows("grid/hardened/noisy+nothing+none+both");
+    assert!((noisy[0].share_plan - with[0].share_plan).abs() > 1e-9, "{noisy:?} {with:?}");
 }
 
 #[test]
@@ -114,8 +152,12 @@ fn ids_differ_and_every_combination_is_there() {
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(cpu::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(readings::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(grid::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
-    assert_eq!(all, 4 * 3 * 4 + 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4 + 3 * 4);
+    let of_grid = 4 * 2 * 3 * 4 * 3 * 4;
+    let others = 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4 + 3 * 4;
+    assert_eq!(all, 4 * 3 * 4 + others + 9 * (3 + 1) * 4 + of_grid);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
     ids.sort();
     ids.dedup();

@@ -45,6 +45,8 @@ impl EvaluateArguments {
 pub enum Experiment {
     /// Collisions and targets not reached under each attack of the paper: none checked, paper, hardened.
     Failures(SizeArguments),
+    /// The attack with empty track lists in each reading of the paper's text: which of them give its figure.
+    Readings(SizeArguments),
     /// How often each stage runs and finds a safety issue, under random attacks.
     Stages(SizeArguments),
     /// Every attack with tracking, planning or both offered: which stage finds it first, and when.
@@ -53,6 +55,8 @@ pub enum Experiment {
     Combinations(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
+    /// Whether stage v is needed: collisions and false alarms without grid or detections, by what detectors see.
+    Grid(SizeArguments),
     /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
     /// this machine.
     Cpu(SizeArguments),
@@ -68,7 +72,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures and combinations 10, cpu 6, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures, readings and combinations 10, cpu 6, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,

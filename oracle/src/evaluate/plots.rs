@@ -5,8 +5,10 @@
 //! (`mufasa_drives::pictures`). `plotters` writes a colour into every element and knows no grouped bars.
 
 pub(super) mod bars;
+mod chart;
 pub(super) mod dots;
 pub(super) mod figures;
+mod left_out;
 pub(super) mod lines;
 mod page;
 pub(super) mod search;

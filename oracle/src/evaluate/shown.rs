@@ -6,7 +6,9 @@ use mufasa_sim::experiment::availability::{self, Availability};
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
+use mufasa_sim::experiment::grid::{self, Grids};
 use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
+use mufasa_sim::experiment::readings::{self, Readings};
 use mufasa_sim::experiment::stages::{self, Stages};
 use mufasa_sim::map::Town;
 use mufasa_sim::run::End;
@@ -94,9 +96,11 @@ macro_rules! shown {
 
 shown! {
     failures: Failures, |run| Some(run.end);
+    readings: Readings, |run| Some(run.end);
     stages: Stages, |run| Some(run.end);
     attacks: Attacks, |run| Some(run.end);
     combinations: Combinations, |run| Some(run.end);
     availability: Availability, |run| Some(run.end);
+    grid: Grids, |_| None;
     cpu: Cpu, |_| None;
 }

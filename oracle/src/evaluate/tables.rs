@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, Table, presets};
 use mufasa_drives::pictures::escape;
+use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, grid, readings, scenes, stages,
 };
 
 use super::published;
@@ -108,6 +109,27 @@ pub fn failures(of: &failures::Failures) -> Rows {
     )
 }
 
+/// Failures under empty lists, by the reading of the paper's text.
+pub fn readings(of: &readings::Readings) -> Rows {
+    rows(
+        &of.rows,
+        &[
+            text("lists of", |row| readings::name_of_lists(row.lists).to_owned()),
+            text("they come", |row| readings::name_of_comes(row.comes).to_owned()),
+            text("an empty list is", |row| match (row.variant, row.empty_is_a_list) {
+                (Variant::Sofof, _) => String::new(),
+                (_, true) => String::from("a list"),
+                (_, false) => String::from("no list"),
+            }),
+            text("checked by", |row| row.variant.name().to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("collided", |row| row.collided.to_string()),
+            number("late", |row| row.late.to_string()),
+            number("detected", |row| row.detected.to_string()),
+        ],
+    )
+}
+
 /// Executions and detections by variant and stage.
 pub fn stages(of: &stages::Stages) -> Rows {
     rows(
@@ -183,6 +205,28 @@ pub fn availability(of: &availability::Availability) -> Rows {
             number("MOT remote", |row| share(row.share_mot)),
             number("PLAN remote", |row| share(row.share_plan)),
             number("both", |row| share(row.share_both)),
+        ],
+    )
+}
+
+/// What is missed, and what is found without need, without what a stage needs.
+pub fn grid(of: &grid::Grids) -> Rows {
+    rows(
+        &of.rows,
+        &[
+            text("detectors", |row| row.detectors.name().to_owned()),
+            text("checked by", |row| row.variant.name().to_owned()),
+            text("left out", |row| grid::name_of(row.left_out).to_owned()),
+            number("runs", |row| row.runs.to_string()),
+            number("collided offloading", |row| row.collided.to_string()),
+            number("alone", |row| row.collided_local.to_string()),
+            number("fallbacks in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
+            number("PLAN remote", |row| share(row.share_plan)),
+            number("attacked runs", |row| row.attacked_runs.to_string()),
+            number("collided offloading", |row| row.attacked_collided.to_string()),
+            number("alone", |row| row.attacked_collided_local.to_string()),
+            number("v ran", |row| row.executions_v.to_string()),
+            number("v found", |row| row.detections_v.to_string()),
         ],
     )
 }

@@ -19,6 +19,23 @@ pub enum Lists {
     Planner,
 }
 
+/// How the lists of `tracks-empty` come (`docs/evaluation.md#readings`).
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Comes {
+    /// Empty, at 100 Hz between the true ones; the last before the planner plans is always one of them.
+    #[default]
+    Last,
+    /// Empty, each in the place of a true one, at 10 Hz.
+    Replaced,
+    /// Empty, at 100 Hz between the true ones; the planner plans at any time, so that now and then a true one is the last.
+    Interleaved,
+    /// Each with the farthest of its tracks alone, in the place of the true one.
+    Farthest,
+}
+
 /// Magnitudes of an attack. What a kind does not use has no effect on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -27,6 +44,9 @@ pub struct Means {
     pub target: Option<u32>,
     /// Which lists are spoiled.
     pub lists: Lists,
+    /// How lists come that are empty.
+    #[serde(default)]
+    pub comes: Comes,
     /// How far ahead of the CAV something is made up, m; `ghosts` and `ghost-in-mean`: this on top of where
     /// they are; `swerve`: way until the trajectory is aside; `ends-early`: how far behind where the CAV can
     /// stop the trajectory ends.
@@ -50,6 +70,7 @@ impl Means {
     pub const NONE: Self = Self {
         target: None,
         lists: Lists::Both,
+        comes: Comes::Last,
         ahead_m: 0.0,
         left_m: 0.0,
         speed_mps: 0.0,

@@ -3,6 +3,7 @@
 //! The attacker knows everything: the truth, the rules, the sessions. An attack is an item with a start, an
 //! end and a seed; several go on at the same time.
 
+mod empty;
 pub mod kind;
 pub mod means;
 mod tracks;
@@ -110,15 +111,19 @@ impl<'a> Attacker<'a> {
 
     /// Those of the first attack of a kind that goes on.
     fn means(&self, kind: Kind) -> Option<&Means> {
+        self.attack(kind).map(|attack| &attack.means)
+    }
+
+    fn attack(&self, kind: Kind) -> Option<&Attack> {
         let mut going_on = self.attacks.iter().filter(|it| it.kind == kind);
-        going_on.find(|attack| attack.is_on(self.now_ns)).map(|attack| &attack.means)
+        going_on.find(|attack| attack.is_on(self.now_ns))
     }
 
     /// The tracks that the planner of the station believes in.
     pub fn believed(&self, stamp_ns: i64, ego: &Ego, tracks: &[Track]) -> Vec<Track> {
         let mut tracks = tracks.to_vec();
-        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Planner)) {
-            tracks.clear();
+        if let Some(attack) = self.attack(Kind::TracksEmpty) {
+            empty::believed(attack, stamp_ns, ego, &mut tracks);
         }
         self.lie(stamp_ns, ego, Lists::Planner, &mut tracks);
         tracks
@@ -136,6 +141,9 @@ impl<'a> Attacker<'a> {
             self.earlier.pop_front();
         }
         let Results { stamp_ns, tracks, points } = results;
+        if let Some(attack) = self.attack(Kind::TracksEmpty) {
+            empty::sent(attack, ego, tracks);
+        }
         self.lie(*stamp_ns, ego, Lists::Cav, tracks);
         if let Some(means) = self.means(Kind::Replay)
             && let Some(old) =
@@ -188,7 +196,7 @@ impl<'a> Attacker<'a> {
                 radio.forge(now_ns, To::Vehicle, bytes);
             }
         };
-        if self.means(Kind::TracksEmpty).is_some_and(|it| it.spoils(Lists::Cav))
+        if self.attack(Kind::TracksEmpty).is_some_and(empty::is_forged)
             && let Some(session) = self.sessions[0]
         {
             send(&message(Payload::Tracks { session, stamp_ns: now_ns, tracks: Vec::new() }));

@@ -12,6 +12,7 @@ use mufasa::services::configuration::Configuration;
 use super::assembled::Fixed;
 use super::seen::Seen;
 use super::sensing::Sensed;
+use super::withheld::Withheld;
 
 /// The stages with what they need from cycle to cycle.
 #[derive(Debug)]
@@ -59,11 +60,17 @@ impl Asking {
     pub fn new(profile: Profile, parameters: Parameters, route: &Route<'_>) -> Self {
         let route = (route.closed, route.cross_sections.to_vec());
         Self {
-            fixed: Fixed { profile, parameters, route },
+            fixed: Fixed { profile, parameters, route, withheld: None },
             seen: Seen::default(),
             rows: vec![Row::default(); Sizes::MAX.rows],
             columns: vec![Column::default(); Sizes::MAX.columns],
         }
+    }
+
+    /// The same; the cycles are without what the stages do not get.
+    pub fn withholding(mut self, withheld: Option<Withheld>) -> Self {
+        self.fixed.withheld = withheld;
+        self
     }
 
     /// Keeps what the CAV detected, for later cycles.
@@ -105,7 +112,8 @@ impl Asking {
         tracks: Option<TrackList<'_>>,
         question: impl FnOnce(&mut Precheck<'_>, &Cycle<'_>) -> T,
     ) -> T {
-        let Fixed { profile, parameters, route: (closed, ref cross_sections) } = self.fixed;
+        let Fixed { profile, parameters, route: (closed, ref cross_sections), withheld } =
+            self.fixed;
         let Known { configuration, now_ns, ego, detections, lead, grid } = *known;
         let history = match profile {
             Profile::Paper => Vec::new(),
@@ -125,6 +133,7 @@ impl Asking {
             grid,
             detection_history: &history,
         };
+        let cycle = withheld.map_or(cycle, |it| it.taken_from(cycle));
         question(&mut Precheck::new(&mut self.rows, &mut self.columns), &cycle)
     }
 }

@@ -12,6 +12,7 @@ use mufasa::services::configuration::{Configuration, Group};
 
 use super::decided::Local;
 use super::sensing::Sensed;
+use super::withheld::Withheld;
 
 /// What does not change from cycle to cycle.
 #[derive(Clone, Debug)]
@@ -20,6 +21,7 @@ pub(super) struct Fixed {
     pub(super) parameters: Parameters,
     /// Whether the route is closed, and its cross sections.
     pub(super) route: (bool, Vec<CrossSection>),
+    pub(super) withheld: Option<Withheld>,
 }
 
 /// The last results of stations that the requester used.
@@ -69,7 +71,7 @@ pub(super) fn cycle<'c>(
 ) -> Cycle<'c> {
     let stamp_ns = sensed.stamp_ns;
     let (closed, cross_sections) = (fixed.route.0, fixed.route.1.as_slice());
-    Cycle {
+    let cycle = Cycle {
         profile: fixed.profile,
         parameters: fixed.parameters,
         now_ns,
@@ -82,5 +84,6 @@ pub(super) fn cycle<'c>(
         route: Route { closed, cross_sections },
         grid: Some(sensed.grid.borrow(true)),
         detection_history,
-    }
+    };
+    fixed.withheld.map_or(cycle, |it| it.taken_from(cycle))
 }

@@ -23,6 +23,7 @@ use super::assembled::{Chosen, Last, Stamped};
 pub use super::decided::{Decided, Local};
 use super::recorder::Recorder;
 use super::sensing::Sensed;
+use super::withheld::Withheld;
 
 /// What is checked of remote data.
 #[derive(
@@ -68,6 +69,7 @@ pub struct Guard<'a> {
     /// A copy of what was accepted: the monitor lets nobody look at it.
     last: Last,
     recorder: Recorder,
+    withheld: Option<Withheld>,
 }
 
 #[derive(Debug)]
@@ -105,12 +107,19 @@ impl<'a> Guard<'a> {
     }
 
     fn of(kind: Kind<'a>) -> Self {
-        Self { kind, last: Last::default(), recorder: Recorder::default() }
+        Self { kind, last: Last::default(), recorder: Recorder::default(), withheld: None }
     }
 
     /// The same; of what the monitor decides this is recorded.
     pub fn recording(mut self, recorder: Recorder) -> Self {
         self.recorder = recorder;
+        self
+    }
+
+    /// The same, after [`Self::recording`]; the stages do not get this.
+    pub fn withholding(mut self, withheld: Option<Withheld>) -> Self {
+        self.withheld = withheld;
+        self.recorder.withhold(withheld);
         self
     }
 
@@ -209,14 +218,18 @@ impl<'a> Guard<'a> {
 
     /// Decides a cycle.
     pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Local<'_>) -> Decided {
-        let (last, recorder) = (&self.last, &mut self.recorder);
+        let (last, recorder, withheld) = (&self.last, &mut self.recorder, self.withheld);
         match &mut self.kind {
             Kind::Plain(requester) => unchecked(requester, t_ns, last, local),
             Kind::Checked { monitor, tracks, points } => {
                 let chosen = Chosen::new(monitor.requester(), last, local);
                 let record = recorder.cycle(monitor.requester(), (t_ns, ego), sensed, chosen);
-                let inputs = inputs(t_ns, ego, sensed, local);
-                let inputs = tracks.iter().fold(inputs, Inputs::remote_tracks);
+                let inputs = inputs(t_ns, ego, (sensed, withheld), local);
+                let configuration = monitor.requester().configuration();
+                let is_list = chosen.tracks.is_none_or(|(_, items)| {
+                    withheld.is_none_or(|it| !it.is_no_list(configuration, items.len()))
+                });
+                let inputs = tracks.iter().filter(|_| is_list).fold(inputs, Inputs::remote_tracks);
                 let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
                 let (decision, actions) = monitor.cycle(&inputs);
                 let decided = match decision {
@@ -315,7 +328,12 @@ fn accept<T>(
     actions.to_vec()
 }
 
-fn inputs<'c>(t_ns: i64, ego: Ego, sensed: &'c Sensed, local: Local<'c>) -> Inputs<'c> {
+fn inputs<'c>(
+    t_ns: i64,
+    ego: Ego,
+    (sensed, withheld): (&'c Sensed, Option<Withheld>),
+    local: Local<'c>,
+) -> Inputs<'c> {
     let stamp = time(sensed.stamp_ns);
     let grid = sensed.grid.borrow(true);
     let map = GridMap {
@@ -329,8 +347,13 @@ fn inputs<'c>(t_ns: i64, ego: Ego, sensed: &'c Sensed, local: Local<'c>) -> Inpu
         occupied: grid.occupied,
         unknown: grid.unknown,
     };
-    let mut inputs =
-        Inputs::new(time(t_ns), ego).detections(stamp, &sensed.detections).grid(stamp, map);
+    let mut inputs = Inputs::new(time(t_ns), ego);
+    if withheld != Some(Withheld::Detections) {
+        inputs = inputs.detections(stamp, &sensed.detections);
+    }
+    if withheld != Some(Withheld::Grid) {
+        inputs = inputs.grid(stamp, map);
+    }
     if let Some(lead) = sensed.lead {
         inputs = inputs.lead(stamp, Gap::between_bumpers(lead.gap), lead.speed);
     }

@@ -10,6 +10,7 @@ pub mod own_plans;
 pub mod recorder;
 mod seen;
 pub mod sensing;
+pub mod withheld;
 
 use mufasa::input::cycle::{Detection, Track, TrackList, TrajectoryPoint};
 use mufasa::monitor::{Message as Received, Time};

@@ -14,6 +14,7 @@ use mufasa_props::bridge;
 use super::assembled::{self, Chosen, Fixed};
 use super::seen::Seen;
 use super::sensing::Sensed;
+use super::withheld::Withheld;
 
 /// Which cycles are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,9 +44,16 @@ pub struct Recorder {
 impl Recorder {
     /// Keeps this share of the cycles of a profile.
     pub fn new(share: Share, profile: Profile, parameters: Parameters) -> Self {
-        let fixed = Fixed { profile, parameters, route: (false, Vec::new()) };
+        let fixed = Fixed { profile, parameters, route: (false, Vec::new()), withheld: None };
         let fixed = Some(fixed).filter(|_| share.every > 0);
         Self { share, fixed, ..Self::default() }
+    }
+
+    /// The same without what the stages do not get.
+    pub(super) fn withhold(&mut self, withheld: Option<Withheld>) {
+        if let Some(fixed) = &mut self.fixed {
+            fixed.withheld = withheld;
+        }
     }
 
     pub(super) fn set_route(&mut self, route: &Route<'_>) {

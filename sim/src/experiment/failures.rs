@@ -2,13 +2,17 @@
 //!
 //! Every attack of the paper, and none as the control, on both routes, in the same scenarios for each variant.
 //! It begins 5 s after the start and lasts. A failure is a collision, or a target that is not reached in time.
+//!
+//! Of the readings of the attack with empty lists (`readings`) it is the one that the text allows and that gives the
+//! paper's figure: between the true lists, on the interface within the station alone.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::job::{self, Campaign, ExperimentError, Job, Options, kind_name};
 use super::watch::Watch;
-use crate::attack::Kind;
+use crate::attack::means::{Comes, Lists};
+use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
 use crate::map::Town;
 use crate::run::{End, Outcome};
@@ -90,11 +94,19 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<Option<Kind>>> {
             for (route, scenario) in job::starts(town, options) {
                 let place = (variant, route, scenario);
                 let job = Job::new(NAME, (kind_name(attack), attack), place, options);
-                jobs.push(job.attacked(attack));
+                let mut job = job.attacked(attack);
+                job.settings.attacks.iter_mut().for_each(as_in_the_paper);
+                jobs.push(job);
             }
         }
     }
     jobs
+}
+
+fn as_in_the_paper(attack: &mut Attack) {
+    if attack.kind == Kind::TracksEmpty {
+        (attack.means.lists, attack.means.comes) = (Lists::Planner, Comes::Interleaved);
+    }
 }
 
 /// Makes the runs. Errors: those of [`job::make`].

@@ -82,6 +82,8 @@ pub struct Watch {
     /// How often a group was no longer remote although the cycle before was safe: late data or silence, or
     /// the end of its area.
     pub lost: u64,
+    /// When something was remote last, s.
+    pub remote_at: Option<f64>,
 }
 
 impl Watch {
@@ -95,6 +97,7 @@ impl Watch {
         let failed = By::of(cycle.failed).filter(|_| cycle.remote != 0);
         let before = self.last.replace(*cycle);
         self.fallbacks += u64::from(failed.is_some());
+        self.remote_at = Some(cycle.t).filter(|_| cycle.remote != 0).or(self.remote_at);
         self.both += u64::from(cycle.remote == 3);
         let ended = before.filter(|it| it.failed == 0).map_or(0, |it| it.remote & !cycle.remote);
         self.lost += u64::from(ended.count_ones());

@@ -3,6 +3,7 @@
 
 mod attacks;
 mod digest;
+mod empty;
 mod guard;
 mod late;
 mod lies;

@@ -8,6 +8,7 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::cav::recorder::Share;
+use mufasa_sim::cav::withheld::Withheld;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{Cycle, Settings, Watcher, simulate};
@@ -23,6 +24,8 @@ struct Again {
     recorded: u64,
     failed: u64,
     histories: usize,
+    /// Cycles with a grid, with detections, and with a received list without tracks.
+    given: [u64; 3],
     checks: Checks,
 }
 
@@ -34,6 +37,10 @@ impl Watcher for Again {
         self.recorded += 1;
         self.failed += u64::from(cycle.failed > 0);
         self.histories = self.histories.max(record.detection_history.len());
+        let received = Some(&record.tracks).filter(|_| cycle.remote & 1 == 1);
+        let is_empty = received.is_some_and(|it| it.as_ref().is_some_and(|it| it.items.is_empty()));
+        let given = [record.grid.is_some(), record.detections.is_some(), is_empty];
+        self.given.iter_mut().zip(given).for_each(|(count, is_it)| *count += u64::from(is_it));
         let owned = bridge::to_impl(record);
         let history = owned.history();
         let mut rows = vec![Row::default(); Sizes::MAX.rows];
@@ -44,13 +51,22 @@ impl Watcher for Again {
 }
 
 fn drive(variant: Variant, kind: Option<Kind>, recorded: Share) -> Again {
+    driven(variant, kind, recorded, None)
+}
+
+fn driven(
+    variant: Variant,
+    kind: Option<Kind>,
+    recorded: Share,
+    withheld: Option<Withheld>,
+) -> Again {
     let town = town();
     let route = town.ego_routes().next().expect("a route");
     let scenario = Scenario { time_limit: 25.0, ..Scenario::draw(&town, route, 12, 3) };
     let mut settings = Settings::new(variant, Groups::ALL, 3);
     settings.requester.t_wait_ns = 1_000_000_000;
     settings.attacks = kind.map(|kind| Attack::new(kind, FROM, 1e9, 3)).into_iter().collect();
-    settings.recorded = recorded;
+    (settings.recorded, settings.withheld) = (recorded, withheld);
     let mut again = Again::default();
     simulate(&town, &scenario, &settings, &mut again).expect("settings");
     again
@@ -70,6 +86,29 @@ fn a_recorded_cycle_has_the_report_of_the_monitor_and_conforms_to_the_model() {
         }
     }
     assert!(failed > 5, "there were verdicts to compare: {failed}");
+}
+
+/// The monitor does not get it, and neither does the record.
+#[test]
+fn what_is_withheld_is_in_no_cycle() {
+    for variant in [Variant::Paper, Variant::Hardened] {
+        let of = |withheld| driven(variant, Some(Kind::TracksEmpty), Share::ALL, withheld);
+        let [grids, detections, empty] = of(None).given;
+        assert!(grids > 100 && detections > 100 && empty > 5, "{variant:?}");
+        for (withheld, none) in [
+            (Withheld::Grid, [true, false, false]),
+            (Withheld::Detections, [false, true, false]),
+            (Withheld::EmptyLists, [false, false, true]),
+        ] {
+            let again = of(Some(withheld));
+            assert_eq!(again.checks.disagreements, [], "{variant:?} {withheld:?}");
+            assert!(again.checks.checked > 100, "{variant:?} {withheld:?}");
+            for (given, is_none) in again.given.iter().take(2).zip(none) {
+                assert_eq!(*given == 0, is_none, "{variant:?} {withheld:?} {:?}", again.given);
+            }
+            assert!(!none[2] || again.given[2] == 0, "{variant:?} {:?}", again.given);
+        }
+    }
 }
 
 #[test]

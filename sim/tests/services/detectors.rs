@@ -113,6 +113,30 @@ fn errors_have_their_size_and_misses_their_rate() {
 }
 
 #[test]
+fn nobody_detects_those_that_all_are_blind_for_and_rays_meet_them() {
+    let errors = Errors { missed: 0.0, blind: 0.25, ..Errors::default() };
+    let seen = |who: u64, id: u32, cycle: u64, errors: Errors| {
+        let lidar =
+            Detector { mount: Mount::Vehicle(0.0), sweep: Sweep::new(60.0, TAU, 360), errors };
+        let observer = Observer { seed: [7, who], detectors: vec![lidar], merge_radius: 1.0 };
+        let objects = [car(id, at(20.0, 3.0), 0.0)];
+        let scene = Scene { objects: &objects, walls: &[] };
+        let observation = observer.observe(&scene, ORIGIN, None, cycle);
+        assert!(observation.scans[0].rays.iter().any(|ray| ray.met != Met::Nothing));
+        !observation.detections.is_empty()
+    };
+    let mut blind = 0;
+    for id in 0..400 {
+        let first = seen(1, id, 0, errors);
+        assert!([(1, 5), (3, 0), (3, 9)].iter().all(|it| seen(it.0, id, it.1, errors) == first));
+        assert!(seen(1, id, 0, Errors { blind: 0.0, ..errors }));
+        blind += i32::from(!first);
+    }
+    // 100 expected; the standard deviation is 9.
+    assert!((60..140).contains(&blind), "{blind}");
+}
+
+#[test]
 fn clutter_has_its_rate_and_stays_within_the_range() {
     let errors = Errors { clutter: 0.5, ..Errors::default() };
     let lidar = Detector { mount: Mount::Vehicle(0.0), sweep: Sweep::new(60.0, TAU, 90), errors };

@@ -11,28 +11,14 @@ use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::stages::{self, Stages};
 
 use super::bars::{self, Bar, Bars, Group};
+pub use super::chart::Figure;
+pub(super) use super::chart::figure;
+use super::chart::{float, ratio, series};
 use super::dots::{self, Dot, Dots, Panel};
+pub use super::left_out::{grid, readings};
 use super::lines::{self, COLLIDED, Row, Small};
 use super::page::{Mark, Series};
 use crate::evaluate::published;
-
-/// A chart and the name of its file.
-pub struct Figure {
-    pub file: String,
-    pub svg: String,
-}
-
-pub(super) fn figure(file: &str, svg: String) -> Figure {
-    Figure { file: format!("{file}.svg"), svg }
-}
-
-const fn series(variant: Variant) -> Series {
-    match variant {
-        Variant::Sofof => Series::SOFOF,
-        Variant::Paper => Series::PAPER,
-        Variant::Hardened => Series::HARDENED,
-    }
-}
 
 const VARIANTS: [Series; 4] = [Series::SOFOF, Series::PAPER, Series::HARDENED, Series::PUBLISHED];
 
@@ -354,14 +340,4 @@ fn processor(row: &cpu::Row, at: usize) -> Vec<Dot> {
         dots.extend(of);
     }
     dots
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn float(count: u64) -> f64 {
-    count as f64
-}
-
-#[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-fn ratio(part: usize, of: usize) -> f64 {
-    if of == 0 { 0.0 } else { part as f64 / of as f64 }
 }

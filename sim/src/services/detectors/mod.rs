@@ -50,14 +50,23 @@ pub struct Errors {
     pub distance: f64,
     /// Share of the visible objects that are missed, in [0, 1].
     pub missed: f64,
+    /// Share of the objects that are never detected, in [0, 1], the same ones for all observers of a run; rays meet them.
+    pub blind: f64,
     /// Mean number of detections of nothing in a cycle, evenly over the covered area.
     pub clutter: f64,
 }
 
 impl Errors {
     /// No errors at all.
-    pub const NONE: Self =
-        Self { position: 0.0, heading: 0.0, size: 0.0, distance: 0.0, missed: 0.0, clutter: 0.0 };
+    pub const NONE: Self = Self {
+        position: 0.0,
+        heading: 0.0,
+        size: 0.0,
+        distance: 0.0,
+        missed: 0.0,
+        blind: 0.0,
+        clutter: 0.0,
+    };
 }
 
 impl Default for Errors {
@@ -69,6 +78,7 @@ impl Default for Errors {
             size: 0.05,
             distance: 0.02,
             missed: 0.01,
+            blind: 0.0,
             clutter: 0.0,
         }
     }
@@ -111,7 +121,13 @@ impl Observer {
         for (index, detector) in (0..).zip(&self.detectors) {
             let key = |about| [self.seed[0], self.seed[1] << 16 | index, cycle, about];
             let mut scan = detector.scan(scene, pose, own);
-            detector.report(scene, &scan, own, &key, &mut |detection| merged.add(index, detection));
+            let sees = |id: u32| {
+                let mut draws = Draws::new([self.seed[0], BLIND, 0, id.into()]);
+                detector.errors.blind <= 0.0 || draws.share() >= detector.errors.blind
+            };
+            let of = |id: u32| Some(key(id.into())).filter(|_| Some(id) != own && sees(id));
+            detector.report(scene, &scan, &of, &mut |detection| merged.add(index, detection));
+            detector.invent(&scan, key(CLUTTER), &mut |detection| merged.add(index, detection));
             detector.blur(&mut scan, &mut Draws::new(key(DISTANCES)));
             scans.push(scan);
         }
@@ -123,6 +139,8 @@ impl Observer {
 /// What draws are about when they are about no object.
 const CLUTTER: u64 = 1 << 32;
 const DISTANCES: u64 = 1 << 33;
+/// Who draws whom nobody sees: no observer.
+const BLIND: u64 = u64::MAX;
 
 impl Detector {
     fn scan(&self, scene: &Scene<'_>, pose: Pose, own: Option<u32>) -> Scan {
@@ -134,13 +152,12 @@ impl Detector {
         }
     }
 
-    /// Detections of the objects that a ray met, and of nothing.
+    /// Detections of the objects that a ray met. `of`: with what is drawn about an object; none: it is not reported.
     fn report(
         &self,
         scene: &Scene<'_>,
         scan: &Scan,
-        own: Option<u32>,
-        key: &impl Fn(u64) -> [u64; 4],
+        of: &impl Fn(u32) -> Option<[u64; 4]>,
         add: &mut impl FnMut(Detection),
     ) {
         let mut visible = vec![false; scene.objects.len()];
@@ -150,15 +167,19 @@ impl Detector {
             }
         }
         for (object, _) in scene.objects.iter().zip(visible).filter(|(_, visible)| *visible) {
-            let mut draws = Draws::new(key(object.id.into()));
-            if draws.share() >= self.errors.missed && Some(object.id) != own {
+            let Some(mut draws) = of(object.id).map(Draws::new) else { continue };
+            if draws.share() >= self.errors.missed {
                 let rectangle = object.rectangle;
                 let Pose { at, .. } = rectangle.pose;
                 let angle = rectangle.pose.angle();
                 add(self.blurred(at, angle, [rectangle.length, rectangle.width], &mut draws));
             }
         }
-        let mut draws = Draws::new(key(CLUTTER));
+    }
+
+    /// Detections of nothing.
+    fn invent(&self, scan: &Scan, key: [u64; 4], add: &mut impl FnMut(Detection)) {
+        let mut draws = Draws::new(key);
         for _ in 0..draws.count(self.errors.clutter) {
             // Evenly over the area, not over the distance.
             let distance = self.sweep.range() * draws.share().sqrt();
