@@ -80,7 +80,8 @@ impl Monitor<'_> {
     /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
         self.ticked = Some(now);
-        self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
+        let given_back = self.give_back(now);
+        given_back.and(&self.step(now, EventKind::Tick).unwrap_or(Actions::NONE))
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and

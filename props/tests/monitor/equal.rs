@@ -5,11 +5,11 @@ use std::cell::RefCell;
 
 use mufasa::input::cycle::{Route, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Arrival, Decision, Message, Monitor, Settings};
+use mufasa::monitor::{Arrival, Brake, Decision, Message, Monitor, Settings, Stall};
 use mufasa::offloading::requester::{
     Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
 };
-use mufasa::report::Problem;
+use mufasa::report::{Problem, Witness};
 use mufasa::services::configuration::Configuration;
 use mufasa_props::call;
 use mufasa_props::differential::runner;
@@ -181,8 +181,12 @@ impl Pair<'_, '_, '_> {
         seen.cycles += 1;
         let (decision, actions) = self.monitor.cycle(&inputs);
         assert_eq!(actions.to_vec(), ended.actions);
+        let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = &decision;
+        assert_eq!(format!("{:?}", plain(*brake)), format!("{:?}", plain(ended.brake)));
+        seen.no_plan += u64::from(*brake == Some(Brake::NoPlan));
+        seen.own_fails += u64::from(matches!(brake, Some(Brake::Fails { .. })));
         match decision {
-            Decision::Safe { tracks: out, trajectory, report } => {
+            Decision::Safe { tracks: out, trajectory, report, .. } => {
                 assert!(same(&Ok(report), &ended.report), "{report:?} {:?}", ended.report);
                 assert_eq!([out.is_some(), trajectory.is_some()], ended.verified);
                 seen.safe += 1;
@@ -212,7 +216,7 @@ impl Pair<'_, '_, '_> {
                     assert_eq!(out.brake_by(), self.plain.brake_by(own.now_ns).map(at));
                 }
             }
-            Decision::Unsafe { report } => {
+            Decision::Unsafe { report, .. } => {
                 assert!(same(&report, &ended.report), "{report:?} {:?}", ended.report);
                 assert_eq!(self.monitor.configuration(), Configuration::Local);
                 seen.errors += u64::from(report.is_err());
@@ -305,8 +309,20 @@ impl Keeps<TrajectoryPoint> for Pair<'_, '_, '_> {
     }
 }
 
+/// Without the segment, which an index may find otherwise.
+fn plain(brake: Option<Brake>) -> Option<Brake> {
+    brake.map(|brake| match brake {
+        Brake::Fails { stage, witness } => {
+            let witness = witness.map(|it| Witness { segment: None, ..it });
+            Brake::Fails { stage, witness }
+        }
+        other => other,
+    })
+}
+
 /// `spec/5-interfaces.md#monitor.1`, `spec/5-interfaces.md#monitor.2`,
-/// `spec/5-interfaces.md#monitor.3`, `spec/5-interfaces.md#monitor.4`.
+/// `spec/5-interfaces.md#monitor.3`, `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.14`,
+/// `spec/5-interfaces.md#monitor.15`, `spec/5-interfaces.md#monitor.16`.
 fn as_the_plain_calls(profile: Profile) {
     let seen = RefCell::new(Seen::default());
     let result = runner().run(&(tape(), long_tape()), |(scene, steps)| {
@@ -318,6 +334,9 @@ fn as_the_plain_calls(profile: Profile) {
             settings.stages.tau += 0.25;
         }
         settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
+        settings.supervise_local = draw.one_in(2);
+        settings.stall =
+            draw.one_in(4).then_some(Stall { way_m: 1.0, time: std::time::Duration::from_secs(1) });
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };
         let route = Route { closed, cross_sections: &cross_sections };
@@ -378,6 +397,7 @@ fn as_the_plain_calls(profile: Profile) {
                 _ => pair.period(seen),
             }
         }
+        seen.given_back += pair.plain.given_back;
         seen.add(pair.plain.waits);
         Ok(())
     });

@@ -14,6 +14,7 @@ mod held;
 mod kit;
 mod limits;
 mod misuse;
+mod own_plan;
 mod plain;
 mod restart;
 mod scene;

@@ -33,6 +33,11 @@ pub struct Seen {
     pub recovered: u64,
     /// Starved until a clock was set back.
     pub set_back: u64,
+    /// Cycles in which control has to brake, with no plan of the CAV's own, and with one that fails.
+    pub no_plan: u64,
+    pub own_fails: u64,
+    /// Sessions of planning that got nowhere.
+    pub given_back: u64,
     /// Sessions by the wait after them.
     pub waits: Waits,
 }
@@ -97,6 +102,10 @@ impl Seen {
         let starved = [starved_ahead, starved_old, starved_and_dropped, starved_and_left];
         for count in starved.into_iter().chain([starved_and_late, recovered, set_back]) {
             assert!(2_000 * count >= cycles && count >= 5, "starved groups: {self:?}");
+        }
+        assert!(self.given_back >= 20, "{self:?}");
+        for count in [self.no_plan, self.own_fails] {
+            assert!(2_000 * count >= cycles && count >= 5, "own plans: {self:?}");
         }
         let Waits { whole, shortened, none } = self.waits;
         for count in [whole, shortened, none] {
