@@ -113,6 +113,30 @@ impl Monitor<'_> {
         self.arrival(now, Group::Plan, message, false)
     }
 
+    /// When planning was last given back because the CAV got nowhere (F-45): at a tick that names a release of PLAN.
+    /// `None`: never. Source: `spec/5-interfaces.md#monitor`.
+    pub const fn given_back(&self) -> Option<Time> {
+        self.progress.given_back
+    }
+
+    /// Gives planning back at a tick, where it gets nowhere: as if PLAN had left the area for a moment.
+    pub(super) fn give_back(&mut self, now: Time) -> Actions {
+        let stalled = self.settings.stall.filter(|stall| {
+            u128::try_from(self.progress.remote_ns).is_ok_and(|it| it >= stall.time.as_nanos())
+        });
+        if stalled.is_none() || self.requester.session_of(Group::Plan).is_none() {
+            return Actions::NONE;
+        }
+        let area = self.requester.suspend().parts().area;
+        let without = EventKind::Area { groups: Groups { plan: false, ..area } };
+        let left = self.step(now, without).unwrap_or(Actions::NONE);
+        let back = self.step(now, EventKind::Area { groups: area }).unwrap_or(Actions::NONE);
+        let t_wait_ns = self.settings.requester.t_wait_ns;
+        self.requester.hold(now.as_nanoseconds().saturating_add(t_wait_ns));
+        (self.progress.remote_ns, self.progress.given_back) = (0, Some(now));
+        left.and(&back)
+    }
+
     fn arrival<L>(
         &mut self,
         now: Time,

@@ -38,7 +38,7 @@ pub struct Settings {
     /// Whether the CAV's own plan is examined in `Local`, and the decision says [`Brake`](super::Brake) while it fails
     /// (F-48). It costs a second run of the stages in a cycle that is unsafe.
     pub supervise_local: bool,
-    /// When planning that gets nowhere is given back (F-45); `None`: never.
+    /// When planning that gets nowhere is given back (F-45); `None`, as by default: never.
     pub stall: Option<Stall>,
 }
 
@@ -54,7 +54,7 @@ impl Settings {
             period,
             sessions_before: 0,
             supervise_local: false,
-            stall: Some(Stall::default()),
+            stall: None,
         }
     }
 

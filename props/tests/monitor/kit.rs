@@ -74,12 +74,11 @@ pub fn look_around(monitor: &mut Monitor<'_>, until_ns: i64, world: impl Fn(i64)
     }
 }
 
-/// 10 Hz, 150 ms until a session is silent, and 250 ms until the CAV brakes; in long sequences it may stand still.
+/// 10 Hz, 150 ms until a session is silent, and 250 ms until the CAV brakes.
 pub fn settings() -> Settings {
     let mut settings = Settings::new(std::time::Duration::from_millis(100));
     settings.requester.dt_max_ns = 150 * MS;
     settings.stages.tau = 0.25;
-    settings.stall = None;
     settings
 }
 

@@ -209,7 +209,8 @@ fn what_is_no_way_or_no_time_is_refused() {
         assert!(matches!(with(way_m, ms), Err(MonitorError::Stall { .. })), "{way_m} {ms}");
     }
     let default = Stall { way_m: 1.0, time: Duration::from_secs(30) };
-    assert_eq!(Settings::new(Duration::from_millis(50)).stall, Some(default));
+    assert_eq!(Stall::default(), default);
+    assert_eq!(Settings::new(Duration::from_millis(50)).stall, None);
 }
 
 /// The release and the start of the local planner come out of the tick, MOT's own silence after them.

@@ -186,15 +186,14 @@ impl<'a> Plain<'a> {
 
     /// A cycle ended: what it says of the CAV's own plan, and where the CAV is.
     fn look_on(&mut self, own: &Own<'_>, as_remote: &Cycle<'_>, is_led: bool) {
-        let is_plan = self.requester.session_of(Group::Plan).is_some();
         let [x, y] = self.stood.0;
-        let way_m = self.settings.stall.map_or(0.0, |it| it.way_m);
-        if (own.ego.x - x).powi(2) + (own.ego.y - y).powi(2) > way_m.powi(2) {
+        let way = (own.ego.x - x).hypot(own.ego.y - y);
+        if self.settings.stall.is_some_and(|it| way > it.way_m) {
             // The time since the cycle before counts.
             let last = self.stood.1.pop();
             self.stood = ([own.ego.x, own.ego.y], last.into_iter().collect());
         }
-        self.stood.1.push((own.now_ns, is_plan));
+        self.stood.1.push((own.now_ns, self.requester.configuration().is_remote(Group::Plan)));
         let is_local = self.requester.configuration() == Configuration::Local;
         match (self.settings.supervise_local, is_local, as_remote.trajectory) {
             (false, ..) => {}

@@ -1,6 +1,7 @@
 //! What the sequences of events and cycles reached, so that none of it is compared with nothing.
 
 use mufasa::input::profile::Profile;
+use mufasa::monitor::Brake;
 use mufasa::offloading::requester::{Group, Sessions};
 use mufasa::services::configuration::Configuration;
 
@@ -76,6 +77,12 @@ impl Seen {
             self.recovered += u64::from(goes_on && !is_starved && used.is_some());
             self.set_back += u64::from(goes_on && !is_starved && used.is_none());
         }
+    }
+
+    /// What a cycle says of the CAV's own plan.
+    pub fn own(&mut self, brake: &Option<Brake>) {
+        self.no_plan += u64::from(*brake == Some(Brake::NoPlan));
+        self.own_fails += u64::from(matches!(brake, Some(Brake::Fails { .. })));
     }
 
     /// What one sequence ended in.
