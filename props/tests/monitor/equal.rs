@@ -5,7 +5,7 @@ use std::cell::RefCell;
 
 use mufasa::input::cycle::{Route, Track, TrajectoryPoint};
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Arrival, Decision, Message, Monitor, Settings, Stall};
+use mufasa::monitor::{Arrival, Decision, Message, Monitor, Settings};
 use mufasa::offloading::requester::{
     Actions, EventKind, Group, GroupState, Groups, Source, StationRecord,
 };
@@ -18,7 +18,7 @@ use mufasa_props::strategy::draw::{Draw, long_tape, tape};
 use super::held::{Held, choose};
 use super::kit::{Buffers, MS, at, place, settings};
 use super::plain::{Own, Plain, Received};
-use super::scene::{Base, Start, inputs, same, start, without_segment};
+use super::scene::{Base, Start, inputs, same, start, with_rules};
 use super::seen::{Seen, starved};
 
 /// Both sides, and what came to the monitor.
@@ -181,9 +181,7 @@ impl Pair<'_, '_, '_> {
         seen.cycles += 1;
         let (decision, actions) = self.monitor.cycle(&inputs);
         assert_eq!(actions.to_vec(), ended.actions);
-        let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = &decision;
-        assert_eq!(without_segment(*brake), without_segment(ended.brake));
-        seen.own(brake);
+        seen.own(&decision, ended.brake);
         match decision {
             Decision::Safe { tracks: out, trajectory, report, .. } => {
                 assert!(same(&Ok(report), &ended.report), "{report:?} {:?}", ended.report);
@@ -309,8 +307,7 @@ impl Keeps<TrajectoryPoint> for Pair<'_, '_, '_> {
 }
 
 /// `spec/5-interfaces.md#monitor.1`, `spec/5-interfaces.md#monitor.2`,
-/// `spec/5-interfaces.md#monitor.3`, `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.14`,
-/// `spec/5-interfaces.md#monitor.15`, `spec/5-interfaces.md#monitor.16`.
+/// `spec/5-interfaces.md#monitor.3`, `spec/5-interfaces.md#monitor.4`.
 fn as_the_plain_calls(profile: Profile) {
     let seen = RefCell::new(Seen::default());
     let result = runner().run(&(tape(), long_tape()), |(scene, steps)| {
@@ -322,9 +319,7 @@ fn as_the_plain_calls(profile: Profile) {
             settings.stages.tau += 0.25;
         }
         settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
-        settings.supervise_local = draw.one_in(2);
-        settings.stall =
-            draw.one_in(4).then_some(Stall { way_m: 1.0, time: std::time::Duration::from_secs(1) });
+        with_rules(&mut settings, draw);
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };
         let route = Route { closed, cross_sections: &cross_sections };
@@ -385,8 +380,7 @@ fn as_the_plain_calls(profile: Profile) {
                 _ => pair.period(seen),
             }
         }
-        seen.given_back += pair.plain.given_back;
-        seen.add(pair.plain.waits);
+        seen.add(&pair.plain);
         Ok(())
     });
     let seen = seen.into_inner();

@@ -133,11 +133,9 @@ impl<'a> Plain<'a> {
 
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
         let event = Event { t_ns, kind };
-        let mut before = Vec::new();
-        if kind == EventKind::Tick {
-            self.tick_ns = Some(t_ns);
-            before = self.give_back(t_ns);
-        }
+        let is_tick = kind == EventKind::Tick;
+        self.tick_ns = if is_tick { Some(t_ns) } else { self.tick_ns };
+        let before = if is_tick { self.give_back(t_ns) } else { Vec::new() };
         for group in self.returning(&event) {
             self.hold(t_ns, group);
         }
@@ -165,16 +163,16 @@ impl<'a> Plain<'a> {
 
     /// Leaves a station that plans while the CAV stands.
     fn give_back(&mut self, t_ns: i64) -> Vec<Action> {
-        let Some(stall) = self.settings.stall else { return Vec::new() };
         let pairs = self.stood.1.windows(2).filter(|it| it[0].1 && it[1].1);
         let stood_ns: i128 =
             pairs.map(|it| (i128::from(it[1].0) - i128::from(it[0].0)).max(0)).sum();
         let is_remote = self.requester.session_of(Group::Plan).is_some();
-        if stood_ns < i128::try_from(stall.time.as_nanos()).expect("a time") || !is_remote {
+        let least_ns =
+            self.settings.stall.map(|it| i128::try_from(it.time.as_nanos()).expect("a time"));
+        if least_ns.is_none_or(|it| stood_ns < it) || !is_remote {
             return Vec::new();
         }
         self.given_back += 1;
-        // The last cycle is the first that counts again.
         self.stood.1.drain(..self.stood.1.len() - 1);
         let groups = self.requester.suspend().parts().area;
         let without = Groups { plan: false, ..groups };
@@ -189,7 +187,6 @@ impl<'a> Plain<'a> {
         let [x, y] = self.stood.0;
         let way = (own.ego.x - x).hypot(own.ego.y - y);
         if self.settings.stall.is_some_and(|it| way > it.way_m) {
-            // The time since the cycle before counts.
             let last = self.stood.1.pop();
             self.stood = ([own.ego.x, own.ego.y], last.into_iter().collect());
         }

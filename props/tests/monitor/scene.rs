@@ -3,7 +3,7 @@
 use mufasa::input::cycle::{CrossSection, Detection, Ego, Grid, Lead, Track, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Brake, Gap, GridMap, Inputs};
+use mufasa::monitor::{Brake, Gap, GridMap, Inputs, Settings, Stall};
 use mufasa::report::{InvalidInput, Outcome, Report, Witness};
 use mufasa_props::bridge::{Owned, to_impl};
 use mufasa_props::strategy::draw::Draw;
@@ -138,4 +138,11 @@ pub fn without_segment(brake: Option<Brake>) -> String {
         other => other,
     });
     format!("{plain:?}")
+}
+
+/// Own plans examined or not, and planning given back after a second or never.
+pub fn with_rules(settings: &mut Settings, draw: &mut Draw<'_>) {
+    settings.supervise_local = draw.one_in(2);
+    let stall = Stall { time: std::time::Duration::from_secs(1), ..Stall::default() };
+    settings.stall = draw.one_in(4).then_some(stall);
 }

@@ -1,12 +1,13 @@
 //! What the sequences of events and cycles reached, so that none of it is compared with nothing.
 
 use mufasa::input::profile::Profile;
-use mufasa::monitor::Brake;
+use mufasa::monitor::{Brake, Decision};
 use mufasa::offloading::requester::{Group, Sessions};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::place;
 use super::plain::{Ended, Plain, Waits};
+use super::scene::without_segment;
 
 /// What the sequences reached.
 #[derive(Debug, Default)]
@@ -80,13 +81,17 @@ impl Seen {
     }
 
     /// What a cycle says of the CAV's own plan.
-    pub fn own(&mut self, brake: &Option<Brake>) {
+    pub fn own(&mut self, decision: &Decision<'_>, plainly: Option<Brake>) {
+        let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = decision;
+        assert_eq!(without_segment(*brake), without_segment(plainly));
         self.no_plan += u64::from(*brake == Some(Brake::NoPlan));
         self.own_fails += u64::from(matches!(brake, Some(Brake::Fails { .. })));
     }
 
     /// What one sequence ended in.
-    pub const fn add(&mut self, waits: Waits) {
+    pub const fn add(&mut self, plain: &Plain<'_>) {
+        let waits = plain.waits;
+        self.given_back += plain.given_back;
         self.waits.whole += waits.whole;
         self.waits.shortened += waits.shortened;
         self.waits.none += waits.none;
