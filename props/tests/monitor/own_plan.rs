@@ -47,7 +47,7 @@ fn blocked(now_ns: i64) -> World {
     world
 }
 
-fn own<'c>(world: &'c World, stamp_ns: i64) -> Inputs<'c> {
+fn own(world: &World, stamp_ns: i64) -> Inputs<'_> {
     inputs(world, &None, &None)
         .local_tracks(at(world.now_ns), &world.tracks)
         .local_trajectory(at(stamp_ns), &world.points)

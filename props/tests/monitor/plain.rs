@@ -198,14 +198,15 @@ impl<'a> Plain<'a> {
             (true, true, None) => self.brake = Some(Brake::NoPlan),
             (true, true, Some(_)) => {
                 self.brake = match check_plainly(as_remote) {
-                    Err(problem) => Some(Brake::Invalid(problem)),
-                    Ok(Report { input: Some(problem), .. }) => Some(Brake::Invalid(problem)),
+                    Err(problem) | Ok(Report { input: Some(problem), .. }) => {
+                        Some(Brake::Invalid(problem))
+                    }
                     Ok(Report { failed_stage, stages, .. }) => failed_stage.map(|stage| {
-                        let witnesses = stages.into_iter().filter_map(|it| match it {
+                        let mut witnesses = stages.into_iter().filter_map(|it| match it {
                             Outcome::Failed(witness) => Some(witness),
                             _ => None,
                         });
-                        Brake::Fails { stage, witness: witnesses.last() }
+                        Brake::Fails { stage, witness: witnesses.next_back() }
                     }),
                 }
             }
