@@ -93,7 +93,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let brakes = brake_by.is_some_and(|by| by <= now);
                 driven.push(if brakes { None } else { first(&kept) });
             }
-            Decision::Unsafe { report } => {
+            Decision::Unsafe { report, .. } => {
                 let why = report.map(|report| report.failed_stage);
                 println!("{:4.1} s: unsafe: {why:?}, back to the local services", seconds(cycle));
                 driven.push(first(&own_plan));

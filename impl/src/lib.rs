@@ -103,7 +103,7 @@
 //!             // stopped (`Deactivate` came), the last verified trajectory, of which the CAV keeps a
 //!             // copy, and by its `brake_by` it brakes. Where that lasts, the session ends as for silence.
 //!         }
-//!         Decision::Unsafe { report } => {
+//!         Decision::Unsafe { report, .. } => {
 //!             // The local services go on, and nothing of the station is used.
 //!             panic!("{report:?}, to be done: {actions:?}");
 //!         }

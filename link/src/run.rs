@@ -138,6 +138,6 @@ pub fn settings(played: &Played, requester: &Parameters) -> Settings {
         stages,
         requester: bridge::parameters_to_impl(requester),
         period,
-        sessions_before: 0,
+        ..Settings::new(period)
     }
 }

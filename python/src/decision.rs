@@ -41,7 +41,7 @@ impl Decision {
             verdict(py, String::new(), report).map(Bound::unbind)
         };
         Ok(match decision {
-            NativeDecision::Safe { tracks, trajectory, report: of_safe } => {
+            NativeDecision::Safe { tracks, trajectory, report: of_safe, .. } => {
                 let tracks = tracks.as_ref().map(|it| Py::new(py, VerifiedTracks::new(call(), it)));
                 let trajectory =
                     trajectory.as_ref().map(|it| Py::new(py, VerifiedTrajectory::new(call(), it)));
@@ -50,7 +50,7 @@ impl Decision {
                 let (report, error) = (Some(report(of_safe)?), None);
                 Self { call: call(), data, report, error, actions }
             }
-            NativeDecision::Unsafe { report: why } => {
+            NativeDecision::Unsafe { report: why, .. } => {
                 let (report, error) = match why {
                     Ok(of_unsafe) => (Some(report(of_unsafe)?), None),
                     Err(problem) => {

@@ -379,6 +379,7 @@ fn no_monitor(error: MonitorError) -> PyErr {
         MonitorError::TauNotAbovePeriod { .. } => "tau",
         MonitorError::SessionsBefore { .. } => "sessions_before",
         MonitorError::Memory { .. } => "most_stations",
+        MonitorError::Stall { .. } => "stall",
     };
     let message = error.to_string();
     let message = message.trim_start_matches("settings.").trim_start_matches("requester.");

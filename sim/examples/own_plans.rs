@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (scenarios, first, vehicles) = (argument(0, 10), argument(1, 0), argument(2, 15));
     let town = streets::town();
     println!("own plans     | runs | arrived | collided | late | mean end, s | plans that fail");
-    for examines_own in [false, true] {
+    for is_supervised in [false, true] {
         let runs: Vec<(usize, u64)> = town
             .ego_routes()
             .flat_map(|route| (first..first + scenarios).map(move |seed| (route, seed)))
@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let outcomes = runs
             .par_iter()
             .map(|(route, seed)| {
-                drive(&town, *route, usize::try_from(vehicles)?, *seed, examines_own)
+                drive(&town, *route, usize::try_from(vehicles)?, *seed, is_supervised)
             })
             .collect::<Result<Vec<_>, Box<dyn Error + Send + Sync>>>();
         let outcomes = outcomes.map_err(|error| error.to_string())?;
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mean = outcomes.iter().map(|(_, t, _)| t).sum::<f64>() / outcomes.len() as f64;
         let [examined, failed] =
             outcomes.iter().fold([0, 0], |[all, bad], (_, _, it)| [all + it[0], bad + it[1]]);
-        let name = if examines_own { "examined" } else { "not examined" };
+        let name = if is_supervised { "examined" } else { "not examined" };
         println!(
             "{name:13} | {:4} | {:7} | {:8} | {:4} | {mean:11.2} | {failed} of {examined}",
             outcomes.len(),
@@ -64,11 +64,11 @@ fn drive(
     route: usize,
     vehicles: usize,
     seed: u64,
-    examines_own: bool,
+    is_supervised: bool,
 ) -> Result<(End, f64, [u64; 2]), Box<dyn Error + Send + Sync>> {
     let scenario = Scenario::draw(town, route, vehicles, seed);
     let mut settings = Settings::new(Variant::Hardened, Groups::NONE, seed);
-    settings.examines_own = examines_own.then_some(0.0);
+    settings.supervise_local = is_supervised.then_some(0.0);
     let mut examined = Examined::default();
     let outcome =
         simulate(town, &scenario, &settings, &mut examined).map_err(|error| error.to_string())?;

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use mufasa::input::parameters::Parameters as StageParameters;
-use mufasa::monitor::MonitorError;
+use mufasa::monitor::{self, MonitorError};
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::Outcome as StageOutcome;
 use mufasa::services::configuration::{Configuration, Group, Groups};
@@ -15,7 +15,6 @@ use serde::{Deserialize, Serialize};
 use crate::attack::{Attack, Attacker};
 use crate::cav::asking::Asking;
 use crate::cav::guard::{Decided, Guard, Variant};
-use crate::cav::own_plans::OwnPlans;
 use crate::cav::recorder::{Recorder, Share};
 use crate::cav::withheld::Withheld;
 use crate::cav::{Areas, Cav, DECIDES_NS};
@@ -47,8 +46,9 @@ pub struct Settings {
     pub has_no_lead: bool,
     /// What the stages do not get.
     pub withheld: Option<Withheld>,
-    /// From when on the CAV examines its own plans in `Local`, and brakes where one fails, s (F-48). Not in `Sofof`.
-    pub examines_own: Option<f64>,
+    /// From when on the CAV brakes where its monitor, which is told to look (`supervise_local`), says so of its own
+    /// plans, s (F-48). Not in `Sofof`.
+    pub supervise_local: Option<f64>,
     /// Whether the station, and the CAV's own planner in `MotRemote`, ask the stages before they send. Not in `Sofof`.
     pub prechecks: bool,
     /// What the station offers.
@@ -82,7 +82,7 @@ impl Settings {
             drives_on: false,
             has_no_lead: false,
             withheld: None,
-            examines_own: None,
+            supervise_local: None,
             prechecks: true,
             offers,
             areas: [(0.0, f64::INFINITY); 2],
@@ -93,6 +93,17 @@ impl Settings {
             errors: Errors::default(),
             seed,
             recorded: Share::default(),
+        }
+    }
+
+    /// What the CAV's monitor is made with.
+    fn monitor(&self) -> monitor::Settings {
+        let period = Duration::from_nanos(nominal_ns(self.stages.tau));
+        monitor::Settings {
+            stages: self.stages,
+            requester: self.requester,
+            supervise_local: self.supervise_local.is_some(),
+            ..monitor::Settings::new(period)
         }
     }
 
@@ -235,9 +246,7 @@ pub fn simulate(
     let at = route.path.pose_at(0.0).at;
     let frame = Frame::new(484_000_000, 99_500_000, [at.x, at.y]).map_err(RunError::Frame)?;
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
-    let Settings { stages, requester, variant, .. } = *settings;
-    let period_ns = nominal_ns(stages.tau);
-    let mut guard = Guard::new(variant, stages, requester, period_ns, &mut table, lent.memory())
+    let mut guard = Guard::new(settings.variant, settings.monitor(), &mut table, lent.memory())
         .map_err(RunError::Monitor)?
         .recording(settings.recorder())
         .withholding(settings.withheld);
@@ -252,7 +261,7 @@ pub fn simulate(
         .driving_on(settings.drives_on)
         .without_lead(settings.has_no_lead)
         .asking(settings.asking(&corridor))
-        .examining(settings.examines_own.map(|from| OwnPlans::new(stages, &corridor, from)));
+        .supervised(settings.supervise_local);
     let mut station = Station::new((town, route), frame, settings.offers, noise)
         .asking(settings.asking(&corridor));
     let mut radio = Radio::new(settings.radio, settings.seed);

@@ -1,4 +1,4 @@
-//! The CAV's own plans, examined (F-48): `Settings::examines_own`.
+//! The CAV's own plans, examined (F-48): `Settings::supervise_local`.
 
 use std::path::Path;
 
@@ -42,7 +42,7 @@ fn what_came_of_the_own_planner_does_not_collide_when_its_plans_are_examined() {
         let outcome = job.run(&town, &mut examined).expect(name);
         assert_eq!(outcome.end, End::Collided, "{name}");
         assert_eq!(examined.0, [0, 0], "{name}");
-        job.settings.examines_own = Some(found_s);
+        job.settings.supervise_local = Some(found_s);
         let outcome = job.run(&town, &mut examined).expect(name);
         assert_eq!(outcome.end, End::Arrived, "{name}");
         assert!(examined.0[1] > 0, "{name}: no plan failed");
@@ -58,7 +58,7 @@ fn clean_drives_arrive_though_own_plans_are_examined() {
         for seed in 0..10 {
             let scenario = Scenario::draw(&town, route, 15, seed);
             let settings = Settings {
-                examines_own: Some(0.0),
+                supervise_local: Some(0.0),
                 ..Settings::new(Variant::Hardened, Groups::NONE, seed)
             };
             let mut examined = Examined::default();

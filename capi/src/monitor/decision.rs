@@ -120,7 +120,7 @@ impl Verdicts {
 
     fn tell(&mut self, (decision, actions): &(Decision<'_>, Actions)) -> MufasaDecision {
         match decision {
-            Decision::Safe { tracks, trajectory, report } => MufasaDecision {
+            Decision::Safe { tracks, trajectory, report, .. } => MufasaDecision {
                 report: report::report_of(report),
                 tracks: tracks.map_or(null(), |list| self.keep_tracks(&list)),
                 trajectory: trajectory.map_or(null(), |it| self.keep_trajectory(&it)),
@@ -128,7 +128,7 @@ impl Verdicts {
                 actions: actions_of(actions),
                 local_services: EVERY_GROUP,
             },
-            Decision::Unsafe { report } => MufasaDecision {
+            Decision::Unsafe { report, .. } => MufasaDecision {
                 report: match report {
                     Ok(report) => report::report_of(report),
                     Err(problem) => report::error(Some(*problem)),

@@ -102,6 +102,7 @@ fn checked(settings: &MufasaMonitorSettings) -> (MufasaStatus, MufasaInvalidInpu
             "sessions_before",
             "not from 0 to 2^63 - 2; give the last session of earlier lives, or 0",
         ),
+        MonitorError::Stall { .. } => report::wrong("stall", ""),
         MonitorError::Memory { field, .. } => report::wrong(field, AT_LEAST_1),
     };
     (refused(error), told)

@@ -62,12 +62,14 @@ impl MufasaMonitorSettings {
     /// Those of `mufasa`.
     pub(super) fn of_monitor(&self) -> Result<Settings, MufasaStatus> {
         let period_ns = u64::try_from(self.period_ns).map_err(|_| MufasaStatus::InvalidPeriod)?;
+        let period = Duration::from_nanos(period_ns);
         Ok(Settings {
             profile: convert::profile(self.profile)?,
             stages: self.stages.into(),
             requester: self.requester.into(),
-            period: Duration::from_nanos(period_ns),
+            period,
             sessions_before: self.sessions_before,
+            ..Settings::new(period)
         })
     }
 }
@@ -75,7 +77,7 @@ impl MufasaMonitorSettings {
 /// Why there is no monitor.
 pub(super) fn refused(error: MonitorError) -> MufasaStatus {
     match error {
-        MonitorError::Stages(_) => MufasaStatus::InvalidParameter,
+        MonitorError::Stages(_) | MonitorError::Stall { .. } => MufasaStatus::InvalidParameter,
         MonitorError::Requester(_) | MonitorError::SessionsBefore { .. } => {
             MufasaStatus::NegativeParameter
         }

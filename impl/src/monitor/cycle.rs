@@ -4,13 +4,14 @@ use super::Monitor;
 use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
+use super::stall::Stall;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
 use crate::report::{InvalidInput, Outcome, Problem, Report};
-use crate::services::configuration::Group;
+use crate::services::configuration::{Configuration, Group};
 use crate::stages::check_with;
 use crate::stages::given::is_current;
 
@@ -129,7 +130,7 @@ impl Monitor<'_> {
             None => inputs.local_trajectory,
         };
         let has_route = self.route.is_set();
-        let mut report = self.check(inputs, tracks, trajectory);
+        let mut report = self.check(self.configuration(), inputs, tracks, trajectory);
         if let Err(problem) = &mut report {
             *problem = named(*problem, has_route);
         }
@@ -164,21 +165,29 @@ impl Monitor<'_> {
         };
         let kind = EventKind::Verdict { safe: is_safe, sessions };
         let actions = self.step(inputs.now, kind).unwrap_or(Actions::NONE);
+        let brake = self.supervise(inputs, trajectory.is_some());
+        if let Some(Stall { way_m, .. }) = self.settings.stall {
+            let is_remote = self.configuration().is_remote(Group::Plan);
+            self.progress.cycle(now_ns, &inputs.ego, is_remote, way_m);
+        }
         match report {
             Ok(report) if is_safe => {
                 let [mot, plan] = remote.map(source);
                 let tracks = tracks.map(|list| Verified::of_safe_cycle(list, mot, None));
                 let brake_by = self.settings.brake_by(now_ns);
                 let trajectory = trajectory.map(|it| Verified::of_safe_cycle(it, plan, brake_by));
-                (Decision::Safe { tracks, trajectory, report }, actions)
+                (Decision::Safe { tracks, trajectory, report, brake }, actions)
             }
-            report => (Decision::Unsafe { report }, actions),
+            report => (Decision::Unsafe { report, brake }, actions),
         }
     }
 
-    /// Checks the cycle, and keeps its detections when they are valid and current.
-    fn check<'m>(
+    /// Checks the inputs as in this configuration, and keeps the detections when they are valid and current; the same
+    /// ones are kept once. Never inlined: a cycle needs the stack of one run of the stages at a time.
+    #[inline(never)]
+    pub(super) fn check<'m>(
         &mut self,
+        configuration: Configuration,
         inputs: &Inputs<'m>,
         tracks: Option<TrackList<'m>>,
         trajectory: Option<Trajectory<'m>>,
@@ -188,7 +197,7 @@ impl Monitor<'_> {
             profile: self.settings.profile,
             parameters: self.settings.stages,
             now_ns,
-            configuration: self.requester.configuration(),
+            configuration,
             ego: inputs.ego,
             trajectory,
             tracks,
@@ -224,7 +233,7 @@ impl Monitor<'_> {
 }
 
 /// The problem; of a route that was never set that, and not that it has too few cross sections.
-fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
+pub(super) fn named(problem: InvalidInput, has_route: bool) -> InvalidInput {
     if !has_route && (problem.field, problem.problem) == ("route.stations", Problem::TooFew) {
         return InvalidInput { field: "route", index: None, problem: Problem::NoRoute };
     }

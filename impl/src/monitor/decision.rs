@@ -6,7 +6,7 @@ use core::ops::Deref;
 use super::time::Time;
 use crate::input::cycle::{TrackList, Trajectory};
 use crate::offloading::requester::Source;
-use crate::report::{InvalidInput, Report};
+use crate::report::{FailedStage, InvalidInput, Report, Witness};
 
 /// The end of a cycle. Only the safe one holds data, and as long as it is looked at the monitor takes
 /// neither event nor cycle. What has to be done comes beside it ([`Monitor::cycle`](super::Monitor::cycle)).
@@ -32,13 +32,35 @@ pub enum Decision<'m> {
         trajectory: Option<Verified<'m, Trajectory<'m>>>,
         /// Which stages ran, and why the others did not.
         report: Report,
+        /// Whether control has to brake instead of following a plan of the CAV's own.
+        brake: Option<Brake>,
     },
     /// A stage failed, remote data are invalid, or local input is. The requester has fallen back: no
     /// group is remote any more, and no data of this cycle may reach control.
     Unsafe {
         /// What failed; an error is invalid local input.
         report: Result<Report, InvalidInput>,
+        /// Whether control has to brake instead of following a plan of the CAV's own.
+        brake: Option<Brake>,
     },
+}
+
+/// Why control has to brake fully, with `a_b`, from this cycle on until one says nothing of the kind: with
+/// [`supervise_local`](super::Settings::supervise_local) the monitor asks in `Local` of the CAV's own plan what it asks
+/// of a station's (F-48). Source: `spec/5-interfaces.md#monitor`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Brake {
+    /// The CAV has no current plan of its own.
+    NoPlan,
+    /// Its plan fails. There is no witness where nothing compared it with obstacles (H-05).
+    Fails {
+        /// Where.
+        stage: FailedStage,
+        /// What was compared.
+        witness: Option<Witness>,
+    },
+    /// The plan, or other local input, is invalid.
+    Invalid(InvalidInput),
 }
 
 /// Data that were current, of the running session of their group, and in a safe cycle; they can be read

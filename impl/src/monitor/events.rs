@@ -80,7 +80,8 @@ impl Monitor<'_> {
     /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
         self.ticked = Some(now);
-        self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
+        let given_back = self.give_back(now);
+        given_back.and(&self.step(now, EventKind::Tick).unwrap_or(Actions::NONE))
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
@@ -110,6 +111,30 @@ impl Monitor<'_> {
         message: Message<L>,
     ) -> Result<(Arrival<L>, Actions), RequesterError> {
         self.arrival(now, Group::Plan, message, false)
+    }
+
+    /// When planning was last given back because the CAV got nowhere (F-45): at a tick that names a release of PLAN.
+    /// `None`: never. Source: `spec/5-interfaces.md#monitor`.
+    pub const fn given_back(&self) -> Option<Time> {
+        self.progress.given_back
+    }
+
+    /// Gives planning back at a tick, where it gets nowhere: as if PLAN had left the area for a moment.
+    pub(super) fn give_back(&mut self, now: Time) -> Actions {
+        let stalled = self.settings.stall.filter(|stall| {
+            u128::try_from(self.progress.remote_ns).is_ok_and(|it| it >= stall.time.as_nanos())
+        });
+        if stalled.is_none() || self.requester.session_of(Group::Plan).is_none() {
+            return Actions::NONE;
+        }
+        let area = self.requester.suspend().parts().area;
+        let without = EventKind::Area { groups: Groups { plan: false, ..area } };
+        let left = self.step(now, without).unwrap_or(Actions::NONE);
+        let back = self.step(now, EventKind::Area { groups: area }).unwrap_or(Actions::NONE);
+        let t_wait_ns = self.settings.requester.t_wait_ns;
+        self.requester.hold(now.as_nanoseconds().saturating_add(t_wait_ns));
+        (self.progress.remote_ns, self.progress.given_back) = (0, Some(now));
+        left.and(&back)
     }
 
     fn arrival<L>(

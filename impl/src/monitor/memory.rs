@@ -14,7 +14,7 @@ pub(super) const PLACES: usize = 12;
 ///
 /// No heap is needed: of each element there is a constant, so that the memory may stand in a static or on the
 /// stack. Its size is what is written down (here 80 kB: 64 tracks, 64 detections, 256 cross sections), and
-/// the monitor is small beside it. A call of the monitor itself fits into a stack of 32 KiB (tested by
+/// the monitor is small beside it. A call of the monitor itself fits into a stack of 40 KiB (tested by
 /// `props/tests/monitor/stack.rs`).
 ///
 /// ```

@@ -19,22 +19,26 @@ mod events;
 mod history;
 mod inputs;
 mod memory;
+mod own_plan;
 mod route;
 mod served;
 mod settings;
+mod stall;
 mod time;
 
-pub use self::decision::{Decision, Verified};
+pub use self::decision::{Brake, Decision, Verified};
 pub use self::element::{Accepted, Arrival, DropReason, Message};
 pub use self::inputs::{Gap, GridMap, Inputs};
 pub use self::memory::Memory;
 pub use self::settings::{MonitorError, Settings};
+pub use self::stall::Stall;
 pub use self::time::{Time, TimeError};
 
 use self::history::History;
 use self::memory::PLACES;
 use self::route::KeptRoute;
 use self::served::Served;
+use self::stall::Progress;
 use crate::input::cycle::Route;
 use crate::input::profile::Profile;
 use crate::input::scratch::{Column, Row};
@@ -52,6 +56,9 @@ pub struct Monitor<'a> {
     served: PerGroup<Served>,
     /// The last tick since the last cycle.
     ticked: Option<Time>,
+    /// What the last cycle said of the CAV's own plan.
+    brake: Option<Brake>,
+    progress: Progress,
     history: History<'a>,
     route: KeptRoute<'a>,
     rows: &'a mut [Row],
@@ -95,6 +102,8 @@ impl<'a> Monitor<'a> {
             requester: requester(&settings, stations)?,
             served: PerGroup::default(),
             ticked: None,
+            brake: None,
+            progress: Progress::default(),
             history: History::new(detections, slots, capacity).ok_or(too_few)?,
             route: KeptRoute::new(cross_sections, blocks),
             rows,

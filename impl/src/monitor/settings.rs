@@ -3,6 +3,7 @@
 use core::fmt;
 use core::time::Duration;
 
+use super::stall::Stall;
 use super::time::Time;
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
@@ -34,6 +35,11 @@ pub struct Settings {
     /// numbered on from there, so that no message of an earlier life fits. A number stored at the last
     /// request will do, or a counter of starts times 2^32; 0 for a first life.
     pub sessions_before: i64,
+    /// Whether the CAV's own plan is examined in `Local`, and the decision says [`Brake`](super::Brake) while it fails
+    /// (F-48). It costs a second run of the stages in a cycle that is unsafe.
+    pub supervise_local: bool,
+    /// When planning that gets nowhere is given back (F-45); `None`, as by default: never.
+    pub stall: Option<Stall>,
 }
 
 impl Settings {
@@ -47,6 +53,8 @@ impl Settings {
             requester: requester::Parameters::default(),
             period,
             sessions_before: 0,
+            supervise_local: false,
+            stall: None,
         }
     }
 
@@ -77,6 +85,12 @@ impl Settings {
         }
         if !(0..i64::MAX).contains(&self.sessions_before) {
             return Err(MonitorError::SessionsBefore { sessions_before: self.sessions_before });
+        }
+        if let Some(Stall { way_m, time }) = self.stall {
+            let is_way = (0.0..f64::INFINITY).contains(&way_m);
+            if !is_way || time.as_nanos() < u128::from(LEAST_WAIT_NS.unsigned_abs()) {
+                return Err(MonitorError::Stall { way_m, time });
+            }
         }
         Ok(())
     }
@@ -162,6 +176,13 @@ pub enum MonitorError {
         /// What was given.
         sessions_before: i64,
     },
+    /// `stall` has a way that is negative or no number, or a time below 1 s.
+    Stall {
+        /// m.
+        way_m: f64,
+        /// What was given.
+        time: Duration,
+    },
     /// A slice of the memory that is lent has too few elements.
     Memory {
         /// The slice.
@@ -208,6 +229,12 @@ impl fmt::Display for MonitorError {
                 f,
                 "settings.sessions_before = {sessions_before} is not from 0 to 2^63 - 2; give the last \
                  session of earlier lives, or 0"
+            ),
+            Self::Stall { way_m, time } => write!(
+                f,
+                "settings.stall: {way_m} m in {} s is no way from 0 m on in at least 1 s; give the longest \
+                 stop that a station's planning may make, or None",
+                time.as_secs_f64()
             ),
             Self::Memory { field, needed, given } => {
                 write!(f, "memory.{field} has {given} elements; lend at least {needed}")?;

@@ -59,7 +59,7 @@ impl<T: Transport> Vehicle<'_, T> {
         let took = begun.elapsed();
         let report = match &decision {
             Decision::Safe { report, .. } => Ok(*report),
-            Decision::Unsafe { report } => *report,
+            Decision::Unsafe { report, .. } => *report,
         };
         let is_safe = matches!(decision, Decision::Safe { .. });
         self.tally.decided(now_ns, self.next, configuration, is_safe, &report, took);

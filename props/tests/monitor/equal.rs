@@ -18,7 +18,7 @@ use mufasa_props::strategy::draw::{Draw, long_tape, tape};
 use super::held::{Held, choose};
 use super::kit::{Buffers, MS, at, place, settings};
 use super::plain::{Own, Plain, Received};
-use super::scene::{Base, Start, inputs, same, start};
+use super::scene::{Base, Start, inputs, same, start, with_rules};
 use super::seen::{Seen, starved};
 
 /// Both sides, and what came to the monitor.
@@ -181,8 +181,9 @@ impl Pair<'_, '_, '_> {
         seen.cycles += 1;
         let (decision, actions) = self.monitor.cycle(&inputs);
         assert_eq!(actions.to_vec(), ended.actions);
+        seen.own(&decision, ended.brake);
         match decision {
-            Decision::Safe { tracks: out, trajectory, report } => {
+            Decision::Safe { tracks: out, trajectory, report, .. } => {
                 assert!(same(&Ok(report), &ended.report), "{report:?} {:?}", ended.report);
                 assert_eq!([out.is_some(), trajectory.is_some()], ended.verified);
                 seen.safe += 1;
@@ -212,7 +213,7 @@ impl Pair<'_, '_, '_> {
                     assert_eq!(out.brake_by(), self.plain.brake_by(own.now_ns).map(at));
                 }
             }
-            Decision::Unsafe { report } => {
+            Decision::Unsafe { report, .. } => {
                 assert!(same(&report, &ended.report), "{report:?} {:?}", ended.report);
                 assert_eq!(self.monitor.configuration(), Configuration::Local);
                 seen.errors += u64::from(report.is_err());
@@ -318,6 +319,7 @@ fn as_the_plain_calls(profile: Profile) {
             settings.stages.tau += 0.25;
         }
         settings.requester.t_wait_ns = draw.pick(&[0, 1_000 * MS, 10_000 * MS]);
+        with_rules(&mut settings, draw);
         // A draw that no monitor is made for, such as a parameter outside of its domain.
         let Ok(mut monitor) = buffers.monitor(settings) else { return Ok(()) };
         let route = Route { closed, cross_sections: &cross_sections };
@@ -378,7 +380,7 @@ fn as_the_plain_calls(profile: Profile) {
                 _ => pair.period(seen),
             }
         }
-        seen.add(pair.plain.waits);
+        seen.add(&pair.plain);
         Ok(())
     });
     let seen = seen.into_inner();

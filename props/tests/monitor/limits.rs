@@ -177,7 +177,7 @@ fn a_list_of_detections_that_does_not_fit_is_an_error() {
         let inputs = Inputs::new(at(0), world.ego).detections(at(0), &detections);
         match monitor.cycle(&inputs).0 {
             Decision::Safe { .. } => assert!(fits),
-            Decision::Unsafe { report } => {
+            Decision::Unsafe { report, .. } => {
                 let (field, problem) = ("detections.items", Problem::ScratchTooSmall);
                 assert!(!fits);
                 assert_eq!(report, Err(InvalidInput { field, index: None, problem }));
@@ -196,7 +196,7 @@ fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let world = World::at(0);
     let inputs = Inputs::new(at(0), world.ego);
     match monitor.cycle(&inputs).0 {
-        Decision::Unsafe { report } => {
+        Decision::Unsafe { report, .. } => {
             let error = report.expect_err("no route");
             assert_eq!((error.field, error.problem), ("route", Problem::NoRoute));
             assert!(error.to_string().contains("no route was set"), "{error}");

@@ -2,6 +2,8 @@
 //! and each mistake that those leave to the caller is an error or does not compile (what does not compile
 //! stands in the documentation of `impl/src/monitor`).
 
+#![allow(clippy::large_types_passed_by_value, reason = "settings, once for each monitor")]
+
 mod again;
 mod blind;
 mod brake_by;
@@ -14,6 +16,7 @@ mod held;
 mod kit;
 mod limits;
 mod misuse;
+mod own_plan;
 mod plain;
 mod restart;
 mod scene;

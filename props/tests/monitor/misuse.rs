@@ -57,7 +57,7 @@ fn period(
     station.take(&actions);
     match decision {
         Decision::Safe { .. } => None,
-        Decision::Unsafe { report } => {
+        Decision::Unsafe { report, .. } => {
             let report = report.expect("valid input");
             let rule = report.stages.iter().find_map(|outcome| match outcome {
                 Outcome::Failed(witness) => Some(witness.rule),
@@ -288,7 +288,7 @@ fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let inputs = Inputs::new(now, world.ego).remote_trajectory(&nothing);
     assert!(monitor.tick(now).is_empty());
     match monitor.cycle(&inputs).0 {
-        Decision::Unsafe { report: Ok(report) } => {
+        Decision::Unsafe { report: Ok(report), .. } => {
             assert_eq!(report.failed_stage, Some(FailedStage::Input), "empty");
         }
         decision => panic!("{decision:?}"),

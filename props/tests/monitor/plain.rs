@@ -7,12 +7,12 @@ use mufasa::input::cycle::{
 };
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::monitor::Settings;
+use mufasa::monitor::{Brake, Settings};
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Requester, Sessions, StationRecord, Suspended,
 };
-use mufasa::report::{InvalidInput, Problem, Report};
-use mufasa::services::configuration::Group;
+use mufasa::report::{InvalidInput, Outcome, Problem, Report};
+use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa::stages::check;
 
 use super::kit::{MS, place};
@@ -49,6 +49,8 @@ pub struct Ended {
     pub sessions: Sessions,
     /// Of the history.
     pub lists: usize,
+    /// Of the CAV's own plan.
+    pub brake: Option<Brake>,
 }
 
 /// The plain calls and what they need.
@@ -62,6 +64,10 @@ pub struct Plain<'a> {
     kept: Vec<(i64, Vec<Detection>)>,
     /// The last tick since the last cycle.
     tick_ns: Option<i64>,
+    brake: Option<Brake>,
+    /// The cycles since the CAV was last elsewhere: when, and whether PLAN was remote.
+    stood: ([f64; 2], Vec<(i64, bool)>),
+    pub given_back: u64,
     pub waits: Waits,
 }
 
@@ -95,7 +101,9 @@ impl<'a> Plain<'a> {
         parts.sessions = settings.sessions_before;
         let requester = Requester::resume(Suspended::from_parts(&parts), table);
         let (last, service, kept) = ([None; 2], [None; 2], Vec::new());
-        Self { settings, requester, last, service, kept, tick_ns: None, waits: Waits::default() }
+        let (tick_ns, brake, stood, given_back) = (None, None, ([0.0; 2], Vec::new()), 0);
+        let waits = Waits::default();
+        Self { settings, requester, last, service, kept, tick_ns, brake, stood, given_back, waits }
     }
 
     /// By when control has to brake along what a cycle at this time verified, ns.
@@ -125,9 +133,9 @@ impl<'a> Plain<'a> {
 
     pub fn step(&mut self, t_ns: i64, kind: EventKind) -> Vec<Action> {
         let event = Event { t_ns, kind };
-        if kind == EventKind::Tick {
-            self.tick_ns = Some(t_ns);
-        }
+        let is_tick = kind == EventKind::Tick;
+        self.tick_ns = if is_tick { Some(t_ns) } else { self.tick_ns };
+        let before = if is_tick { self.give_back(t_ns) } else { Vec::new() };
         for group in self.returning(&event) {
             self.hold(t_ns, group);
         }
@@ -135,6 +143,7 @@ impl<'a> Plain<'a> {
             self.requester.hold(t_ns.saturating_add(1));
         }
         let actions = self.requester.step(&event).expect("a station").to_vec();
+        let actions = [before, actions].concat();
         if let EventKind::Data { group, session, generated_ns, .. } = kind
             && !actions.contains(&Action::Drop(group))
         {
@@ -150,6 +159,58 @@ impl<'a> Plain<'a> {
             }
         }
         actions
+    }
+
+    /// Leaves a station that plans while the CAV stands.
+    fn give_back(&mut self, t_ns: i64) -> Vec<Action> {
+        let pairs = self.stood.1.windows(2).filter(|it| it[0].1 && it[1].1);
+        let stood_ns: i128 =
+            pairs.map(|it| (i128::from(it[1].0) - i128::from(it[0].0)).max(0)).sum();
+        let is_remote = self.requester.session_of(Group::Plan).is_some();
+        let least_ns =
+            self.settings.stall.map(|it| i128::try_from(it.time.as_nanos()).expect("a time"));
+        if least_ns.is_none_or(|it| stood_ns < it) || !is_remote {
+            return Vec::new();
+        }
+        self.given_back += 1;
+        self.stood.1.drain(..self.stood.1.len() - 1);
+        let groups = self.requester.suspend().parts().area;
+        let without = Groups { plan: false, ..groups };
+        let mut actions = self.step(t_ns, EventKind::Area { groups: without });
+        actions.extend(self.step(t_ns, EventKind::Area { groups }));
+        self.requester.hold(t_ns.saturating_add(self.settings.requester.t_wait_ns));
+        actions
+    }
+
+    /// A cycle ended: what it says of the CAV's own plan, and where the CAV is.
+    fn look_on(&mut self, own: &Own<'_>, as_remote: &Cycle<'_>, is_led: bool) {
+        let [x, y] = self.stood.0;
+        let way = (own.ego.x - x).hypot(own.ego.y - y);
+        if self.settings.stall.is_some_and(|it| way > it.way_m) {
+            let last = self.stood.1.pop();
+            self.stood = ([own.ego.x, own.ego.y], last.into_iter().collect());
+        }
+        self.stood.1.push((own.now_ns, self.requester.configuration().is_remote(Group::Plan)));
+        let is_local = self.requester.configuration() == Configuration::Local;
+        match (self.settings.supervise_local, is_local, as_remote.trajectory) {
+            (false, ..) => {}
+            (true, false, _) => self.brake = self.brake.filter(|_| !is_led),
+            (true, true, None) => self.brake = Some(Brake::NoPlan),
+            (true, true, Some(_)) => {
+                self.brake = match check_plainly(as_remote) {
+                    Err(problem) | Ok(Report { input: Some(problem), .. }) => {
+                        Some(Brake::Invalid(problem))
+                    }
+                    Ok(Report { failed_stage, stages, .. }) => failed_stage.map(|stage| {
+                        let mut witnesses = stages.into_iter().filter_map(|it| match it {
+                            Outcome::Failed(witness) => Some(witness),
+                            _ => None,
+                        });
+                        Brake::Fails { stage, witness: witnesses.next_back() }
+                    }),
+                }
+            }
+        }
     }
 
     /// Whether H-14 would have a list to judge motion by.
@@ -273,7 +334,18 @@ impl<'a> Plain<'a> {
             self.keep(stamp_ns, items);
         }
         let actions = self.step(own.now_ns, EventKind::Verdict { safe, sessions });
-        Ended { report, actions, verified, sessions, lists }
+        let plan = own.trajectory.filter(|it| current(it.0));
+        let later = self.history(own);
+        let later: Vec<_> = later.iter().map(|(stamp_ns, items)| list(*stamp_ns, items)).collect();
+        let as_remote = Cycle {
+            configuration: Configuration::PlanRemote,
+            tracks: own.tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
+            trajectory: plan.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
+            detection_history: &later,
+            ..cycle
+        };
+        self.look_on(own, &as_remote, verified[1]);
+        Ended { report, actions, verified, sessions, lists, brake: self.brake }
     }
 
     fn is_last(&self, group: Group, session: i64, generated_ns: i64) -> bool {

@@ -89,7 +89,7 @@ impl Left {
             Decision::Safe { tracks, trajectory, .. } => {
                 usize::from(tracks.is_some()) + usize::from(trajectory.is_some())
             }
-            Decision::Unsafe { report } => panic!("{report:?}"),
+            Decision::Unsafe { report, .. } => panic!("{report:?}"),
         }
     }
 }

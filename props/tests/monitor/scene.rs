@@ -3,7 +3,7 @@
 use mufasa::input::cycle::{CrossSection, Detection, Ego, Grid, Lead, Track, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::monitor::{Gap, GridMap, Inputs};
+use mufasa::monitor::{Brake, Gap, GridMap, Inputs, Settings, Stall};
 use mufasa::report::{InvalidInput, Outcome, Report, Witness};
 use mufasa_props::bridge::{Owned, to_impl};
 use mufasa_props::strategy::draw::Draw;
@@ -126,4 +126,23 @@ pub fn same(one: &Result<Report, InvalidInput>, other: &Result<Report, InvalidIn
         format!("{report:?}")
     };
     text(one) == text(other)
+}
+
+/// Without the segment, which an index may find otherwise.
+pub fn without_segment(brake: Option<Brake>) -> String {
+    let plain = brake.map(|brake| match brake {
+        Brake::Fails { stage, witness } => {
+            let witness = witness.map(|it| Witness { segment: None, ..it });
+            Brake::Fails { stage, witness }
+        }
+        other => other,
+    });
+    format!("{plain:?}")
+}
+
+/// Own plans examined or not, and planning given back after a second or never.
+pub fn with_rules(settings: &mut Settings, draw: &mut Draw<'_>) {
+    settings.supervise_local = draw.one_in(2);
+    let stall = Stall { time: std::time::Duration::from_secs(1), ..Stall::default() };
+    settings.stall = draw.one_in(4).then_some(stall);
 }

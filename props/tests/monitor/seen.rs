@@ -1,11 +1,13 @@
 //! What the sequences of events and cycles reached, so that none of it is compared with nothing.
 
 use mufasa::input::profile::Profile;
+use mufasa::monitor::{Brake, Decision};
 use mufasa::offloading::requester::{Group, Sessions};
 use mufasa::services::configuration::Configuration;
 
 use super::kit::place;
 use super::plain::{Ended, Plain, Waits};
+use super::scene::without_segment;
 
 /// What the sequences reached.
 #[derive(Debug, Default)]
@@ -33,6 +35,11 @@ pub struct Seen {
     pub recovered: u64,
     /// Starved until a clock was set back.
     pub set_back: u64,
+    /// Cycles in which control has to brake, with no plan of the CAV's own, and with one that fails.
+    pub no_plan: u64,
+    pub own_fails: u64,
+    /// Sessions of planning that got nowhere.
+    pub given_back: u64,
     /// Sessions by the wait after them.
     pub waits: Waits,
 }
@@ -73,8 +80,18 @@ impl Seen {
         }
     }
 
+    /// What a cycle says of the CAV's own plan.
+    pub fn own(&mut self, decision: &Decision<'_>, plainly: Option<Brake>) {
+        let (Decision::Safe { brake, .. } | Decision::Unsafe { brake, .. }) = decision;
+        assert_eq!(without_segment(*brake), without_segment(plainly));
+        self.no_plan += u64::from(*brake == Some(Brake::NoPlan));
+        self.own_fails += u64::from(matches!(brake, Some(Brake::Fails { .. })));
+    }
+
     /// What one sequence ended in.
-    pub const fn add(&mut self, waits: Waits) {
+    pub const fn add(&mut self, plain: &Plain<'_>) {
+        let waits = plain.waits;
+        self.given_back += plain.given_back;
         self.waits.whole += waits.whole;
         self.waits.shortened += waits.shortened;
         self.waits.none += waits.none;
@@ -97,6 +114,10 @@ impl Seen {
         let starved = [starved_ahead, starved_old, starved_and_dropped, starved_and_left];
         for count in starved.into_iter().chain([starved_and_late, recovered, set_back]) {
             assert!(2_000 * count >= cycles && count >= 5, "starved groups: {self:?}");
+        }
+        assert!(self.given_back >= 20, "{self:?}");
+        for count in [self.no_plan, self.own_fails] {
+            assert!(2_000 * count >= cycles && count >= 5, "own plans: {self:?}");
         }
         let Waits { whole, shortened, none } = self.waits;
         for count in [whole, shortened, none] {

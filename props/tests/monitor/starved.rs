@@ -256,7 +256,7 @@ fn who_ticks_only_when_something_came_is_told() {
         let (decision, _) = monitor.cycle(&inputs(&world, &None, &None));
         match decision {
             Decision::Safe { .. } => None,
-            Decision::Unsafe { report } => report.err().map(|it| (it.field, it.problem)),
+            Decision::Unsafe { report, .. } => report.err().map(|it| (it.field, it.problem)),
         }
     };
     assert_ne!(monitor.configuration(), Configuration::Local);

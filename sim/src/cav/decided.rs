@@ -1,6 +1,7 @@
 //! What goes into the decision of a cycle beside measurements, and what comes out.
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa::monitor::Brake;
 use mufasa::offloading::requester::Action;
 use mufasa::report::{FailedStage, InvalidInput, Report};
 use mufasa_model::input::cycle::Cycle;
@@ -17,6 +18,8 @@ pub struct Decided {
     pub trajectory: Option<Vec<TrajectoryPoint>>,
     /// By when control has to brake along it where nothing newer has come, ns (F-47).
     pub brake_by_ns: Option<i64>,
+    /// Whether control has to brake in place of following the CAV's own plan (F-48).
+    pub brake: Option<Brake>,
     /// Remote tracks that the CAV's own planner may use, with their stamp, ns.
     pub tracks: Option<(i64, Vec<Track>)>,
     /// What is to be done.

@@ -1,16 +1,13 @@
 //! What stands between the link and control: SOFOF's quality of service alone, or the monitor.
 
-use core::time::Duration;
-
 use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
-use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{
     Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings,
     Time,
 };
 use mufasa::offloading::requester::{
-    Action, Actions, Event, EventKind, GroupState, Parameters, Requester, RequesterError, Sessions,
+    Action, Actions, Event, EventKind, GroupState, Requester, RequesterError, Sessions,
     StationRecord,
 };
 use mufasa::report::InvalidInput;
@@ -84,25 +81,21 @@ enum Kind<'a> {
 }
 
 impl<'a> Guard<'a> {
-    /// Nothing offered, everything local.
+    /// Nothing offered, everything local. The variant says which profile.
     ///
     /// Errors: settings that no monitor can keep.
     pub fn new(
         variant: Variant,
-        stages: StageParameters,
-        requester: Parameters,
-        period_ns: u64,
+        settings: Settings,
         table: &'a mut [StationRecord],
         memory: mufasa::monitor::Memory<'a>,
     ) -> Result<Self, MonitorError> {
         let Some(profile) = variant.profile() else {
-            let requester = Requester::new(Profile::Paper, requester, table)
+            let requester = Requester::new(Profile::Paper, settings.requester, table)
                 .map_err(MonitorError::Requester)?;
             return Ok(Self::of(Kind::Plain(requester)));
         };
-        let period = Duration::from_nanos(period_ns);
-        let settings = Settings { profile, stages, requester, ..Settings::new(period) };
-        let monitor = Monitor::new(settings, memory)?;
+        let monitor = Monitor::new(Settings { profile, ..settings }, memory)?;
         Ok(Self::of(Kind::Checked { monitor, tracks: None, points: None }))
     }
 
@@ -233,22 +226,24 @@ impl<'a> Guard<'a> {
                 let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
                 let (decision, actions) = monitor.cycle(&inputs);
                 let decided = match decision {
-                    Decision::Safe { tracks, trajectory, report } => Decided {
+                    Decision::Safe { tracks, trajectory, report, brake } => Decided {
                         is_safe: true,
                         report: Some(Ok(report)),
                         brake_by_ns: trajectory
                             .and_then(|it| it.brake_by())
                             .map(Time::as_nanoseconds),
+                        brake,
                         trajectory: trajectory.map(|it| it.points.to_vec()),
                         tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
                         actions: actions.to_vec(),
                         record,
                     },
-                    Decision::Unsafe { report } => Decided {
+                    Decision::Unsafe { report, brake } => Decided {
                         is_safe: false,
                         report: Some(report),
                         trajectory: None,
                         brake_by_ns: None,
+                        brake,
                         tracks: None,
                         actions: actions.to_vec(),
                         record,
@@ -292,6 +287,7 @@ fn unchecked(
         report: None,
         trajectory,
         brake_by_ns: None,
+        brake: None,
         tracks,
         actions,
         record: None,

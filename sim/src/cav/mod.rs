@@ -6,7 +6,6 @@ pub mod cost;
 pub mod decided;
 pub mod guard;
 pub mod local;
-pub mod own_plans;
 pub mod recorder;
 mod seen;
 pub mod sensing;
@@ -22,7 +21,6 @@ use self::asking::{Asking, Known};
 use self::cost::{Cost, Part};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
-use self::own_plans::OwnPlans;
 use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
 use crate::map::Town;
@@ -31,6 +29,7 @@ use crate::planner::{Road, slower};
 use crate::radio::{Radio, To};
 use crate::services::control::{self, Controller};
 use crate::services::detectors::Errors;
+use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 use crate::vehicle::{Body, Command};
 
@@ -78,8 +77,10 @@ pub struct Cav<'a> {
     drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle.
     has_no_lead: bool,
-    /// What its own plans are examined with, if they are (F-48).
-    own_plans: Option<OwnPlans>,
+    /// From when on it brakes where the monitor says so of its own plans, s (F-48).
+    brakes_from: f64,
+    /// How many of its own plans were examined since, and how many of them failed.
+    examined: [u64; 2],
     /// What its planner asks before it hands a plan over in `MotRemote`, if it asks.
     asking: Option<Asking>,
     cost: Cost,
@@ -115,7 +116,8 @@ impl<'a> Cav<'a> {
             brake_by_ns: None,
             drives_on: false,
             has_no_lead: false,
-            own_plans: None,
+            brakes_from: f64::INFINITY,
+            examined: [0; 2],
             asking: None,
             cost: Cost::default(),
             counts: Counts::default(),
@@ -134,9 +136,9 @@ impl<'a> Cav<'a> {
         self
     }
 
-    /// The same; with what its own plans are examined, if they are (F-48).
-    pub fn examining(mut self, own_plans: Option<OwnPlans>) -> Self {
-        self.own_plans = own_plans;
+    /// The same; from when on it brakes where the monitor says so of its own plans, s, if it does (F-48).
+    pub fn supervised(mut self, from: Option<f64>) -> Self {
+        self.brakes_from = from.unwrap_or(f64::INFINITY);
         self
     }
 
@@ -148,7 +150,7 @@ impl<'a> Cav<'a> {
 
     /// How many of its own plans were examined, and how many of them failed.
     pub fn examined(&self) -> [u64; 2] {
-        self.own_plans.as_ref().map_or([0, 0], |it| it.counts)
+        self.examined
     }
 
     /// What guards the link.
@@ -311,16 +313,15 @@ impl<'a> Cav<'a> {
         // No cycle covers its own plan, which takes the place of whatever it had.
         let brake_by_ns = decided.brake_by_ns.filter(|_| !is_own);
         let new = if is_own { points } else { decided.trajectory.take() };
-        let fails = self.own_plans.as_mut().is_some_and(|own_plans| {
-            let examined = new.as_deref().filter(|_| is_own);
-            let fails =
-                examined.is_some_and(|it| !own_plans.passes((now_ns, ego), &sensed, own, it));
-            own_plans.see(&sensed);
-            fails
-        });
-        if let Some(points) = new {
+        let is_supervised = seconds(now_ns) >= self.brakes_from;
+        let brakes = is_supervised && decided.brake.is_some();
+        let examined = [is_supervised && is_own && new.is_some(), brakes];
+        self.examined.iter_mut().zip(examined).for_each(|(count, it)| *count += u64::from(it));
+        if brakes {
             // Without points control brakes along those that it had.
-            self.points = if fails { Vec::new() } else { points };
+            self.points = Vec::new();
+        } else if let Some(points) = new {
+            self.points = points;
             self.brake_by_ns = brake_by_ns;
         }
         if let Some(asking) = &mut self.asking {

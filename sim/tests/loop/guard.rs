@@ -1,7 +1,7 @@
 //! What stands between link and control, by hand: nothing of an ended session is used.
 
 use mufasa::input::cycle::{Route, TrajectoryPoint};
-use mufasa::monitor::{Message, Time};
+use mufasa::monitor::{Message, Settings, Time};
 use mufasa::offloading::requester::{Action, EventKind, Parameters, StationRecord};
 use mufasa::services::configuration::{Group, Groups};
 use mufasa_props::lent::Lent;
@@ -52,15 +52,9 @@ fn nothing_of_an_ended_session_is_used() {
         let cross_sections = world.route().cross_sections(0.0, f64::INFINITY);
         let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, 128, 2048));
         let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
-        let mut guard = Guard::new(
-            variant,
-            mufasa::input::parameters::Parameters { tau: TAU_S, ..Default::default() },
-            requester,
-            PERIOD.unsigned_abs(),
-            &mut table,
-            lent.memory(),
-        )
-        .expect("settings");
+        let mut settings = Settings::new(std::time::Duration::from_nanos(PERIOD.unsigned_abs()));
+        (settings.requester, settings.stages.tau) = (requester, TAU_S);
+        let mut guard = Guard::new(variant, settings, &mut table, lent.memory()).expect("settings");
         let corridor =
             Route { closed: world.route().path.is_closed(), cross_sections: &cross_sections };
         guard.set_route(&corridor).expect("a route");

@@ -244,6 +244,12 @@ impl Actions {
         actions
     }
 
+    /// These, and those of a later event: at most as many as there is place for.
+    pub(crate) fn and(mut self, later: &Self) -> Self {
+        later.iter().for_each(|action| self.append(Some(*action)));
+        self
+    }
+
     pub(crate) fn extend(&mut self, by_kind: &ByKind) {
         for &[mot, plan] in by_kind {
             self.append(mot);

@@ -83,10 +83,7 @@ pub fn comes_across(scene: &Scene, motion: &Motion, behind: bool) -> bool {
 /// b = 0 for an object that is behind.
 fn inner(scene: &Scene, behind: bool) -> Rectangle {
     let (front, two) = (Real::from_double(0.3), Real::from_integer(2));
-    let b = match behind {
-        true => Real::zero(),
-        false => Driving::of(scene).s_b().min(front.clone()),
-    };
+    let b = if behind { Real::zero() } else { Driving::of(scene).s_b().min(front.clone()) };
     let Rectangle { frame, half_length, half_width } = cav(scene, &p(scene));
     let back = -((&front - &b) / &two);
     Rectangle {

@@ -1,0 +1,52 @@
+//! The CAV's own plan in `Local`, examined as a station's (`spec/5-interfaces.md#monitor`, F-48).
+
+use super::Monitor;
+use super::cycle::named;
+use super::decision::Brake;
+use super::inputs::Inputs;
+use crate::report::Outcome;
+use crate::services::configuration::Configuration;
+use crate::stages::given::is_current;
+
+impl Monitor<'_> {
+    /// What the decision says of the CAV's own plan, once the requester has its verdict. `is_led`: a trajectory
+    /// comes out of the cycle.
+    pub(super) fn supervise(&mut self, inputs: &Inputs<'_>, is_led: bool) -> Option<Brake> {
+        if !self.settings.supervise_local {
+            return None;
+        }
+        if self.configuration() == Configuration::Local {
+            self.brake = self.own_failure(inputs);
+        } else if is_led {
+            self.brake = None;
+        }
+        self.brake
+    }
+
+    #[inline(never)]
+    fn own_failure(&mut self, inputs: &Inputs<'_>) -> Option<Brake> {
+        let (now_ns, max_age_ns) = (inputs.now.as_nanoseconds(), self.settings.stages.max_age_ns);
+        let plan = inputs.local_trajectory;
+        let Some(plan) = plan.filter(|it| is_current(it.stamp_ns, now_ns, max_age_ns)) else {
+            return Some(Brake::NoPlan);
+        };
+        let as_remote = Configuration::PlanRemote;
+        let report = match self.check(as_remote, inputs, inputs.local_tracks, Some(plan)) {
+            Ok(report) => report,
+            Err(problem) => return Some(Brake::Invalid(named(problem, self.route.is_set()))),
+        };
+        match (report.failed_stage?, report.input) {
+            (_, Some(problem)) => Some(Brake::Invalid(problem)),
+            (stage, None) => {
+                let witness = report.stages.into_iter().find_map(|outcome| match outcome {
+                    Outcome::Failed(witness) => Some(witness),
+                    Outcome::Passed
+                    | Outcome::Skipped(_)
+                    | Outcome::NotApplicable(_)
+                    | Outcome::NotScheduled => None,
+                });
+                Some(Brake::Fails { stage, witness })
+            }
+        }
+    }
+}
