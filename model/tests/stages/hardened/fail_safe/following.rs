@@ -44,7 +44,8 @@ fn keeps_beside(cycle: &Cycle) -> [bool; 3] {
 fn across(cycle: &Cycle) -> [bool; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
-        comes_across(&scene, &all_motions(&scene)[0])
+        let motion = &all_motions(&scene)[0];
+        comes_across(&scene, motion, is_behind(&scene, motion))
     })
 }
 
@@ -94,16 +95,25 @@ fn behind_is_behind_the_rear() {
     assert!(with(-3.01, &shifted) && !with(-2.99, &shifted));
 }
 
-/// What is 0.3 m inside of the CAV's sides is met by who goes on; not by who stands, nor by who came.
+/// What is b inside of the CAV's sides and rear and 0.3 m inside of its front is met by who goes on; not by who
+/// stands, nor by who came.
 #[test]
-fn who_comes_across_meets_the_smaller_rectangle() {
-    let at = |y: f64, vx: f64| across(&cycle(Track { vx, ..track(1, -10.0, y) }));
-    moves("0.3 m inside", |e| {
-        let met = at(1.7 + e, 8.0);
-        [met[0], met[1], met[2]]
-    });
-    moves("0.3 m inside, to the right", |e| at(-1.7 - e, 8.0));
-    assert_eq!([at(0.0, 8.0), at(0.0, 0.0), at(0.0, -8.0)], [[true; 3], [false; 3], [false; 3]]);
+fn who_comes_across_meets_the_inner_rectangle() {
+    let at = |x: f64, y: f64, vx: f64| across(&cycle(Track { vx, ..track(1, x, y) }));
+    moves("b = 0 for who is behind", |e| at(-10.0, 2.0 + e, 8.0));
+    moves("0.3 m inside", |e| at(10.0, 1.7 + e, -8.0));
+    moves("0.3 m inside, to the right", |e| at(10.0, -1.7 - e, -8.0));
+    let stands = [at(-10.0, 0.0, 8.0), at(-10.0, 0.0, 0.0), at(-10.0, 0.0, -8.0)];
+    assert_eq!(stands, [[true; 3], [false; 3], [false; 3]]);
+    // b = v^2/16 is 1/16 m; from the side, past the rear and past the front.
+    let slow = |x: f64, y: f64, [vx, vy]: [f64; 2]| {
+        let mut cycle = cycle(Track { vx, vy, ..track(1, x, y) });
+        cycle.ego.speed = 1.0;
+        across(&cycle)
+    };
+    moves("b inside", |e| slow(10.0, 1.9375 + e, [-8.0, 0.0]));
+    moves("the rear", |e| slow(-3.9375 - e, -9.0, [0.0, 8.0]));
+    moves("the front", |e| slow(3.7 + e, -9.0, [0.0, 8.0]));
     let overlapping = |vx: f64| across(&cycle(Track { vx, ..track(1, -3.0, 0.0) }));
     assert_eq!([overlapping(-8.0), overlapping(0.0)], [[true; 3], [false; 3]]);
 }
@@ -149,11 +159,11 @@ fn who_keeps_beside_is_beside_the_path() {
     assert_eq!([ahead(0.0), ahead(10.0)], [[true; 3], [false; 3]]);
 }
 
-/// It drifts until it would have stopped for a standing CAV, T + t_yield + abs(w) / (2 a_yield); not where it
+/// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
 #[test]
 fn who_keeps_beside_does_not_drift_into_the_path() {
-    let t_h = |w: f64| 1.75 + 1.5 + w / 6.0;
+    let t_h = |w: f64| 0.5 + 2.0 + w / 6.0;
     let drift = 0.25 * t_h(8f64.hypot(0.25));
     for vy in [0.25, -0.25] {
         moves("drift ahead", |e| keeps_beside(&beside(20.0, 2.0 + drift - e, 8.0, vy)));
@@ -257,7 +267,8 @@ fn who_follows_keeps_its_own_distance() {
     let fast = |y: f64| Track { vx: 30.0, ..track(1, -12.0, y) };
     let meets = |track: Track| found(&cycle(track)).is_some();
     assert!(!meets(fast(0.0)), "in the way already");
-    assert!(meets(fast(1.9)), "it meets the side of the CAV");
+    assert!(!meets(fast(1.9)), "it touches the side of the CAV");
+    assert!(meets(Track { vy: -4.0, ..fast(4.2) }), "it meets the CAV farther on");
     // Beside the path it is not examined, though on a straight line it would meet the CAV.
     let wide = |y: f64| {
         let mut cycle = cycle(Track { vy: -2.0, ..fast(y) });

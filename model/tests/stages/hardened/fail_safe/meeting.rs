@@ -50,14 +50,19 @@ const NEAR: &[Near] = &[
         c.tracks.as_mut().expect("set").stamp_ns -= 100_000_000;
     }),
     ("who comes where the CAV may stand", MotRemote, HARDENED, |c, e| {
-        // At 4 m: T + t_yield + abs(w) / (2 a_yield).
-        let end = 1.75 + 1.5 + 10.0 / 6.0;
+        // At 4 m: tau + t_yield + abs(w) / (2 a_yield).
+        let end = 0.5 + 2.0 + 10.0 / 6.0;
         alone(c, crossing(2.0, from_below(10.0 * end) + e, [0.5, 0.0625]));
     }),
     ("who comes where the CAV may stand, however late", MotRemote, HARDENED, |c, e| {
         c.parameters.t_yield = 30.0;
-        let end = 1.75 + 30.0 + 10.0 / 6.0;
+        let end = 0.5 + 30.0 + 10.0 / 6.0;
         alone(c, crossing(2.0, from_below(10.0 * end) + e, [0.5, 0.0625]));
+    }),
+    ("who comes where the CAV may stand, until T", MotRemote, HARDENED, |c, e| {
+        // It could stop after 0.5 + 10/20 s.
+        (c.parameters.t_yield, c.parameters.a_yield) = (0.0, 10.0);
+        alone(c, crossing(2.0, from_below(10.0 * 1.75) + e, [0.5, 0.0625]));
     }),
     ("who comes across comes until T", MotRemote, HARDENED, |c, e| {
         // It overlaps what is 0.3 m inside of the CAV's side.
