@@ -285,9 +285,10 @@ fn who_follows_keeps_its_own_distance() {
         assert!(passes(&cycle, Stage::Ii));
         found(&cycle).is_some()
     };
-    assert!(!with(3.0, 0.0) && with(3.0, 0.1), "the CAV ends 1.075 m to the left");
-    // Who cuts in from beside comes against the side of the CAV.
-    assert!(meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.0) }));
+    assert!(!with(3.06, 0.0) && with(3.06, 0.1), "the CAV ends 1.075 m to the left");
+    // Who cuts in before the CAV does not touch it as that is now.
+    assert!(meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.3) }));
+    assert!(!meets(Track { vx: 16.0, vy: -4.0, ..track(1, -5.0, 4.0) }));
     // Beside the CAV it is not behind.
     assert!(meets(Track { vx: 8.0, vy: -1.0, ..track(1, -3.9, 2.5) }));
 }
