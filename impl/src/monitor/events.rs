@@ -80,8 +80,11 @@ impl Monitor<'_> {
     /// profile, before half a second was seen: [why](super). Source: `spec/2-offloading.md#requester`.
     pub fn tick(&mut self, now: Time) -> Actions {
         self.ticked = Some(now);
-        let given_back = self.give_back(now);
-        given_back.and(&self.step(now, EventKind::Tick).unwrap_or(Actions::NONE))
+        if self.is_stalled() {
+            let given_back = self.give_back(now);
+            return given_back.and(&self.step(now, EventKind::Tick).unwrap_or(Actions::NONE));
+        }
+        self.step(now, EventKind::Tick).unwrap_or(Actions::NONE)
     }
 
     /// Tracks arrive. Used is what is of the running session of MOT, in time, newer than the last, and
@@ -119,14 +122,17 @@ impl Monitor<'_> {
         self.progress.given_back
     }
 
-    /// Gives planning back at a tick, where it gets nowhere: as if PLAN had left the area for a moment.
-    pub(super) fn give_back(&mut self, now: Time) -> Actions {
-        let stalled = self.settings.stall.filter(|stall| {
+    /// Whether planning is remote and gets nowhere.
+    fn is_stalled(&self) -> bool {
+        self.settings.stall.is_some_and(|stall| {
             u128::try_from(self.progress.remote_ns).is_ok_and(|it| it >= stall.time.as_nanos())
-        });
-        if stalled.is_none() || self.requester.session_of(Group::Plan).is_none() {
-            return Actions::NONE;
-        }
+                && self.requester.session_of(Group::Plan).is_some()
+        })
+    }
+
+    /// Gives planning back at a tick: as if PLAN had left the area for a moment.
+    #[inline(never)]
+    fn give_back(&mut self, now: Time) -> Actions {
         let area = self.requester.suspend().parts().area;
         let without = EventKind::Area { groups: Groups { plan: false, ..area } };
         let left = self.step(now, without).unwrap_or(Actions::NONE);
