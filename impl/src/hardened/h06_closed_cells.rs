@@ -40,7 +40,7 @@ pub(crate) fn closed_cells(
     }
     let unknown = grid.unknown.map(|bits| Bitmap { bits, ..occupied });
     let unknown = || unknown.and_then(|unknown| examined.touched(Rule::Unknown, &unknown));
-    found.or_else(unknown).or_else(|| examined.outside())
+    found.or_else(unknown).or_else(|| examined.beyond_the_grid())
 }
 
 /// Where the CAV is examined, on a grid.
@@ -104,7 +104,7 @@ impl Examined<'_, '_> {
     }
 
     /// The first disk that may reach beyond the grid.
-    fn outside(&self) -> Option<Witness> {
+    fn beyond_the_grid(&self) -> Option<Witness> {
         let grid = self.covered.grid;
         let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
         let search = DiskSearch::new(self.cycle, grid, self.points);
