@@ -31,20 +31,20 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let is_behind = draw.below(5) > 0;
     let speed = if is_behind { draw.pick(&[10.0, 6.0, 25.0]) } else { draw.pick(&[1.0, 0.5, 2.0]) };
     let side = if apart > 0.0 { 1.0 } else { draw.pick(&[1.0, -1.0]) };
-    // So far aside that who is behind does not come across the CAV as it is now: it would follow.
-    let (share, gap) = draw.pick(&[(0.1, 1.3), (0.015, 0.0), (0.1, 1.3), (0.01, 0.0)]);
-    let (share, gap) = if is_behind { (share, gap) } else { (0.3, 0.0) };
+    let size = draw.pick(&[(4.5, 1.8), (8.0, 2.5)]);
+    let ahead = if is_behind { -draw.pick(&[9.0, 12.0]) } else { draw.pick(&[4.0, 1.0]) };
+    let share = if is_behind { 0.1 } else { 0.3 };
     let drift = share * speed;
-    let drift = if draw.one_in(2) { draw.near(drift) } else { drift };
+    let drift = if is_behind || draw.one_in(2) { draw.near(drift) } else { drift };
     let e = (((speed * speed - drift * drift).max(0.0)).sqrt(), -side * drift);
     let velocity = road.turn(e);
     let path = Path::of(cycle);
-    let horizon = path.until(speed);
-    let free = if is_behind { 0.0 } else { drift * horizon };
-    let size = draw.pick(&[(4.5, 1.8), (8.0, 2.5)]);
-    let gap = draw.near(gap + free);
+    // So far aside that who is behind passes the CAV as it is now, which it would follow, and meets it
+    // farther on.
+    let front = 0.5 * cycle.ego.length + cycle.ego.center_offset;
+    let passed = share * (front + 0.5 * size.0 - ahead) + draw.pick(&[0.01, 0.03]);
+    let gap = if is_behind { passed } else { draw.near(drift * path.until(speed)) };
     let aside = 0.5 * cycle.ego.width + path.aside + 0.5 * size.1 + gap;
-    let ahead = if is_behind { -draw.pick(&[9.0, 12.0]) } else { draw.pick(&[4.0, 1.0]) };
     let age = seconds(age_ns);
     let at = (ahead - age * e.0, side * aside - age * e.1);
     let (x, y) = road.at(at.0, at.1);
