@@ -10,6 +10,7 @@ mod disputed;
 mod extremes;
 mod fail_safe;
 mod history;
+mod inner;
 mod input;
 mod motions;
 mod naive;
