@@ -3,8 +3,6 @@
 
 mod covered;
 
-use core::cell::Cell;
-
 use crate::hardened::h06_closed_cells::covered::{Covered, plain_square, square};
 use crate::hardened::h14_fail_safe::path::Nodes;
 use crate::input::cycle::{Cycle, DetectionList, Grid, TrajectoryPoint};
@@ -30,7 +28,7 @@ pub(crate) fn closed_cells(
     detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
     let items = detections.map_or(&[][..], |list| list.items);
-    let covered = Covered { grid, items, latest: Cell::new(0) };
+    let covered = Covered { grid, items };
     let places = (Nodes::new(cycle, all), all.len());
     let examined = Examined { cycle, points, places, covered };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
@@ -65,7 +63,10 @@ impl Examined<'_, '_> {
             let search = DiskSearch::new(self.cycle, self.covered.grid, self.points);
             let search = if asks_rectangle { search.with_rectangle() } else { search };
             let is_free = move |band: &Band| {
-                band.is_free_but(cells, |i, k| asks_rectangle && self.covered.has(i, k))
+                let mut latest = 0;
+                band.is_free_but(cells, |i, k| {
+                    asks_rectangle && self.covered.has(i, k, &mut latest)
+                })
             };
             let hit = move |grid: &GridGeometry, disk: &Disk<'_>| {
                 self.hit(grid, disk, cells, asks_rectangle)
@@ -90,11 +91,14 @@ impl Examined<'_, '_> {
     ) -> Option<Hit> {
         let Self { cycle, covered, .. } = self;
         let cav = MovingRectangle::footprint(&cycle.ego, &disk.pose.plainly());
+        let mut latest = 0;
         grid.touched(disk, cells, |i, k| {
             if !asks_rectangle {
                 return grid.hit(disk, i, k);
             }
-            if cav.certainly_apart(&plain_square(covered.grid, i, k), 0.0) || covered.has(i, k) {
+            if cav.certainly_apart(&plain_square(covered.grid, i, k), 0.0)
+                || covered.has(i, k, &mut latest)
+            {
                 return None;
             }
             let cell = || square(covered.grid, i, k);
@@ -121,7 +125,7 @@ impl GridGeometry {
         &self,
         disk: &Disk<'_>,
         cells: &Bitmap<'_>,
-        hit: impl Fn(i64, i64) -> Option<Hit>,
+        mut hit: impl FnMut(i64, i64) -> Option<Hit>,
     ) -> Option<Hit> {
         let (first, last) = self.reach(disk.row, self.radius);
         (first.max(0)..=last.min(self.height.saturating_sub(1))).find_map(|k| {

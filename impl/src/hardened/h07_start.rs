@@ -67,29 +67,45 @@ pub(crate) fn direction_failure(
         // Segments beside a point in the corridor are near it.
         route.in_corridor([first.x, first.y], &mut hint);
     }
-    points.chunks(RUN).zip((0_usize..).step_by(RUN)).find_map(|(run, from)| {
-        if all_certainly_along(route, run, &mut hint) {
+    let (mut rest, mut from) = (points, 0_usize);
+    while !rest.is_empty() {
+        let (run, behind) = rest.split_at_checked(RUN).unwrap_or((rest, &[]));
+        if !all_certainly_along(route, run, &mut hint) {
+            let not_along = |(point, index): (&TrajectoryPoint, usize)| {
+                not_along(route, point, &mut hint).map(|it| it.at_point(index))
+            };
+            let found = run.iter().zip(from..).find_map(not_along);
+            if found.is_some() {
+                return found;
+            }
+        }
+        (rest, from) = (behind, from.saturating_add(RUN));
+    }
+    None
+}
+
+/// A segment that may be nearest, and along which the heading of the point is not for certain.
+fn not_along(
+    route: IndexedRoute<'_, '_>,
+    point: &TrajectoryPoint,
+    hint: &mut usize,
+) -> Option<Witness> {
+    let q = [point.x, point.y];
+    *hint = route.nearer(q, *hint);
+    if certainly_along(route, point, *hint) {
+        return None;
+    }
+    let heading = Vector::new(point.cos, point.sin);
+    let (least, nearest) = route.path_distance(q, *hint);
+    *hint = nearest;
+    route.segments(q, least.magnitude()).find_map(|segment| {
+        let away = segment_distance(q, segment.from, segment.to);
+        let along = heading.dot(Vector::between(segment.from, segment.to));
+        if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
             return None;
         }
-        run.iter().zip(from..).find_map(|(point, index)| {
-            let q = [point.x, point.y];
-            hint = route.nearer(q, hint);
-            if certainly_along(route, point, hint) {
-                return None;
-            }
-            let heading = Vector::new(point.cos, point.sin);
-            let (least, nearest) = route.path_distance(q, hint);
-            hint = nearest;
-            route.segments(q, least.magnitude()).find_map(|segment| {
-                let away = segment_distance(q, segment.from, segment.to);
-                let along = heading.dot(Vector::between(segment.from, segment.to));
-                if !away.possibly_at_most(least) || Real::ZERO.certainly_at_most(along) {
-                    return None;
-                }
-                let witness = Witness::of(Rule::Direction, [along.value(), 0.0]).at_point(index);
-                Some(Witness { segment: Some(segment.index), ..witness })
-            })
-        })
+        let witness = Witness::of(Rule::Direction, [along.value(), 0.0]);
+        Some(Witness { segment: Some(segment.index), ..witness })
     })
 }
 

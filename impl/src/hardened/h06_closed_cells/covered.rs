@@ -1,7 +1,5 @@
 //! Which cells a current detection covers (H-06 of `spec/3-stages.md#hardened-profile`).
 
-use core::cell::Cell;
-
 use crate::input::cycle::{Detection, Grid};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::float;
@@ -14,18 +12,21 @@ use crate::stages::llcc::vector;
 pub(super) struct Covered<'c, 'a> {
     pub(super) grid: &'c Grid<'a>,
     pub(super) items: &'c [Detection],
-    /// Which one covered a cell last: it often covers the next one, too.
-    pub(super) latest: Cell<usize>,
 }
 
 impl Covered<'_, '_> {
-    /// Whether a cell certainly shares a point with some detection, grown.
-    pub(super) fn has(&self, i: i64, k: i64) -> bool {
+    /// Whether a cell certainly shares a point with some detection, grown. `latest`: which one covered a
+    /// cell last; it often covers the next one, too.
+    pub(super) fn has(&self, i: i64, k: i64, latest: &mut usize) -> bool {
         let (plain, square) = (plain_square(self.grid, i, k), || square(self.grid, i, k));
         let covers =
             |at: usize| self.items.get(at).is_some_and(|it| certainly_covers(it, &plain, square));
-        let found = || (0..self.items.len()).find(|&at| covers(at));
-        covers(self.latest.get()) || found().map(|at| self.latest.set(at)).is_some()
+        if covers(*latest) {
+            return true;
+        }
+        let found = (0..self.items.len()).find(|&at| covers(at));
+        *latest = found.unwrap_or(*latest);
+        found.is_some()
     }
 }
 

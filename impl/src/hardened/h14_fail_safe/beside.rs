@@ -50,6 +50,9 @@ impl<'c, 'a> Beside<'c, 'a> {
 
     /// Whether the object certainly does.
     pub(super) fn keeps(&mut self, object: &Passing) -> bool {
+        if !self.goes_along(object) {
+            return false;
+        }
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
         if lane.is_open == Some(false) {
             return false;
@@ -59,6 +62,15 @@ impl<'c, 'a> Beside<'c, 'a> {
             let has_none = |place: &Place| (!self.has_room(place, away, needed)).then_some(());
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
+    }
+
+    /// Whether the object certainly goes the CAV's way, or the other way, as far as a bend allows.
+    fn goes_along(&self, object: &Passing) -> bool {
+        let ego = &self.path.nodes.cycle.ego;
+        let across = object.velocity.cross(vector([ego.cos, ego.sin])).abs();
+        let far = (object.now.centre - vector([ego.x, ego.y])).norm();
+        let most = Real::new(BEND) + far.over(Real::new(RADIUS));
+        across.certainly_at_most(object.speed * most)
     }
 
     /// D, and what has to be less than the room beside the CAV times D; of several nearest points of the

@@ -53,7 +53,7 @@ impl<'c, 'a> Meeting<'c, 'a> {
         Self { nodes, trajectory, ego, aside, clock, covers, route, places: None }
     }
 
-    const fn cycle(&self) -> &'c Cycle<'a> {
+    pub(super) const fn cycle(&self) -> &'c Cycle<'a> {
         self.nodes.cycle
     }
 
@@ -208,7 +208,12 @@ impl<'c, 'a> Places<'c, 'a> {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
-        object.is_behind && object.comes_across && across.certainly_at_most(along)
+        let far = (object.now.centre - vector([ego.x, ego.y])).norm();
+        let most = object.speed * (Real::new(0.05) + far.over(Real::new(30.0)));
+        object.is_behind
+            && object.comes_across
+            && across.certainly_at_most(along)
+            && across.certainly_at_most(most)
             || object.moves && {
                 let Exact { now, velocity, speed, is_behind, .. } = *object;
                 let until = self.until_yielded(speed);
@@ -226,6 +231,8 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 }
 
+/// How far along the CAV's heading who follows goes, for each m across it, m.
+const FOLLOWS: f64 = 6.0;
 /// By how much the front of the inner rectangle is moved in, and its other sides at most, m.
 const INNER: f64 = 0.3;
 

@@ -15,7 +15,7 @@ use crate::hardened::h14_fail_safe::meeting::{Meeting, Met};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
 use crate::input::scratch::{Row, Scratch};
-use crate::numbers::range::is_empty;
+use crate::numbers::range::{is_empty, larger};
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::sweep::MovingRectangle;
 
@@ -167,10 +167,13 @@ impl Motions<'_, '_, '_> {
     ) {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
-        if track.is_some_and(|it| !self.disputes.may_be_disputed(it, &self.lists, scratch)) {
-            return;
-        }
-        let farthest = self.lists.v_object() * list.age + CLOSE;
+        let stood = self.meeting.cycle().parameters.theta_track_max + CLOSE;
+        let farthest =
+            if track.is_some_and(|it| !self.disputes.may_be_disputed(it, &self.lists, scratch)) {
+                stood
+            } else {
+                larger(self.lists.v_object() * list.age + CLOSE, stood)
+            };
         let rate = 1.0 / list.age;
         let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
         if is_empty(area) {
@@ -186,11 +189,15 @@ impl Motions<'_, '_, '_> {
             let motion = motion.coming_from(before, list.age_ns, rate);
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };
+            let may_stand = x * x + y * y <= stood * stood;
             if !self.meeting.is_missed(&motion, 0.0)
-                && self.lists.is_supported(now, before, (reference, &list), scratch.columns)
+                && (may_stand
+                    || self.lists.is_supported(now, before, (reference, &list), scratch.columns))
             {
                 self.keep_pair(&motion, &pair, |it| {
-                    track.is_none_or(|track| it.disputes.is_disputed(track, &it.lists, scratch))
+                    may_stand
+                        || track
+                            .is_none_or(|track| it.disputes.is_disputed(track, &it.lists, scratch))
                 });
             }
         });

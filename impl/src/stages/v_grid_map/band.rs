@@ -125,7 +125,7 @@ impl Band {
     pub(crate) fn is_free_but(
         &self,
         cells: &Bitmap<'_>,
-        left_out: impl Fn(i64, i64) -> bool,
+        mut left_out: impl FnMut(i64, i64) -> bool,
     ) -> bool {
         let [[left, right], [bottom, top]] = self.upright;
         let ([x, y], [cos, sin]) = (self.origin, self.along);
