@@ -75,7 +75,7 @@ impl Monitor {
                 format!("must be at most {MOST_STATIONS}"),
             )));
         }
-        let place = Place::with(settings, most_stations.0).map_err(no_monitor)?;
+        let place = Place::with(&settings, most_stations.0).map_err(no_monitor)?;
         let (tracks, trajectory, to_do) = (None, None, None);
         let last = NativeTime::from_nanoseconds(0);
         Ok(Self { place, calls: Calls::default(), tracks, trajectory, to_do, last })

@@ -22,10 +22,10 @@ self_cell!(
 
 impl Place {
     /// Everything local, no offers, no route. Errors: as of `Monitor::new`.
-    pub fn with(settings: Settings, most_stations: usize) -> Result<Self, MonitorError> {
+    pub fn with(settings: &Settings, most_stations: usize) -> Result<Self, MonitorError> {
         let lent = Lent::new(most_stations, DETECTIONS, CROSS_SECTIONS);
         Self::try_new(MutBorrow::new(lent), |lent| {
-            Monitor::new(settings, lent.borrow_mut().memory())
+            Monitor::new(*settings, lent.borrow_mut().memory())
         })
     }
 }

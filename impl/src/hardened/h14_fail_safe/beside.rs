@@ -16,8 +16,8 @@ use crate::stages::llcc::{footprint, vector};
 /// m
 const ERROR: f64 = 1e-4;
 /// What the sine of the heading may be, and more for each m of the way: a path that bends.
-const BEND: f64 = 0.05;
-const RADIUS: f64 = 30.0;
+pub(super) const BEND: f64 = 0.05;
+pub(super) const RADIUS: f64 = 30.0;
 /// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 10.0;
 /// So many places are looked at together.
@@ -50,9 +50,6 @@ impl<'c, 'a> Beside<'c, 'a> {
 
     /// Whether the object certainly does.
     pub(super) fn keeps(&mut self, object: &Passing) -> bool {
-        if !self.goes_along(object) {
-            return false;
-        }
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
         if lane.is_open == Some(false) {
             return false;
@@ -62,15 +59,6 @@ impl<'c, 'a> Beside<'c, 'a> {
             let has_none = |place: &Place| (!self.has_room(place, away, needed)).then_some(());
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
-    }
-
-    /// Whether the object certainly goes the CAV's way, or the other way, as far as a bend allows.
-    fn goes_along(&self, object: &Passing) -> bool {
-        let ego = &self.path.nodes.cycle.ego;
-        let across = object.velocity.cross(vector([ego.cos, ego.sin])).abs();
-        let far = (object.now.centre - vector([ego.x, ego.y])).norm();
-        let most = Real::new(BEND) + far.over(Real::new(RADIUS));
-        across.certainly_at_most(object.speed * most)
     }
 
     /// D, and what has to be less than the room beside the CAV times D; of several nearest points of the
