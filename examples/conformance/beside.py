@@ -81,7 +81,7 @@ class Beside:
 
     def keeps_beside(self, motion):
         """Whether nothing of an object comes to where the path leads."""
-        if not any(motion.w) or not self.leads_along_the_route:
+        if not any(motion.w) or not motion.goes_along or not self.leads_along_the_route:
             return False
         if not self.is_along_the_route(*motion.centre):
             return False

@@ -115,6 +115,10 @@ class Seen:
         return nearest_to_half_a_second(
             [one for one, own in zip(self.lists, self.own) if own[i] is not None])
 
+    def may_stand(self, detection, item):
+        """Whether a detection may be what was at an item, and stands."""
+        return distance(item, detection) <= self.parameters["theta_track_max"] + EPS
+
     def may_come_from(self, detection, item, one):
         """Whether a detection may come from an item of a usable list: no faster than v_object, and when
         there are other lists, one of them has an item where it then was."""
@@ -144,9 +148,11 @@ class Seen:
         unexplained = [d for d in range(len(self.detections)) if d not in self.explained]
         if self.reference is not None:
             disputed = [self.detection[i] for i in self.sure if self.is_disputed(i, unexplained)]
-            for detection in (self.detections[d] for d in sorted(unexplained + disputed)):
+            asked = {*unexplained, *disputed}
+            for d, detection in enumerate(self.detections):
                 for item in self.reference["items"]:
-                    if self.may_come_from(detection, item, self.reference):
+                    moves = d in asked and self.may_come_from(detection, item, self.reference)
+                    if moves or self.may_stand(detection, item):
                         yield detection, item, self.reference["age_ns"]
         for d in unexplained:
             yield self.detections[d], self.detections[d], 1

@@ -133,12 +133,23 @@ class Motion:
         half = reach(edges(self.now, self.ego, 0.0, self.item)[2:], c, s)
         return along > EPS and rear + half < -self.ego["length"] / 2 - EPS
 
+    @cached_property
+    def across(self):
+        """How fast it goes across the CAV's heading, to either side."""
+        return abs(float(self.w[0]) * self.ego["sin"] - float(self.w[1]) * self.ego["cos"])
+
+    @property
+    def goes_along(self):
+        """Whether it goes the CAV's way or the opposite way, as far as a bend allows."""
+        away = math.hypot(*map(float, self.centre))
+        return self.across <= self.speed * (0.05 + away / 30) - EPS
+
     @property
     def follows(self):
         """Who follows keeps its own distance."""
-        (wx, wy), c, s = map(float, self.w), self.ego["cos"], self.ego["sin"]
+        along = float(self.w[0]) * self.ego["cos"] + float(self.w[1]) * self.ego["sin"]
         return (self.is_behind and self.comes_across
-                and abs(wx * s - wy * c) <= wx * c + wy * s - EPS)
+                and self.goes_along and self.across <= along - EPS)
 
 
 class FailSafe:

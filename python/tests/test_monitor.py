@@ -70,7 +70,7 @@ def decided(records: list[dict[str, Any]], profile: mufasa.Profile) -> Verdict |
     return decision.report
 
 
-@pytest.mark.parametrize("attack", [None, "ghost-tracks@3..", "velocity-bias@2.."])
+@pytest.mark.parametrize("attack", [None, "ghost-tracks@3..", "missing-track@2.."])
 @pytest.mark.parametrize("profile", ["paper", "hardened"])
 def test_the_monitor_decides_as_check_does(attack: str | None, profile: mufasa.Profile) -> None:
     [drive] = mufasa.read_drives(*DEMO)
@@ -90,7 +90,7 @@ def test_the_monitor_decides_as_check_does(attack: str | None, profile: mufasa.P
     assert ends[None] >= 10
     if attack is not None and profile == "hardened":
         assert len(ends) > 1, "the attack is seen"
-    if attack == "velocity-bias@2..":
+    if attack == "missing-track@2..":
         assert (without_history > 0) == (profile == "hardened"), "the history is kept and used"
 
 

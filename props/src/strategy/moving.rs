@@ -36,6 +36,11 @@ pub fn carry(draw: &mut Draw<'_>, cycle: &mut Cycle, aimed: Aimed) {
         items.insert(0, detection(Aimed { frame, ..aimed }));
     }
     cycle.detections = Some(DetectionList { stamp_ns: seen_ns, items });
+    if draw.one_in(6) {
+        // It was so near half a second ago that it may stand, or just not.
+        let moved = draw.near(0.5 * velocity.0.hypot(velocity.1));
+        cycle.parameters.theta_track_max = moved.clamp(1e-3, 1e3);
+    }
     if draw.one_in(4) {
         history::of_moving(draw, cycle, at, velocity);
     } else {

@@ -111,7 +111,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         self.pasts.iter().flatten().find(is_held).copied()
     }
 
-    /// Whether a detection may come from an item of a list, but for the distance: whether an item of
+    /// At most so far from an item of the reference list a detection may have stood, m.
+    pub(crate) fn stands_within(&self) -> f64 {
+        self.cycle.parameters.theta_track_max + CLOSE
+    }
+
+    /// Whether a detection may come from an item of a list, except for the distance: whether an item of
     /// another list is where the object was then, when there are other lists. All are listed.
     pub(crate) fn is_supported(
         &self,
@@ -120,7 +125,7 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
         (place, own): (usize, &UsableList<'_>),
         columns: &[Column],
     ) -> bool {
-        let reach = self.cycle.parameters.theta_track_max + CLOSE;
+        let reach = self.stands_within();
         let [before_x, before_y] = before;
         let mut alone = true;
         for (list, squares) in self.squares.iter().enumerate() {

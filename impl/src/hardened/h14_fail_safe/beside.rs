@@ -16,8 +16,8 @@ use crate::stages::llcc::{footprint, vector};
 /// m
 const ERROR: f64 = 1e-4;
 /// What the sine of the heading may be, and more for each m of the way: a path that bends.
-const BEND: f64 = 0.05;
-const RADIUS: f64 = 30.0;
+pub(super) const BEND: f64 = 0.05;
+pub(super) const RADIUS: f64 = 30.0;
 /// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 10.0;
 /// So many places are looked at together.

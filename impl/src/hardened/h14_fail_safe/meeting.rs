@@ -3,7 +3,7 @@
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
 //! error bounds; that an object comes across the CAV, follows it or keeps beside it only when it is sure.
 
-use crate::hardened::h14_fail_safe::beside::{Beside, Passing};
+use crate::hardened::h14_fail_safe::beside::{BEND, Beside, Passing, RADIUS};
 use crate::hardened::h14_fail_safe::cover::{APART, Clock, Cover, Covers, MOST, Object, Seen};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
@@ -203,17 +203,21 @@ impl<'c, 'a> Places<'c, 'a> {
         object.possibly_sweeps(&cav, start, end, cycle.parameters.a_b).then(met)
     }
 
-    /// Whether the object certainly follows the CAV, or keeps beside its path.
+    /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
     fn is_exempt(&mut self, object: &Exact) -> bool {
         let ego = &self.cycle().ego;
         let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
-        object.is_behind && object.comes_across && across.certainly_at_most(along)
-            || object.moves && {
-                let Exact { now, velocity, speed, is_behind, .. } = *object;
-                let until = self.until_yielded(speed);
-                self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
-            }
+        let far = (object.now.centre - vector([ego.x, ego.y])).norm();
+        let most = Real::new(BEND) + far.over(Real::new(RADIUS));
+        if !object.moves || !across.certainly_at_most(object.speed * most) {
+            return false;
+        }
+        object.is_behind && object.comes_across && across.certainly_at_most(along) || {
+            let Exact { now, velocity, speed, is_behind, .. } = *object;
+            let until = self.until_yielded(speed);
+            self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
+        }
     }
 
     /// H(w) = max(T, tau + `t_yield` + abs(w) / (2 `a_yield`)), s.

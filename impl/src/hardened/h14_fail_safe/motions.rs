@@ -15,7 +15,7 @@ use crate::hardened::h14_fail_safe::meeting::{Meeting, Met};
 use crate::hardened::h14_fail_safe::motion::Motion;
 use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
 use crate::input::scratch::{Row, Scratch};
-use crate::numbers::range::is_empty;
+use crate::numbers::range::{is_empty, larger};
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::sweep::MovingRectangle;
 
@@ -156,8 +156,8 @@ impl Motions<'_, '_, '_> {
         });
     }
 
-    /// A detection that is unexplained, or disputed, from every item that some other list supports.
-    /// `track`: which explains it.
+    /// A detection from every item of the reference list where it may have stood; one that is unexplained,
+    /// or disputed, also from every item that some other list supports. `track`: which explains it.
     fn anywhere(
         &mut self,
         (detection, now): (usize, &Detection),
@@ -167,11 +167,14 @@ impl Motions<'_, '_, '_> {
     ) {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
-        if track.is_some_and(|it| !self.disputes.may_be_disputed(it, &self.lists, scratch)) {
+        let (stood, rate) = (self.lists.stands_within(), 1.0 / list.age);
+        let is_open =
+            track.is_none_or(|it| self.disputes.may_be_disputed(it, &self.lists, scratch));
+        if !is_open && self.meeting.is_missed(motion, stood * rate) {
             return;
         }
-        let farthest = self.lists.v_object() * list.age + CLOSE;
-        let rate = 1.0 / list.age;
+        let anywhere = if is_open { self.lists.v_object() * list.age + CLOSE } else { 0.0 };
+        let farthest = larger(anywhere, stood);
         let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
         if is_empty(area) {
             return;
@@ -186,11 +189,14 @@ impl Motions<'_, '_, '_> {
             let motion = motion.coming_from(before, list.age_ns, rate);
             let order = [ANYWHERE, detection];
             let pair = Pair { order, detection, item, dt_ns: list.age_ns };
-            if !self.meeting.is_missed(&motion, 0.0)
-                && self.lists.is_supported(now, before, (reference, &list), scratch.columns)
-            {
+            let stands = x * x + y * y <= stood * stood;
+            let is_pair = || {
+                stands || self.lists.is_supported(now, before, (reference, &list), scratch.columns)
+            };
+            if !self.meeting.is_missed(&motion, 0.0) && is_pair() {
                 self.keep_pair(&motion, &pair, |it| {
-                    track.is_none_or(|track| it.disputes.is_disputed(track, &it.lists, scratch))
+                    let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
+                    stands || track.is_none_or(is_disputed)
                 });
             }
         });

@@ -104,11 +104,20 @@ pub fn is_behind(scene: &Scene, motion: &Motion) -> bool {
         && reads.less(&((&c - &c_cav).dot(h) + half), &-(&scene.ego.length / two))
 }
 
-/// It is behind, comes across, and has abs(w x h) <= w . h.
+/// It goes the CAV's way or the opposite way, as far as a bend of 30 m radius allows:
+/// abs(w x h) <= abs(w) (0.05 + abs(c - p) / 30 m).
+pub fn goes_along(scene: &Scene, motion: &Motion) -> bool {
+    let (w, h, p) = (&motion.w, &scene.ego.heading, &scene.ego.position);
+    let c = now(motion).frame.origin;
+    let bend = Real::from_double(0.05) + c.distance(p) / Real::from_integer(30);
+    scene.reads.at_most(&w.cross(h).abs(), &(&motion.speed * bend))
+}
+
+/// It is behind, comes across, goes along, and has abs(w x h) <= w . h.
 pub fn follows(scene: &Scene, motion: &Motion, comes_across: bool, behind: bool) -> bool {
     let h = &scene.ego.heading;
     let (along, across) = (motion.w.dot(h), motion.w.cross(h).abs());
-    behind && comes_across && scene.reads.at_most(&across, &along)
+    behind && comes_across && goes_along(scene, motion) && scene.reads.at_most(&across, &along)
 }
 
 /// The path of the CAV beside the route.
@@ -141,8 +150,8 @@ impl BesideRoute {
         Self { reference_path, places, is_along }
     }
 
-    /// Nothing of it comes to where the path leads, measured along the route:
-    /// (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    /// w is not 0, it goes along, D > 0, and nothing of it comes to where the path leads, measured along the
+    /// route: (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
     pub fn keeps_beside(&self, scene: &Scene, motion: &Motion, behind: bool) -> bool {
         let (w, zero) = (&motion.w, Real::zero());
         if w.squared() == zero {
@@ -161,6 +170,7 @@ impl BesideRoute {
             !self.places.iter().all(is_apart)
         };
         d > zero
+            && goes_along(scene, motion)
             && self.is_along
             && is_within_ends(scene, &self.reference_path, &c)
             && !nearest.iter().any(comes_near)

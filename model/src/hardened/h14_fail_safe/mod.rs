@@ -37,7 +37,7 @@ fn objects(scene: &Scene) -> [usize; 2] {
 }
 
 /// The most motions that are examined but for what stands: the tracks, and detections times items of the
-/// longest usable list, of confirmed tracks and of what is unexplained or disputed.
+/// longest usable list, of confirmed tracks and of all detections.
 pub fn most_moving(scene: &Scene) -> i128 {
     let [tracks, detections] = objects(scene).map(|count| count as i128);
     let longest = usable(scene).iter().map(|list| list.items.len() as i128).max();

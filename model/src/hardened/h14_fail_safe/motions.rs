@@ -79,7 +79,8 @@ fn of_track(scene: &Scene, list: &Tracks, track: &Track) -> Motion {
     Motion::new(scene, &track.object, list.stamp_ns, w, named)
 }
 
-/// The detections as the CAV saw them move, and those that nothing explains as standing.
+/// The detections as the CAV saw them move, also where they may stand, and those that nothing explains as
+/// standing.
 fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     let lists = usable(scene);
     let confirmed = confirmed(scene);
@@ -90,13 +91,12 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
         let Some((_, seen)) = explaining(*d) else { return false };
         is_disputed(scene, &lists, seen, unexplained.iter().map(|other| &list.items[*other]))
     });
-    let mut examined: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
-    examined.sort_unstable();
+    let doubtful: Vec<usize> = unexplained.iter().copied().chain(disputed).collect();
     let of_tracks =
         confirmed.iter().flat_map(|(track, seen)| of_confirmed(scene, &lists, track, seen));
-    let pairs =
-        of_tracks.chain(examined.into_iter().flat_map(|d| of_detection(scene, &lists, list, d)));
-    let moving = pairs.map(|pair| {
+    let of_all = (0..list.items.len())
+        .flat_map(|d| of_detection(scene, &lists, list, d, doubtful.contains(&d)));
+    let moving = of_tracks.chain(of_all).map(|pair| {
         let d = &list.items[pair.detection];
         let w = velocity(d, &pair.list.items[pair.item], &pair.list.dt);
         let named = Named {
@@ -115,7 +115,7 @@ fn of_detections(scene: &Scene, list: &Detections) -> Vec<Motion> {
     moving.chain(standing).collect()
 }
 
-/// A detection d and the item d' of an earlier list that it may have come from.
+/// A detection d and an item d' of an earlier list, of which w = (d - d') / dt.
 struct Pair<'a> {
     detection: usize,
     item: usize,
@@ -138,15 +138,21 @@ fn of_confirmed<'a>(
     (0..list.items.len()).filter(is_near).map(|item| Pair { detection, item, list }).collect()
 }
 
-/// A detection and each item of the reference list that it may come from.
+/// A detection d and each item d' of the reference list that is at distance <= theta_track_max from d (d may
+/// stand) or, when d is unexplained or disputed (`doubtful`), that d may come from.
 fn of_detection<'a>(
     scene: &Scene,
     lists: &'a [Usable<'a>],
     detections: &Detections,
     detection: usize,
+    doubtful: bool,
 ) -> Vec<Pair<'a>> {
     let Some((k, list)) = nearest_to_reference(lists.iter().enumerate()) else { return Vec::new() };
     let d = &detections.items[detection];
-    let is_pair = |item: &usize| may_come_from(scene, lists, d, [k, *item]);
+    let theta_track_max = &scene.parameters.theta_track_max;
+    let is_pair = |item: &usize| {
+        is_within(scene, &d.frame.origin, &list.items[*item], theta_track_max)
+            || doubtful && may_come_from(scene, lists, d, [k, *item])
+    };
     (0..list.items.len()).filter(is_pair).map(|item| Pair { detection, item, list }).collect()
 }

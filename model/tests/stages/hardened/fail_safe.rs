@@ -1,6 +1,7 @@
 //! H-14, `spec/7-fail-safe.md`: each requirement on both sides of its bounds, in the three readings.
 
 mod following;
+mod goes_along;
 mod meeting;
 mod motions;
 mod path;

@@ -91,6 +91,49 @@ pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     Aimed { frame, size: (length, width), velocity: w, age_ns }
 }
 
+/// Beside the leg of the route behind a corner, along which it drives towards the corner and straight on,
+/// across the CAV's way: as far away as goes along, or just nearer.
+pub fn before_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    cycle.ego.speed = draw.pick(&[8.0, 5.0, 10.0]);
+    let stop = base::s_stop(cycle) + 0.5 * cycle.ego.length + cycle.ego.center_offset;
+    let side = draw.pick(&[1.0, -1.0]);
+    let (cos, sin) = draw.pick(&[(0.6, 0.8), (0.8, 0.6), (0.28, 0.96)]);
+    let aside = draw.pick(&[3.0, 3.5]);
+    let corner = aside / sin + draw.pick(&[0.9, 0.97]) * stop;
+    // A point at this way behind the corner, so far on the inner side, in the frame of the road.
+    let at =
+        |way: f64, aside: f64| (corner + way * cos - aside * sin, side * (way * sin + aside * cos));
+    let section = |(x, y): (f64, f64), (cos, sin): (f64, f64)| {
+        let (x, y) = road.at(x, y);
+        let (cos, sin) = unit(road.turn((cos, sin)));
+        cross_section(Frame { x, y, cos, sin }, 0.0, 0.0, 8.0)
+    };
+    let ahead = (cos, side * sin);
+    let middle = ((1.0 + cos).hypot(sin), sin);
+    let middle = ((1.0 + cos) / middle.0, side * middle.1 / middle.0);
+    let cross_sections = vec![
+        section((-60.0, 0.0), (1.0, 0.0)),
+        section(at(0.0, 0.0), middle),
+        section(at(60.0, 0.0), ahead),
+    ];
+    cycle.route = Route { closed: false, cross_sections };
+    // As far from p as its direction asks: the farther one of two such points beside the leg.
+    let distance = draw.near(30.0 * (sin - 0.05));
+    let (foot, off) = {
+        let (x, y) = at(0.0, aside);
+        (x * cos + side * y * sin, (x * sin - side * y * cos).abs())
+    };
+    let way = (distance * distance - off * off).max(1.0).sqrt() - foot;
+    let (x, y) = at(way, aside);
+    let speed = draw.pick(&[12.0, 20.0]);
+    let w = (-speed * cos, -side * speed * sin);
+    let age = seconds(age_ns);
+    let (x, y) = road.at(x - age * w.0, y - age * w.1);
+    let (cos, sin) = unit(road.turn((-cos, -side * sin)));
+    Aimed { frame: Frame { x, y, cos, sin }, size: (2.0, 1.0), velocity: road.turn(w), age_ns }
+}
+
 /// The CAV's places beside the reference path, rounded.
 struct Lane<'a> {
     cycle: &'a Cycle,

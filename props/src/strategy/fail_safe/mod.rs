@@ -25,7 +25,7 @@ type Aimer = fn(&mut Draw<'_>, &mut Cycle, i64) -> Aimed;
     clippy::redundant_closure_for_method_calls,
     reason = "the methods themselves are of one lifetime"
 )]
-pub const AIMS: [(&str, Aimer); 12] = [
+pub const AIMS: [(&str, Aimer); 13] = [
     ("standing", standing),
     ("passed", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.passed(draw))),
     ("coming", |draw, cycle, age_ns| shaped(draw, cycle, age_ns, |aim, draw| aim.coming(draw))),
@@ -42,6 +42,7 @@ pub const AIMS: [(&str, Aimer); 12] = [
     ("may stand", at_the_stop),
     ("beside", lane::object),
     ("beside in a bend", lane::in_a_bend),
+    ("beside before a corner", lane::before_a_corner),
 ];
 
 /// A cycle that H-14 decides.
@@ -251,20 +252,34 @@ impl Aim<'_> {
         self.found(cav.frame.at(-behind, aside), e, speed * self.age, speed)
     }
 
-    /// It comes across from behind, at 45 degrees or nearly so.
+    /// It comes across from behind, at 45 degrees or as far aside as goes along from there, or nearly so.
     fn slanted(&self, draw: &mut Draw<'_>) -> Found {
         let cav = self.path.body(self.cycle, 0);
         let (h, speed) = ((cav.frame.cos, cav.frame.sin), draw.pick(&[30.0, 20.0, 45.0]));
-        let half = std::f64::consts::FRAC_1_SQRT_2 * speed;
-        let w = cav.frame.turn((half, draw.pick(&[1.0, -1.0]) * draw.near(half)));
-        let length = w.0.hypot(w.1);
-        let e = (w.0 / length, w.1 / length);
-        let behind = cav.half.0 + self.body.extent(h) + draw.pick(&[0.05, 0.2]);
-        let back = behind / dot(e, h).max(0.1);
-        let (x, y) = (cav.frame.x - back * e.0, cav.frame.y - back * e.1);
+        let (gap, side) = (draw.pick(&[0.05, 0.2, 3.0, 20.0]), draw.pick(&[1.0, -1.0]));
+        let behind = cav.half.0 + self.body.extent(h) + gap;
+        // Its way to the middle of the CAV, at an angle with this sine.
+        let from = |sine: f64| {
+            let e = cav.frame.turn(((1.0 - sine * sine).max(0.0).sqrt(), side * sine));
+            let back = behind / dot(e, h).max(0.1);
+            ((cav.frame.x - back * e.0, cav.frame.y - back * e.1), e)
+        };
+        let p = self.path.places[0].pose;
+        let most = (0..50).fold(0.0, |sine, _| {
+            let ((x, y), _) = from(sine);
+            along_at((x - p.x).hypot(y - p.y))
+        });
+        let sine = draw.near(most.min(std::f64::consts::FRAC_1_SQRT_2)).clamp(0.0, 1.0);
+        let ((x, y), e) = from(sine);
+        let (w, length) = ((speed * e.0, speed * e.1), speed);
         let Found { body, .. } = self.found((x, y), e, length * self.age, length);
         Found { body, velocity: w }
     }
+}
+
+/// The greatest sine of an angle to the CAV's heading at which an object goes along at that distance.
+fn along_at(distance: f64) -> f64 {
+    (0.05 + distance / 30.0).min(1.0)
 }
 
 /// One place has a way of `s_b(v)`, nearly, and who arrives there before it can stop does so only where the

@@ -13,16 +13,16 @@ use super::{alone, found, scene};
 use crate::base::*;
 use crate::near::points;
 
-const READINGS: [Reading; 3] = [Reading::Strict, Reading::Exact, Reading::Lax];
+pub(super) const READINGS: [Reading; 3] = [Reading::Strict, Reading::Exact, Reading::Lax];
 
-fn cycle(track: Track) -> Cycle {
+pub(super) fn cycle(track: Track) -> Cycle {
     let mut cycle = base(Profile::Hardened, MotRemote);
     alone(&mut cycle, track);
     cycle
 }
 
 /// Follows in the readings strict, exact, lax; whether it comes across is said.
-fn is_follower(cycle: &Cycle, comes_across: bool) -> [bool; 3] {
+pub(super) fn is_follower(cycle: &Cycle, comes_across: bool) -> [bool; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
         let motion = &all_motions(&scene)[0];
@@ -31,7 +31,7 @@ fn is_follower(cycle: &Cycle, comes_across: bool) -> [bool; 3] {
 }
 
 /// Keeps beside the path in the readings strict, exact, lax.
-fn keeps_beside(cycle: &Cycle) -> [bool; 3] {
+pub(super) fn keeps_beside(cycle: &Cycle) -> [bool; 3] {
     READINGS.map(|reading| {
         let scene = scene(cycle, reading);
         let motion = &all_motions(&scene)[0];
@@ -50,7 +50,7 @@ fn across(cycle: &Cycle) -> [bool; 3] {
 }
 
 /// A bound is moved by a margin: on which sides of it who follows (`safe` at `-1`) follows.
-fn moves(name: &str, with: impl Fn(f64) -> [bool; 3]) {
+pub(super) fn moves(name: &str, with: impl Fn(f64) -> [bool; 3]) {
     assert_eq!(with(-2e-6), [true; 3], "{name}");
     assert_eq!(with(-0.5e-6), [false, true, true], "{name}");
     assert_eq!(with(0.5e-6), [false, false, true], "{name}");
@@ -61,15 +61,16 @@ fn behind(vx: f64, vy: f64) -> Track {
     Track { vx, vy, ..track(1, -10.0, 0.0) }
 }
 
-/// Each condition alone decides.
+/// Each condition alone decides; from 28.5 m on every direction goes along.
 #[test]
 fn who_follows_is_behind_and_comes_along() {
-    moves("w . h > m", |e| is_follower(&cycle(behind(-e, 0.0)), true));
+    let far = |vx: f64, vy: f64| cycle(Track { x: -40.0, ..behind(vx, vy) });
+    moves("w . h > m", |e| is_follower(&far(-e, 0.0), true));
     moves("all of it behind by more than m", |e| {
         is_follower(&cycle(Track { vx: 20.0, ..track(1, -4.0 + e, 0.0) }), true)
     });
-    moves("abs(w x h) <= w . h - m", |e| is_follower(&cycle(behind(8.0, 8.0 + e)), true));
-    moves("to the right", |e| is_follower(&cycle(behind(8.0, -8.0 - e)), true));
+    moves("abs(w x h) <= w . h - m", |e| is_follower(&far(8.0, 8.0 + e), true));
+    moves("to the right", |e| is_follower(&far(8.0, -8.0 - e), true));
     assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), true), [true; 3]);
     assert_eq!(is_follower(&cycle(behind(8.0, 0.0)), false), [false; 3]);
 }
@@ -119,7 +120,7 @@ fn who_comes_across_meets_the_inner_rectangle() {
 }
 
 /// An object beside the straight route, which the CAV drives along.
-fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
+pub(super) fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
     cycle(Track { vx, vy, ..track(1, x, y) })
 }
 

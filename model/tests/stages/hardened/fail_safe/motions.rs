@@ -59,8 +59,8 @@ fn standing(detection: usize) -> Named {
 const A: [f64; 4] = [30.0, 0.0, 8.0, 0.0];
 const B: [f64; 4] = [50.0, 0.0, 4.0, 0.0];
 
-/// spec/7-fail-safe.md#motions.1: tracks, then confirmed tracks' detections, then what is unexplained or
-/// disputed, then what is unexplained as standing.
+/// spec/7-fail-safe.md#motions.1: tracks, then confirmed tracks' detections, then where a detection may stand
+/// or, unexplained or disputed, may come from, then what is unexplained as standing.
 #[test]
 fn motions_are_in_their_order() {
     for configuration in [MotRemote, AllRemote, PlanRemote] {
@@ -101,17 +101,109 @@ fn a_disputed_detection_is_examined_as_it_moved() {
     // A car passes the place where the tracked one stands; it was there half a second ago.
     let mut cycle = detected(MotRemote, &[[20.0, 0.0, 0.0, 0.0]]);
     cycle.tracks = tracks(vec![says(7, [20.0, 0.0, 0.0, 0.0])]);
-    assert_eq!(named(&cycle), [(of_track(7), [0.0; 2]), (pair(0, 0, 500), [0.0; 2])]);
+    let own = (pair(0, 0, 500), [0.0; 2]);
+    assert_eq!(named(&cycle), [(of_track(7), [0.0; 2]), own, own], "it moved so, and may stand");
     cycle.detections.as_mut().expect("set").items.push(detection(24.0, 0.0));
     cycle.detection_history[0].items.push(detection(22.0, 0.0));
+    let newcomer = [(pair(1, 0, 500), [8.0, 0.0]), (standing(1), [0.0; 2])];
+    assert_eq!(named(&cycle), [&[(of_track(7), [0.0; 2]), own, own][..], &newcomer].concat());
+    // Who drives may not stand; disputed, it may come from each item that is supported.
+    let mut cycle = detected(MotRemote, &[[20.0, 0.0, 4.0, 0.0]]);
+    cycle.tracks = tracks(vec![says(7, [20.0, 0.0, 4.0, 0.0])]);
+    cycle.detection_history[0].items.push(detection(21.5, 0.0));
+    cycle.detection_history[1].items.push(detection(23.0, 0.0));
+    let own = (pair(0, 0, 500), [4.0, 0.0]);
+    assert_eq!(named(&cycle), [(of_track(7), [4.0, 0.0]), own], "explained: it came from its past");
+    cycle.detections.as_mut().expect("set").items.push(detection(18.5, 0.0));
     let expected = [
-        (of_track(7), [0.0; 2]),
-        (pair(0, 0, 500), [0.0; 2]),
-        (pair(0, 0, 500), [0.0; 2]),
-        (pair(1, 0, 500), [8.0, 0.0]),
+        (of_track(7), [4.0, 0.0]),
+        own,
+        own,
+        (pair(0, 1, 500), [-6.0, 0.0]),
+        (pair(1, 0, 500), [1.0, 0.0]),
+        (pair(1, 1, 500), [-9.0, 0.0]),
         (standing(1), [0.0; 2]),
     ];
     assert_eq!(named(&cycle), expected);
+}
+
+/// F-38: a car stands, another passes it, and the remote exchanges their pasts. Both detections are explained,
+/// and neither is disputed.
+fn exchanged() -> Cycle {
+    let mut cycle = detected(PlanRemote, &[[11.0, 0.0, 0.0, 0.0], [11.0, 2.0, 8.0, 0.0]]);
+    cycle.tracks = tracks(vec![says(7, [11.0, 0.0, 8.0, -2.0]), says(8, [11.0, 2.0, 0.0, 2.0])]);
+    cycle
+}
+
+/// d may stand: who stands is examined as standing, whatever its confirmed track claims; who passed has the
+/// false motion alone.
+#[test]
+fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
+    let expected = [
+        (of_track(7), [8.0, -2.0]),
+        (of_track(8), [0.0, 2.0]),
+        (pair(0, 1, 500), [8.0, -4.0]),
+        (pair(1, 0, 500), [0.0, 4.0]),
+        (pair(0, 0, 500), [0.0; 2]),
+    ];
+    assert_eq!(named(&exchanged()), expected);
+    // It stands before the CAV, and nothing else is in its way. Half a second ago it was y m to the left.
+    let seen_at = |y: f64| {
+        let mut cycle = exchanged();
+        (cycle.ego.width, cycle.parameters.safety_time) = (1.8, 0.1);
+        cycle.detection_history[1].items[0].y = y;
+        found(&cycle).map(|it| (it.track, it.detection, it.item, it.age_ns))
+    };
+    let stands = Some((None, Some(0), Some(0), Some(500_000_000)));
+    assert_eq!([seen_at(0.0), seen_at(1.0)], [stands; 2]);
+    assert_eq!(seen_at(1f64.next_up()), None, "farther than theta_track_max");
+}
+
+/// At distance <= theta_track_max from d, each item of the reference list, not of another.
+#[test]
+fn a_detection_may_stand_where_an_item_was() {
+    let explained = |at: [f64; 2], list: usize, reading: Reading| {
+        let mut cycle = detected(MotRemote, &[A]);
+        cycle.tracks = tracks(vec![says(7, A)]);
+        let [x, y] = at;
+        cycle.detection_history[list].items.push(detection(x, y));
+        all_motions(&scene(&cycle, reading)).len() == 3
+    };
+    let all = |at: [f64; 2]| {
+        [Reading::Strict, Reading::Exact, Reading::Lax].map(|reading| explained(at, 1, reading))
+    };
+    // 1 m from where it is, and 3 m or more from its past.
+    assert!(explained([29.0, 0.0], 1, Reading::Exact));
+    assert!(!explained([29f64.next_down(), 0.0], 1, Reading::Exact));
+    let apart = |e: f64| [all([29.0 + e, 0.0]), all([31.0 - e, 0.0]), all([30.0, 1.0 - e])];
+    assert_eq!(apart(2e-6), [[true; 3]; 3]);
+    assert_eq!(apart(0.5e-6), [[true, true, false]; 3]);
+    assert_eq!(apart(-0.5e-6), [[true, false, false]; 3]);
+    assert_eq!(apart(-2e-6), [[false; 3]; 3]);
+    assert!(!explained([30.0, 0.0], 0, Reading::Exact), "250 ms ago");
+}
+
+/// An unexplained detection, too, whether another list supports it or not; once where it may come from there.
+#[test]
+fn an_unexplained_detection_may_stand_without_support() {
+    let with = |x: f64, change: fn(&mut Cycle)| {
+        let mut cycle = detected(MotRemote, &[A]);
+        cycle.detection_history[1].items.push(detection(x, 0.0));
+        change(&mut cycle);
+        named(&cycle)
+    };
+    let own = (pair(0, 0, 500), [8.0, 0.0]);
+    let stands = (standing(0), [0.0; 2]);
+    // 250 ms ago the nearest was at 28 m: 2.5 m from where it would have been.
+    assert_eq!(with(31.0, |_| ()), [own, (pair(0, 1, 500), [-2.0, 0.0]), stands]);
+    assert_eq!(with(31f64.next_up(), |_| ()), [own, stands]);
+    // Faster than v_object, too.
+    assert_eq!(
+        with(31.0, |c| c.parameters.v_object = 1.0),
+        [(pair(0, 1, 500), [-2.0, 0.0]), stands]
+    );
+    let supported: fn(&mut Cycle) = |c| c.detection_history[0].items[0].x = 30.0;
+    assert_eq!(with(31.0, supported), [(pair(0, 1, 500), [-2.0, 0.0]), stands]);
 }
 
 /// The list of a confirmed track, each item near its past, with 1 m + 2 m/s * 0.5 s included.
