@@ -248,10 +248,16 @@ fn who_follows_is_not_examined() {
         // Moved by its age, at 10 m/s.
         assert_eq!(met(&with(vec![moving(x, 0.0, [10.0, 0.0])])), expected, "{x}");
     }
-    // To 45 degrees, if it comes across.
-    for (across, expected) in [(10.0 - 1e-6, false), (10.0 + 1e-6, true)] {
-        let scene = with(vec![moving(-6.0, -4.0, [10.0, across])]);
+    // To 45 degrees from afar, if it comes across.
+    for (across, expected) in [(30.0 - 1e-5, false), (30.0 + 1e-5, true)] {
+        let scene = with(vec![moving(-15.4, -13.4, [30.0, across])]);
         assert_eq!(met(&scene), expected, "{across}");
+    }
+    // From 7.5 m on as far as it goes along: a sine of 0.3.
+    for (off, expected) in [(-1e-6, false), (1e-6, true)] {
+        let (along, across) = (20.0 * (1.0 - 0.09_f64).sqrt(), 20.0 * (0.3 + off));
+        let scene = with(vec![moving(-7.5 - AGE * along, -AGE * across, [along, across])]);
+        assert_eq!(met(&scene), expected, "{off}");
     }
     // Not what comes from before it or beside it.
     assert!(met(&with(vec![moving(6.0, -6.0, [-3.0, 6.0])])));

@@ -138,6 +138,22 @@ fn a_confirmed_track_may_come_from_every_item_near_its_past() {
     }
 }
 
+/// A track says 8 m/s of a car ahead, and what the CAV saw bears it out; but something was where the car is,
+/// or at most 1 m from there, half a second ago.
+#[test]
+fn what_may_stand_is_met_whatever_its_track_says() {
+    for (away, expected) in [(0.0, true), (1.0 - 1e-7, true), (1.0 + 1e-7, false)] {
+        let mut scene = explained(AllRemote);
+        scene.detections = Some(vec![detection(3.0, 50.1), detection(6.5, 0.0)]);
+        scene.tracks = Some(vec![track(1, 3.0, 50.0), Track { vx: 8.0, ..track(2, 6.5, 0.0) }]);
+        scene.history = vec![
+            (300 * MS, vec![detection(4.1, 0.0)]),
+            (500 * MS, vec![detection(6.5 - away, 0.0), detection(2.5, 0.0)]),
+        ];
+        assert_eq!(met(&scene), expected, "{away}");
+    }
+}
+
 /// In `PlanRemote` nothing but H-14 asks what the CAV saw.
 #[test]
 fn what_is_too_close_to_call_fails_in_the_place_of_stage_iv() {

@@ -214,6 +214,12 @@ impl<'s> Naive<'s> {
         w.dot(h) > self.more && front < -0.5 * self.scene.ego.length - self.more
     }
 
+    fn goes_along(&self, object: &Box2, w: V) -> bool {
+        let (p, h) = self.p();
+        let most = 0.05 + (object.centre - p).norm() / 30.0;
+        w.cross(h).abs() <= w.norm() * most - self.more
+    }
+
     fn follows(&self, object: &Box2, w: V) -> bool {
         let h = self.p().1;
         self.is_behind(object, w)
@@ -281,7 +287,8 @@ impl<'s> Naive<'s> {
         let now = Box2 { centre: object.centre + w * AGE, ..*object };
         let start = &self.scene.points[0];
         let aside = (self.p().0 - V(start.x, start.y)).cross(heading(start)).abs();
-        if self.follows(&now, w) || self.keeps_beside(&now, w, aside) {
+        let is_exempt = || self.follows(&now, w) || self.keeps_beside(&now, w, aside);
+        if self.goes_along(&now, w) && is_exempt() {
             return false;
         }
         let comes_across = self.comes_across(&now, w);
@@ -329,9 +336,10 @@ impl<'s> Naive<'s> {
                 let w = (centre - place(before)) * (1.0 / dt);
                 let then = centre - w * other_dt;
                 let mut supported = other.1.iter().map(|it| (place(it) - then).norm());
-                (centre - place(before)).norm() <= p.v_object * dt + self.more
-                    && supported.any(|away| away <= p.theta_track_max + self.more)
-                    && self.meets(&object, w)
+                let may_come = (centre - place(before)).norm() <= p.v_object * dt + self.more
+                    && supported.any(|away| away <= p.theta_track_max + self.more);
+                let may_stand = (centre - place(before)).norm() <= p.theta_track_max + self.more;
+                (may_come || may_stand) && self.meets(&object, w)
             }) || self.meets(&object, V(0.0, 0.0))
         })
     }
