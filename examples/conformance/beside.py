@@ -30,6 +30,19 @@ class Beside:
         return [(rounded(*a), rounded(*b), a, b)
                 for a, b in segments({**self.route, "stations": at}) if a != b]
 
+    @cached_property
+    def route_bends(self):
+        """Whether the route bends, but does not turn off or change lanes near the CAV, for who goes
+        its way and for who comes towards it."""
+        turns, c, s = [], Fraction(self.ego["cos"]), Fraction(self.ego["sin"])
+        for _, _, a, b in self.lines:
+            gx, gy = b[0] - a[0], b[1] - a[1]
+            away = math.hypot(*rounded(*from_nearest((0, 0), a, b)).values())
+            turns.append((abs(float(c * gy - s * gx)), math.hypot(gx, gy), away))
+        return {towards: all(across <= length * (0.05 + away / radius) - EPS
+                             for across, length, away in turns)
+                for towards, radius in ((True, 30), (False, 300))}
+
     def nearest(self, at, lines):
         """The distance to the reference path, and the segments that are so near."""
         gaps = [segment_distance(at, a, b) for a, b, _, _ in lines]
@@ -53,7 +66,7 @@ class Beside:
 
     @cached_property
     def leads_along_the_route(self):
-        """Whether the path bends, but does not turn off, and has no place beyond an end."""
+        """Whether the path bends as the route does, and has no place beyond an end."""
         bends = all(
             abs(cross(self.ego, place.heading)) <= 0.05 + float(place.way) / 30 - EPS
             for place in self.places)
@@ -82,6 +95,10 @@ class Beside:
     def keeps_beside(self, motion):
         """Whether nothing of an object comes to where the path leads."""
         if not any(motion.w) or not motion.goes_along or not self.leads_along_the_route:
+            return False
+        wx, wy = motion.w
+        ahead = float(wx) * self.ego["cos"] + float(wy) * self.ego["sin"]
+        if not self.route_bends[ahead <= -EPS]:
             return False
         if not self.is_along_the_route(*motion.centre):
             return False

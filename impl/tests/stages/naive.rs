@@ -252,6 +252,18 @@ impl<'s> Naive<'s> {
         inside(point(0), point(1)) && inside(point(last), point(last - 1))
     }
 
+    fn route_bends(&self, w: V) -> bool {
+        let (p, h) = self.p();
+        let radius = if w.dot(h) <= -self.more { 30.0 } else { 300.0 };
+        let points: Vec<V> = self.scene.cross_sections.iter().map(|it| V(it.x, it.y)).collect();
+        points.windows(2).all(|pair| {
+            let g = pair[1] - pair[0];
+            let share = ((p - pair[0]).dot(g) / g.dot(g)).clamp(0.0, 1.0);
+            let far = (p - (pair[0] + g * share)).norm();
+            h.cross(g).abs() <= g.norm() * (0.05 + far / radius) - self.more
+        })
+    }
+
     fn keeps_beside(&self, object: &Box2, w: V, aside: f64) -> bool {
         let Ego { length, width, .. } = self.scene.ego;
         let (h, speed) = (self.p().1, w.norm());
@@ -277,6 +289,7 @@ impl<'s> Naive<'s> {
         };
         speed > 0.0
             && away > 0.0
+            && self.route_bends(w)
             && self.is_between_ends(object.centre)
             && self.places.iter().all(has_room)
     }

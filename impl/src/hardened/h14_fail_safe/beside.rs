@@ -6,7 +6,7 @@
 
 use crate::hardened::h14_fail_safe::path::{Path, Place};
 use crate::input::cycle::Ego;
-use crate::numbers::plane::{Vector, from_segment};
+use crate::numbers::plane::{Vector, distance_to_segment, from_segment};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rectangle::Rectangle;
 use crate::numbers::rounding::Real;
@@ -18,6 +18,8 @@ const ERROR: f64 = 1e-4;
 /// What the sine of the heading may be, and more for each m of the way: a path that bends.
 pub(super) const BEND: f64 = 0.05;
 pub(super) const RADIUS: f64 = 30.0;
+/// The same radius for who goes the CAV's way, m.
+const STRAIGHT: f64 = 300.0;
 /// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 10.0;
 /// So many places are looked at together.
@@ -41,17 +43,18 @@ pub(super) struct Beside<'c, 'a> {
     /// a, m.
     aside: Real,
     lane: Option<Lane>,
+    straight: Option<bool>,
 }
 
 impl<'c, 'a> Beside<'c, 'a> {
     pub(super) const fn new(path: &Path<'c, 'a>, route: IndexedRoute<'c, 'a>, aside: Real) -> Self {
-        Self { path: *path, route, aside, lane: None }
+        Self { path: *path, route, aside, lane: None, straight: None }
     }
 
     /// Whether the object certainly does.
     pub(super) fn keeps(&mut self, object: &Passing) -> bool {
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
-        if lane.is_open == Some(false) {
+        if lane.is_open == Some(false) || !self.comes_towards(object) && !self.is_straight() {
             return false;
         }
         let Some((away, needed)) = self.needed(object, lane.hint) else { return false };
@@ -59,6 +62,18 @@ impl<'c, 'a> Beside<'c, 'a> {
             let has_none = |place: &Place| (!self.has_room(place, away, needed)).then_some(());
             !self.path.pieces().any(|it| it.first_place(|_| false, has_none).is_some())
         })
+    }
+
+    /// Whether the object certainly does not go the CAV's way.
+    fn comes_towards(&self, object: &Passing) -> bool {
+        let ego = &self.path.nodes.cycle.ego;
+        object.velocity.dot(vector([ego.cos, ego.sin])).certainly_at_most(Real::ZERO)
+    }
+
+    /// Whether lanes certainly run straight on for who goes the CAV's way.
+    fn is_straight(&mut self) -> bool {
+        let (route, ego) = (self.route, &self.path.nodes.cycle.ego);
+        *self.straight.get_or_insert_with(|| !turns(route, ego, STRAIGHT))
     }
 
     /// D, and what has to be less than the room beside the CAV times D; of several nearest points of the
@@ -128,6 +143,9 @@ impl Lane {
         let none = [f64::MAX, f64::MIN];
         let mut lane =
             Self { outer: none, inner: none, is_open: Some(true), is_closed_up: true, hint: 0 };
+        if turns(route, &path.nodes.cycle.ego, RADIUS) {
+            return Self { is_open: Some(false), ..lane };
+        }
         route.in_corridor([x, y], &mut lane.hint);
         if path.nodes.most_places() > FEW {
             return Self { is_open: None, ..lane };
@@ -186,6 +204,23 @@ impl Lane {
         let has_none = self.is_closed_up && room(self.inner) < -ERROR;
         if has_room || has_none { Some(has_room) } else { None }
     }
+}
+
+/// Whether a segment of the route may turn more than a bend of that radius does, m; none that is farther
+/// away can. Plain doubles tell most.
+fn turns(route: IndexedRoute<'_, '_>, ego: &Ego, radius: f64) -> bool {
+    let (p, h) = (Vector::new(ego.x, ego.y), vector([ego.cos, ego.sin]));
+    route.segments([ego.x, ego.y], radius).any(|Segment { from, to, index }| {
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let (length, across) = (libm::sqrt(x * x + y * y), (ego.cos * y - ego.sin * x).abs());
+        let room = length * (BEND + route.at_most([ego.x, ego.y], index) / radius) - across;
+        if room.abs() > ERROR * length {
+            return room < 0.0;
+        }
+        let g = Vector::between(from, to);
+        let most = Real::new(BEND) + distance_to_segment(p, from, to).over(Real::new(radius));
+        !h.cross(g).abs().certainly_at_most(g.norm() * most)
+    })
 }
 
 /// The most and the least of half the extent of the CAV across segments that may be nearest, m.

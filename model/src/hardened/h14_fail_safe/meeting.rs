@@ -126,8 +126,12 @@ pub struct BesideRoute {
     reference_path: Vec<Segment>,
     /// D_k and E_k of each place, m; of several E_k the greatest.
     places: Vec<(Real, Real)>,
-    /// No c_k lies beyond an end of an open route, and the path bends, it does not turn off.
+    /// No c_k lies beyond an end of an open route, and the path bends as the route does.
     is_along: bool,
+    /// The route bends with R = 300 m, for who goes the CAV's way.
+    bends_little: bool,
+    /// The same with R = 30 m, for who comes towards it: w . h <= 0.
+    bends: bool,
 }
 
 impl BesideRoute {
@@ -147,7 +151,8 @@ impl BesideRoute {
             (d_k, e_k.max().unwrap_or_else(Real::zero))
         };
         let places = places(scene, trajectory).map(distances).collect();
-        Self { reference_path, places, is_along }
+        let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
+        Self { reference_path, places, is_along, bends_little, bends }
     }
 
     /// w is not 0, it goes along, D > 0, and nothing of it comes to where the path leads, measured along the
@@ -159,6 +164,7 @@ impl BesideRoute {
         }
         let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
         let (d, nearest) = nearest(scene, &self.reference_path, &c);
+        let comes_towards = scene.reads.at_most(&w.dot(&scene.ego.heading), &zero);
         let comes_near = |segment: &&Segment| {
             let q = &c - &nearest_point(&c, segment);
             let half = (dir.dot(&q).abs() * &length + dir.cross(&q).abs() * &width)
@@ -172,6 +178,7 @@ impl BesideRoute {
         d > zero
             && goes_along(scene, motion)
             && self.is_along
+            && if comes_towards { self.bends } else { self.bends_little }
             && is_within_ends(scene, &self.reference_path, &c)
             && !nearest.iter().any(comes_near)
     }
@@ -198,6 +205,18 @@ fn h(scene: &Scene, motion: &Motion) -> Real {
     let p = &scene.parameters;
     let braking = &motion.speed / (Real::from_integer(2) * &p.a_yield);
     Driving::of(scene).t_stop().max(&p.tau + &p.t_yield + braking)
+}
+
+/// Each segment g_i of the reference path has abs(h x g_i) <= abs(g_i) (0.05 + (distance of p from g_i) / R):
+/// the route bends; it does not turn off or change lanes near the CAV.
+fn route_bends(scene: &Scene, path: &[Segment], r: i128) -> bool {
+    let Frame { origin: p, direction: h } = p(scene);
+    let distances = beside(&p, path).distances;
+    path.iter().zip(distances).all(|([from, to], distance)| {
+        let g_i = to - from;
+        let bend = Real::from_double(0.05) + distance / Real::from_integer(r);
+        scene.reads.at_most(&h.cross(&g_i).abs(), &(g_i.length() * bend))
+    })
 }
 
 /// abs(h x h_k) <= 0.05 + way / 30 m.

@@ -7,6 +7,7 @@ mod motions;
 mod path;
 mod random;
 mod reach;
+mod route_bends;
 mod schedule;
 mod times;
 

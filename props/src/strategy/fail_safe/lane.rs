@@ -55,7 +55,7 @@ pub fn object(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
 /// it is beside it, or just is not.
 pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let road = shape::frame(cycle);
-    let radius = draw.pick(&[35.0, 30.0, 45.0, 32.0]);
+    let radius = draw.pick(&[55.0, 60.0, 75.0, 52.0]);
     let side = draw.pick(&[1.0, -1.0]);
     let on_arc = |way: f64, inside: f64| {
         let angle = way / radius;
@@ -79,10 +79,10 @@ pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     });
     cycle.trajectory = Some(Trajectory { stamp_ns: cycle.now_ns, points: points.collect() });
     let inside = draw.pick(&[3.2, 3.5, 2.8]);
-    // In the middle of a segment of the route, along which it drives: it does not drift. Who is behind would follow.
-    let now = on_arc(draw.pick(&[-2.5, -2.5, -2.5, 2.5]), inside);
+    // In the middle of a segment of the route, along which it comes: it does not drift.
+    let now = on_arc(draw.pick(&[7.5, 12.5, 12.5, 17.5]), inside);
     let velocity = draw.pick(&[6.0, 9.0, 12.0]);
-    let w = (velocity * now.cos, velocity * now.sin);
+    let w = (-velocity * now.cos, -velocity * now.sin);
     let length = draw.pick(&[2.0, 4.5]);
     let width = Lane::of(cycle).width(now, length, w);
     let width = draw.near(width).clamp(0.3, 5.0);
@@ -91,42 +91,61 @@ pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     Aimed { frame, size: (length, width), velocity: w, age_ns }
 }
 
-/// Beside the leg of the route behind a corner, along which it drives towards the corner and straight on,
-/// across the CAV's way: as far away as goes along, or just nearer.
+/// Beside a route that turns off ahead, or has just done so, as far away as lanes may still bend, or just nearer.
 pub fn before_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    if draw.one_in(3) {
+        return from_a_corner(draw, cycle, age_ns);
+    }
+    let aimed = object(draw, cycle, age_ns);
     let road = shape::frame(cycle);
-    cycle.ego.speed = draw.pick(&[8.0, 5.0, 10.0]);
-    let stop = base::s_stop(cycle) + 0.5 * cycle.ego.length + cycle.ego.center_offset;
-    let side = draw.pick(&[1.0, -1.0]);
-    let (cos, sin) = draw.pick(&[(0.6, 0.8), (0.8, 0.6), (0.28, 0.96)]);
-    let aside = draw.pick(&[3.0, 3.5]);
-    let corner = aside / sin + draw.pick(&[0.9, 0.97]) * stop;
-    // A point at this way behind the corner, so far on the inner side, in the frame of the road.
-    let at =
-        |way: f64, aside: f64| (corner + way * cos - aside * sin, side * (way * sin + aside * cos));
-    let section = |(x, y): (f64, f64), (cos, sin): (f64, f64)| {
+    let far = draw.pick(&[50.0, 35.0, -45.0]);
+    let apart = cycle
+        .route
+        .cross_sections
+        .first()
+        .map_or(0.0, |it| (it.y - road.y) * road.cos - (it.x - road.x) * road.sin);
+    let sin = draw.near(0.05 + f64::hypot(far, apart) / 300.0).min(1.0);
+    turn_off(draw, cycle, [far, apart], sin);
+    aimed
+}
+
+/// The route turns off by an angle of this sine at a place beside the CAV's way: ahead, or behind the CAV.
+fn turn_off(draw: &mut Draw<'_>, cycle: &mut Cycle, [far, apart]: [f64; 2], sin: f64) {
+    let road = shape::frame(cycle);
+    let (cos, sin) = ((1.0 - sin * sin).sqrt(), draw.pick(&[1.0, -1.0]) * sin);
+    let at = |x: f64, y: f64| {
         let (x, y) = road.at(x, y);
-        let (cos, sin) = unit(road.turn((cos, sin)));
-        cross_section(Frame { x, y, cos, sin }, 0.0, 0.0, 8.0)
+        cross_section(Frame { x, y, ..road }, 0.0, 0.0, 20.0)
     };
-    let ahead = (cos, side * sin);
-    let middle = ((1.0 + cos).hypot(sin), sin);
-    let middle = ((1.0 + cos) / middle.0, side * middle.1 / middle.0);
-    let cross_sections = vec![
-        section((-60.0, 0.0), (1.0, 0.0)),
-        section(at(0.0, 0.0), middle),
-        section(at(60.0, 0.0), ahead),
-    ];
+    let turned = |way: f64| at(far + way * cos, apart + way * sin);
+    let cross_sections = if far > 0.0 {
+        vec![at(-60.0, apart), at(far, apart), turned(40.0)]
+    } else {
+        vec![turned(-40.0), at(far, apart), at(60.0, apart)]
+    };
     cycle.route = Route { closed: false, cross_sections };
-    // As far from p as its direction asks: the farther one of two such points beside the leg.
-    let distance = draw.near(30.0 * (sin - 0.05));
-    let (foot, off) = {
-        let (x, y) = at(0.0, aside);
-        (x * cos + side * y * sin, (x * sin - side * y * cos).abs())
-    };
-    let way = (distance * distance - off * off).max(1.0).sqrt() - foot;
-    let (x, y) = at(way, aside);
-    let speed = draw.pick(&[12.0, 20.0]);
+}
+
+/// It comes from where the route leads behind a corner, beside that leg, and drives straight on across the CAV's
+/// way: the corner is as near as is still a bend, or nearer.
+fn from_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    let (cos, sin) = draw.pick(&[(0.6, 0.8), (0.8, 0.6), (0.28, 0.96)]);
+    let corner = draw.near(30.0 * (sin - 0.05));
+    turn_off(draw, cycle, [corner, 0.0], sin);
+    let end = cycle
+        .route
+        .cross_sections
+        .last()
+        .map_or(0.0, |it| (it.y - road.y) * road.cos - (it.x - road.x) * road.sin);
+    let (side, aside) = (end.signum(), 3.0);
+    // So fast that its front may stand where the other crosses.
+    let front = 0.5 * cycle.ego.length + cycle.ego.center_offset;
+    while base::s_stop(cycle) + front < corner - aside / sin + 0.5 {
+        cycle.ego.speed += 0.25;
+    }
+    let (way, speed) = (draw.pick(&[10.0, 14.0]), draw.pick(&[10.0, 14.0]));
+    let (x, y) = (corner + way * cos - aside * sin, side * (way * sin + aside * cos));
     let w = (-speed * cos, -side * speed * sin);
     let age = seconds(age_ns);
     let (x, y) = road.at(x - age * w.0, y - age * w.1);

@@ -223,19 +223,19 @@ fn every_nearest_point_and_segment_is_asked() {
     };
     // Inside of a bend by a right angle, as far from both sides of it; along the first it keeps beside.
     let inside = |y: f64| {
-        let mut cycle = beside(10.0, y, 8.0, 0.0);
-        on_route(&mut cycle, [20.0, 0.0], [20.0, 40.0]);
+        let mut cycle = beside(30.0, y, -8.0, 0.0);
+        on_route(&mut cycle, [40.0, 0.0], [40.0, 40.0]);
         keeps_beside(&cycle)
     };
     assert_eq!([inside(10.0), inside(10.0 - 0.5e-6)], [[false; 3], [false, true, true]]);
     assert_eq!([inside(10.0 - 2e-6), inside(10.0 + 2e-6)], [[true; 3], [false; 3]]);
     // The last place is at a corner, where the next segment leads aside: half of W and L along it.
     let corner = |x: f64, y: f64| {
-        let mut cycle = beside(-10.0, y, 8.0, 0.0);
-        on_route(&mut cycle, [x, 0.0], [x + 100.0, 100.0]);
+        let mut cycle = beside(0.0, y, -8.0, 0.0);
+        on_route(&mut cycle, [x, 0.0], [x + 80.0, 30.0]);
         keeps_beside(&cycle)[1]
     };
-    assert!(corner(11.0, 3.1) && !corner(10.75, 3.1) && corner(10.75, 3.2));
+    assert!(corner(11.0, 2.6) && !corner(10.75, 2.6) && corner(10.75, 2.7));
 }
 
 /// Neither it nor a place lies beyond an end of an open route; a closing segment of length 0 is none.

@@ -114,11 +114,11 @@ fn who_is_at_p_goes_along_straight() {
     moves("it follows", |e| behind(aside + e));
     // Beside a CAV that drives away from the route, at right angles, its rectangle 10 m ahead of p.
     let leaving = |vx: f64| {
-        let mut cycle = at([0.0, 20.0], [vx, 1.0]);
-        (cycle.ego.y, cycle.ego.center_offset) = (20.0, 10.0);
+        let mut cycle = at([0.0, 300.0], [vx, 1.0]);
+        (cycle.ego.y, cycle.ego.center_offset) = (300.0, 10.0);
         (cycle.ego.cos, cycle.ego.sin) = (0.0, 1.0);
         for point in points(&mut cycle) {
-            (point.x, point.y, point.cos, point.sin) = (0.0, 20.0 + point.x, 0.0, 1.0);
+            (point.x, point.y, point.cos, point.sin) = (0.0, 300.0 + point.x, 0.0, 1.0);
         }
         keeps_beside(&cycle)
     };
@@ -139,7 +139,8 @@ fn who_follows_or_keeps_beside_goes_along() {
 
 /// Before a corner of 90 degrees, beside the leg behind it: straight on it crosses the CAV's way.
 fn before_a_corner(cycle: &mut Cycle, y: f64) {
-    alone(cycle, Track { vy: -10.0, ..track(1, 12.0, y) });
+    // It comes towards the CAV, however slowly.
+    alone(cycle, Track { vx: -1e-4, vy: -10.0, ..track(1, 12.0, y) });
     let section = |[x, y]: [f64; 2], [right, left]: [f64; 2]| CrossSection {
         x,
         y,
@@ -148,8 +149,8 @@ fn before_a_corner(cycle: &mut Cycle, y: f64) {
     };
     cycle.route.cross_sections = vec![
         section([-100.0, 0.0], [0.0, 9.0]),
-        section([20.0, 0.0], [9.0, 9.0]),
-        section([20.0, 40.0], [9.0, 0.0]),
+        section([30.0, 0.0], [9.0, 9.0]),
+        section([30.0, 40.0], [9.0, 0.0]),
     ];
     points(cycle).truncate(20);
 }
