@@ -267,8 +267,8 @@ pub struct MufasaCycle {
     /// nearest to 300, 500 and 800 ms, the one nearest to 500 ms being the reference. A cycle that was
     /// not safe leaves its detections in the history like any other; older than 60 s, a list counts
     /// as missing. With fewer than two of these no track is backed: none may miss its detection (H-01),
-    /// and no detection is explained, so that each counts as standing, too; with none of them what
-    /// moves is not looked for (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
+    /// and no detection is explained, so that each counts as standing, too; with none of them only
+    /// tracks are looked at as moving (H-14). The verdict is then valid, but rejects more and knows less. `mufasa_detection_index_init` saves reading a list in every cycle.
     pub detection_history: *const MufasaDetectionList,
     /// How many.
     pub detection_history_len: usize,

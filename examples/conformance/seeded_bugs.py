@@ -125,7 +125,7 @@ BUGS = [
              "H-14: who is beside the path keeps beside it, whether it drifts there or not"),
     hardened("beyond-the-end", "beside.py", 'if self.route["closed"]:', "if True:",
              "H-14: who is beyond an end of the route keeps beside the path, too"),
-    hardened("route-turns-off", "beside.py", "if not self.route_bends[motion.is_behind]:", "if False:",
+    hardened("route-turns-off", "beside.py", "if not self.route_bends[ahead <= -EPS]:", "if False:",
              "H-14: who goes along keeps beside the path where the route turns off near the CAV, too"),
     hardened("age-left-out", "fail_safe.py", 'cycle["now_ns"] - stamp_ns, parameters', "0, parameters",
              "H-14: objects move from now on, not from the time of their list"),

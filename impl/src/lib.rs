@@ -138,7 +138,7 @@
 //! | stage i to stage v | `stages::{i_track_validation, .., v_grid_map}` |
 //! | `3-stages.md#distances`, LLCC | `stages::{distances, horizon, llcc}` |
 //! | `3-stages.md#invalid-input` | `input::domain` |
-//! | H-01 to H-14 | `hardened`, a file for each rule or group of rules |
+//! | the rules H-nn | `hardened`, a file for each rule or group of rules |
 //! | `5-interfaces.md#cycle` | [`input::cycle`], [`report`] |
 //! | `2-offloading.md` | [`offloading::requester`], [`offloading::quality_of_service`] |
 //! | `1-services.md#configuration` | [`services::configuration`] |

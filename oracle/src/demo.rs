@@ -71,7 +71,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
     };
     introduction(&drives[0], out)?;
     let [hardened, paper] = &drives;
-    writeln!(out, "HARDENED PROFILE: the published method and the rules H-01 to H-14\n")?;
+    writeln!(out, "HARDENED PROFILE: the published method and the rules H-nn\n")?;
     for case in &CASES {
         demo.case(case, hardened, out)?;
     }

@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::map::Town;
-use crate::map::route::{Route, RouteKind};
+use crate::map::route::Route;
 use crate::pose::{Point, Rectangle};
 use crate::traffic::idm::Idm;
 pub use crate::traffic::start::{Halt, Start};
@@ -254,9 +254,4 @@ impl Placed {
     fn add(&mut self, route: &Route, s: f64, length: f64, width: f64) {
         self.places.extend(Self::circles(route, s, length, width));
     }
-}
-
-/// Whether people move along a route.
-pub const fn is_crossing(route: &Route) -> bool {
-    !matches!(route.kind, RouteKind::Road)
 }

@@ -6,6 +6,6 @@
 pub enum Profile {
     /// The published method, read as the interpretations I-nn say.
     Paper,
-    /// The published method and H-01 to H-14.
+    /// The published method and the rules H-nn.
     Hardened,
 }

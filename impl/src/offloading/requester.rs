@@ -156,12 +156,6 @@ impl<'a> Requester<'a> {
         self.sessions
     }
 
-    /// Whether there is no number left for another request: none is sent any more. Source:
-    /// `spec/2-offloading.md#requester`.
-    pub const fn sessions_exhausted(&self) -> bool {
-        self.sessions == i64::MAX
-    }
-
     /// The table with the stations that are remembered. Source: `spec/2-offloading.md#requester`.
     pub const fn stations(&self) -> &[StationRecord] {
         self.stations.records()

@@ -36,7 +36,7 @@ th, td { border-color: #343c45 } code { background: #252c33 } }\n</style>\n</hea
 <h1>Experiments in a closed loop</h1>\n\
 <p>A CAV drives through a town and lets a station track and plan for it, while somebody attacks. What is \
 checked of what comes back: <b>sofof</b>, its age alone; <b>paper</b>, the five stages as published; \
-<b>hardened</b>, with the rules H-01 to H-14. <code>docs/evaluation.md</code> of the project says what the \
+<b>hardened</b>, with the rules H-nn. <code>docs/evaluation.md</code> of the project says what the \
 experiments are, and what agrees with the paper.</p>\n";
 const TAIL: &str = "</body>\n</html>\n";
 

@@ -13,7 +13,7 @@ use crate::numbers::rounding::Real;
 use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, Segment};
 use crate::stages::llcc::{footprint, vector};
 
-/// m
+/// More than the plain distances here err, m.
 const ERROR: f64 = 1e-4;
 /// What the sine of the heading may be, and more for each m of the way: a path that bends.
 pub(super) const BEND: f64 = 0.05;
@@ -40,7 +40,7 @@ pub(super) struct Passing {
 pub(super) struct Beside<'c, 'a> {
     path: Path<'c, 'a>,
     route: IndexedRoute<'c, 'a>,
-    /// a, m.
+    /// How far the CAV is aside of the first point (a of the text), m.
     aside: Real,
     lane: Option<Lane>,
     straight: Option<bool>,

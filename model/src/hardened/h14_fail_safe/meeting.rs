@@ -54,7 +54,8 @@ fn a(scene: &Scene, trajectory: &[Point]) -> Real {
     (&scene.ego.position - x_0).cross(h_0).abs()
 }
 
-/// Over the window, which ends at H(w) where the CAV may stand, and at T where the object comes across, the object sweeps over a point of the CAV's rectangle.
+/// Over the window the object sweeps over a point of the CAV's rectangle. Where the CAV may stand the window ends at
+/// H(w), and at T when the object comes across.
 fn sweeps_over(
     scene: &Scene,
     cav: &Rectangle,
