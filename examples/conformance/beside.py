@@ -96,14 +96,22 @@ class Beside:
         """Whether nothing of an object comes to where the path leads."""
         if not any(motion.w) or not motion.goes_along or not self.leads_along_the_route:
             return False
-        wx, wy = motion.w
-        ahead = float(wx) * self.ego["cos"] + float(wy) * self.ego["sin"]
-        if not self.route_bends[ahead <= -EPS]:
+        wx, wy = (float(it) for it in motion.w)
+        ahead = wx * self.ego["cos"] + wy * self.ego["sin"]
+        aside = abs(wx * self.ego["sin"] - wy * self.ego["cos"])
+        if not self.route_bends[aside <= -ahead - EPS]:
             return False
         if not self.is_along_the_route(*motion.centre):
             return False
-        _, lines = self.nearest(rounded(*motion.centre), self.lines)
+        D, lines = self.nearest(rounded(*motion.centre), self.lines)
+        if D > 20 - EPS or self.lies_across(motion):
+            return False
         return all(self.is_free(motion, *from_nearest(motion.centre, a, b)) for _, _, a, b in lines)
+
+    def lies_across(self, motion):
+        """Whether it lies where the path leads, though its centre may be beside it."""
+        cav = {**self.ego, "width": self.ego["width"] + 2 * self.a}
+        return any(motion.is_on(cav, place.pose) for place in self.places)
 
     def is_free(self, motion, qx, qy):
         x, y, item = float(qx), float(qy), motion.item

@@ -101,6 +101,11 @@ class Motion:
         return sweeps(edges(pose, cav, EPS, self.item), *self.from_cav(pose), *self.u,
                       self.braked(self.age + t1), self.speed * (self.age + t2))
 
+    def is_on(self, cav, pose):
+        """Whether it is on the CAV, of some length and width, at a place, where it is now."""
+        moved = self.speed * self.age
+        return sweeps(edges(pose, cav, EPS, self.item), *self.from_cav(pose), *self.u, moved, moved)
+
     def from_cav(self, pose):
         return from_centre(pose, self.ego["center_offset"], self.item, 0.0, 0.0)
 

@@ -242,7 +242,7 @@ mod tests {
         });
         let named: Vec<&str> = record.bugs.iter().map(|bug| bug.name.as_str()).collect();
         assert_eq!(named, of_list.collect::<Vec<_>>());
-        assert_eq!(named.len(), 43);
+        assert_eq!(named.len(), 46);
         for Bug { name, program, profile, about, vectors, first, .. } in &record.bugs {
             assert_eq!(first.len(), seeds, "{name}");
             let chance = |cases: u64| {

@@ -12,6 +12,7 @@ mod fail_safe;
 mod history;
 mod inner;
 mod input;
+mod keeps_beside;
 mod motions;
 mod naive;
 mod random;

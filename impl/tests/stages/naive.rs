@@ -198,6 +198,12 @@ impl<'s> Naive<'s> {
         Box2 { centre: at + along * center_offset, along, half }
     }
 
+    fn cav_at(&self, place: &Place, aside: f64) -> Box2 {
+        let mut cav = self.cav(place.at, place.heading, self.more);
+        cav.half[1] += aside;
+        cav
+    }
+
     fn comes_across(&self, object: &Box2, w: V) -> bool {
         let (p, h) = self.p();
         let s_b = self.scene.ego.speed.powi(2) / (2.0 * self.scene.parameters.a_b);
@@ -254,7 +260,8 @@ impl<'s> Naive<'s> {
 
     fn route_bends(&self, w: V) -> bool {
         let (p, h) = self.p();
-        let radius = if w.dot(h) <= -self.more { 30.0 } else { 300.0 };
+        let comes_towards = w.cross(h).abs() <= -w.dot(h) - self.more;
+        let radius = if comes_towards { 30.0 } else { 300.0 };
         let points: Vec<V> = self.scene.cross_sections.iter().map(|it| V(it.x, it.y)).collect();
         points.windows(2).all(|pair| {
             let g = pair[1] - pair[0];
@@ -287,8 +294,11 @@ impl<'s> Naive<'s> {
                     self.each(&feet, |&(q, _)| room * away > needed(q))
                 })
         };
+        let lies_across = |place: &Place| sweeps(&self.cav_at(place, aside), object, V(0.0, 0.0));
         speed > 0.0
             && away > 0.0
+            && away <= 20.0 - self.more
+            && !self.places.iter().any(lies_across)
             && self.route_bends(w)
             && self.is_between_ends(object.centre)
             && self.places.iter().all(has_room)
@@ -316,9 +326,7 @@ impl<'s> Naive<'s> {
             let least = speed * braked - 0.5 * p.a_b * braked * braked;
             let most = speed * (until + AGE);
             let swept = Box2 { centre: object.centre + unit * least, ..*object };
-            let mut cav = self.cav(place.at, place.heading, self.more);
-            cav.half[1] += aside;
-            sweeps(&cav, &swept, unit * (most - least))
+            sweeps(&self.cav_at(place, aside), &swept, unit * (most - least))
         })
     }
 

@@ -32,7 +32,8 @@ impl Draws {
         scene.ego.center_offset = self.between(-1.0, 2.0);
         scene.parameters.tau = self.one_of(&[0.0, 0.1, 0.4]);
         scene.parameters.t_yield = self.one_of(&[0.0, 1.5, 6.0]);
-        let (turn, step) = (self.between(-0.15, 0.15), self.one_of(&[0.05, 0.5, 1.3]));
+        let turn = self.between(-0.15, 0.15) * self.one_of(&[1.0, 0.2, 0.1]);
+        let step = self.one_of(&[0.05, 0.5, 1.3]);
         let (mut at, mut angle) = (V(self.between(-1.0, 1.0), 0.0), self.between(-0.1, 0.1));
         let count = self.0.random_range(1..40);
         scene.points = (0..count)
@@ -48,7 +49,10 @@ impl Draws {
         scene.ego.y = self.one_of(&[0.0, 0.2, -0.3]);
         (scene.tracks, scene.detections) = (Some(Vec::new()), Some(Vec::new()));
         // The road bends about as the trajectory does, and ends somewhere.
-        let bend = turn + self.one_of(&[0.0, 0.02]);
+        let last = scene.cross_sections[9];
+        let more = self.0.random_range(0..24);
+        scene.cross_sections.extend((0..more).map(|_| last));
+        let bend = turn + self.one_of(&[0.0, 0.02, 0.01]);
         let (mut at, mut angle) = (V(0.0, self.between(-2.0, 2.0)), 0.0);
         for section in scene.cross_sections.iter_mut().skip(4) {
             (section.x, section.y) = (at.0, at.1);
@@ -67,25 +71,31 @@ impl Draws {
         (of + self.between(-straight, straight)).sin_cos()
     }
 
-    /// Some are beside the road where it bends.
     fn track(&mut self, scene: &Scene) -> Track {
         if self.between(0.0, 1.0) < 0.5 {
-            let i = self.0.random_range(4..9);
-            let [from, to] = [i, i + 1].map(|i| &scene.cross_sections[i]);
-            let u = V(to.x - from.x, to.y - from.y);
-            let (share, away) =
-                (self.between(0.0, 1.0), self.one_of(&[-3.5, 3.5, 2.7, 5.0]) / u.norm());
-            let at = V(from.x, from.y) + u * share + V(-u.1, u.0) * away;
-            let turned = self.between(-0.03, 0.03) + self.one_of(&[0.0, PI]);
-            let (sin, cos) = (u.1.atan2(u.0) + turned).sin_cos();
-            let speed = self.one_of(&[4.0, 12.0, 25.0]);
-            return Track { cos, sin, vx: speed * cos, vy: speed * sin, ..track(1, at.0, at.1) };
+            return self.along_the_road(scene);
         }
         let V(x, y) = self.place();
         let (sin, cos) = self.direction(0.0);
         let speed = self.between(0.0, 1.0) * self.one_of(&[0.0, 4.0, 15.0, 40.0]);
         let (vy, vx) = self.direction(0.0);
         Track { cos, sin, vx: speed * vx, vy: speed * vy, ..track(1, x, y) }
+    }
+    /// Beside the road, in a lane or where straight on it comes to the CAV; some are long.
+    fn along_the_road(&mut self, scene: &Scene) -> Track {
+        let i = self.0.random_range(4..scene.cross_sections.len() - 1);
+        let [from, to] =
+            [i, i + 1].map(|i| V(scene.cross_sections[i].x, scene.cross_sections[i].y));
+        let u = (to - from) * (1.0 / (to - from).norm());
+        let left = V(-u.1, u.0);
+        let straight_on = (V(2.0, 0.0) - from).dot(left) + self.between(-1.5, 1.5);
+        let away = self.one_of(&[-3.5, 3.5, 2.7, 5.0, straight_on, straight_on]);
+        let at = from + (to - from) * self.between(0.0, 1.0) + left * away;
+        let turned = self.between(-0.03, 0.03) + self.one_of(&[0.0, PI]);
+        let (sin, cos) = (u.1.atan2(u.0) + turned).sin_cos();
+        let (speed, length) =
+            (self.one_of(&[4.0, 12.0, 25.0, 40.0]), self.one_of(&[4.0, 4.0, 12.0, 80.0]));
+        Track { cos, sin, vx: speed * cos, vy: speed * sin, length, ..track(1, at.0, at.1) }
     }
 }
 
@@ -106,7 +116,7 @@ fn compare(scene: &Scene) -> Option<bool> {
 fn tracks_are_met_as_the_text_says() {
     let mut draws = Draws(ChaCha8Rng::seed_from_u64(14));
     let mut counts = [0, 0];
-    for _ in 0..40_000 {
+    for _ in 0..100_000 {
         let mut scene = draws.scene();
         scene.tracks = Some(vec![draws.track(&scene)]);
         if let Some(met) = compare(&scene) {

@@ -248,7 +248,10 @@ fn search<M: Send>(
     let kinds = if arguments.attack.is_empty() { KINDS.to_vec() } else { arguments.attack.clone() };
     let options = Options { variant: profile, kinds, runs, rounds, vehicles, seed, map };
     document::has_place(arguments.into.as_deref(), &command(&options))?;
-    let template = "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}";
+    let template = match runs {
+        Some(_) => "{prefix} {bar:30} {pos}/{len} runs, {left} left; {msg}",
+        None => "{prefix} {pos} runs in {elapsed}; {msg}",
+    };
     let bar = progress::bar(runs.unwrap_or(0), template);
     bar.set_prefix(NAME);
     let until = minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));

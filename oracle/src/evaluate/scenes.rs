@@ -98,10 +98,10 @@ fn search(arguments: &ScenesArguments) -> Result<(Scenes, Vec<PathBuf>), String>
     let scenes = arguments.scenes.unwrap_or(SCENES);
     let until =
         arguments.minutes.map(|it| Instant::now() + Duration::from_secs(60 * u64::from(it)));
-    let bar = progress::bar(
-        if until.is_some() { 0 } else { scenes },
-        "{prefix} {bar:30} {pos}/{len} scenes, {left} left",
-    );
+    let bar = match until {
+        Some(_) => progress::bar(0, "{prefix} {pos} scenes in {elapsed}"),
+        None => progress::bar(scenes, "{prefix} {bar:30} {pos}/{len} scenes, {left} left"),
+    };
     bar.set_prefix(NAME);
     let threads = usize::from(arguments.threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(said)?;

@@ -3,7 +3,7 @@
 use std::thread;
 
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::report::{InvalidInput, Outcome, Problem};
+use mufasa::report::{InvalidInput, Outcome, Problem, Rule};
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
     TrackList, Trajectory, TrajectoryPoint,
@@ -13,9 +13,9 @@ use mufasa_model::services::configuration::Configuration::{
 };
 use mufasa_props::bridge::{Owned, to_impl};
 
-/// Bytes of stack: less than what small cycles need (up to 28 KiB, most of it H-14's) and 16 for each of
+/// Bytes of stack: less than what small cycles need (up to 34 KiB, most of it H-14's) and 16 for each of
 /// 1,024 points or tracks.
-const STACK: usize = 32 << 10;
+const STACK: usize = 40 << 10;
 
 /// How many of each there are: track i stands where detection i is, beside the road.
 #[derive(Clone, Copy)]
@@ -100,6 +100,16 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
     }
 }
 
+/// Of the tracks the first comes from behind, beside the path, and would meet the CAV straight on, at this drift to the
+/// right, m/s: at 1/10 of its way it keeps beside, which is the deepest that H-14 goes.
+fn with_passer(counts: Counts, drift: f64) -> Cycle {
+    let mut cycle = cycle(counts, Profile::Hardened, PlanRemote);
+    (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
+    let passer = &mut cycle.tracks.as_mut().expect("set").items[0];
+    (passer.x, passer.y, passer.vx, passer.vy) = (-18.0, 3.5, 7.0, -drift);
+    cycle
+}
+
 /// One cycle for every configuration and profile, and those that stage iv lacks its input in.
 fn cycles(counts: Counts) -> Vec<Owned> {
     let mut cycles = Vec::new();
@@ -113,6 +123,7 @@ fn cycles(counts: Counts) -> Vec<Owned> {
         without_tracks.detections = None;
         cycles.push(without_tracks);
     }
+    cycles.push(with_passer(counts, 0.65));
     cycles.iter().map(to_impl).collect()
 }
 
@@ -154,6 +165,17 @@ fn the_largest_cycles_need_no_more_stack_than_small_ones() {
     let stages = passed(&cycles(SMALL));
     assert!(stages.iter().all(|count| *count > 0), "{stages:?}");
     assert_eq!(passed(&cycles(LARGE)), stages);
+}
+
+#[test]
+fn the_passer_meets_the_cav_unless_it_keeps_beside() {
+    let cycle = to_impl(&with_passer(SMALL, 0.75));
+    let Sizes { rows, columns } = Sizes::MAX;
+    let (mut rows, mut columns) = (vec![Row::default(); rows], vec![Column::default(); columns]);
+    let mut scratch = Scratch::new(&mut rows, &mut columns);
+    let report = mufasa::stages::check(&cycle.borrow(&cycle.history()), &mut scratch);
+    let Outcome::Failed(witness) = report.expect("valid").stages[3] else { panic!("it passes") };
+    assert_eq!((witness.rule, witness.track), (Rule::FailSafe, Some(0)));
 }
 
 /// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: scratch that is one element too small

@@ -18,8 +18,10 @@ const ERROR: f64 = 1e-4;
 /// What the sine of the heading may be, and more for each m of the way: a path that bends.
 pub(super) const BEND: f64 = 0.05;
 pub(super) const RADIUS: f64 = 30.0;
-/// The same radius for who goes the CAV's way, m.
+/// The same radius for who does not come towards the CAV, m.
 const STRAIGHT: f64 = 300.0;
+/// How far from the reference path an object may be that keeps beside, m.
+const FARTHEST: f64 = 20.0;
 /// How far to the side, for each m beside the path and each m that it goes, who keeps to its lane drifts.
 const DRIFT: f64 = 10.0;
 /// So many places are looked at together.
@@ -32,6 +34,8 @@ pub(super) struct Passing {
     pub(super) velocity: Vector,
     pub(super) speed: Real,
     pub(super) is_behind: bool,
+    /// Whether it certainly does, at 45 degrees at most.
+    pub(super) comes_towards: bool,
     /// `t_H`, unless it keeps to its lane, s.
     pub(super) until: Real,
 }
@@ -51,10 +55,10 @@ impl<'c, 'a> Beside<'c, 'a> {
         Self { path: *path, route, aside, lane: None, straight: None }
     }
 
-    /// Whether the object certainly does.
+    /// Whether the object certainly does, if it does not lie across the way.
     pub(super) fn keeps(&mut self, object: &Passing) -> bool {
         let lane = *self.lane.get_or_insert_with(|| Lane::new(&self.path, self.route, self.aside));
-        if lane.is_open == Some(false) || !self.comes_towards(object) && !self.is_straight() {
+        if lane.is_open == Some(false) || !object.comes_towards && !self.is_straight() {
             return false;
         }
         let Some((away, needed)) = self.needed(object, lane.hint) else { return false };
@@ -64,13 +68,7 @@ impl<'c, 'a> Beside<'c, 'a> {
         })
     }
 
-    /// Whether the object certainly does not go the CAV's way.
-    fn comes_towards(&self, object: &Passing) -> bool {
-        let ego = &self.path.nodes.cycle.ego;
-        object.velocity.dot(vector([ego.cos, ego.sin])).certainly_at_most(Real::ZERO)
-    }
-
-    /// Whether lanes certainly run straight on for who goes the CAV's way.
+    /// Whether lanes certainly run straight on for who does not come towards the CAV.
     fn is_straight(&mut self) -> bool {
         let (route, ego) = (self.route, &self.path.nodes.cycle.ego);
         *self.straight.get_or_insert_with(|| !turns(route, ego, STRAIGHT))
@@ -83,7 +81,9 @@ impl<'c, 'a> Beside<'c, 'a> {
         let [length, width] = [length, width].map(|size| Real::new(0.5 * size));
         let nearest = self.route.nearest(centre, hint);
         let away = nearest.0;
-        if !self.route.certainly_has_beside(centre) || !Real::ZERO.certainly_below(away) {
+        let is_near = away.certainly_at_most(Real::new(FARTHEST));
+        if !is_near || !Real::ZERO.certainly_below(away) || !self.route.certainly_has_beside(centre)
+        {
             return None;
         }
         let most = (object.speed * away).over(Real::new(DRIFT));

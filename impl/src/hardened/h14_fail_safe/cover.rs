@@ -7,7 +7,9 @@
 use crate::hardened::h14_fail_safe::path::{Line, Nodes};
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Ego};
+use crate::numbers::plane::Vector;
 use crate::numbers::range::{EMPTY, extend, larger, smaller};
+use crate::numbers::rounding::Real;
 use crate::stages::llcc::sweep::{MovingRectangle, minus, split};
 
 /// More than plain doubles err, m.
@@ -64,6 +66,15 @@ pub(super) struct Object {
     pub(super) off: f64,
     /// Age of its list, s.
     pub(super) age: f64,
+}
+
+impl Object {
+    /// The same, so far from the CAV's reference point, and standing there from now on.
+    pub(super) fn standing(&self, from: Vector) -> Self {
+        let centre = [from.x, from.y].map(Real::value);
+        let at = MovingRectangle { centre, velocity: [0.0; 2], ..self.at };
+        Self { at, speed: 0.0, off: 0.0, age: 0.0 }
+    }
 }
 
 /// A box, and when the CAV may be in it.

@@ -10,7 +10,7 @@ use crate::hardened::h14_fail_safe::path::{Nodes, Path, Piece, Pieces, Place};
 use crate::input::cycle::{Cycle, Ego, TrajectoryPoint};
 use crate::numbers::plane::Vector;
 use crate::numbers::range::{larger, smaller};
-use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept};
+use crate::numbers::rectangle::{Rectangle, certainly_met, possibly_swept, possibly_touch};
 use crate::numbers::rounding::Real;
 use crate::stages::distances::s_b;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -119,8 +119,10 @@ impl<'c, 'a> Meeting<'c, 'a> {
             let (starts, beside) = (starts(&path, covers), Beside::new(&path, *route, *aside));
             Places { path, points, ego: *ego, starts, beside }
         });
-        let met = places.first((&object, &exact), before, (covers, clock));
-        met.filter(|met| met.number < before).filter(|_| !places.is_exempt(&exact))
+        let boxes = (&*covers, &*clock);
+        let met = places.first(&object, before, boxes, |place| places.meets(place, &exact));
+        met.filter(|met| met.number < before)
+            .filter(|_| !places.is_exempt((&object, &exact), boxes))
     }
 }
 
@@ -152,13 +154,15 @@ impl<'c, 'a> Places<'c, 'a> {
         self.path.nodes.cycle
     }
 
-    /// The first place where the object may meet the CAV, if that is before the place with that number.
-    fn first(
+    /// What is found at the first place where something is, of those where the object may meet the CAV; few
+    /// of them are behind the place with that number.
+    fn first<T>(
         &self,
-        (object, exact): (&Object, &Exact),
+        object: &Object,
         before: i64,
         (covers, clock): (&Covers, &Clock),
-    ) -> Option<Met> {
+        find: impl Fn(&Place) -> Option<T>,
+    ) -> Option<T> {
         let mut done = 0;
         self.starts.iter().zip(covers.stretches()).find_map(|(start, stretch)| {
             let [first, last] = stretch.lines;
@@ -171,7 +175,7 @@ impl<'c, 'a> Places<'c, 'a> {
                 start.clone()?.take(done.saturating_sub(first)).skip(from.saturating_sub(first));
             pieces.take_while(|piece| piece.first < before).find_map(|piece| {
                 let misses = |run| self.run(&piece, run, clock).misses(object, clock);
-                piece.first_place(misses, |place| self.meets(place, exact))
+                piece.first_place(misses, &find)
             })
         })
     }
@@ -204,20 +208,30 @@ impl<'c, 'a> Places<'c, 'a> {
     }
 
     /// Whether the object certainly goes along, and follows the CAV or keeps beside its path.
-    fn is_exempt(&mut self, object: &Exact) -> bool {
+    fn is_exempt(&mut self, (object, exact): (&Object, &Exact), boxes: (&Covers, &Clock)) -> bool {
         let ego = &self.cycle().ego;
-        let (h, w) = (vector([ego.cos, ego.sin]), object.velocity);
+        let (h, w) = (vector([ego.cos, ego.sin]), exact.velocity);
         let (along, across) = (w.dot(h), w.cross(h).abs());
-        let far = (object.now.centre - vector([ego.x, ego.y])).norm();
-        let most = Real::new(BEND) + far.over(Real::new(RADIUS));
-        if !object.moves || !across.certainly_at_most(object.speed * most) {
+        let from = exact.now.centre - vector([ego.x, ego.y]);
+        let most = Real::new(BEND) + from.norm().over(Real::new(RADIUS));
+        if !exact.moves || !across.certainly_at_most(exact.speed * most) {
             return false;
         }
-        object.is_behind && object.comes_across && across.certainly_at_most(along) || {
-            let Exact { now, velocity, speed, is_behind, .. } = *object;
-            let until = self.until_yielded(speed);
-            self.beside.keeps(&Passing { now, velocity, speed, is_behind, until })
+        exact.is_behind && exact.comes_across && across.certainly_at_most(along) || {
+            let Exact { now, velocity, speed, is_behind, .. } = *exact;
+            let (until, comes_towards) =
+                (self.until_yielded(speed), across.certainly_at_most(-along));
+            let passing = Passing { now, velocity, speed, is_behind, comes_towards, until };
+            self.beside.keeps(&passing) && !self.may_lie_across(&now, &object.standing(from), boxes)
         }
+    }
+
+    /// Whether an object may share a point with the CAV at some place, where it is now; `plainly`: the same
+    /// for boxes.
+    fn may_lie_across(&self, now: &Rectangle, plainly: &Object, boxes: (&Covers, &Clock)) -> bool {
+        let touches =
+            |place: &Place| possibly_touch(&footprint(&self.ego, &place.pose), now).then_some(());
+        self.first(plainly, i64::MAX, boxes, touches).is_some()
     }
 
     /// H(w) = max(T, tau + `t_yield` + abs(w) / (2 `a_yield`)), s.

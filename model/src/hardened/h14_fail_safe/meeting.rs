@@ -9,7 +9,7 @@ use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
 use crate::input::scene::{Object, Point, Scene};
 use crate::numbers::polyline::{Beside, Segment, beside, nearest_point};
 use crate::numbers::real::Real;
-use crate::numbers::rectangle::{Rectangle, is_swept_over, is_swept_over_between};
+use crate::numbers::rectangle::{Rectangle, is_swept_over, is_swept_over_between, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::cav;
@@ -125,13 +125,13 @@ pub fn follows(scene: &Scene, motion: &Motion, comes_across: bool, behind: bool)
 #[derive(Debug)]
 pub struct BesideRoute {
     reference_path: Vec<Segment>,
-    /// D_k and E_k of each place, m; of several E_k the greatest.
-    places: Vec<(Real, Real)>,
+    /// D_k and E_k of each place, m, of several E_k the greatest, and the rectangle of the CAV there.
+    places: Vec<(Real, Real, Rectangle)>,
     /// No c_k lies beyond an end of an open route, and the path bends as the route does.
     is_along: bool,
     /// The route bends with R = 300 m, for who goes the CAV's way.
     bends_little: bool,
-    /// The same with R = 30 m, for who comes towards it: w . h <= 0.
+    /// The same with R = 30 m, for who comes towards it: abs(w x h) <= - w . h.
     bends: bool,
 }
 
@@ -149,39 +149,43 @@ impl BesideRoute {
                 is_within_ends(scene, &reference_path, &c_k) && bends(scene, &h_k, &place.way);
             let (d_k, nearest) = nearest(scene, &reference_path, &c_k);
             let e_k = nearest.iter().map(|[from, to]| e_k(scene, &h_k, &(to - from)) + &a);
-            (d_k, e_k.max().unwrap_or_else(Real::zero))
+            let cav = wider(scene, trajectory, &place.pose);
+            (d_k, e_k.max().unwrap_or_else(Real::zero), cav)
         };
         let places = places(scene, trajectory).map(distances).collect();
         let [bends_little, bends] = [300, 30].map(|r| route_bends(scene, &reference_path, r));
         Self { reference_path, places, is_along, bends_little, bends }
     }
 
-    /// w is not 0, it goes along, D > 0, and nothing of it comes to where the path leads, measured along the
-    /// route: (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
+    /// w is not 0, it goes along, 0 < D <= 20 m, nothing of it is where the path leads, and nothing comes there,
+    /// measured along the route: (abs(D - D_k) - E_k) D > (abs(dir . q) length + abs(dir x q) width) / 2 + abs(w . q) t_H.
     pub fn keeps_beside(&self, scene: &Scene, motion: &Motion, behind: bool) -> bool {
-        let (w, zero) = (&motion.w, Real::zero());
+        let (w, h, zero) = (&motion.w, &scene.ego.heading, Real::zero());
         if w.squared() == zero {
             return false;
         }
+        let object = now(motion).rectangle();
         let Object { frame: Frame { origin: c, direction: dir }, length, width } = now(motion);
         let (d, nearest) = nearest(scene, &self.reference_path, &c);
-        let comes_towards = scene.reads.at_most(&w.dot(&scene.ego.heading), &zero);
+        let comes_towards = scene.reads.at_most(&w.cross(h).abs(), &-w.dot(h));
         let comes_near = |segment: &&Segment| {
             let q = &c - &nearest_point(&c, segment);
             let half = (dir.dot(&q).abs() * &length + dir.cross(&q).abs() * &width)
                 / Real::from_integer(2);
             let needed = half + w.dot(&q).abs() * t_h(scene, motion, &q, &d, behind);
-            let is_apart = |(d_k, e_k): &(Real, Real)| {
+            let is_apart = |(d_k, e_k, _): &(Real, Real, Rectangle)| {
                 scene.reads.lowered(&((&d - d_k).abs() - e_k)) * &d > needed
             };
             !self.places.iter().all(is_apart)
         };
         d > zero
+            && scene.reads.at_most(&d, &Real::from_integer(20))
             && goes_along(scene, motion)
             && self.is_along
             && if comes_towards { self.bends } else { self.bends_little }
             && is_within_ends(scene, &self.reference_path, &c)
             && !nearest.iter().any(comes_near)
+            && !self.places.iter().any(|(.., cav)| share_a_point(cav, &object))
     }
 }
 

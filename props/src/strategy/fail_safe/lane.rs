@@ -91,10 +91,14 @@ pub fn in_a_bend(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     Aimed { frame, size: (length, width), velocity: w, age_ns }
 }
 
-/// Beside a route that turns off ahead, or has just done so, as far away as lanes may still bend, or just nearer.
+/// Beside a route that turns off ahead, or has just done so, as far away as lanes may still bend, or just nearer; and
+/// who lies across the way, or is far from the route.
 pub fn before_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
-    if draw.one_in(3) {
-        return from_a_corner(draw, cycle, age_ns);
+    match draw.below(6) {
+        0 | 1 => return from_a_corner(draw, cycle, age_ns),
+        2 => return across(draw, cycle, age_ns),
+        3 => return far_beside(draw, cycle, age_ns),
+        _ => {}
     }
     let aimed = object(draw, cycle, age_ns);
     let road = shape::frame(cycle);
@@ -127,11 +131,16 @@ fn turn_off(draw: &mut Draw<'_>, cycle: &mut Cycle, [far, apart]: [f64; 2], sin:
 }
 
 /// It comes from where the route leads behind a corner, beside that leg, and drives straight on across the CAV's
-/// way: the corner is as near as is still a bend, or nearer.
+/// way: the corner is as near as is still a bend, or nearer, or it turns by about 45 degrees.
 fn from_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let road = shape::frame(cycle);
-    let (cos, sin) = draw.pick(&[(0.6, 0.8), (0.8, 0.6), (0.28, 0.96)]);
-    let corner = draw.near(30.0 * (sin - 0.05));
+    let (cos, sin, corner) = if draw.one_in(2) {
+        let slope = draw.near(1.0);
+        (1.0 / slope.hypot(1.0), slope / slope.hypot(1.0), 22.0)
+    } else {
+        let (cos, sin) = draw.pick(&[(0.8, 0.6), (0.96, 0.28)]);
+        (cos, sin, draw.near(30.0 * (sin - 0.05)))
+    };
     turn_off(draw, cycle, [corner, 0.0], sin);
     let end = cycle
         .route
@@ -151,6 +160,51 @@ fn from_a_corner(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
     let (x, y) = road.at(x - age * w.0, y - age * w.1);
     let (cos, sin) = unit(road.turn((-cos, -side * sin)));
     Aimed { frame: Frame { x, y, cos, sin }, size: (2.0, 1.0), velocity: road.turn(w), age_ns }
+}
+
+/// A long object backs along a leg that ends behind the CAV. Its centre is beside the route; its end touches the CAV's
+/// rear, or just does not.
+fn across(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    turn_off(draw, cycle, [-18.0, 0.0], 0.6);
+    let side = cycle
+        .route
+        .cross_sections
+        .first()
+        .map_or(1.0, |it| ((it.y - road.y) * road.cos - (it.x - road.x) * road.sin).signum());
+    let ego = &cycle.ego;
+    let (rear, beside) =
+        (ego.center_offset - 0.5 * ego.length, 0.5 * ego.width + Path::of(cycle).aside);
+    // Along the leg to the corner, and aside of it.
+    let (end, aside) = (0.8 * (18.0 + rear) - 0.6 * beside, 0.6 * (18.0 + rear) + 0.8 * beside);
+    let back = draw.pick(&[5.0, 2.0]);
+    let length = draw.near(2.0 * (end + back)).clamp(1.0, 100.0);
+    let speed = draw.pick(&[8.0, 4.0]);
+    let (x, y) = (-18.0 - 0.8 * back + 0.6 * aside, side * (0.6 * back + 0.8 * aside));
+    let (cos, sin) = unit(road.turn((0.8, -0.6 * side)));
+    let w = (-speed * cos, -speed * sin);
+    let (x, y) = road.at(x, y);
+    let age = seconds(age_ns);
+    let frame = Frame { x: x - age * w.0, y: y - age * w.1, cos, sin };
+    Aimed { frame, size: (length, 2.0), velocity: w, age_ns }
+}
+
+/// Behind, about as far aside as who keeps beside may be: it comes nearer by less than a tenth of its way.
+fn far_beside(draw: &mut Draw<'_>, cycle: &mut Cycle, age_ns: i64) -> Aimed {
+    let road = shape::frame(cycle);
+    let section = |a: f64| cross_section(road, a, 0.0, 60.0);
+    cycle.route =
+        Route { closed: false, cross_sections: [-300.0, 0.0, 60.0].map(section).to_vec() };
+    let side = draw.pick(&[1.0, -1.0]);
+    let aside = draw.near(20.0);
+    let speed = draw.pick(&[30.0, 40.0]);
+    let drift = 0.099 * speed;
+    let e = (f64::sqrt(speed * speed - drift * drift), -side * drift);
+    let until = (aside - 0.5 * cycle.ego.width - 1.0) / drift;
+    let age = seconds(age_ns);
+    let ahead = draw.pick(&[0.0, 3.0]) - until * e.0;
+    let (x, y) = road.at(ahead - age * e.0, side * aside - age * e.1);
+    Aimed { frame: Frame { x, y, ..road }, size: (4.5, 1.8), velocity: road.turn(e), age_ns }
 }
 
 /// The CAV's places beside the reference path, rounded.

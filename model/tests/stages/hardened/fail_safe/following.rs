@@ -160,6 +160,32 @@ fn who_keeps_beside_is_beside_the_path() {
     assert_eq!([ahead(0.0), ahead(10.0)], [[true; 3], [false; 3]]);
 }
 
+/// Farther away it is on another road.
+#[test]
+fn who_keeps_beside_is_near_the_route() {
+    for side in [1.0, -1.0] {
+        moves("D <= 20 m - m", |e| keeps_beside(&beside(0.0, side * (20.0 + e), -8.0, 0.0)));
+    }
+}
+
+/// It is 34.4 m long and backs along a leg that ends 18 m behind the CAV, so far to the left of it that it ends at the
+/// CAV's rear, to the left; its side is 9.4 m from the leg.
+#[test]
+fn who_lies_across_the_way_does_not_keep_beside() {
+    let with = |longer: f64, x: f64| {
+        let length = 34.4 + 2.0 * longer;
+        let it = track(1, -15.76, 11.32);
+        let mut cycle = cycle(Track { vx: -8.0, vy: 6.0, cos: 0.8, sin: -0.6, length, ..it });
+        let at = |[x, y]: [f64; 2]| CrossSection { x, y, left: [x, y + 9.0], right: [x, y - 9.0] };
+        cycle.route.cross_sections = [[-98.0, 60.0], [-18.0, 0.0], [100.0, 0.0]].map(at).into();
+        cycle.ego.x = x;
+        points(&mut cycle).iter_mut().for_each(|point| point.x += x);
+        keeps_beside(&cycle)
+    };
+    moves("it touches the CAV", |e| with(e, 0.0));
+    assert_eq!([with(2.0, 0.0), with(2.0, 3.0)], [[false; 3], [true; 3]]);
+}
+
 /// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
 #[test]

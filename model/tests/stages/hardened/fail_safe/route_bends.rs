@@ -91,6 +91,21 @@ fn the_route_bends_less_for_who_goes_the_same_way() {
     }
 }
 
+/// Who comes towards the CAV has abs(w x h) <= - w . h: 20 m ahead, where it goes along at up to 0.7.
+#[test]
+fn who_comes_towards_the_cav_comes_straight() {
+    for side in [1.0, -1.0] {
+        let keeps = |aside: f64, sin: f64| {
+            let mut cycle = corner(20.0, 15.0, 100.0, sin);
+            let item = &mut cycle.tracks.as_mut().expect("set").items[0];
+            (item.vx, item.vy) = (-0.1, side * aside);
+            keeps_beside(&cycle)
+        };
+        moves("45 degrees", |e| keeps(0.1 + e, 0.3));
+        assert_eq!(keeps(0.105, 0.03), [true; 3], "on a route that bends little");
+    }
+}
+
 /// A leg that ends 15 m behind the CAV counts as one ahead.
 #[test]
 fn a_segment_behind_the_cav_counts() {
@@ -121,7 +136,7 @@ fn the_distance_is_that_of_p() {
     moves("towards, elsewhere", |e| with(TOWARDS[1], 16.0, 0.55 + e, &elsewhere));
     // The CAV looks away from the straight route, 200 m long, 16.5 m beside it.
     let leaving = |y: f64| {
-        let mut cycle = beside(0.0, 80.0, -6.4, -4.8);
+        let mut cycle = beside(20.0, 10.0, -0.08, -0.06);
         (cycle.ego.y, cycle.ego.cos, cycle.ego.sin) = (y, 0.8, 0.6);
         for point in points(&mut cycle) {
             (point.x, point.y) = (0.8 * point.x, y + 0.6 * point.x);
