@@ -100,13 +100,13 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
     }
 }
 
-/// Of the tracks the first comes from behind, beside the path, and would meet the CAV straight on, at this drift to the
-/// right, m/s: at 1/10 of its way it keeps beside, which is the deepest that H-14 goes.
+/// Of the tracks the first comes from behind, beside the path, and would meet straight on, at this drift to the right,
+/// m/s, the CAV where it stops: at 1/10 of its way it keeps beside, which is the deepest that H-14 goes.
 fn with_passer(counts: Counts, drift: f64) -> Cycle {
     let mut cycle = cycle(counts, Profile::Hardened, PlanRemote);
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let passer = &mut cycle.tracks.as_mut().expect("set").items[0];
-    (passer.x, passer.y, passer.vx, passer.vy) = (-18.0, 3.5, 7.0, -drift);
+    (passer.x, passer.y, passer.vx, passer.vy) = (-14.0, 3.5, 7.0, -drift);
     cycle
 }
 
@@ -123,7 +123,7 @@ fn cycles(counts: Counts) -> Vec<Owned> {
         without_tracks.detections = None;
         cycles.push(without_tracks);
     }
-    cycles.push(with_passer(counts, 0.65));
+    cycles.push(with_passer(counts, 0.69));
     cycles.iter().map(to_impl).collect()
 }
 
@@ -169,7 +169,7 @@ fn the_largest_cycles_need_no_more_stack_than_small_ones() {
 
 #[test]
 fn the_passer_meets_the_cav_unless_it_keeps_beside() {
-    let cycle = to_impl(&with_passer(SMALL, 0.75));
+    let cycle = to_impl(&with_passer(SMALL, 0.71));
     let Sizes { rows, columns } = Sizes::MAX;
     let (mut rows, mut columns) = (vec![Row::default(); rows], vec![Column::default(); columns]);
     let mut scratch = Scratch::new(&mut rows, &mut columns);
