@@ -26,8 +26,6 @@ pub enum Engine {
     Harnesses,
     /// Harnesses compiled, judged by CBMC.
     Cbmc,
-    /// Instructions that an optimisation saves; the claim is the call that is counted.
-    Gains,
 }
 
 /// A change of the sources, and the claims that fail with it.
