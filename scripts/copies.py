@@ -1,10 +1,8 @@
-"""A copy of the sources to which the mutants of `proofs/mutants.toml` are applied; for scripts/mutants and
-scripts/gains."""
+"""A copy of the sources to which the mutants of `proofs/mutants.toml` are applied; for scripts/mutants."""
 
 import contextlib
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
@@ -52,16 +50,6 @@ class Copy:
         if done.returncode:
             sys.exit(f"{' '.join(map(str, command))}: {done.stderr}")
 
-    def build_once(self):
-        """The program that runs one call of a workload, built in the copy."""
-        command = ["cargo", "build", "--release", "--locked", "-q", "-p", "mufasa-benches", "--bin", "once"]
-        done = self.run(command, "gains")
-        if done.returncode:
-            sys.exit(done.stderr)
-        once = self.path.parent / "once"
-        shutil.copy(TARGET / "mutants/gains/release/once", once)
-        return once
-
 
 def fingerprint(mutant):
     """FNV-1a of what a mutant changes, as `Mutant::fingerprint` in proofs/mutants."""
@@ -77,12 +65,3 @@ def fingerprint(mutant):
 def copy():
     with tempfile.TemporaryDirectory() as folder:
         yield Copy(folder)
-
-
-def instructions(once, call, workload, out="/dev/null"):
-    """Instructions of one call, which do not depend on the load of the machine."""
-    task, *variant = call.split()
-    command = ["valgrind", "--tool=callgrind", "--toggle-collect=*once::measured*",
-               f"--callgrind-out-file={out}", once, task, str(workload), *variant]
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stderr
-    return int(re.search(r"Collected : (\d+)", text)[1])

@@ -1,4 +1,4 @@
-//! `once TASK [1|2|3] [ghost|drift|fail] [bare] [CALLS]`: one call of one task on W1 (W2, W3), in a
+//! `once TASK [1|2|3] [fail] [bare] [CALLS]`: one call of one task on W1 (W2, W3), in a
 //! function of its own, whose instructions `scripts/instruction-counts` counts; more calls for a
 //! profile by samples. Tasks: `validation`, a stage (`i` to `v`), `all`, or a cycle as a vehicle
 //! asks for it (`mot`: `MotRemote`, `remote`: `AllRemote`), or that with the verdict to the requester by
@@ -30,8 +30,6 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("1", _) => {}
             ("2", _) => size = &SIZES[1],
             ("3", _) => size = &SIZES[2],
-            ("ghost", _) => variant = Variant::Ghost,
-            ("drift", _) => variant = Variant::Drift,
             ("fail", Some((_, stage))) => variant = Variant::Fail(stage),
             ("bare", _) => bare = true,
             (number, _) => calls = number.parse()?,

@@ -66,9 +66,7 @@ impl ClaimSource {
             Self::Doubles => (&[Engine::Bitwuzla], doubles::claims()),
             Self::Exploration => (&[Engine::Exploration], exploration::claims()),
             Self::Laws => (&[Engine::Laws], laws::claims()?),
-            Self::Harnesses => {
-                (&[Engine::Harnesses, Engine::Cbmc, Engine::Symbolic], harnesses::claims()?)
-            }
+            Self::Harnesses => (&[Engine::Harnesses, Engine::Cbmc], harnesses::claims()?),
         };
         let mutants = mufasa_mutants::all().map_err(io::Error::other)?;
         for line in &mut lines {

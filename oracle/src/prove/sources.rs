@@ -5,22 +5,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// What decides about the compiled code and what is claimed of it; `scripts/prove-wasm` lists the same.
-const PARTS: [&str; 7] = [
-    "impl/src",
-    "proofs/expected.toml",
-    "proofs/src",
-    "proofs/wasm",
-    "scripts/prove-wasm",
-    "proofs/compiled/src",
-    "proofs/z3/src",
-];
+const PARTS: [&str; 5] =
+    ["impl/src", "proofs/expected.toml", "proofs/src", "proofs/wasm", "scripts/prove-wasm"];
 
 /// What else decides about the answers of the other engines.
-const OTHERS: [&str; 5] = [
+const OTHERS: [&str; 6] = [
     "model/src",
     "proofs/exploration/src",
     "proofs/laws.toml",
     "proofs/theorems/src",
+    "proofs/z3/src",
     "oracle/src/prove/engines",
 ];
 

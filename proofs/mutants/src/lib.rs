@@ -26,10 +26,6 @@ pub enum Engine {
     Harnesses,
     /// Harnesses compiled, judged by CBMC.
     Cbmc,
-    /// Harnesses compiled, judged by z3.
-    Symbolic,
-    /// Instructions that an optimisation saves; the claim is the call that is counted.
-    Gains,
 }
 
 /// A change of the sources, and the claims that fail with it.

@@ -1,4 +1,4 @@
-//! Applies a mutant to a checkout: `mutants CHECKOUT CHANGE`; for `scripts/mutants` and `scripts/gains`.
+//! Applies a mutant to a checkout: `mutants CHECKOUT CHANGE`; for `scripts/mutants`.
 
 use std::error::Error;
 use std::path::Path;

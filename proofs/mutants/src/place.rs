@@ -11,11 +11,10 @@ use syn::{ImplItem, Item, TraitItem, Type};
 use crate::{Mutant, Place};
 
 /// Crates and their folders.
-const CRATES: [(&str, &str); 4] = [
+const CRATES: [(&str, &str); 3] = [
     ("mufasa", "impl/src"),
     ("mufasa_model", "model/src"),
     ("mufasa_theorems", "proofs/theorems/src"),
-    ("mufasa_benches", "benches/src"),
 ];
 
 /// The sources of all crates that mutants change.

@@ -1,8 +1,7 @@
 //! Proof harnesses: plain functions, each a statement about the implementation for every value of
 //! a stated domain.
 //!
-//! CBMC and `proofs/compiled` check those that are small enough, compiled to WebAssembly
-//! (`scripts/prove-wasm`); Kani takes those with `kani::proof` (`.github/workflows/kani.yml`).
+//! CBMC checks those that are small enough, compiled to WebAssembly (`scripts/prove-wasm`); Kani takes those with `kani::proof` (`.github/workflows/kani.yml`).
 //! `crate::kani` runs all of them on all or on random values, which is testing. What is expected of
 //! each, and what was measured, is in `proofs/expected.toml`; what each is good for, in
 //! `proofs/HARNESSES.md`.

@@ -44,7 +44,7 @@ pub struct Solver {
 }
 
 /// The version line of z3, or nothing where there is none.
-pub fn version() -> Option<String> {
+fn version() -> Option<String> {
     let output = Command::new("z3").arg("--version").output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     output.status.success().then(|| text.trim().to_owned())

@@ -1,4 +1,4 @@
-//! The harnesses: what CBMC and z3 said of them compiled, and what the stand-in for Kani sees now.
+//! The harnesses: what CBMC said of them compiled, and what the stand-in for Kani sees now.
 //! Kani itself is not run.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,8 +19,8 @@ use crate::prove::sources;
 
 /// Some values of an infinite domain are run, which is testing.
 const SAMPLING: &str = "sampling";
-/// What `scripts/prove-wasm` may say who judged the compiled code.
-const COMPILED: [&str; 3] = ["z3-wasm", "cbmc-wasm", "cbmc-wasm, z3-wasm"];
+/// Who judged the compiled code, by the name that `scripts/prove-wasm` writes.
+const COMPILED: &str = "cbmc-wasm";
 
 const EXPECTED: &str = include_str!("../../../../proofs/expected.toml");
 
@@ -87,7 +87,7 @@ pub(super) fn judge(
         seen
     });
     let lines = claims.into_iter().zip(seen).map(|(line, seen)| {
-        let missing = || EngineAnswer::not_run(COMPILED[2], "scripts/prove-wasm did not run it");
+        let missing = || EngineAnswer::not_run(COMPILED, "scripts/prove-wasm did not run it");
         let compiled = compiled.remove(&line.id).unwrap_or_else(missing);
         // Of two proofs that of the compiled code counts: it is first.
         line.answered([compiled].into_iter().chain(seen).collect())
@@ -139,17 +139,18 @@ fn compiled(settings: &Settings) -> io::Result<BTreeMap<String, EngineAnswer>> {
     let here = sources::hash(&settings.sources)?;
     let answer = |line: &str| {
         let one: Compiled = serde_json::from_str(line)?;
-        let engine = COMPILED.into_iter().find(|name| *name == one.engine);
-        let engine = engine.ok_or_else(|| io::Error::other(format!("no engine {}", one.engine)))?;
         let answer = match one.seconds {
             _ if one.sources != here => {
-                EngineAnswer::not_run(engine, "what is here is of other sources")
+                EngineAnswer::not_run(COMPILED, "what is here is of other sources")
+            }
+            _ if one.engine != COMPILED => {
+                return Err(io::Error::other(format!("no engine {}", one.engine)));
             }
             Some(seconds) => EngineAnswer {
                 reason: one.reason,
-                ..EngineAnswer::given(engine, one.verdict, seconds)
+                ..EngineAnswer::given(COMPILED, one.verdict, seconds)
             },
-            None => EngineAnswer::not_run(engine, one.reason.as_deref().unwrap_or_default()),
+            None => EngineAnswer::not_run(COMPILED, one.reason.as_deref().unwrap_or_default()),
         };
         Ok((one.id, answer))
     };
