@@ -10,12 +10,12 @@ use mufasa_props::strategy::whole;
 
 #[test]
 fn paper() {
-    agree("cycle", Profile::Paper, whole::cycle, near_threshold)
+    agree("cycle", Profile::PAPER, whole::cycle, near_threshold)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("cycle", Profile::Hardened, whole::cycle, near_threshold)
+    agree("cycle", Profile::HARDENED, whole::cycle, near_threshold)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }

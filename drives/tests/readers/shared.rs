@@ -75,7 +75,7 @@ fn assert_sane(drive: &Drive) {
 /// model refuses none of them as invalid.
 fn judge(drive: &Drive, every: usize) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let cycles = drive.cycles.iter().step_by(every).map(|it| DriveCycle {
             id: it.id.clone(),
             cycle: Cycle { profile, ..it.cycle.clone() },

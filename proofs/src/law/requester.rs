@@ -132,25 +132,14 @@ pub fn local_services_stop_when_the_profile_says(step: &Step<'_>) -> bool {
     step.actions.iter().all(|action| {
         let Action::Deactivate(stopped) = *action else { return true };
         match (step.profile, step.event.kind) {
-            (Profile::Paper, EventKind::Confirm { group, .. }) => group == stopped,
-            (Profile::Hardened, EventKind::Verdict { safe: true, sessions }) => {
+            (Profile::PAPER, EventKind::Confirm { group, .. }) => group == stopped,
+            (Profile::HARDENED, EventKind::Verdict { safe: true, sessions }) => {
                 let state = step.before.states[usize::from(stopped == Group::Plan)];
                 let running = matches!(state, GroupState::Remote { session, .. }
                     if sessions.of(stopped) == Some(session));
                 running
             }
-            (
-                Profile::Paper | Profile::Hardened,
-                EventKind::Offer { .. }
-                | EventKind::Withdraw { .. }
-                | EventKind::Lost { .. }
-                | EventKind::Area { .. }
-                | EventKind::Tick
-                | EventKind::Confirm { .. }
-                | EventKind::Reject { .. }
-                | EventKind::Data { .. }
-                | EventKind::Verdict { .. },
-            ) => false,
+            _ => false,
         }
     })
 }

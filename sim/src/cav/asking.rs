@@ -115,10 +115,9 @@ impl Asking {
         let Fixed { profile, parameters, route: (closed, ref cross_sections), withheld } =
             self.fixed;
         let Known { configuration, now_ns, ego, detections, lead, grid } = *known;
-        let history = match profile {
-            Profile::Paper => Vec::new(),
-            Profile::Hardened => self.seen.history(detections.stamp_ns),
-        };
+        let is_paper = profile == Profile::PAPER;
+        let history =
+            if is_paper { Vec::new() } else { self.seen.history(detections.stamp_ns) };
         let cycle = Cycle {
             profile,
             parameters,

@@ -77,10 +77,8 @@ impl Recorder {
         if count % every != first % every {
             return None;
         }
-        let history = match fixed.profile {
-            Profile::Paper => Vec::new(),
-            Profile::Hardened => self.seen.history(sensed.stamp_ns),
-        };
+        let is_paper = fixed.profile == Profile::PAPER;
+        let history = if is_paper { Vec::new() } else { self.seen.history(sensed.stamp_ns) };
         let cycle =
             assembled::cycle(fixed, requester.configuration(), moment, sensed, chosen, &history);
         Some(Box::new(bridge::from_impl(&cycle)))

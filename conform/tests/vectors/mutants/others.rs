@@ -127,9 +127,7 @@ const EARS: &[(&str, Ear)] = &[
 
 const SETTINGS: &[(&str, Setting)] = &[
     ("the other profile of the protocol", |t| {
-        t.profile = match t.profile {
-            Profile::Paper | Profile::Hardened => flag::other(t.profile),
-        };
+        t.profile = flag::other(t.profile);
     }),
     ("t_wait a nanosecond longer", |t| {
         t.parameters.t_wait_ns = t.parameters.t_wait_ns.saturating_add(1);

@@ -1,0 +1,30 @@
+//! Profiles of the model in the implementation's type and back: the same rules and stages.
+
+use mufasa::input::profile as twin;
+use mufasa_model::input::profile::{HardenedRule, Profile};
+use mufasa_model::report::Stage;
+
+use super::verdict::stage_to_impl;
+
+/// The profile in the implementation's type.
+pub fn profile_to_impl(profile: Profile) -> twin::Profile {
+    let rules = HardenedRule::ALL.into_iter().filter(|it| !profile.has(*it));
+    let set = rules.map(rule_to_impl).fold(twin::Profile::HARDENED, twin::Profile::without);
+    let stages = Stage::ALL.into_iter().filter(|it| !profile.runs(*it));
+    stages.map(stage_to_impl).fold(set, twin::Profile::without_stage)
+}
+
+/// The profile in the model's type.
+pub fn profile_from_impl(profile: twin::Profile) -> Profile {
+    let rules = HardenedRule::ALL.into_iter().filter(|it| !profile.has(rule_to_impl(*it)));
+    let set = rules.fold(Profile::HARDENED, Profile::without);
+    let stages = Stage::ALL.into_iter().filter(|it| !profile.runs(stage_to_impl(*it)));
+    stages.fold(set, Profile::without_stage)
+}
+
+same_variants! {
+    /// A rule in the implementation's type.
+    pub fn rule_to_impl(HardenedRule) -> twin::HardenedRule {
+        H01, H02, H04, H05, H06, H07, H08, H10, H11, H14,
+    }
+}
