@@ -5,9 +5,9 @@ use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
 use super::stall::Stall;
+use crate::hardened::detection_history::looks_back;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
-use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
 use crate::report::{InvalidInput, Outcome, Problem, Report};
@@ -210,7 +210,8 @@ impl Monitor<'_> {
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
-        let (Profile::Hardened, Some(list)) = (self.settings.profile, inputs.detections) else {
+        let is_kept = looks_back(self.settings.profile);
+        let Some(list) = inputs.detections.filter(|_| is_kept) else {
             return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
         };
         let holds = self.history.holds(&list);

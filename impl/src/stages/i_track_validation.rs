@@ -10,7 +10,7 @@ pub(crate) mod spatial_hash;
 
 use crate::hardened::h01_matched_pairs::{matched_pairs, pair_limits};
 use crate::input::cycle::{Cycle, DetectionList, TrackList};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::scratch::{Row, Scratch};
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
@@ -35,9 +35,10 @@ pub(crate) fn track_validation(
     }
     let p = [cycle.ego.x, cycle.ego.y];
     let gated = gated_tracks(p, &places, detections.items, scratch.rows);
-    match cycle.profile {
-        Profile::Paper => mean_cost(cycle, places, detections, gated, scratch),
-        Profile::Hardened => matched_pairs(cycle, places, detections, gated, scratch),
+    if cycle.profile.has(HardenedRule::H01) {
+        matched_pairs(cycle, places, detections, gated, scratch)
+    } else {
+        mean_cost(cycle, places, detections, gated, scratch)
     }
 }
 
@@ -48,11 +49,10 @@ fn pairs_found(
     detections: &DetectionList<'_>,
     scratch: &mut Scratch<'_>,
 ) -> bool {
-    let limits = match cycle.profile {
-        Profile::Paper => {
-            PairLimits { theta_tr: cycle.parameters.theta_tr, limit: f64::MAX, spare: 0 }
-        }
-        Profile::Hardened => pair_limits(cycle),
+    let limits = if cycle.profile.has(HardenedRule::H01) {
+        pair_limits(cycle)
+    } else {
+        PairLimits { theta_tr: cycle.parameters.theta_tr, limit: f64::MAX, spare: 0 }
     };
     let columns = columns_of(scratch.columns, detections.items.len());
     let p = [cycle.ego.x, cycle.ego.y];

@@ -6,7 +6,7 @@ use crate::hardened::h07_start::{corridor_failure, direction_failure, start_fail
 use crate::hardened::h11_steps::step_failure;
 use crate::hardened::h14_fail_safe::reach::reach_failure;
 use crate::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::route_index::RouteIndex;
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
@@ -20,15 +20,14 @@ pub(crate) fn trajectory_to_map<'a>(
     let points = trajectory.points;
     let route = IndexedRoute::new(&cycle.route, index);
     let (found, all_inside) = theta_map(cycle, route, points);
-    if cycle.profile == Profile::Paper {
-        return found;
-    }
+    let [h07, h11, h14] = [HardenedRule::H07, HardenedRule::H11, HardenedRule::H14]
+        .map(|rule| cycle.profile.has(rule));
     found
-        .or_else(|| start_failure(cycle, points))
-        .or_else(|| if all_inside { None } else { corridor_failure(route, points) })
-        .or_else(|| direction_failure(route, points))
-        .or_else(|| step_failure(cycle, points))
-        .or_else(|| reach_failure(cycle, points))
+        .or_else(|| if h07 { start_failure(cycle, points) } else { None })
+        .or_else(|| if h07 && !all_inside { corridor_failure(route, points) } else { None })
+        .or_else(|| if h07 { direction_failure(route, points) } else { None })
+        .or_else(|| if h11 { step_failure(cycle, points) } else { None })
+        .or_else(|| if h14 { reach_failure(cycle, points) } else { None })
 }
 
 /// A point outside the corridor that is not certainly within `theta_map` of the reference path;

@@ -17,7 +17,7 @@ use crate::hardened::h14_fail_safe::FailSafe;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
@@ -167,10 +167,10 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             }
             Stage::Ii => self.ii(),
             Stage::Iii => self.iii(),
-            Stage::Iv => match self.look_back(scratch) {
-                Seen::Unclear(witness) => Ok(Some(witness)),
-                seen => self.iv(seen, scratch),
-            },
+            Stage::Iv => {
+                let seen = self.look_back(scratch);
+                self.iv(seen, scratch)
+            }
             Stage::V => self.v(),
         };
         outcome(found)
@@ -206,6 +206,7 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     fn i(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
+        let seen = if self.cycle.profile.has(HardenedRule::H01) { seen } else { Seen::Open };
         Ok(match seen {
             Seen::Unclear(witness) => Some(witness),
             Seen::Paired => None,
@@ -234,23 +235,23 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// Why the cycle fails at the place of stage iv, which does not run (H-04, H-14).
     fn instead_of_iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
-        self.fail_safe_trajectory()?;
-        gap_failure(self.current.lead, |lead| s_react(self.cycle, lead))
+        let Cycle { profile, configuration, .. } = *self.cycle;
+        self.current.trajectory?;
+        if configuration == Configuration::Local || !profile.runs(Stage::Iv) {
+            return None;
+        }
+        let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
+        gap_failure(lead, |lead| s_react(self.cycle, lead))
             .or_else(|| self.fail_safe(seen, scratch))
-    }
-
-    /// What H-14 is about.
-    fn fail_safe_trajectory(&self) -> Option<&'c Trajectory<'a>> {
-        let examined = self.cycle.profile == Profile::Hardened
-            && self.cycle.configuration != Configuration::Local;
-        self.current.trajectory.filter(|_| examined)
     }
 
     /// H-14, after `look_back`.
     fn fail_safe(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+        let examined = self.cycle.profile.has(HardenedRule::H14)
+            && self.cycle.configuration != Configuration::Local;
         let rule = FailSafe {
             cycle: self.cycle,
-            trajectory: self.fail_safe_trajectory()?,
+            trajectory: self.current.trajectory.filter(|_| examined)?,
             tracks: self.current.tracks,
             history: &self.history,
             route: IndexedRoute::new(&self.cycle.route, self.indexes.route),
