@@ -7,7 +7,7 @@
 
 use crate::hardened::detection_history::{Seen, ambiguous_failure, seen};
 use crate::hardened::h01_matched_pairs::{may_be_left_out, mean_failure};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Object, Scene, Track, Tracks};
 use crate::numbers::assignment::{Costs, mean_less, work};
 use crate::numbers::real::Real;
@@ -20,27 +20,33 @@ pub fn track_validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -
     let p = &scene.ego.position;
     let r = detections.iter().map(|d| d.frame.origin.distance(p)).max().unwrap_or_else(Real::zero);
     let too_many = |delta: &Real| Witness::new(Rule::MeanCost, delta, delta);
-    match scene.profile {
-        Profile::Paper => scene.reads.judge_within(
-            &tracks.items,
-            |track| track.object.frame.origin.distance(p),
-            &r,
-            |gated| average_cost_failure(scene, gated, detections),
-            too_many,
-        ),
-        // H-01: the place of a track for its position.
-        Profile::Hardened => ambiguous_failure(scene, tracks).or_else(|| {
-            let seen = seen(scene, tracks);
-            let tracks: Vec<(&Track, &Seen)> = tracks.items.iter().zip(&seen).collect();
+    let asks_history =
+        [HardenedRule::H01, HardenedRule::H14].into_iter().any(|rule| scene.profile.has(rule));
+    let ambiguous = asks_history.then(|| ambiguous_failure(scene, tracks)).flatten();
+    if !scene.profile.has(HardenedRule::H01) {
+        let paper = || {
             scene.reads.judge_within(
-                &tracks,
-                |(_, seen)| seen.place.distance(p),
+                &tracks.items,
+                |track| track.object.frame.origin.distance(p),
                 &r,
-                |gated| matched_cost_failure(scene, gated, detections),
+                |gated| average_cost_failure(scene, gated, detections),
                 too_many,
             )
-        }),
+        };
+        return ambiguous.or_else(paper);
     }
+    // The place of a track for its position.
+    ambiguous.or_else(|| {
+        let seen = seen(scene, tracks);
+        let tracks: Vec<(&Track, &Seen)> = tracks.items.iter().zip(&seen).collect();
+        scene.reads.judge_within(
+            &tracks,
+            |(_, seen)| seen.place.distance(p),
+            &r,
+            |gated| matched_cost_failure(scene, gated, detections),
+            too_many,
+        )
+    })
 }
 
 /// 1/k (c_1 + ... + c_k) < theta_tr: the c_i are the costs in the cheapest assignment of

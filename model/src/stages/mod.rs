@@ -17,7 +17,7 @@ use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h14_fail_safe;
 use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::input::scene::Scene;
 use crate::report::{
     FailedStage, Input, InvalidInput, Outcome, Reading, Reason, Report, Stage, Witness,
@@ -41,7 +41,7 @@ pub enum Scheduled {
     Never,
 }
 
-/// The table of `spec/3-stages.md#schedule`.
+/// The table of `spec/3-stages.md#schedule`; never what the profile leaves out.
 pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
@@ -54,6 +54,7 @@ pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -
         Stage::V => [Always, Conditional, in_plan_remote_v],
     };
     match configuration {
+        _ if !profile.runs(stage) => Never,
         Local => Never,
         MotRemote => mot_remote,
         AllRemote => all_remote,
@@ -154,9 +155,9 @@ impl Run<'_> {
 
     /// H-04, then H-14, where stage iv did not run.
     fn in_place_of_stage_iv(&mut self) -> Result<Option<Witness>, InvalidInput> {
-        let gap = match (self.scene.profile, &self.scene.trajectory) {
-            (Profile::Hardened, Some(_)) => failure_without_stage_iv(self.scene),
-            (Profile::Hardened, None) | (Profile::Paper, _) => None,
+        let gap = match (self.scene.profile.has(HardenedRule::H04), &self.scene.trajectory) {
+            (true, Some(_)) => failure_without_stage_iv(self.scene),
+            (true, None) | (false, _) => None,
         };
         gap.map_or_else(|| self.fail_safe(), |witness| Ok(Some(witness)))
     }
@@ -164,12 +165,12 @@ impl Run<'_> {
     /// H-14.
     fn fail_safe(&mut self) -> Result<Option<Witness>, InvalidInput> {
         let scene = self.scene;
-        match (scene.profile, scene.trajectory.as_deref()) {
-            (Profile::Hardened, Some(trajectory)) => {
+        match (scene.profile.has(HardenedRule::H14), scene.trajectory.as_deref()) {
+            (true, Some(trajectory)) => {
                 self.work.add(work::of_fail_safe(scene, trajectory))?;
                 Ok(h14_fail_safe::failure(scene, trajectory))
             }
-            (Profile::Hardened, None) | (Profile::Paper, _) => Ok(None),
+            (true, None) | (false, _) => Ok(None),
         }
     }
 

@@ -7,16 +7,13 @@ use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2; then, strictly, whether a
-/// point is a node is too close to call.
+/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let mut places = places(scene, trajectory).enumerate().skip(1);
-    places
-        .find_map(|(k, place)| {
-            let witness = aside_failure(scene, &place.pose.origin)?;
-            Some(witness.at_point(trajectory.len() + k))
-        })
-        .or_else(|| ambiguous_failure(scene, trajectory))
+    places.find_map(|(k, place)| {
+        let witness = aside_failure(scene, &place.pose.origin)?;
+        Some(witness.at_point(trajectory.len() + k))
+    })
 }
 
 /// abs((place - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
@@ -34,7 +31,7 @@ fn aside_failure(scene: &Scene, place: &Vector) -> Option<Witness> {
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before
 /// it, the strict reading cannot say whether it is.
-fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+pub fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     if !scene.reads.is_strict() {
         return None;
     }
