@@ -24,15 +24,15 @@ pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness>
         let witness = Witness::unless(passes, Rule::ThetaMap, &place.distance, theta_map)?;
         Some(Witness { segment: Some(place.nearest), ..witness.at_point(i) })
     });
-    let rules: [(HardenedRule, &dyn Fn() -> Option<Witness>); 5] = [
+    let rules: [(HardenedRule, &dyn Fn() -> Option<Witness>); 3] = [
         (HardenedRule::H07, &|| h07_start::failure(scene, trajectory, &path, &places, is_inside)),
         (HardenedRule::H11, &|| h11_steps::step_failure(scene, trajectory)),
         (HardenedRule::H14, &|| reach::failure(scene, trajectory)),
-        (HardenedRule::H14, &|| reach::ambiguous_failure(scene, trajectory)),
-        (HardenedRule::H04, &|| reach::ambiguous_failure(scene, trajectory)),
     ];
     let mut in_force = rules.iter().filter(|(rule, _)| scene.profile.has(*rule));
-    failure.or_else(|| in_force.find_map(|(_, failure)| failure()))
+    failure
+        .or_else(|| in_force.find_map(|(_, failure)| failure()))
+        .or_else(|| reach::ambiguous_failure(scene, trajectory))
 }
 
 /// The union of (left_i, right_i, right_i+1) and (left_i, right_i+1, left_i+1).

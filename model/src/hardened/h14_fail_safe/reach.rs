@@ -2,6 +2,7 @@
 
 use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
 use crate::hardened::h14_fail_safe::times::Driving;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
@@ -30,9 +31,10 @@ fn aside_failure(scene: &Scene, place: &Vector) -> Option<Witness> {
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before
-/// it, the strict reading cannot say whether it is.
+/// it, the strict reading cannot say whether it is; H-04 and H-14 look at the places that follow.
 pub fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    if !scene.reads.is_strict() {
+    let is_asked = scene.profile.has(HardenedRule::H04) || scene.profile.has(HardenedRule::H14);
+    if !is_asked || !scene.reads.is_strict() {
         return None;
     }
     let count = first_ahead(scene, trajectory).map_or(trajectory.len(), |first| first + 1);
