@@ -144,7 +144,11 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         let unclear = pairs.find_map(|(track, row)| judge.judge(track, row));
         match unclear {
             Some(witness) => Seen::Unclear(witness),
-            None if own_detections_pass(cycle, tracks, detections, scratch.rows) => Seen::Paired,
+            None if cycle.profile.has(HardenedRule::H01)
+                && own_detections_pass(cycle, tracks, detections, scratch.rows) =>
+            {
+                Seen::Paired
+            }
             None => Seen::Open,
         }
     }

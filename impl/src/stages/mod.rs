@@ -206,7 +206,6 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     fn i(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
-        let seen = if self.cycle.profile.has(HardenedRule::H01) { seen } else { Seen::Open };
         Ok(match seen {
             Seen::Unclear(witness) => Some(witness),
             Seen::Paired => None,
