@@ -312,7 +312,7 @@ fn own_detections_pass(
     detections: &DetectionList<'_>,
     rows: &[Row],
 ) -> bool {
-    let places = Places::new(cycle, tracks, detections);
+    let places = Places::then(tracks, detections);
     let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
     detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
     let limits = pair_limits(cycle);
