@@ -171,10 +171,12 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             }
             Stage::Ii => self.ii(),
             Stage::Iii => self.iii(),
-            Stage::Iv => {
-                let seen = self.look_back(scratch);
-                self.iv(seen, scratch)
-            }
+            Stage::Iv => match self.look_back(scratch) {
+                Seen::Unclear(witness) if self.cycle.profile.has(HardenedRule::H14) => {
+                    Ok(Some(witness))
+                }
+                seen => self.iv(seen, scratch),
+            },
             Stage::V => self.v(),
         };
         outcome(found)
