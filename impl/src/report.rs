@@ -76,8 +76,7 @@ pub enum Outcome {
 /// trajectory point, then by list order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Rule {
-    /// Stage i (H-01), in `PlanRemote` iv (H-14): a comparison of what the CAV saw itself is too close
-    /// to call.
+    /// Stage i, in `PlanRemote` iv: a comparison of what the CAV saw itself is too close to call.
     Ambiguous,
     /// Stage i: mean assignment cost < `theta_tr`.
     MeanCost,

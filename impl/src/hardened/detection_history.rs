@@ -144,7 +144,11 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         let unclear = pairs.find_map(|(track, row)| judge.judge(track, row));
         match unclear {
             Some(witness) => Seen::Unclear(witness),
-            None if own_detections_pass(cycle, tracks, detections, scratch.rows) => Seen::Paired,
+            None if cycle.profile.has(HardenedRule::H01)
+                && own_detections_pass(cycle, tracks, detections, scratch.rows) =>
+            {
+                Seen::Paired
+            }
             None => Seen::Open,
         }
     }
@@ -308,7 +312,7 @@ fn own_detections_pass(
     detections: &DetectionList<'_>,
     rows: &[Row],
 ) -> bool {
-    let places = Places::new(cycle, tracks, detections);
+    let places = Places::then(tracks, detections);
     let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
     detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
     let limits = pair_limits(cycle);

@@ -6,9 +6,9 @@ use crate::report::{FailedStage, Stage};
 use crate::services::configuration::Configuration;
 use crate::stages::given::Given;
 
-/// H-05: stage v is conditional in `PlanRemote`, too.
+/// H-05, H-10: stage v is conditional in `PlanRemote`, too.
 pub(crate) fn has_stage_v_in_plan_remote(profile: Profile) -> bool {
-    profile.has(HardenedRule::H05)
+    profile.has(HardenedRule::H05) || profile.has(HardenedRule::H10)
 }
 
 /// H-10: what stages iii and iv did does not keep stage v from running, where it is conditional.

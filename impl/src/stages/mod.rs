@@ -12,8 +12,12 @@ pub mod order;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::detection_history::{DetectionHistory, Seen};
+use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::s_react;
+use crate::hardened::h07_start::{corridor_failure, direction_failure, start_failure};
+use crate::hardened::h11_steps::step_failure;
 use crate::hardened::h14_fail_safe::FailSafe;
+use crate::hardened::h14_fail_safe::reach::reach_failure;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
@@ -167,10 +171,12 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             }
             Stage::Ii => self.ii(),
             Stage::Iii => self.iii(),
-            Stage::Iv => {
-                let seen = self.look_back(scratch);
-                self.iv(seen, scratch)
-            }
+            Stage::Iv => match self.look_back(scratch) {
+                Seen::Unclear(witness) if self.cycle.profile.has(HardenedRule::H14) => {
+                    Ok(Some(witness))
+                }
+                seen => self.iv(seen, scratch),
+            },
             Stage::V => self.v(),
         };
         outcome(found)
@@ -206,16 +212,28 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
     fn i(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Found {
         let tracks = self.cycle.tracks.as_ref().ok_or(Input::Tracks)?;
         let detections = self.current.detections.ok_or(Input::Detections)?;
-        let seen = if self.cycle.profile.has(HardenedRule::H01) { seen } else { Seen::Open };
         Ok(match seen {
             Seen::Unclear(witness) => Some(witness),
             Seen::Paired => None,
+            Seen::Open if self.cycle.profile.has(HardenedRule::H01) => {
+                matched_tracks(self.cycle, tracks, detections, scratch)
+            }
             Seen::Open => track_validation(self.cycle, tracks, detections, scratch),
         })
     }
 
     fn ii(&self) -> Found {
-        Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.indexes.route))
+        let (cycle, points) = (self.cycle, self.current.trajectory()?.points);
+        let route = IndexedRoute::new(&cycle.route, self.indexes.route);
+        let (found, all_inside) = trajectory_to_map(cycle, route, points);
+        let [h07, h11, h14] = [HardenedRule::H07, HardenedRule::H11, HardenedRule::H14]
+            .map(|rule| cycle.profile.has(rule));
+        Ok(found
+            .or_else(|| if h07 { start_failure(cycle, points) } else { None })
+            .or_else(|| if h07 && !all_inside { corridor_failure(route, points) } else { None })
+            .or_else(|| if h07 { direction_failure(route, points) } else { None })
+            .or_else(|| if h11 { step_failure(cycle, points) } else { None })
+            .or_else(|| if h14 { reach_failure(cycle, points) } else { None }))
     }
 
     fn iii(&self) -> Found {

@@ -52,7 +52,7 @@ impl FailSafe<'_, '_> {
             return Some(witness);
         }
         if let Seen::Unclear(witness) = self.seen {
-            // Where stage i asks it (H-01), it has failed.
+            // Where stage i runs, it has failed.
             return Some(witness);
         }
         let explained = Explained::new(history, tracks, scratch);

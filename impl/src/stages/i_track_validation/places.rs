@@ -2,8 +2,7 @@
 //! their place when the detections were made
 //! (`spec/3-stages.md#what-the-cav-saw-itself`).
 
-use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
-use crate::input::profile::HardenedRule;
+use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -19,18 +18,13 @@ pub(crate) struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
-    pub(crate) fn new(
-        cycle: &Cycle<'_>,
-        tracks: &TrackList<'a>,
-        detections: &DetectionList<'_>,
-    ) -> Self {
-        let moves = cycle.profile.has(HardenedRule::H01);
-        let ahead_ns = if moves { elapsed_ns(tracks.stamp_ns, detections.stamp_ns) } else { 0 };
+    /// When the detections were made (H-01).
+    pub(crate) fn then(tracks: &TrackList<'a>, detections: &DetectionList<'_>) -> Self {
+        let ahead_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
         Self { tracks: tracks.items, ahead_ns, ahead: seconds(ahead_ns) }
     }
 
-    /// Tracks that have not moved.
-    #[cfg(test)]
+    /// Where the list says: tracks that have not moved.
     pub(crate) const fn standing(tracks: &'a [Track]) -> Self {
         Self { tracks, ahead_ns: 0, ahead: 0.0 }
     }
