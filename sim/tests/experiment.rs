@@ -116,7 +116,8 @@ fn empty_lists_within_the_station_alone_are_found_and_those_for_both_are_not() {
 fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
     let rows = |only| {
         let select = Select::only(Some(only));
-        let made = left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+        let made =
+            left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
         made.rows
     };
     let with = rows("left-out/hardened/blind+nothing+none+both");
@@ -141,10 +142,8 @@ fn without_a_rule_a_collision_comes_that_does_not_come_with_it() {
     let without = rows("left-out/hardened/noisy+H-14+tracks-empty+both");
     assert_eq!((with[0].attacked_runs, with[0].attacked_collided), (4, 0), "{with:?}");
     assert!(without[0].attacked_collided > 0, "{without:?}");
-    let names: Vec<String> = LeftOut::all(Variant::Hardened, Detectors::Noisy)
-        .into_iter()
-        .map(String::from)
-        .collect();
+    let names: Vec<String> =
+        LeftOut::all(Variant::Hardened, Detectors::Noisy).into_iter().map(String::from).collect();
     let read = |name: &String| LeftOut::try_from(name.clone()).map(String::from);
     assert!(names.iter().all(|name| read(name).as_ref() == Ok(name)), "{names:?}");
 }

@@ -233,6 +233,8 @@ fn grid_from_impl(grid: &twin::Grid<'_>) -> Grid {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::input::profile::Profile;
+
     use super::*;
     use crate::strategy::draw::Draw;
     use crate::strategy::whole;

@@ -229,8 +229,7 @@ fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let front = ego.center_offset + 0.5 * ego.length - ego.length / (2.0 * n);
     // Half a step behind the front disk at the hit begins what that disk must not touch: the
     // first marked column (paper), what is within r of the occupied cell (hardened).
-    let to_cell =
-        if cycle.profile.has(HardenedRule::H06) { r } else { SIDE * (r / SIDE).floor() };
+    let to_cell = if cycle.profile.has(HardenedRule::H06) { r } else { SIDE * (r / SIDE).floor() };
     let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
     let ahead = front - 0.5 * advance + to_cell;
     cycle.grid = Some(wall(draw, cycle, road, ahead, reach));

@@ -116,8 +116,7 @@ impl Asking {
             self.fixed;
         let Known { configuration, now_ns, ego, detections, lead, grid } = *known;
         let is_paper = profile == Profile::PAPER;
-        let history =
-            if is_paper { Vec::new() } else { self.seen.history(detections.stamp_ns) };
+        let history = if is_paper { Vec::new() } else { self.seen.history(detections.stamp_ns) };
         let cycle = Cycle {
             profile,
             parameters,

@@ -1,7 +1,6 @@
 //! Mutants of the requester, of the orchestrator and of readers.
 
 use mufasa_conform::vectors::flag;
-use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{Event, EventKind, Groups, Sessions};
 use mufasa_model::services::orchestrator::Task;
 use mufasa_records::{self as json, Trace};
