@@ -28,3 +28,37 @@ same_variants! {
         H01, H02, H04, H05, H06, H07, H08, H10, H11, H14,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bridge::verdict::rule_to_impl as witness_to_impl;
+
+    #[test]
+    fn both_sides_say_the_same_of_each_rule() {
+        for rule in HardenedRule::ALL {
+            let other = rule_to_impl(rule);
+            assert_eq!((rule.id(), rule.findings()), (other.id(), other.findings()));
+            let witnesses: Vec<_> = rule.witnesses().iter().copied().map(witness_to_impl).collect();
+            assert_eq!(witnesses, other.witnesses(), "{rule:?}");
+            let stages: Vec<_> = rule.stages().iter().copied().map(stage_to_impl).collect();
+            assert_eq!(stages, other.stages(), "{rule:?}");
+        }
+    }
+
+    #[test]
+    fn every_set_of_rules_and_stages_comes_back_as_it_was() {
+        let mut sets = vec![Profile::HARDENED];
+        for rule in HardenedRule::ALL {
+            sets.extend(sets.clone().into_iter().map(|it| it.without(rule)));
+        }
+        assert_eq!((sets.len(), sets.last()), (1024, Some(&Profile::PAPER)));
+        for (set, stage) in sets.into_iter().zip(Stage::ALL.into_iter().cycle()) {
+            for set in [set, set.without_stage(stage)] {
+                assert_eq!(profile_from_impl(profile_to_impl(set)), set);
+            }
+        }
+        assert_eq!(profile_to_impl(Profile::HARDENED), twin::Profile::HARDENED);
+        assert_eq!(profile_to_impl(Profile::PAPER), twin::Profile::PAPER);
+    }
+}
