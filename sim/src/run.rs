@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use mufasa::input::cycle::Route;
 use mufasa::input::parameters::Parameters as StageParameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{self, MonitorError};
@@ -111,14 +112,8 @@ impl Settings {
         }
     }
 
-    /// What keeps the cycles that are recorded.
-    fn recorder(&self) -> Recorder {
-        let recorder = |profile| Recorder::new(self.recorded, profile, self.stages);
-        self.profile.map_or_else(Recorder::default, recorder)
-    }
-
     /// What asks before something is sent on this route.
-    fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
+    fn asking(&self, route: &Route<'_>) -> Option<Asking> {
         let profile = self.profile.filter(|_| self.prechecks)?;
         Some(Asking::new(profile, self.stages, route).withholding(self.withheld))
     }
@@ -250,15 +245,13 @@ pub fn simulate(
     let at = route.path.pose_at(0.0).at;
     let frame = Frame::new(484_000_000, 99_500_000, [at.x, at.y]).map_err(RunError::Frame)?;
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
+    let recorder = |profile| Recorder::new(settings.recorded, profile, settings.stages);
     let mut guard = Guard::new(settings.profile, settings.monitor(), &mut table, lent.memory())
         .map_err(RunError::Monitor)?
-        .recording(settings.recorder())
+        .recording(settings.profile.map_or_else(Recorder::default, recorder))
         .withholding(settings.withheld);
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
-    let corridor = mufasa::input::cycle::Route {
-        closed: route.path.is_closed(),
-        cross_sections: &cross_sections,
-    };
+    let corridor = Route { closed: route.path.is_closed(), cross_sections: &cross_sections };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
     let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)

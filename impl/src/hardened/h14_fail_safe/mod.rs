@@ -51,8 +51,8 @@ impl FailSafe<'_, '_> {
         if let Some(witness) = self.over_work_limit(nodes, [objects, detected]) {
             return Some(witness);
         }
-        if let Seen::Unclear(witness) = self.seen {
-            // Where stage i runs, it has failed.
+        if let (Seen::Unclear(witness), true) = (self.seen, tracks.is_some()) {
+            // Where stage i ran, it has failed.
             return Some(witness);
         }
         let explained = Explained::new(history, tracks, scratch);

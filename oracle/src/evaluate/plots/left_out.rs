@@ -42,7 +42,7 @@ pub fn readings(of: &Readings) -> Vec<Figure> {
 }
 
 /// Collisions under attacks by what is left out.
-pub fn left_out(of: &LeftOuts) -> Vec<Figure> {
+pub fn parts(of: &LeftOuts) -> Vec<Figure> {
     let bar = |row: &left_out::Row| Bar {
         series: series(row.variant),
         value: 100.0 * ratio(row.attacked_collided, row.attacked_runs),
@@ -52,7 +52,7 @@ pub fn left_out(of: &LeftOuts) -> Vec<Figure> {
     };
     let figure_of = |detectors: Detectors| {
         let rows = || of.rows.iter().filter(move |row| row.detectors == detectors);
-        let paper = rows().filter(|row| row.variant == Variant::Paper);
+        let hardened = rows().filter(|row| row.variant == Variant::Hardened);
         let group = |named: &left_out::Row| Group {
             name: named.left_out.name().to_owned(),
             bars: rows().filter(|row| row.left_out == named.left_out).map(bar).collect(),
@@ -68,7 +68,7 @@ pub fn left_out(of: &LeftOuts) -> Vec<Figure> {
             unit: "runs that collided, %",
             most: 100.0,
             step: 25.0,
-            groups: paper.map(group).collect(),
+            groups: hardened.map(group).collect(),
         });
         figure(&format!("{}-{}", left_out::NAME, detectors.name()), svg)
     };
