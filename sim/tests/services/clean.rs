@@ -187,6 +187,7 @@ impl Run<'_> {
                 };
                 let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
                 let report = report.unwrap_or_else(|error| panic!("{error:?}"));
+                let of = if profile == Profile::PAPER { "Paper" } else { "Hardened" };
                 for (stage, outcome) in Stage::ALL.into_iter().zip(report.stages) {
                     let outcome = match outcome {
                         Outcome::Failed(witness) => format!("failed {:?}", witness.rule),
@@ -195,7 +196,7 @@ impl Run<'_> {
                             continue;
                         }
                     };
-                    tally.add(format!("{profile:?} {configuration:?} {stage:?} {outcome}"));
+                    tally.add(format!("{of} {configuration:?} {stage:?} {outcome}"));
                 }
                 assert!(report.failed_stage.is_some() == report.stages.iter().any(failed));
             }
