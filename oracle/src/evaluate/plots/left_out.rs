@@ -47,14 +47,14 @@ pub fn parts(of: &LeftOuts) -> Vec<Figure> {
         series: series(row.variant),
         value: 100.0 * ratio(row.attacked_collided, row.attacked_runs),
         paler: 0.0,
-        label: format!("{}/{}", row.attacked_collided, row.attacked_runs),
+        label: row.attacked_collided.to_string(),
         published: Vec::new(),
     };
     let figure_of = |detectors: Detectors| {
         let rows = || of.rows.iter().filter(move |row| row.detectors == detectors);
         let hardened = rows().filter(|row| row.variant == Variant::Hardened);
         let group = |named: &left_out::Row| Group {
-            name: named.left_out.name().to_owned(),
+            name: named.left_out.name().trim_start_matches("stage-").to_owned(),
             bars: rows().filter(|row| row.left_out == named.left_out).map(bar).collect(),
             note: String::new(),
         };
@@ -63,7 +63,9 @@ pub fn parts(of: &LeftOuts) -> Vec<Figure> {
                 "Collisions while offloading, by what is left out: {}",
                 detectors.name()
             ),
-            about: &["Under attacks. Above: collisions of runs."],
+            about: &[
+                "Under attacks, by stages and rules that are left out. Above: runs that collided.",
+            ],
             key: &[Series::PAPER, Series::HARDENED],
             unit: "runs that collided, %",
             most: 100.0,
