@@ -12,7 +12,7 @@ use mufasa_benches::peer;
 use mufasa_benches::periods::Periods;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
-const PROFILES: [(&str, Profile); 2] = [("paper", Profile::Paper), ("hardened", Profile::Hardened)];
+const PROFILES: [(&str, Profile); 2] = [("paper", Profile::PAPER), ("hardened", Profile::HARDENED)];
 
 fn stages(criterion: &mut Criterion) {
     for stage in Stage::ALL {
@@ -27,7 +27,7 @@ fn stages(criterion: &mut Criterion) {
                     bencher.iter(|| it.stage(stage));
                 });
             }
-            let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+            let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
             for mut peer in peer::all(&cycle) {
                 if peer.stage == stage && !peer.slow {
                     let id = BenchmarkId::new(peer.name, &workload.name);

@@ -177,7 +177,7 @@ mod tests {
     fn both_pass_and_both_fail() {
         let workload = |variant| Workload::new(&SIZES[0], variant);
         for (variant, passes) in [(Variant::Pass, true), (Variant::Ghost, false)] {
-            for profile in [Profile::Paper, Profile::Hardened] {
+            for profile in [Profile::PAPER, Profile::HARDENED] {
                 let workload = workload(variant);
                 let cycle = workload.cycle(profile, Configuration::AllRemote);
                 assert_eq!(Plain::new(&cycle).cycle(), passes);

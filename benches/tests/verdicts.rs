@@ -16,7 +16,7 @@ fn peers_and_implementation_agree() {
     for size in &SIZES {
         for (variant, failing) in others.into_iter().chain(fails) {
             let workload = Workload::new(size, variant);
-            let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+            let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
             let mut it = Contestant::new(&cycle);
             for stage in failing.map_or(Stage::ALL.to_vec(), |stage| vec![stage]) {
                 let expected = failing.is_none();
@@ -34,7 +34,7 @@ fn peers_and_implementation_agree() {
 fn whole_cycles_pass_in_every_configuration_and_profile() {
     for size in &SIZES {
         let workload = Workload::new(size, Variant::Pass);
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             for configuration in Configuration::ALL {
                 let cycle = workload.cycle(profile, configuration);
                 let report = Contestant::new(&cycle).check();

@@ -275,7 +275,7 @@ pub(crate) unsafe fn grid<'a>(raw: *const MufasaGrid) -> Result<Option<Grid<'a>>
 /// The profile of a number.
 pub(crate) fn profile(raw: u32) -> Result<Profile, MufasaStatus> {
     let choices =
-        [(MufasaProfile::Paper, Profile::Paper), (MufasaProfile::Hardened, Profile::Hardened)];
+        [(MufasaProfile::Paper, Profile::PAPER), (MufasaProfile::Hardened, Profile::HARDENED)];
     let found = choices.into_iter().find(|&(number, _)| number as u32 == raw);
     found.map(|(_, profile)| profile).ok_or(MufasaStatus::UnknownValue)
 }

@@ -193,7 +193,7 @@ mod tests {
     use crate::judge::class::Kind;
 
     fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
-        let generator = Generator { seed: 5, profile: Profile::Paper, kinds: vec![kind] };
+        let generator = Generator { seed: 5, profile: Profile::PAPER, kinds: vec![kind] };
         let mut cases = (0..2000).map(|case| generator.question(case));
         cases.find(|it| wanted(it)).expect("a case among 2000")
     }

@@ -30,7 +30,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            profile: Profile::Hardened,
+            profile: Profile::HARDENED,
             parameters: Parameters::default(),
             configuration: Configuration::AllRemote,
             ego: None,

@@ -50,7 +50,7 @@ fn cycle() -> Cycle {
         }
     }
     Cycle {
-        profile: Profile::Hardened,
+        profile: Profile::HARDENED,
         parameters: Parameters::default(),
         now_ns: 1_000_000_000,
         configuration: Configuration::AllRemote,

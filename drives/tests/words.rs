@@ -155,7 +155,7 @@ fn what_is_said_of_invalid_input_holds_of_the_numbers_as_they_are_printed() {
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let random = (0..20_000).map(|at| {
         let tape: Vec<u32> = (0..160).map(|_| random.next_u32()).collect();
-        let profile = if at % 2 == 0 { Profile::Paper } else { Profile::Hardened };
+        let profile = if at % 2 == 0 { Profile::PAPER } else { Profile::HARDENED };
         input::cycle(&mut Draw::new(&tape), profile)
     });
     let of_vectors = mufasa_records::cycles_from_lines(&cycles()).into_iter().flatten();

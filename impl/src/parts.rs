@@ -13,6 +13,7 @@ use crate::input::domain::{
     CheckedBefore, check_detections, check_grid, check_lead, check_tracks, check_trajectory,
 };
 use crate::input::parameters::Parameters;
+use crate::input::profile::HardenedRule;
 use crate::input::scratch::Row;
 use crate::numbers::exact::limbs;
 use crate::offloading::requester::{Action, Actions, Event, Requester, RequesterError};
@@ -169,7 +170,11 @@ pub fn gated_tracks(
     detections: &DetectionList<'_>,
 ) -> [Option<u16>; 2] {
     let mut rows = [Row::default(); 2];
-    let places = Places::new(cycle, tracks, detections);
+    let places = if cycle.profile.has(HardenedRule::H01) {
+        Places::then(tracks, detections)
+    } else {
+        Places::standing(tracks.items)
+    };
     let p = [cycle.ego.x, cycle.ego.y];
     let count = gate::gated_tracks(p, &places, detections.items, &mut rows);
     let [first, second] = rows.map(|row| row.track);

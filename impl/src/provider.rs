@@ -62,7 +62,7 @@ impl Failure {
 ///     x: 0.0, y: 0.0, cos: 1.0, sin: 0.0, speed: 0.0, length: 4.5, width: 1.9, center_offset: 1.4,
 /// };
 /// let mut cycle = Cycle {
-///     profile: Profile::Hardened,
+///     profile: Profile::HARDENED,
 ///     parameters: Parameters::default(),
 ///     now_ns: 0,
 ///     configuration: Configuration::AllRemote,

@@ -283,7 +283,7 @@ mod tests {
         };
         assert_eq!(refused(|it| it.cycles.truncate(1)), PlayError::Short { cycles: 1 });
         assert_eq!(refused(|it| it.cycles.swap(3, 4)), PlayError::Order { index: 4 });
-        let another = |it: &mut Drive| it.cycles[5].cycle.profile = Profile::Paper;
+        let another = |it: &mut Drive| it.cycles[5].cycle.profile = Profile::PAPER;
         assert_eq!(refused(another), PlayError::Settings { index: 5 });
     }
 }

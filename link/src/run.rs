@@ -130,7 +130,7 @@ pub fn settings(played: &Played, requester: &Parameters) -> Settings {
     let period = Duration::from_nanos(played.period_ns().unsigned_abs());
     let mut stages = bridge::cycle_parameters(played.parameters());
     let profile = bridge::profile_to_impl(played.profile());
-    if profile == Profile::Hardened {
+    if profile == Profile::HARDENED {
         stages.tau = stages.tau.max(TAU_PERIODS * period.as_secs_f64());
     }
     Settings {

@@ -1,29 +1,10 @@
 //! What a cycle reports: verdict, outcome of every stage, witness
 //! (`spec/3-stages.md#schedule`, `spec/5-interfaces.md#cycle`).
 
+pub use crate::input::profile::Stage;
 pub use crate::numbers::reading::Reading;
 
 use crate::numbers::real::Real;
-
-/// The five stages in their order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Stage {
-    /// Track validation.
-    I,
-    /// Trajectory to map.
-    Ii,
-    /// Trajectory with tracks.
-    Iii,
-    /// Trajectory with detections.
-    Iv,
-    /// Trajectory with grid map.
-    V,
-}
-
-impl Stage {
-    /// All stages in the order in which they run.
-    pub const ALL: [Self; 5] = [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V];
-}
 
 /// What made a cycle unsafe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

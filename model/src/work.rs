@@ -3,7 +3,7 @@
 
 use crate::hardened::detection_history;
 use crate::hardened::h14_fail_safe::{self, path};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::assignment;
 use crate::numbers::real::Real;
@@ -32,32 +32,36 @@ impl Work {
 
 /// The comparisons that a stage needs when nothing fails early, in the reading of the scene:
 ///
-/// * i: the steps of the assignment, of all tracks and detections (its work), and in the hardened
-///   profile each track with each detection and each item of a usable list;
-/// * ii: each trajectory point with each cross section, in the hardened profile each place, too (reach);
+/// * i: the steps of the assignment, of all tracks and detections (its work), and with H-01 or H-14 each
+///   track with each detection and each item of a usable list;
+/// * ii: each trajectory point with each cross section, with H-14 each place, too (reach);
 /// * iii: each point with each track;
 /// * iv: each point with each detection;
-/// * v: each disk at each point, in the hardened profile at each place, too, with each cell that is as near
-///   as its radius.
+/// * v: each disk at each point, with H-04 at each place, too, with each cell that is as near as its
+///   radius.
 pub fn of_stage(scene: &Scene, stage: Stage) -> i128 {
     let trajectory = scene.trajectory.as_deref().unwrap_or_default();
     let points = trajectory.len() as i128;
-    let is_hardened = scene.profile == Profile::Hardened;
+    let has = |rule| scene.profile.has(rule);
     let tracks = scene.tracks.as_ref().map_or(0, |list| list.items.len());
     let detections = scene.detections.as_ref().map_or(0, |list| list.items.len());
-    let places = || if is_hardened { path::count(scene, trajectory) } else { 0 };
+    let places = |rule| if has(rule) { path::count(scene, trajectory) } else { 0 };
     match stage {
         Stage::I => {
             let lists = detection_history::usable(scene);
             let items: usize = lists.iter().map(|list| list.items.len()).sum();
-            let seen = if is_hardened { tracks as i128 * (detections + items) as i128 } else { 0 };
+            let is_seen = has(HardenedRule::H01) || has(HardenedRule::H14);
+            let seen = if is_seen { tracks as i128 * (detections + items) as i128 } else { 0 };
             let left_out = usize::try_from(scene.parameters.miss_budget).unwrap_or(0).min(tracks);
             seen + assignment::work(tracks, detections + left_out)
         }
-        Stage::Ii => points * scene.route.cross_sections.len() as i128 + places(),
+        Stage::Ii => points * scene.route.cross_sections.len() as i128 + places(HardenedRule::H14),
         Stage::Iii => points * tracks as i128,
         Stage::Iv => points * detections as i128,
-        Stage::V => (points + places()) * scene.grid.as_ref().map_or(0, |grid| cells(scene, grid)),
+        Stage::V => {
+            let cells = scene.grid.as_ref().map_or(0, |grid| cells(scene, grid));
+            (points + places(HardenedRule::H04)) * cells
+        }
     }
 }
 

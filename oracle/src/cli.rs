@@ -246,7 +246,7 @@ fn explore(arguments: ExploreArguments, out: &mut impl Write) -> io::Result<u8> 
     let settings = explore::Settings {
         profiles: arguments
             .profile
-            .map_or(vec![Profile::Paper, Profile::Hardened], |profile| vec![profile]),
+            .map_or(vec![Profile::PAPER, Profile::HARDENED], |profile| vec![profile]),
         bounds: arguments.bounds,
         world: arguments.world,
         threads: arguments.threads.unwrap_or(all),

@@ -84,7 +84,7 @@ pub fn run(folder: &Path, out: &mut impl Write, err: &mut impl Write) -> io::Res
         sentences.push(format!(
             "{}: {}",
             case.name(),
-            demo.outcome(case, &checked, Profile::Paper)
+            demo.outcome(case, &checked, Profile::PAPER)
         ));
     }
     write!(out, "{}", table::by_drive(&lines))?;
@@ -108,7 +108,7 @@ fn prepare(folder: &Path) -> Result<[Stream; 2], String> {
         drives.into_iter().next().ok_or("no drive is built in".to_owned())
     };
     let in_words = |error: drive::ReadError| error.to_string();
-    Ok([read(Profile::Hardened)?.map_err(in_words)?, read(Profile::Paper)?.map_err(in_words)?])
+    Ok([read(Profile::HARDENED)?.map_err(in_words)?, read(Profile::PAPER)?.map_err(in_words)?])
 }
 
 fn introduction(drive: &Stream, out: &mut impl Write) -> io::Result<()> {
@@ -137,7 +137,7 @@ impl Case {
     }
 
     fn is_to_be_found(&self, profile: Profile) -> bool {
-        self.attack.is_some() && (profile == Profile::Hardened || self.paper)
+        self.attack.is_some() && (profile == Profile::HARDENED || self.paper)
     }
 }
 
@@ -170,7 +170,7 @@ impl Demo<'_> {
             }
         }
         write!(out, "{}", table::by_stage(model, implementation))?;
-        writeln!(out, "  {}\n", self.outcome(case, &checked, Profile::Hardened))?;
+        writeln!(out, "  {}\n", self.outcome(case, &checked, Profile::HARDENED))?;
         out.flush()
     }
 

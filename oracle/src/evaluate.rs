@@ -34,8 +34,8 @@ use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::combinations::Combinations;
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::Failures;
-use mufasa_sim::experiment::grid::Grids;
 use mufasa_sim::experiment::job::{Campaign, Job, Options};
+use mufasa_sim::experiment::left_out::LeftOuts;
 use mufasa_sim::experiment::readings::Readings;
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::stages::Stages;
@@ -86,7 +86,7 @@ pub fn run(
         Some(Experiment::Attacks(size)) => (size, named::<Attacks>()),
         Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
         Some(Experiment::Availability(size)) => (size, named::<Availability>()),
-        Some(Experiment::Grid(size)) => (size, named::<Grids>()),
+        Some(Experiment::LeftOut(size)) => (size, named::<LeftOuts>()),
         Some(Experiment::Cpu(size)) => (size, named::<Cpu>()),
     };
     let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
@@ -220,7 +220,7 @@ const EXPERIMENTS: [Named; 8] = [
     named::<Attacks>(),
     named::<Combinations>(),
     named::<Availability>(),
-    named::<Grids>(),
+    named::<LeftOuts>(),
     named::<Cpu>(),
 ];
 

@@ -10,7 +10,7 @@ use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, grid, readings, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, scenes, stages,
 };
 use serde_json::Value;
 
@@ -32,7 +32,7 @@ pub const WRITTEN: [(&str, &str, &[&str]); 20] = [
     ("evaluate attacks", "out", &["evaluation-attacks"]),
     ("evaluate combinations", "out", &["evaluation-combinations"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
-    ("evaluate grid", "out", &["evaluation-grid"]),
+    ("evaluate left-out", "out", &["evaluation-left-out"]),
     ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
     ("evaluate scenes", "out", &["evaluation-scenes"]),
@@ -66,7 +66,7 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
     schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
-    schemas.push(("evaluation-grid", schema::written::<grid::Grids>()));
+    schemas.push(("evaluation-left-out", schema::written::<left_out::LeftOuts>()));
     schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
     let part = schema::written::<Part<falsify::Options>>();

@@ -22,14 +22,14 @@ fn kept(name: &str) -> String {
 /// The world without an attacker, which is small, in the paper profile.
 fn honest() -> Vec<WorldOutcome> {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
-    vec![run::explore(world, Profile::Paper, 0, |_| {}).unwrap()]
+    vec![run::explore(world, Profile::PAPER, 0, |_| {}).unwrap()]
 }
 
 /// F-12 is what the exploration finds today, neither longer nor shorter.
 #[test]
 fn the_kept_vectors_and_chart_of_f_12_are_what_is_found() {
     let outcomes = honest();
-    let stories = findings::stories(Profile::Paper, &outcomes).unwrap();
+    let stories = findings::stories(Profile::PAPER, &outcomes).unwrap();
     let [story] = stories.as_slice() else { panic!("{} stories", stories.len()) };
     assert_eq!(story.name, "explored-F-12");
     assert_eq!(
@@ -59,7 +59,7 @@ fn the_tables_of_the_page_are_those_of_a_run() {
             "{name}: mufasa explore --into docs/exploration.md"
         );
     }
-    let today = ExplorationReport::new(Profile::Paper, Bounds::Small, &honest()).markdown();
+    let today = ExplorationReport::new(Profile::PAPER, Bounds::Small, &honest()).markdown();
     // Up to the depth; what follows depends on the machine.
     let sizes = |text: &str| -> Vec<String> {
         rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()

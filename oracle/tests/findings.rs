@@ -119,7 +119,7 @@ fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
     for search in &witness::SEARCHES {
         let paper = search.find().expect("z3 answers").expect(search.finding);
         assert!(is_safe(&paper), "{}: {paper:?}", search.finding);
-        let hardened = Cycle { profile: Profile::Hardened, ..paper };
+        let hardened = Cycle { profile: Profile::HARDENED, ..paper };
         assert!(!is_safe(&hardened), "{}: {hardened:?}", search.finding);
         let implementation = bridge::check_impl(&hardened).expect("the local input is valid");
         assert!(implementation.failed_stage.is_some(), "{}", search.finding);
@@ -174,7 +174,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
         let exact = stages::check(&cycle, Reading::Exact).expect("the local input is valid");
         // The places of H-14 take z3 minutes for each cycle; its theorems run the same source with symbols.
         let is_before_h14 = exact.failed_stage == Some(FailedStage::Stage(Stage::I));
-        if cycle.profile == Profile::Hardened && !is_before_h14 {
+        if cycle.profile == Profile::HARDENED && !is_before_h14 {
             continue;
         }
         let expected = format!("{:?}", exact.failed_stage);

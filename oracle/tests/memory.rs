@@ -90,7 +90,7 @@ fn ten_times_as_many_cycles_take_no_more_memory() {
 /// As [`common::cycle`], later and later, and quick to judge: every third is unsafe.
 fn small(index: u32) -> String {
     let mut cycle = common::cycle(index, index.is_multiple_of(3));
-    cycle.profile = Profile::Paper;
+    cycle.profile = Profile::PAPER;
     cycle.route.cross_sections.truncate(6);
     cycle.trajectory.iter_mut().for_each(|it| it.points.truncate(8));
     cycle_to_line(&format!("c-{index}"), &cycle) + "\n"

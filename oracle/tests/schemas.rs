@@ -150,7 +150,7 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
     for (name, only) in [
         ("failures", "failures/hardened/map-replaced/0"),
         ("readings", "readings/paper/both+farthest+none/0"),
-        ("grid", "grid/hardened/blind+grid+none+mot/0"),
+        ("left-out", "left-out/hardened/blind+grid+none+mot/0"),
         ("stages", "stages/paper/random/1"),
         ("attacks", "attacks/hardened/made-up-lead/mot/0"),
         ("availability", "availability/paper/t-wait-s=60/0"),

@@ -133,7 +133,7 @@ fn urban(profile: Profile, configuration: Configuration, degrees: f64) -> Cycle 
 /// cycle is cheap because it fails early.
 #[test]
 fn an_urban_cycle_goes_through_all_stages() {
-    let settings = [Profile::Paper, Profile::Hardened]
+    let settings = [Profile::PAPER, Profile::HARDENED]
         .into_iter()
         .flat_map(|profile| [MotRemote, AllRemote, PlanRemote].map(|it| (profile, it)));
     for (profile, configuration) in settings {

@@ -36,7 +36,7 @@ fn cycle(v_now: f64, v_lead: f64, gap: f64) -> Cycle<'static> {
         center_offset: 0.0,
     };
     Cycle {
-        profile: Profile::Paper,
+        profile: Profile::PAPER,
         parameters: Parameters::default(),
         now_ns: 0,
         configuration: Configuration::PlanRemote,

@@ -71,8 +71,8 @@ fn faults() -> BTreeMap<&'static str, Fault> {
         // Break before make under the name of the hardened profile, and the other way round.
         only(step, true, |wrong| {
             wrong.profile = match step.profile {
-                Profile::Paper => Profile::Hardened,
-                Profile::Hardened => Profile::Paper,
+                Profile::PAPER => Profile::HARDENED,
+                _ => Profile::PAPER,
             };
         })
     });
@@ -96,7 +96,7 @@ fn every_law_is_refuted_by_a_fault() {
     for (name, law) in LAWS {
         let fault = faults[name];
         let mut refuted = 0_u64;
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             every_step(profile, LENGTH, &mut |step| {
                 refuted += u64::from(fault(step).is_some_and(|wrong| !wrong.keeps(law)));
             });

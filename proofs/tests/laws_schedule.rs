@@ -41,7 +41,7 @@ fn every_law_is_refuted_by_a_wrong_report() {
         assert_eq!(name, of, "the faults stand in the order of the laws");
         let mut refuted = 0;
         every_cycle(|configuration, given| {
-            let cycle = cycle(Profile::Hardened, configuration, given);
+            let cycle = cycle(Profile::HARDENED, configuration, given);
             let mut wrong = report(&cycle);
             fault(&cycle, &mut wrong);
             refuted += u32::from(!law(&cycle, &wrong));
@@ -49,7 +49,7 @@ fn every_law_is_refuted_by_a_wrong_report() {
         println!("{name}: refuted by {refuted} wrong reports");
         assert!(refuted > 0, "{name} cannot fail");
     }
-    let safe = report(&cycle(Profile::Paper, Configuration::Local, [Given::Missing; 5]));
+    let safe = report(&cycle(Profile::PAPER, Configuration::Local, [Given::Missing; 5]));
     let mut wrong = safe;
     wrong.failed_stage = Some(FailedStage::Stage(Stage::Ii));
     assert!(!hardened_accepts_nothing_that_paper_rejects(&wrong, &safe));

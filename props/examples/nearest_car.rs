@@ -153,7 +153,7 @@ fn passes(ego: &Ego, points: &[TrajectoryPoint]) -> bool {
     let far = [Detection { x: 5.0, y: 50.0, cos: 1.0, sin: 0.0, length: 4.0, width: 2.0 }];
     let section = |x: f64| CrossSection { x, y: 0.0, left: [x, HALF_ROAD], right: [x, -HALF_ROAD] };
     let cycle = Cycle {
-        profile: Profile::Hardened,
+        profile: Profile::HARDENED,
         parameters: Parameters::default(),
         now_ns: NOW_NS,
         configuration: Configuration::PlanRemote,

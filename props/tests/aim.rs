@@ -19,7 +19,7 @@ use proptest::strategy::{Strategy, ValueTree};
 const DRAWS: u64 = 600;
 
 fn measure(title: &str, generator: Generator, is_near: fn(&Cycle) -> bool, verdicts: &[&str]) {
-    measure_in(&[Profile::Paper, Profile::Hardened], title, generator, is_near, verdicts);
+    measure_in(&[Profile::PAPER, Profile::HARDENED], title, generator, is_near, verdicts);
 }
 
 fn measure_in(
@@ -102,7 +102,7 @@ fn whole_cycles_are_aimed() {
 /// Each threshold of H-14 by itself.
 #[test]
 fn the_fail_safe_rule_is_aimed_at() {
-    let hardened = [Profile::Hardened];
+    let hardened = [Profile::HARDENED];
     measure_in(&hardened, "H-14", fail_safe::cycle, near_threshold, &["iv", "safe"]);
     for (aim, (title, _)) in fail_safe::AIMS.iter().enumerate() {
         let aimed = |draw: &mut Draw<'_>, profile| fail_safe::aimed(draw, profile, aim);
@@ -127,7 +127,7 @@ fn every_rule_decides_near_a_threshold() {
     for generator in generators {
         for _ in 0..2 * DRAWS {
             let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-            let cycle = generator(&mut Draw::new(&tape), Profile::Hardened);
+            let cycle = generator(&mut Draw::new(&tape), Profile::HARDENED);
             if let Some(rule) = deciding(&cycle) {
                 *seen.entry(rule).or_default() += 1;
             }

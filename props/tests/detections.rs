@@ -7,12 +7,12 @@ use mufasa_props::strategy::detections;
 
 #[test]
 fn paper() {
-    agree("stage iv", Profile::Paper, detections::cycle, near_threshold)
+    agree("stage iv", Profile::PAPER, detections::cycle, near_threshold)
         .assert_aimed(&["iv", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("stage iv", Profile::Hardened, detections::cycle, near_threshold)
+    agree("stage iv", Profile::HARDENED, detections::cycle, near_threshold)
         .assert_aimed(&["iv", "safe"]);
 }

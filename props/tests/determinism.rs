@@ -18,7 +18,7 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
     let mut failed = 0;
     for index in 0..4000 {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let profile = [Profile::Paper, Profile::Hardened][index % 2];
+        let profile = [Profile::PAPER, Profile::HARDENED][index % 2];
         let cycle = whole::cycle(&mut Draw::new(&tape), profile);
         let first = format!("{:?}", check_impl(&cycle));
         assert_eq!(first, format!("{:?}", check_impl(&cycle)), "the second run of {cycle:?}");

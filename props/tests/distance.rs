@@ -27,10 +27,7 @@ fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     }
     let (v_now, v_lead) = (speed(draw), speed(draw));
     // The hardened profile would ask for a trajectory that fits the speed: one that lasts.
-    cycle.ego.speed = match profile {
-        Profile::Paper => v_now,
-        Profile::Hardened => 0.1 * v_now / 150.0,
-    };
+    cycle.ego.speed = if profile == Profile::PAPER { v_now } else { 0.1 * v_now / 150.0 };
     let exact = exact_s_follow(&cycle, v_lead).to_f64();
     let gap = match draw.below(4) {
         0 => exact,
@@ -75,12 +72,12 @@ fn conforming_and_close(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Resul
 
 #[test]
 fn paper() {
-    hold("s_follow", Profile::Paper, cycle, near_threshold, conforming_and_close)
+    hold("s_follow", Profile::PAPER, cycle, near_threshold, conforming_and_close)
         .assert_aimed(&["iv", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    hold("s_follow", Profile::Hardened, cycle, near_threshold, conforming_and_close)
+    hold("s_follow", Profile::HARDENED, cycle, near_threshold, conforming_and_close)
         .assert_aimed(&["iv", "safe"]);
 }

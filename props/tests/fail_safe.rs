@@ -6,12 +6,12 @@ use mufasa_props::strategy::fail_safe;
 
 #[test]
 fn hardened() {
-    agree("H-14", Profile::Hardened, fail_safe::cycle, near_threshold)
+    agree("H-14", Profile::HARDENED, fail_safe::cycle, near_threshold)
         .assert_aimed(&["iv", "safe"]);
 }
 
 #[test]
 fn the_witness() {
-    hold("witness of H-14", Profile::Hardened, fail_safe::cycle, near_threshold, same_witness)
+    hold("witness of H-14", Profile::HARDENED, fail_safe::cycle, near_threshold, same_witness)
         .assert_aimed(&["iv", "safe"]);
 }

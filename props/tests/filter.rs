@@ -23,7 +23,7 @@ fn the_filter_changes_no_report_of_drawn_cycles() {
     let mut seen = BTreeMap::<&str, u32>::new();
     for index in 0..2 * CYCLES {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let profile = [Profile::Paper, Profile::Hardened][index % 2];
+        let profile = [Profile::PAPER, Profile::HARDENED][index % 2];
         let cycle = whole::cycle(&mut Draw::new(&tape), profile);
         for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
             let filtered = check(&cycle, reading);

@@ -14,17 +14,17 @@ use proptest::strategy::{Strategy, ValueTree};
 
 #[test]
 fn paper() {
-    agree("stage v", Profile::Paper, grid::cycle, near_threshold).assert_aimed(&["v", "safe"]);
+    agree("stage v", Profile::PAPER, grid::cycle, near_threshold).assert_aimed(&["v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("stage v", Profile::Hardened, grid::cycle, near_threshold).assert_aimed(&["v", "safe"]);
+    agree("stage v", Profile::HARDENED, grid::cycle, near_threshold).assert_aimed(&["v", "safe"]);
 }
 
 #[test]
 fn the_witness_beside_stage_iv() {
-    hold("witness beside iv", Profile::Hardened, grid::beside_iv, near_threshold, same_witness)
+    hold("witness beside iv", Profile::HARDENED, grid::beside_iv, near_threshold, same_witness)
         .assert_aimed(&["v", "safe"]);
 }
 
@@ -37,7 +37,7 @@ fn rectangles_touch_and_miss_cells_that_a_disk_reaches() {
     let mut runner = runner();
     for _ in 0..DRAWS {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::Hardened);
+        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
         let rectangle = only_rectangle(&cycle);
         if collides(&exact(&only_disks(&cycle))) && near_threshold(&rectangle) {
             let iv = &exact(&cycle).stages[3];
@@ -66,7 +66,7 @@ fn detections_cover_and_miss_cells_that_the_rectangle_touches() {
     let mut runner = runner();
     for _ in 0..DRAWS {
         let tape = tape().new_tree(&mut runner).expect("a tape is always drawn").current();
-        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::Hardened);
+        let cycle = grid::beside_iv(&mut Draw::new(&tape), Profile::HARDENED);
         if !collides(&exact(&grown(&cycle, 2e-5))) && collides(&exact(&grown(&cycle, -2e-5))) {
             let kind = (format!("{:?}", cycle.configuration), collides(&exact(&cycle)));
             *seen.entry(kind).or_insert(0_u64) += 1;

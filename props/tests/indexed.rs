@@ -45,7 +45,7 @@ fn long_route(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 
 #[test]
 fn an_index_changes_no_answer() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let cycles = tape().prop_map(|tape| long_route(&mut Draw::new(&tape), profile));
         let failed = std::cell::Cell::new(0);
         let result = runner().run(&cycles, |cycle| {
@@ -79,7 +79,7 @@ fn an_index_changes_no_answer() {
 
 /// A cycle with up to 40 more things around, now and in the history, of which some have moved.
 fn crowded(draw: &mut Draw<'_>) -> Cycle {
-    let mut cycle = whole::cycle(draw, Profile::Hardened);
+    let mut cycle = whole::cycle(draw, Profile::HARDENED);
     let count = draw.pick(&[0_u32, 0, 5, 40]);
     let (spread, moved) = (draw.pick(&[60.0, 3.0, 300.0]), draw.pick(&[0.5, 0.0, 12.0]));
     let ego = cycle.ego.clone();

@@ -8,12 +8,12 @@ use mufasa_props::strategy::input;
 
 #[test]
 fn paper() {
-    agree("input", Profile::Paper, input::cycle, input::is_near)
+    agree("input", Profile::PAPER, input::cycle, input::is_near)
         .assert_aimed(&["error", "input", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("input", Profile::Hardened, input::cycle, input::is_near)
+    agree("input", Profile::HARDENED, input::cycle, input::is_near)
         .assert_aimed(&["error", "input", "safe"]);
 }

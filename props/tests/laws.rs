@@ -42,7 +42,7 @@ fn judged(cycle: &Cycle) -> Result<Option<Report>, String> {
 #[test]
 fn every_report_keeps_the_laws_of_the_schedule() {
     let (verdicts, asked) = (RefCell::new(BTreeMap::new()), RefCell::new(0_u64));
-    let cycles = tape().prop_map(|tape| whole::cycle(&mut Draw::new(&tape), Profile::Hardened));
+    let cycles = tape().prop_map(|tape| whole::cycle(&mut Draw::new(&tape), Profile::HARDENED));
     let result = runner().run(&cycles, |mut cycle| {
         let hardened = judged(&cycle).map_err(TestCaseError::fail)?;
         // With a budget, and where tracks are older or younger than detections, the hardened stage i
@@ -52,7 +52,7 @@ fn every_report_keeps_the_laws_of_the_schedule() {
             cycle.detections.as_ref().map(|list| list.stamp_ns),
         ];
         let same_stage_i = cycle.parameters.miss_budget == 0 && stamps[0] == stamps[1];
-        cycle.profile = Profile::Paper;
+        cycle.profile = Profile::PAPER;
         let paper = judged(&cycle).map_err(TestCaseError::fail)?;
         if let (Some(paper), Some(hardened)) = (paper, hardened) {
             let verdict = (paper.failed_stage.is_none(), hardened.failed_stage.is_none());

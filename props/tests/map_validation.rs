@@ -7,22 +7,22 @@ use mufasa_props::strategy::{map_validation, roads};
 
 #[test]
 fn paper() {
-    agree("stage ii", Profile::Paper, map_validation::cycle, near_threshold)
+    agree("stage ii", Profile::PAPER, map_validation::cycle, near_threshold)
         .assert_aimed(&["ii", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("stage ii", Profile::Hardened, map_validation::cycle, near_threshold)
+    agree("stage ii", Profile::HARDENED, map_validation::cycle, near_threshold)
         .assert_aimed(&["ii", "safe"]);
 }
 
 #[test]
 fn roads_paper() {
-    agree("roads", Profile::Paper, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
+    agree("roads", Profile::PAPER, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
 }
 
 #[test]
 fn roads_hardened() {
-    agree("roads", Profile::Hardened, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
+    agree("roads", Profile::HARDENED, roads::cycle, near_threshold).assert_aimed(&["ii", "safe"]);
 }

@@ -76,7 +76,7 @@ fn lie(draw: &mut Draw<'_>, objects: &[Object]) -> (usize, Object) {
 /// so many times.
 fn cycle(draw: &mut Draw<'_>, objects: &[Object], lies: usize) -> Cycle {
     let frame = Frame { x: 100.0, y: 100.0, cos: 1.0, sin: 0.0 };
-    let mut cycle = base::cycle(draw, frame, Profile::Hardened, AllRemote);
+    let mut cycle = base::cycle(draw, frame, Profile::HARDENED, AllRemote);
     let lies: Vec<(usize, Object)> = (0..lies).map(|_| lie(draw, objects)).collect();
     let is_true = |i: &usize| lies.iter().all(|(about, _)| about != i);
     let told: Vec<usize> = (0..objects.len()).filter(|i| !draw.one_in(2) && is_true(i)).collect();

@@ -79,7 +79,7 @@ fn said(what: &str, cycle: &Cycle) -> String {
 /// failure that is one of cycles with it.
 #[test]
 fn what_is_kept_passes_and_what_is_left_out_is_named() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         hold("tracks", profile, track_validation::cycle, |cycle, _| kept(cycle));
     }
 }
@@ -135,7 +135,7 @@ fn kept(cycle: &Cycle) -> Result<[bool; 3], String> {
 /// the stages say.
 #[test]
 fn the_first_candidate_that_passes_is_chosen() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         for generator in [tracks::cycle as Generator, detections::cycle] {
             hold("candidates", profile, generator, chosen);
         }
@@ -207,7 +207,7 @@ fn three() -> Cycle {
         .map(|seed| {
             tape.clear();
             tape.extend((0..600_u32).map(|at| (seed * 600 + at).wrapping_mul(2_654_435_761)));
-            track_validation::cycle(&mut Draw::new(&tape), Profile::Hardened)
+            track_validation::cycle(&mut Draw::new(&tape), Profile::HARDENED)
         })
         .find(|cycle| {
             let tracks = cycle.tracks.as_ref().map_or(0, |it| it.items.len());

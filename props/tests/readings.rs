@@ -21,18 +21,18 @@ fn readings_are_nested(cycle: &Cycle, exact: &Answer, strict: &Answer) -> Result
 
 #[test]
 fn paper() {
-    hold("readings", Profile::Paper, whole::cycle, near_threshold, readings_are_nested)
+    hold("readings", Profile::PAPER, whole::cycle, near_threshold, readings_are_nested)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    hold("readings", Profile::Hardened, whole::cycle, near_threshold, readings_are_nested)
+    hold("readings", Profile::HARDENED, whole::cycle, near_threshold, readings_are_nested)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn of_the_fail_safe_rule() {
-    hold("readings", Profile::Hardened, fail_safe::cycle, near_threshold, readings_are_nested)
+    hold("readings", Profile::HARDENED, fail_safe::cycle, near_threshold, readings_are_nested)
         .assert_aimed(&["iv", "safe"]);
 }

@@ -7,12 +7,12 @@ use mufasa_props::strategy::schedule;
 
 #[test]
 fn paper() {
-    agree("schedule", Profile::Paper, schedule::cycle, schedule::is_near)
+    agree("schedule", Profile::PAPER, schedule::cycle, schedule::is_near)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("schedule", Profile::Hardened, schedule::cycle, schedule::is_near)
+    agree("schedule", Profile::HARDENED, schedule::cycle, schedule::is_near)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }

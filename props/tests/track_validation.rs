@@ -8,20 +8,20 @@ use mufasa_props::strategy::track_validation;
 
 #[test]
 fn paper() {
-    agree("stage i", Profile::Paper, track_validation::cycle, near_threshold)
+    agree("stage i", Profile::PAPER, track_validation::cycle, near_threshold)
         .assert_aimed(&["i", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("stage i", Profile::Hardened, track_validation::cycle, near_threshold)
+    agree("stage i", Profile::HARDENED, track_validation::cycle, near_threshold)
         .assert_aimed(&["i", "safe"]);
 }
 
 /// `spec/3-stages.md#stage-i-track-validation.5`: with limits that many assignments exceed.
 #[test]
 fn limited() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let tally = agree("stage i, limited", profile, limited_cycle, near_threshold);
         assert!(10 * tally.undecided > tally.cases, "the limit decides: {tally}");
         tally.assert_aimed(&["i", "safe"]);

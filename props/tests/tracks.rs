@@ -7,24 +7,24 @@ use mufasa_props::strategy::tracks;
 
 #[test]
 fn paper() {
-    agree("stage iii", Profile::Paper, tracks::cycle, near_threshold)
+    agree("stage iii", Profile::PAPER, tracks::cycle, near_threshold)
         .assert_aimed(&["iii", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    agree("stage iii", Profile::Hardened, tracks::cycle, near_threshold)
+    agree("stage iii", Profile::HARDENED, tracks::cycle, near_threshold)
         .assert_aimed(&["iii", "safe"]);
 }
 
 #[test]
 fn before_its_list_paper() {
-    agree("stage iii before its list", Profile::Paper, tracks::before, near_threshold)
+    agree("stage iii before its list", Profile::PAPER, tracks::before, near_threshold)
         .assert_aimed(&["iii", "safe"]);
 }
 
 #[test]
 fn before_its_list_hardened() {
-    agree("stage iii before its list", Profile::Hardened, tracks::before, near_threshold)
+    agree("stage iii before its list", Profile::HARDENED, tracks::before, near_threshold)
         .assert_aimed(&["iii", "safe"]);
 }

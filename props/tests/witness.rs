@@ -7,12 +7,12 @@ use mufasa_props::strategy::whole;
 
 #[test]
 fn paper() {
-    hold("witness", Profile::Paper, whole::cycle, near_threshold, same_witness)
+    hold("witness", Profile::PAPER, whole::cycle, near_threshold, same_witness)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }
 
 #[test]
 fn hardened() {
-    hold("witness", Profile::Hardened, whole::cycle, near_threshold, same_witness)
+    hold("witness", Profile::HARDENED, whole::cycle, near_threshold, same_witness)
         .assert_aimed(&["i", "ii", "iii", "iv", "v", "safe"]);
 }

@@ -47,7 +47,7 @@ pub struct Monitor {
 impl Monitor {
     #[new]
     #[pyo3(signature = (
-        period, *, profile = OneProfile(Profile::Hardened), parameters = None,
+        period, *, profile = OneProfile(Profile::HARDENED), parameters = None,
         sessions_before = SessionsBefore(0), most_stations = MostStations(64)
     ), text_signature = "(period, *, profile='hardened', parameters=None, sessions_before=0, most_stations=64)")]
     fn new(

@@ -33,7 +33,7 @@ pub enum Kind {
 macro_rules! words {
     ($(
         #[doc = $description:literal]
-        $function:ident($type:ty as $name:literal) {
+        $function:ident($type:ty as $name:literal $(, else $other:literal)?) {
             $($first:tt $(:: $rest:ident)? $(($($inner:tt)*))? => $word:literal,)*
         }
     )*) => {$(
@@ -41,6 +41,7 @@ macro_rules! words {
         pub const fn $function(value: $type) -> &'static str {
             match value {
                 $($first $(:: $rest)? $(($($inner)*))? => $word,)*
+                $(_ => $other,)?
             }
         }
 
@@ -65,9 +66,9 @@ words! {
     }
 
     /// Which rules apply.
-    profile(Profile as "Profile") {
-        Profile::Paper => "paper",
-        Profile::Hardened => "hardened",
+    profile(Profile as "Profile", else "study") {
+        Profile::PAPER => "paper",
+        Profile::HARDENED => "hardened",
     }
 
     /// Which groups are remote.

@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
+use mufasa::input::cycle::Route;
 use mufasa::input::parameters::Parameters as StageParameters;
+use mufasa::input::profile::Profile;
 use mufasa::monitor::{self, MonitorError};
 use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
 use mufasa::report::Outcome as StageOutcome;
@@ -40,6 +42,8 @@ const MOST: (usize, usize) = (128, 2048);
 pub struct Settings {
     /// What is checked of remote data.
     pub variant: Variant,
+    /// By which rules: those of the variant, or a set of a study. None in `Sofof`.
+    pub profile: Option<Profile>,
     /// Whether control drives on along what was verified however long nothing newer comes (F-47).
     pub drives_on: bool,
     /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
@@ -79,6 +83,7 @@ impl Settings {
             RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
         Self {
             variant,
+            profile: variant.profile(),
             drives_on: false,
             has_no_lead: false,
             withheld: None,
@@ -107,15 +112,9 @@ impl Settings {
         }
     }
 
-    /// What keeps the cycles that are recorded.
-    fn recorder(&self) -> Recorder {
-        let recorder = |profile| Recorder::new(self.recorded, profile, self.stages);
-        self.variant.profile().map_or_else(Recorder::default, recorder)
-    }
-
     /// What asks before something is sent on this route.
-    fn asking(&self, route: &mufasa::input::cycle::Route<'_>) -> Option<Asking> {
-        let profile = self.variant.profile().filter(|_| self.prechecks)?;
+    fn asking(&self, route: &Route<'_>) -> Option<Asking> {
+        let profile = self.profile.filter(|_| self.prechecks)?;
         Some(Asking::new(profile, self.stages, route).withholding(self.withheld))
     }
 }
@@ -246,15 +245,13 @@ pub fn simulate(
     let at = route.path.pose_at(0.0).at;
     let frame = Frame::new(484_000_000, 99_500_000, [at.x, at.y]).map_err(RunError::Frame)?;
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
-    let mut guard = Guard::new(settings.variant, settings.monitor(), &mut table, lent.memory())
+    let recorder = |profile| Recorder::new(settings.recorded, profile, settings.stages);
+    let mut guard = Guard::new(settings.profile, settings.monitor(), &mut table, lent.memory())
         .map_err(RunError::Monitor)?
-        .recording(settings.recorder())
+        .recording(settings.profile.map_or_else(Recorder::default, recorder))
         .withholding(settings.withheld);
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
-    let corridor = mufasa::input::cycle::Route {
-        closed: route.path.is_closed(),
-        cross_sections: &cross_sections,
-    };
+    let corridor = Route { closed: route.path.is_closed(), cross_sections: &cross_sections };
     guard.set_route(&corridor).map_err(RunError::Route)?;
     let noise = (settings.seed, settings.errors);
     let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)

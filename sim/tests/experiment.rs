@@ -6,10 +6,11 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::failures::{Failures, Row};
 use mufasa_sim::experiment::job::{self, Campaign, Options};
+use mufasa_sim::experiment::left_out::{Detectors, LeftOut};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, grid, readings, stages,
+    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, stages,
 };
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
@@ -115,16 +116,36 @@ fn empty_lists_within_the_station_alone_are_found_and_those_for_both_are_not() {
 fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
     let rows = |only| {
         let select = Select::only(Some(only));
-        let made = grid::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+        let made =
+            left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
         made.rows
     };
-    let with = rows("grid/hardened/blind+nothing+none+both");
-    let without = rows("grid/hardened/blind+grid+none+both");
+    let with = rows("left-out/hardened/blind+nothing+none+both");
+    let without = rows("left-out/hardened/blind+grid+none+both");
     assert_eq!((with.len(), without.len(), with[0].runs), (1, 1, 4));
     assert!(with[0].executions_v > 100, "{with:?}");
     assert_eq!((without[0].executions_v, without[0].detections_v), (0, 0), "{without:?}");
-    let noisy = rows("grid/hardened/noisy+nothing+none+both");
+    let noisy = rows("left-out/hardened/noisy+nothing+none+both");
     assert!((noisy[0].share_plan - with[0].share_plan).abs() > 1e-9, "{noisy:?} {with:?}");
+}
+
+/// Without H-10 stage iii takes the place of v in `AllRemote`.
+#[test]
+fn a_rule_that_is_left_out_is_not_asked() {
+    let rows = |only| {
+        let select = Select::only(Some(only));
+        let made =
+            left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+        made.rows
+    };
+    let with = rows("left-out/hardened/noisy+nothing+none+both");
+    let without = rows("left-out/hardened/noisy+H-10+none+both");
+    assert!(with[0].executions_v > 100, "{with:?}");
+    assert!(without[0].executions_v < with[0].executions_v / 2, "{without:?}");
+    let names: Vec<String> =
+        LeftOut::all(Variant::Hardened, Detectors::Noisy).into_iter().map(String::from).collect();
+    let read = |name: &String| LeftOut::try_from(name.clone()).map(String::from);
+    assert!(names.iter().all(|name| read(name).as_ref() == Ok(name)), "{names:?}");
 }
 
 #[test]
@@ -153,11 +174,11 @@ fn ids_differ_and_every_combination_is_there() {
     ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(cpu::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(readings::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(grid::jobs(&town, size).into_iter().map(|it| it.id));
+    ids.extend(left_out::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
-    let of_grid = 4 * 2 * 3 * 4 * 3 * 4;
+    let of_left_out = (4 * 2 * 3 + 2 * (2 * 4 + 10)) * (7 + 1) * 3 * 4;
     let others = 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4 + 3 * 4;
-    assert_eq!(all, 4 * 3 * 4 + others + 9 * (3 + 1) * 4 + of_grid);
+    assert_eq!(all, 4 * 3 * 4 + others + 9 * (3 + 1) * 4 + of_left_out);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
     ids.sort();
     ids.dedup();

@@ -80,8 +80,8 @@ fn panel(
 /// The sums over the stages: paper, hardened, the best library for each; and the loop by hand,
 /// which is for stage v alone.
 fn times(workload: &Workload, stages: &[Stage]) -> [f64; 4] {
-    let paper = workload.cycle(Profile::Paper, Configuration::AllRemote);
-    let strict = workload.cycle(Profile::Hardened, Configuration::AllRemote);
+    let paper = workload.cycle(Profile::PAPER, Configuration::AllRemote);
+    let strict = workload.cycle(Profile::HARDENED, Configuration::AllRemote);
     let mut sums = [0.0; 4];
     for &stage in stages {
         let mut entries =

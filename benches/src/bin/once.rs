@@ -19,8 +19,8 @@ use mufasa_benches::workload::{SIZES, Variant, Workload};
 fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().nth(1).ok_or("which task?")?;
     let (task, profile) = match argument.strip_suffix("-hardened") {
-        Some(task) => (task, Profile::Hardened),
-        None => (argument.as_str(), Profile::Paper),
+        Some(task) => (task, Profile::HARDENED),
+        None => (argument.as_str(), Profile::PAPER),
     };
     let stage = STAGES.into_iter().zip(Stage::ALL).find(|&(name, _)| name == task);
     let (mut size, mut variant, mut calls) = (&SIZES[0], Variant::Pass, 1_u64);

@@ -63,8 +63,8 @@ const VARIANTS: [(&str, Variant, Stage); 7] = [
 /// Everything about one workload.
 fn run(size: &Size, rounds: Rounds) -> Results {
     let workload = Workload::new(size, Variant::Pass);
-    let paper = workload.cycle(Profile::Paper, Configuration::AllRemote);
-    let strict = workload.cycle(Profile::Hardened, Configuration::AllRemote);
+    let paper = workload.cycle(Profile::PAPER, Configuration::AllRemote);
+    let strict = workload.cycle(Profile::HARDENED, Configuration::AllRemote);
     let mut contestants = Vec::new();
     for (name, stage) in STAGES.into_iter().zip(Stage::ALL) {
         contestants.push(ours(name, OURS.to_owned(), &paper, stage));
@@ -96,7 +96,7 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         (Configuration::AllRemote, "check AllRemote"),
         (Configuration::PlanRemote, "check PlanRemote"),
     ] {
-        for (name, profile) in [(OURS.to_owned(), Profile::Paper), (hardened(), Profile::Hardened)]
+        for (name, profile) in [(OURS.to_owned(), Profile::PAPER), (hardened(), Profile::HARDENED)]
         {
             let cycle = Box::leak(Box::new(workload.cycle(profile, configuration)));
             let mut it = Contestant::new(cycle);
@@ -105,7 +105,7 @@ fn run(size: &Size, rounds: Rounds) -> Results {
         }
     }
     // Stage iv cannot run, so that unknown cells count.
-    let base = workload.cycle(Profile::Hardened, Configuration::MotRemote);
+    let base = workload.cycle(Profile::HARDENED, Configuration::MotRemote);
     let cycle = Box::leak(Box::new(Cycle { detections: None, ..base }));
     let mut it = Contestant::new(cycle);
     let run = move || it.check().failed_stage.is_none();
@@ -118,8 +118,8 @@ fn run(size: &Size, rounds: Rounds) -> Results {
     results.times.extend(measure(&mut contestants, rounds));
     for (task, variant, stage) in VARIANTS {
         let workload = Workload::new(size, variant);
-        let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
-        let strict = workload.cycle(Profile::Hardened, Configuration::AllRemote);
+        let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
+        let strict = workload.cycle(Profile::HARDENED, Configuration::AllRemote);
         let mut contestants = vec![
             ours(task, OURS.to_owned(), &cycle, stage),
             ours(task, hardened(), &strict, stage),

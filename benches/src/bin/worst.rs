@@ -96,7 +96,7 @@ fn vehicle() {
     let whole = base(&cross_sections, &grid);
     let work_limit = i64::from(TRACKS) * i64::from(TRACKS) * i64::from(DETECTIONS);
     let parameters = Parameters { work_limit, ..whole.parameters };
-    let base = Cycle { profile: Profile::Hardened, parameters, ..whole };
+    let base = Cycle { profile: Profile::HARDENED, parameters, ..whole };
     let row = |input: &str, cycle: &Cycle<'_>, of: Stage, name: &str| {
         let (ms, passed) = mean(&mut Contestant::new(cycle), of);
         println!("| {name} | {input} | {ms:.3}, {} |", if passed { "passes" } else { "fails" });
@@ -174,7 +174,7 @@ fn moving(still: &Cycle<'_>) {
         let (touching, beside) = neighbours(still, count);
         let earlier = [earlier(&beside, 500)];
         let cycle = Cycle {
-            profile: Profile::Hardened,
+            profile: Profile::HARDENED,
             detections: Some(list(&beside)),
             detection_history: &earlier,
             ..*still
@@ -229,7 +229,7 @@ fn report_without_index(stage: &str, input: &str, cycle: &Cycle<'_>, of: Stage) 
 }
 
 fn line(stage: &str, input: &str, cycle: &Cycle<'_>, run: impl Fn(&Cycle<'_>) -> (f64, bool)) {
-    let cells = [Profile::Paper, Profile::Hardened].map(|profile| {
+    let cells = [Profile::PAPER, Profile::HARDENED].map(|profile| {
         let (ms, passed) = run(&Cycle { profile, ..*cycle });
         format!("{ms:.3}, {}", if passed { "passes" } else { "fails" })
     });
@@ -261,7 +261,7 @@ fn cpu_ms() -> f64 {
 
 fn base<'a>(cross_sections: &'a [CrossSection], grid: &'a [u8]) -> Cycle<'a> {
     Cycle {
-        profile: Profile::Paper,
+        profile: Profile::PAPER,
         parameters: Parameters {
             theta_tr: 512.0,
             theta_obj: 1e3,

@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn a_wrong_value_is_seen() {
         let workload = Workload::new(&SIZES[0], Variant::Pass);
-        let cycle = workload.cycle(Profile::Paper, Configuration::AllRemote);
+        let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
         assert!(plain_loop(&cycle));
         let list = cycle.tracks.expect("a workload with tracks");
         let refused = |items: &[super::Track]| {

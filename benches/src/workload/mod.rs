@@ -163,7 +163,7 @@ impl Workload {
     /// scan; nor is a track there that crosses the way.
     fn clear_the_way(&mut self) {
         loop {
-            let cycle = self.cycle(Profile::Hardened, Configuration::MotRemote);
+            let cycle = self.cycle(Profile::HARDENED, Configuration::MotRemote);
             let shown = cycle.detections.map_or(&[][..], |list| list.items);
             let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
             let (mut rows, mut columns) =
@@ -292,7 +292,7 @@ impl Workload {
     /// unknown cells.
     pub fn cycle(&self, profile: Profile, configuration: Configuration) -> Cycle<'_> {
         let stamp_ns = NOW_NS;
-        let hardened = profile == Profile::Hardened;
+        let hardened = profile == Profile::HARDENED;
         let detections: &[_] =
             if hardened { self.without_left_out().leak() } else { &self.detections };
         let tracks: &[_] = if hardened { self.without_crossing().leak() } else { &self.tracks };

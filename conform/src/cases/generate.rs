@@ -86,10 +86,7 @@ impl Generator {
             Kind::Cycle => Question::Cycle(Box::new(cycle(&mut Draw::new(tape), self.profile))),
             Kind::Offloading => {
                 // The first choice of a trace is its profile.
-                let first = match self.profile {
-                    Profile::Hardened => 0,
-                    Profile::Paper => u32::MAX,
-                };
+                let first = if self.profile == Profile::PAPER { u32::MAX } else { 0 };
                 let mut tape = tape.to_vec();
                 tape.iter_mut().take(1).for_each(|choice| *choice = first);
                 if tape.is_empty() {
@@ -149,7 +146,7 @@ mod tests {
     #[test]
     fn a_case_is_the_same_each_time_and_another_with_another_seed() {
         let generator =
-            |seed| Generator { seed, profile: Profile::Hardened, kinds: Kind::ALL.into() };
+            |seed| Generator { seed, profile: Profile::HARDENED, kinds: Kind::ALL.into() };
         for case in 0..50 {
             let line = |seed| generator(seed).question(case).line("x");
             assert_eq!(line(1), line(1));
@@ -159,7 +156,7 @@ mod tests {
 
     #[test]
     fn in_succession_come_cycles_on_roads_that_are_alike_but_not_equal() {
-        let generator = Generator { seed: 0, profile: Profile::Paper, kinds: Kind::ALL.into() };
+        let generator = Generator { seed: 0, profile: Profile::PAPER, kinds: Kind::ALL.into() };
         let cycle = |case| match generator.question(case) {
             Question::Cycle(cycle) => Some(cycle),
             _ => None,
@@ -185,7 +182,7 @@ mod tests {
 
     #[test]
     fn some_trajectories_begin_before_the_stamp_of_the_tracks() {
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             let generator = Generator { seed: 0, profile, kinds: vec![Kind::Cycle] };
             let begins_before = |case: &u64| {
                 let Question::Cycle(cycle) = generator.question(*case) else { return false };
@@ -206,7 +203,7 @@ mod tests {
 
     #[test]
     fn traces_have_the_profile_asked_for() {
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             let generator = Generator { seed: 0, profile, kinds: vec![Kind::Offloading] };
             for case in 0..20 {
                 let Question::Offloading(trace) = generator.question(case) else { panic!() };

@@ -210,7 +210,7 @@ mod tests {
         let (mut seen, mut refused) = ([0; 3], 0);
         for case in 0..600 {
             let generator =
-                Generator { seed: 3, profile: Profile::Paper, kinds: Kind::RECORDS.into() };
+                Generator { seed: 3, profile: Profile::PAPER, kinds: Kind::RECORDS.into() };
             let question = generator.question(case);
             let line = question.line("c-\"1\"");
             let Some(read) = Question::of_line(&line) else {
@@ -231,7 +231,7 @@ mod tests {
     #[test]
     fn each_damage_makes_each_kind_of_record_unreadable() {
         for kind in Kind::RECORDS {
-            let generator = Generator { seed: 1, profile: Profile::Hardened, kinds: vec![kind] };
+            let generator = Generator { seed: 1, profile: Profile::HARDENED, kinds: vec![kind] };
             for (at, damage) in Damage::ALL.into_iter().cycle().take(220).enumerate() {
                 let damaged = Damaged::new(generator.question(at as u64), damage, at * 7);
                 let line = damaged.line("c-1");

@@ -94,8 +94,8 @@ mod tests {
 
     #[test]
     fn of_each_kind_and_profile_those_are_asked_that_bind() {
-        let paper = (Profile::Paper, "hardened", "F-14");
-        for (profile, other, only) in [paper, (Profile::Hardened, "paper", "H-10")] {
+        let paper = (Profile::PAPER, "hardened", "F-14");
+        for (profile, other, only) in [paper, (Profile::HARDENED, "paper", "H-10")] {
             let of = |kind: Kind| asked(profile, &[kind]);
             for (kind, least) in
                 [(Kind::Cycle, 300), (Kind::Offloading, 30), (Kind::Composition, 20)]
@@ -115,7 +115,7 @@ mod tests {
     #[test]
     fn a_line_is_asked_as_it_stands_if_its_record_is_asked_about() {
         let lines = |kinds: &[Kind]| {
-            let mut given = asked(Profile::Paper, kinds);
+            let mut given = asked(Profile::PAPER, kinds);
             given.retain(|it| it.question.kind() == Kind::Line);
             given
         };

@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn at_the_threshold_of_stage_i_a_pair_is_enough() {
         let kinds = vec![Kind::Cycle];
-        let generator = Generator { seed: 8, profile: Profile::Hardened, kinds };
+        let generator = Generator { seed: 8, profile: Profile::HARDENED, kinds };
         let cases = (0..2000).map(|case| generator.question(case));
         let mut found = cases.filter(|it| it.objects() > 5 && is_at_the_mean(it));
         for _ in 0..10 {

@@ -278,7 +278,7 @@ mod tests {
         };
         assert_eq!(
             record.generators,
-            Generators { paper: of(Profile::Paper), hardened: of(Profile::Hardened) },
+            Generators { paper: of(Profile::PAPER), hardened: of(Profile::HARDENED) },
             "the generators of `mufasa conform` have changed since its seeded bugs were measured; \
              examples/conformance/campaign --bugs ... --write measures those of a profile anew"
         );
@@ -288,7 +288,7 @@ mod tests {
     #[test]
     fn the_bugs_were_measured_with_the_vectors_as_they_are() {
         let record: Record = serde_json::from_str(RECORD).expect("the record");
-        let vectors = [Profile::Paper, Profile::Hardened].into_iter().flat_map(|profile| {
+        let vectors = [Profile::PAPER, Profile::HARDENED].into_iter().flat_map(|profile| {
             let settings = Settings::of(profile, &Kind::ALL);
             let given = fitting(&settings).expect("author and model agree");
             given.into_iter().map(|it| it.question.line(&it.id))

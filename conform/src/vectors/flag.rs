@@ -53,15 +53,15 @@ pub fn of_trace(trace: &Trace) -> Flag {
 /// The other profile.
 pub const fn other(profile: Profile) -> Profile {
     match profile {
-        Profile::Paper => Profile::Hardened,
-        Profile::Hardened => Profile::Paper,
+        Profile::PAPER => Profile::HARDENED,
+        _ => Profile::PAPER,
     }
 }
 
 const fn only(profile: Profile) -> Flag {
     match profile {
-        Profile::Paper => Flag::PaperOnly,
-        Profile::Hardened => Flag::HardenedOnly,
+        Profile::PAPER => Flag::PaperOnly,
+        _ => Flag::HardenedOnly,
     }
 }
 

@@ -32,7 +32,7 @@ pub fn add(book: &mut Book) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut count = 0;
         while count < CYCLES {
-            let profile = [Profile::Paper, Profile::Hardened][count % 2];
+            let profile = [Profile::PAPER, Profile::HARDENED][count % 2];
             let cycle = cycle(&mut random, profile, configuration);
             if cycle_to_line("", &cycle).len() > LONGEST {
                 continue;

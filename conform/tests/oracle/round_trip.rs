@@ -55,7 +55,7 @@ fn parameters_at_their_default_are_left_out() {
 
 fn cycle(random: &mut Random) -> Cycle {
     Cycle {
-        profile: *random.pick(&[Profile::Paper, Profile::Hardened]),
+        profile: *random.pick(&[Profile::PAPER, Profile::HARDENED]),
         parameters: parameters(random),
         now_ns: integer(random),
         configuration: *random.pick(&[

@@ -76,10 +76,10 @@ fn the_id_of_an_error_is_null_when_it_could_not_be_read() {
 
 #[test]
 fn profile_is_paper_or_hardened_and_hardened_by_default() {
-    assert_eq!(cycle(CYCLE).profile, Profile::Paper);
-    assert_eq!(cycle(&with(CYCLE, "\"profile\": \"paper\", ", "")).profile, Profile::Hardened);
+    assert_eq!(cycle(CYCLE).profile, Profile::PAPER);
+    assert_eq!(cycle(&with(CYCLE, "\"profile\": \"paper\", ", "")).profile, Profile::HARDENED);
     let hardened = with(CYCLE, "\"paper\"", "\"hardened\"");
-    assert_eq!(cycle(&hardened).profile, Profile::Hardened);
+    assert_eq!(cycle(&hardened).profile, Profile::HARDENED);
     for wrong in ["\"Paper\"", "null", "\"\"", "true"] {
         refused(&with(CYCLE, "\"paper\"", wrong), "profile", None);
     }

@@ -56,10 +56,7 @@ pub fn implementation<'t>(
     parameters: &Parameters,
     table: &'t mut Table,
 ) -> Result<implementation::Requester<'t>, String> {
-    let profile = match profile {
-        Profile::Paper => mufasa::input::profile::Profile::Paper,
-        Profile::Hardened => mufasa::input::profile::Profile::Hardened,
-    };
+    let profile = bridge::profile_to_impl(profile);
     let parameters = bridge::parameters_to_impl(parameters);
     let requester = implementation::Requester::new(profile, parameters, table);
     requester.map_err(|error| error.to_string())

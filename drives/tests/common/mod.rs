@@ -39,7 +39,7 @@ pub fn cycle(index: u32, blocked: bool) -> Cycle {
         width: 1.8,
     };
     Cycle {
-        profile: Profile::Hardened,
+        profile: Profile::HARDENED,
         parameters: Parameters::default(),
         now_ns,
         configuration: Configuration::AllRemote,

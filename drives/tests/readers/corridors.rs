@@ -141,7 +141,7 @@ fn between_lanes_that_part_there_is_no_corridor() {
 /// Cycles of the paper profile that fail stage ii, of all.
 fn off_the_map(scenario: &str, solution: &str) -> [usize; 2] {
     let folder = Scratch::new();
-    let options = Options { profile: Profile::Paper, ..Options::default() };
+    let options = Options { profile: Profile::PAPER, ..Options::default() };
     let files = [folder.write("scenario.xml", scenario), folder.write("solution.xml", solution)];
     let (checked, all) = judged(one(&files, &options).unwrap());
     assert_eq!(checked.disagreements(), 0);

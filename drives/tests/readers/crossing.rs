@@ -58,7 +58,7 @@ fn found(profile: Profile, attack: Attack) -> Option<(usize, Rule)> {
 #[test]
 fn a_crossing_car_that_is_said_to_stand_or_left_out_is_seen_to_move() {
     for attack in [Attack::CrossingStands, Attack::MissingTrack] {
-        let failed = found(Profile::Hardened, attack);
+        let failed = found(Profile::HARDENED, attack);
         let (cycle, rule) = failed.unwrap_or_else(|| panic!("{attack:?} is not found"));
         // 10 m/s stop in 7.7 m: the car is found at least 0.7 s before the collision.
         assert_eq!((rule, cycle <= 10), (Rule::FailSafe, true), "{attack:?} at {cycle}");
@@ -67,9 +67,9 @@ fn a_crossing_car_that_is_said_to_stand_or_left_out_is_seen_to_move() {
 
 #[test]
 fn in_the_papers_profile_it_is_driven_into() {
-    let failed = found(Profile::Paper, Attack::MissingTrack);
+    let failed = found(Profile::PAPER, Attack::MissingTrack);
     assert_eq!(failed, None);
     // What stands is met when it is on the path: half a second before the collision at most.
-    let failed = found(Profile::Paper, Attack::CrossingStands);
+    let failed = found(Profile::PAPER, Attack::CrossingStands);
     assert!(failed.is_none_or(|(cycle, _)| cycle >= 15), "{failed:?}");
 }

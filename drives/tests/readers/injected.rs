@@ -23,7 +23,7 @@ fn options(profile: Profile) -> Options {
 
 #[test]
 fn the_demo_is_clean_in_both_profiles() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let drive = demo(&options(profile));
         assert!(drive.cycles.len() > 150);
         assert_eq!(first_failure(&drive), None, "{profile:?}");
@@ -65,7 +65,7 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
     ];
     // Nothing crosses; see `crossing.rs`.
     assert_eq!(cases.len() + 1, Attack::ALL.len());
-    let [paper, hardened] = [Profile::Paper, Profile::Hardened].map(|p| demo(&options(p)));
+    let [paper, hardened] = [Profile::PAPER, Profile::HARDENED].map(|p| demo(&options(p)));
     for (attack, in_paper, in_hardened) in cases {
         let injection = Injection { attack, from_s: 2.0, to_s: f64::INFINITY };
         for (clean, expected) in [(&paper, in_paper), (&hardened, in_hardened)] {
@@ -87,11 +87,11 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
 #[test]
 fn false_velocities_are_found_at_the_impact_or_in_time() {
     let injection = "false-velocities@2..".parse::<Injection>().unwrap();
-    let attacked = inject(&demo(&options(Profile::Paper)), &injection).unwrap();
+    let attacked = inject(&demo(&options(Profile::PAPER)), &injection).unwrap();
     let (found, _) = first_failure(&attacked).unwrap();
     let lead = attacked.cycles[found].cycle.lead.as_ref().unwrap();
     assert!(lead.gap <= 0.0, "{lead:?}");
-    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
+    let attacked = inject(&demo(&options(Profile::HARDENED)), &injection).unwrap();
     let (found, _) = first_failure(&attacked).unwrap();
     let lead = attacked.cycles[found].cycle.lead.as_ref().unwrap();
     let speed = attacked.cycles[found].cycle.ego.speed;
@@ -102,7 +102,7 @@ fn false_velocities_are_found_at_the_impact_or_in_time() {
 #[test]
 fn the_range_of_the_lead_holds_under_attack() {
     let sensor = Sensor { lead_range_m: 15.0, ..Sensor::default() };
-    let drive = demo(&Options { sensor, ..options(Profile::Paper) });
+    let drive = demo(&Options { sensor, ..options(Profile::PAPER) });
     let injection = "empty-tracks@2..".parse::<Injection>().unwrap();
     let attacked = inject(&drive, &injection).unwrap();
     let gaps =
@@ -111,7 +111,7 @@ fn the_range_of_the_lead_holds_under_attack() {
     assert!(clean.len() < drive.cycles.len(), "the lead is farther now and then");
     assert!(!attacked.is_empty() && attacked.iter().chain(&clean).all(|gap| *gap <= 15.0));
     let none = Sensor { lead_range_m: 0.0, ..Sensor::default() };
-    let drive = inject(&demo(&Options { sensor: none, ..options(Profile::Paper) }), &injection);
+    let drive = inject(&demo(&Options { sensor: none, ..options(Profile::PAPER) }), &injection);
     assert!(drive.unwrap().cycles.iter().all(|c| c.cycle.lead.is_none()));
 }
 
@@ -120,7 +120,7 @@ fn the_range_of_the_lead_holds_under_attack() {
 #[test]
 fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     let injection = "empty-tracks@2..".parse::<Injection>().unwrap();
-    let attacked = inject(&demo(&options(Profile::Hardened)), &injection).unwrap();
+    let attacked = inject(&demo(&options(Profile::HARDENED)), &injection).unwrap();
     let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
     let (found, _) = first_failure(&attacked).unwrap();
     let (_, all) = judged(attacked.clone());
@@ -138,7 +138,7 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     assert!(gap(found).unwrap() > speed * speed / 16.0, "it can still stop");
     let crash = (found..attacked.cycles.len()).find(|i| gap(*i) == Some(0.0));
     assert!(crash.is_some(), "without the monitor it would hit the lead");
-    assert_eq!(first_failure(&inject(&demo(&options(Profile::Paper)), &injection).unwrap()), None);
+    assert_eq!(first_failure(&inject(&demo(&options(Profile::PAPER)), &injection).unwrap()), None);
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn attacks_change_remote_data_only() {
 /// not the injector that leaves the lane.
 #[test]
 fn under_attack_the_cav_stays_where_it_drove() {
-    let mut clean = demo(&options(Profile::Paper));
+    let mut clean = demo(&options(Profile::PAPER));
     for cycle in &mut clean.cycles {
         // Of few cross sections: the reference path cuts the curve.
         let sections = &mut cycle.cycle.route.cross_sections;

@@ -75,7 +75,7 @@ fn assert_sane(drive: &Drive) {
 /// model refuses none of them as invalid.
 fn judge(drive: &Drive, every: usize) -> BTreeMap<String, usize> {
     let mut counts = BTreeMap::new();
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for (profile, name) in [(Profile::PAPER, "Paper"), (Profile::HARDENED, "Hardened")] {
         let cycles = drive.cycles.iter().step_by(every).map(|it| DriveCycle {
             id: it.id.clone(),
             cycle: Cycle { profile, ..it.cycle.clone() },
@@ -88,7 +88,7 @@ fn judge(drive: &Drive, every: usize) -> BTreeMap<String, usize> {
             let report = report.unwrap_or_else(|e| panic!("{}: {e:?}", drive.name));
             assert_ne!(report.failed_stage, Some(FailedStage::Input), "{}", drive.name);
             let verdict = report.failed_stage.map_or("safe".into(), |s| format!("{s:?}"));
-            *counts.entry(format!("{profile:?} {verdict}")).or_insert(0) += 1;
+            *counts.entry(format!("{name} {verdict}")).or_insert(0) += 1;
         }
     }
     counts

@@ -33,7 +33,7 @@ fn the_first_cycle_is_the_first_state_with_data_of_their_ages() {
         (cycle.now_ns, drive.cycles[0].id.as_str()),
         (1_000_000_000, "small.KS2.solution#0")
     );
-    assert_eq!((cycle.profile, cycle.configuration), (Profile::Hardened, Configuration::AllRemote));
+    assert_eq!((cycle.profile, cycle.configuration), (Profile::HARDENED, Configuration::AllRemote));
     let ego = &cycle.ego;
     assert!(near(ego.x, 10.0) && near(ego.y, -1.75) && near(ego.speed, 10.0));
     assert!(near(ego.length, 4.508) && near(ego.width, 1.610) && near(ego.center_offset, 0.0));

@@ -19,7 +19,7 @@ use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use crate::input::detection_index::DetectionIndex;
 use crate::input::indexes::Indexes;
 use crate::input::parameters::Parameters;
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::input::scratch::{Row, Scratch};
 use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -69,7 +69,7 @@ pub(crate) struct DetectionHistory<'c, 'a> {
 }
 
 impl<'c, 'a> DetectionHistory<'c, 'a> {
-    /// `detections`: the current ones. In the paper profile no list is usable.
+    /// `detections`: the current ones. Where no rule looks back no list is usable.
     pub(crate) fn new(
         cycle: &'c Cycle<'a>,
         detections: Option<&'c DetectionList<'a>>,
@@ -77,7 +77,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
     ) -> Self {
         let [least_ns, most_ns] = AGES_NS;
         let mut usable = [None; 4];
-        if let (Some(current), Profile::Hardened) = (detections, cycle.profile) {
+        if let Some(current) = detections.filter(|_| looks_back(cycle.profile)) {
             for (place, list) in usable.iter_mut().zip(cycle.detection_history) {
                 let age_ns = elapsed_ns(list.stamp_ns, current.stamp_ns);
                 let is_usable = least_ns <= age_ns
@@ -144,10 +144,19 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
         let unclear = pairs.find_map(|(track, row)| judge.judge(track, row));
         match unclear {
             Some(witness) => Seen::Unclear(witness),
-            None if own_detections_pass(cycle, tracks, detections, scratch.rows) => Seen::Paired,
+            None if cycle.profile.has(HardenedRule::H01)
+                && own_detections_pass(cycle, tracks, detections, scratch.rows) =>
+            {
+                Seen::Paired
+            }
             None => Seen::Open,
         }
     }
+}
+
+/// Whether a rule asks what the CAV saw itself: H-01 which tracks are backed, H-14 what has moved.
+pub(crate) const fn looks_back(profile: Profile) -> bool {
+    profile.has(HardenedRule::H01) || profile.has(HardenedRule::H14)
 }
 
 /// The places of usable lists in the order of `UsableList::order`, then of place.
@@ -303,7 +312,7 @@ fn own_detections_pass(
     detections: &DetectionList<'_>,
     rows: &[Row],
 ) -> bool {
-    let places = Places::new(cycle, tracks, detections);
+    let places = Places::then(tracks, detections);
     let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
     detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
     let limits = pair_limits(cycle);

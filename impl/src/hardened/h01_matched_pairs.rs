@@ -1,10 +1,11 @@
 //! Stage i: every gated track but a few backed ones is paired, and closely (H-01 of
 //! `spec/3-stages.md#hardened-profile`).
 
-use crate::input::cycle::{Cycle, DetectionList};
+use crate::input::cycle::{Cycle, DetectionList, TrackList};
 use crate::input::scratch::{Row, Scratch};
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
+use crate::stages::i_track_validation::gated_but_not_paired;
 use crate::stages::i_track_validation::mean_cost::{
     columns_of, mean_cost_failure, no_assignment, over_work_limit,
 };
@@ -25,12 +26,24 @@ fn budget(cycle: &Cycle<'_>) -> usize {
 /// Units of a cost per m. Costs are at most 1000 m.
 const SCALE: f64 = 68_719_476_736.0;
 
+/// Why stage i fails, if it does. Which tracks are backed stands in the scratch.
+pub(crate) fn matched_tracks(
+    cycle: &Cycle<'_>,
+    tracks: &TrackList<'_>,
+    detections: &DetectionList<'_>,
+    scratch: &mut Scratch<'_>,
+) -> Option<Witness> {
+    let places = Places::then(tracks, detections);
+    let gated = gated_but_not_paired(cycle, &places, detections, pair_limits(cycle), scratch)?;
+    matched_pairs(cycle, places, detections, gated, scratch)
+}
+
 /// Leaving out a backed track costs `theta_tr`: the mean of what remains of g tracks after j are
 /// left out is below `theta_tr` exactly when its sum and j `theta_tr` are below g `theta_tr`. So one
 /// minimal assignment, with a spare column for each track that may be left out, decides for every
 /// choice. Costs are rounded up to units of 2^-36 m: what is found costs at most that and 1e-10 m
 /// for each of the tracks more than the least, of which at most 64 are not paired by both.
-pub(crate) fn matched_pairs(
+fn matched_pairs(
     cycle: &Cycle<'_>,
     places: Places<'_>,
     detections: &DetectionList<'_>,

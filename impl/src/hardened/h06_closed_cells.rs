@@ -4,7 +4,6 @@
 mod covered;
 
 use crate::hardened::h06_closed_cells::covered::{Covered, plain_square, square};
-use crate::hardened::h14_fail_safe::path::Nodes;
 use crate::input::cycle::{Cycle, DetectionList, Grid, TrajectoryPoint};
 use crate::numbers::range::{float, integer, larger, smaller};
 use crate::numbers::rectangle::possibly_touch;
@@ -16,20 +15,19 @@ use crate::stages::llcc::sweep::MovingRectangle;
 use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
-use crate::stages::v_grid_map::search::DiskSearch;
+use crate::stages::v_grid_map::search::{DiskSearch, Places};
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
-/// grid. `points`: those that the paper examines, and all of the trajectory; `detections`: the current
-/// ones, with which the last two do not count, and no cell that one of them covers.
+/// grid. `points`: those that the paper examines; `places`: as of H-04; `detections`: the current ones,
+/// with which the last two do not count, and no cell that one of them covers.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
-    (points, all): (&[TrajectoryPoint], &[TrajectoryPoint]),
+    (points, places): (&[TrajectoryPoint], Option<Places<'_, '_>>),
     detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
     let items = detections.map_or(&[][..], |list| list.items);
     let covered = Covered { grid, items };
-    let places = (Nodes::new(cycle, all), all.len());
     let examined = Examined { cycle, points, places, covered };
     let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
     let found = examined.touched(Rule::Occupied, &occupied);
@@ -46,8 +44,7 @@ struct Examined<'c, 'a> {
     cycle: &'c Cycle<'a>,
     /// The points that the paper names.
     points: &'c [TrajectoryPoint],
-    /// The path whose places are examined behind them, and how many points there are.
-    places: (Nodes<'c, 'a>, usize),
+    places: Option<Places<'c, 'a>>,
     covered: Covered<'c, 'a>,
 }
 
@@ -77,7 +74,7 @@ impl Examined<'_, '_> {
         let found = search.first(rule, is_free, hit);
         found.or_else(|| {
             let (search, is_free, hit) = at(at_places);
-            search.first_place(self.places, rule, is_free, hit)
+            search.first_place(self.places?, rule, is_free, hit)
         })
     }
 
@@ -114,7 +111,7 @@ impl Examined<'_, '_> {
         let search = DiskSearch::new(self.cycle, grid, self.points);
         let (rule, hit) = (Rule::Outside, GridGeometry::outside);
         let found = search.first(rule, is_inside, hit);
-        found.or_else(|| search.first_place(self.places, rule, is_inside, hit))
+        found.or_else(|| search.first_place(self.places?, rule, is_inside, hit))
     }
 }
 

@@ -1,5 +1,5 @@
-//! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`). Each stage calls
-//! them in one place; H-08 is about the requester (`offloading::requester`).
+//! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`). The order
+//! of the stages and stage v call them; H-08 is about the requester (`offloading::requester`).
 
 pub(crate) mod detection_history;
 pub(crate) mod h01_matched_pairs;

@@ -5,12 +5,12 @@ use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
 use super::stall::Stall;
+use crate::hardened::detection_history::looks_back;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
-use crate::input::profile::Profile;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
-use crate::report::{InvalidInput, Outcome, Problem, Report};
+use crate::report::{InvalidInput, Outcome, Problem, Report, Stage};
 use crate::services::configuration::{Configuration, Group};
 use crate::stages::check_with;
 use crate::stages::given::is_current;
@@ -153,8 +153,8 @@ impl Monitor<'_> {
         for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        let was_compared =
-            report.as_ref().is_ok_and(|report| matches!(report.stages, [Outcome::Passed, ..]));
+        let was_compared = !self.settings.profile.runs(Stage::I)
+            || report.as_ref().is_ok_and(|report| matches!(report.stages, [Outcome::Passed, ..]));
         let tracks = tracks.filter(|_| is_safe && was_compared && mot.is_some());
         let is_checked = is_safe && (mot.is_some() || plan.is_some());
         let trajectory = trajectory.filter(|_| is_checked);
@@ -210,7 +210,8 @@ impl Monitor<'_> {
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
-        let (Profile::Hardened, Some(list)) = (self.settings.profile, inputs.detections) else {
+        let is_kept = looks_back(self.settings.profile);
+        let Some(list) = inputs.detections.filter(|_| is_kept) else {
             return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
         };
         let holds = self.history.holds(&list);

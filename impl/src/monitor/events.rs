@@ -6,7 +6,7 @@ use super::element::{Accepted, Arrival, DropReason, Message};
 use super::served::Served;
 use super::time::Time;
 use crate::input::cycle::{Track, TrajectoryPoint};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::offloading::requester::{
     Action, Actions, Event, EventKind, GroupState, Groups, RequesterError,
 };
@@ -193,8 +193,8 @@ impl Monitor<'_> {
     pub(super) fn step(&mut self, now: Time, kind: EventKind) -> Result<Actions, RequesterError> {
         let t_ns = now.as_nanoseconds();
         if matches!(kind, EventKind::Tick) {
-            let is_hardened = self.settings.profile == Profile::Hardened;
-            if is_hardened && !self.history.reaches_back(t_ns) {
+            let looks = self.settings.profile.has(HardenedRule::H14);
+            if looks && !self.history.reaches_back(t_ns) {
                 // Nothing would be examined as moving (H-14).
                 self.requester.hold(t_ns.saturating_add(1));
             }

@@ -7,7 +7,7 @@ use super::stall::Stall;
 use super::time::Time;
 use crate::input::domain::check_parameters;
 use crate::input::parameters::Parameters;
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::offloading::requester::{self, RequesterError};
 use crate::report::InvalidInput;
 
@@ -48,7 +48,7 @@ impl Settings {
     /// `spec/5-interfaces.md#monitor`.
     pub fn new(period: Duration) -> Self {
         Self {
-            profile: Profile::Hardened,
+            profile: Profile::HARDENED,
             stages: Parameters::default(),
             requester: requester::Parameters::default(),
             period,
@@ -80,7 +80,9 @@ impl Settings {
             return Err(MonitorError::DtMaxNotAbovePeriod { dt_max_ns, period: self.period });
         }
         let tau = self.stages.tau;
-        if self.profile == Profile::Hardened && tau <= self.period.as_secs_f64() {
+        // Both reckon the way to stop from one cycle to the next that can fail.
+        let stops = self.profile.has(HardenedRule::H04) || self.profile.has(HardenedRule::H14);
+        if stops && tau <= self.period.as_secs_f64() {
             return Err(MonitorError::TauNotAbovePeriod { tau, period: self.period });
         }
         if !(0..i64::MAX).contains(&self.sessions_before) {
@@ -102,7 +104,7 @@ impl Settings {
     pub(super) fn brake_by(&self, now_ns: i64) -> Option<Time> {
         let tau_ns = (self.stages.tau * 1e9) as i64;
         let by = || Time::from_nanoseconds(now_ns.saturating_add(tau_ns));
-        (self.profile == Profile::Hardened).then(by)
+        self.profile.has(HardenedRule::H14).then(by)
     }
 
     /// The nominal period of the remote's results, saturated.

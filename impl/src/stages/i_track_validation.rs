@@ -8,9 +8,7 @@ pub(crate) mod pairs;
 pub(crate) mod places;
 pub(crate) mod spatial_hash;
 
-use crate::hardened::h01_matched_pairs::{matched_pairs, pair_limits};
 use crate::input::cycle::{Cycle, DetectionList, TrackList};
-use crate::input::profile::Profile;
 use crate::input::scratch::{Row, Scratch};
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
@@ -22,43 +20,35 @@ use crate::stages::i_track_validation::pairing::{PairLimits, certainly_pass};
 use crate::stages::i_track_validation::pairs::{PairRules, Pairs};
 use crate::stages::i_track_validation::places::Places;
 
-/// Why stage i fails, if it does. Which tracks are backed stands in the scratch.
+/// Why stage i fails, if it does.
 pub(crate) fn track_validation(
     cycle: &Cycle<'_>,
     tracks: &TrackList<'_>,
     detections: &DetectionList<'_>,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let places = Places::new(cycle, tracks, detections);
-    if pairs_found(cycle, &places, detections, scratch) {
-        return None;
-    }
-    let p = [cycle.ego.x, cycle.ego.y];
-    let gated = gated_tracks(p, &places, detections.items, scratch.rows);
-    match cycle.profile {
-        Profile::Paper => mean_cost(cycle, places, detections, gated, scratch),
-        Profile::Hardened => matched_pairs(cycle, places, detections, gated, scratch),
-    }
+    let places = Places::standing(tracks.items);
+    let limits = PairLimits { theta_tr: cycle.parameters.theta_tr, limit: f64::MAX, spare: 0 };
+    let gated = gated_but_not_paired(cycle, &places, detections, limits, scratch)?;
+    mean_cost(cycle, places, detections, gated, scratch)
 }
 
-/// Whether a quick search finds pairs that keep the rules of the profile.
-fn pairs_found(
+/// How many tracks are gated, which are in the rows then, unless a quick search finds pairs that keep the
+/// limits.
+pub(crate) fn gated_but_not_paired(
     cycle: &Cycle<'_>,
     places: &Places<'_>,
     detections: &DetectionList<'_>,
+    limits: PairLimits,
     scratch: &mut Scratch<'_>,
-) -> bool {
-    let limits = match cycle.profile {
-        Profile::Paper => {
-            PairLimits { theta_tr: cycle.parameters.theta_tr, limit: f64::MAX, spare: 0 }
-        }
-        Profile::Hardened => pair_limits(cycle),
-    };
-    let columns = columns_of(scratch.columns, detections.items.len());
-    let p = [cycle.ego.x, cycle.ego.y];
-    let rows = &*scratch.rows;
+) -> Option<usize> {
+    let (p, rows) = ([cycle.ego.x, cycle.ego.y], &*scratch.rows);
     let is_backed = |track: usize| rows.get(track).is_some_and(Row::is_backed);
-    certainly_pass(p, places, detections.items, limits, is_backed, columns)
+    let columns = columns_of(scratch.columns, detections.items.len());
+    if certainly_pass(p, places, detections.items, limits, is_backed, columns) {
+        return None;
+    }
+    Some(gated_tracks(p, places, detections.items, scratch.rows))
 }
 
 /// Units of a cost per m: costs are at most 2^20 m.

@@ -2,38 +2,14 @@
 
 pub(crate) mod indexed_route;
 
-use crate::hardened::h07_start::{corridor_failure, direction_failure, start_failure};
-use crate::hardened::h11_steps::step_failure;
-use crate::hardened::h14_fail_safe::reach::reach_failure;
-use crate::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
-use crate::input::profile::Profile;
-use crate::input::route_index::RouteIndex;
+use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
-/// Why stage ii fails, if it does.
-pub(crate) fn trajectory_to_map<'a>(
-    cycle: &Cycle<'a>,
-    trajectory: &Trajectory<'_>,
-    index: Option<&RouteIndex<'a>>,
-) -> Option<Witness> {
-    let points = trajectory.points;
-    let route = IndexedRoute::new(&cycle.route, index);
-    let (found, all_inside) = theta_map(cycle, route, points);
-    if cycle.profile == Profile::Paper {
-        return found;
-    }
-    found
-        .or_else(|| start_failure(cycle, points))
-        .or_else(|| if all_inside { None } else { corridor_failure(route, points) })
-        .or_else(|| direction_failure(route, points))
-        .or_else(|| step_failure(cycle, points))
-        .or_else(|| reach_failure(cycle, points))
-}
-
-/// A point outside the corridor that is not certainly within `theta_map` of the reference path;
-/// and whether no point is outside the corridor.
-fn theta_map(
+/// Why stage ii fails, if it does: a point outside the corridor that is not certainly within `theta_map`
+/// of the reference path; and, where it does not, whether no point is outside the corridor.
+#[inline]
+pub(crate) fn trajectory_to_map(
     cycle: &Cycle<'_>,
     route: IndexedRoute<'_, '_>,
     points: &[TrajectoryPoint],

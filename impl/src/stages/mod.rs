@@ -12,12 +12,16 @@ pub mod order;
 pub(crate) mod v_grid_map;
 
 use crate::hardened::detection_history::{DetectionHistory, Seen};
+use crate::hardened::h01_matched_pairs::matched_tracks;
 use crate::hardened::h04_gap::s_react;
+use crate::hardened::h07_start::{corridor_failure, direction_failure, start_failure};
+use crate::hardened::h11_steps::step_failure;
 use crate::hardened::h14_fail_safe::FailSafe;
+use crate::hardened::h14_fail_safe::reach::reach_failure;
 use crate::input::cycle::{Cycle, DetectionList, Grid, Lead, TrackList, Trajectory};
 use crate::input::domain::{Fault, Usable};
 use crate::input::indexes::Indexes;
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::route_index::RouteIndex;
 use crate::input::scratch::Scratch;
 use crate::report::{FailedStage, Input, InvalidInput, Outcome, Reason, Report, Stage, Witness};
@@ -168,7 +172,9 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
             Stage::Ii => self.ii(),
             Stage::Iii => self.iii(),
             Stage::Iv => match self.look_back(scratch) {
-                Seen::Unclear(witness) => Ok(Some(witness)),
+                Seen::Unclear(witness) if self.cycle.profile.has(HardenedRule::H14) => {
+                    Ok(Some(witness))
+                }
                 seen => self.iv(seen, scratch),
             },
             Stage::V => self.v(),
@@ -209,12 +215,25 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
         Ok(match seen {
             Seen::Unclear(witness) => Some(witness),
             Seen::Paired => None,
+            Seen::Open if self.cycle.profile.has(HardenedRule::H01) => {
+                matched_tracks(self.cycle, tracks, detections, scratch)
+            }
             Seen::Open => track_validation(self.cycle, tracks, detections, scratch),
         })
     }
 
     fn ii(&self) -> Found {
-        Ok(trajectory_to_map(self.cycle, self.current.trajectory()?, self.indexes.route))
+        let (cycle, points) = (self.cycle, self.current.trajectory()?.points);
+        let route = IndexedRoute::new(&cycle.route, self.indexes.route);
+        let (found, all_inside) = trajectory_to_map(cycle, route, points);
+        let [h07, h11, h14] = [HardenedRule::H07, HardenedRule::H11, HardenedRule::H14]
+            .map(|rule| cycle.profile.has(rule));
+        Ok(found
+            .or_else(|| if h07 { start_failure(cycle, points) } else { None })
+            .or_else(|| if h07 && !all_inside { corridor_failure(route, points) } else { None })
+            .or_else(|| if h07 { direction_failure(route, points) } else { None })
+            .or_else(|| if h11 { step_failure(cycle, points) } else { None })
+            .or_else(|| if h14 { reach_failure(cycle, points) } else { None }))
     }
 
     fn iii(&self) -> Found {
@@ -234,23 +253,23 @@ impl<'c, 'a> ValidCycle<'c, 'a> {
 
     /// Why the cycle fails at the place of stage iv, which does not run (H-04, H-14).
     fn instead_of_iv(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
-        self.fail_safe_trajectory()?;
-        gap_failure(self.current.lead, |lead| s_react(self.cycle, lead))
+        let Cycle { profile, configuration, .. } = *self.cycle;
+        self.current.trajectory?;
+        if configuration == Configuration::Local || !profile.runs(Stage::Iv) {
+            return None;
+        }
+        let lead = self.current.lead.filter(|_| profile.has(HardenedRule::H04));
+        gap_failure(lead, |lead| s_react(self.cycle, lead))
             .or_else(|| self.fail_safe(seen, scratch))
-    }
-
-    /// What H-14 is about.
-    fn fail_safe_trajectory(&self) -> Option<&'c Trajectory<'a>> {
-        let examined = self.cycle.profile == Profile::Hardened
-            && self.cycle.configuration != Configuration::Local;
-        self.current.trajectory.filter(|_| examined)
     }
 
     /// H-14, after `look_back`.
     fn fail_safe(&self, seen: Seen, scratch: &mut Scratch<'_>) -> Option<Witness> {
+        let examined = self.cycle.profile.has(HardenedRule::H14)
+            && self.cycle.configuration != Configuration::Local;
         let rule = FailSafe {
             cycle: self.cycle,
-            trajectory: self.fail_safe_trajectory()?,
+            trajectory: self.current.trajectory.filter(|_| examined)?,
             tracks: self.current.tracks,
             history: &self.history,
             route: IndexedRoute::new(&self.cycle.route, self.indexes.route),

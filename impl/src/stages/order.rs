@@ -130,6 +130,9 @@ const fn missing(given: Given, stage: Stage) -> Option<Input> {
 pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
+    if !profile.runs(stage) {
+        return Never;
+    }
     match (stage, configuration) {
         (Stage::V, PlanRemote) if has_stage_v_in_plan_remote(profile) => Conditional,
         (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,

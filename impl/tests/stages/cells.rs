@@ -5,7 +5,7 @@
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Cycle, Detection, Track};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 
@@ -22,7 +22,7 @@ type Change = fn(&mut Cycle<'_>);
 
 /// The scene at a place with these cells occupied and without tracks, so that stage iv runs.
 fn occupied(configuration: Configuration, place: [f64; 2], cells: &[(usize, usize)]) -> Scene {
-    let mut scene = scene(Hardened, configuration, place);
+    let mut scene = scene(Profile::HARDENED, configuration, place);
     cells.iter().for_each(|&cell| occupy(&mut scene, cell));
     scene.tracks = None;
     scene

@@ -4,7 +4,7 @@
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::{Rule, Stage};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote};
 
@@ -15,7 +15,7 @@ const PARKED: [f64; 2] = [7.6, -3.0];
 /// Lists of this age have the parked car at 0.5 s and 0.8 s for the origin of the crossing one: its
 /// past is 1.3 m and 2.4 m away; at 0.3 s 3.3 m, which is too far.
 fn taken() -> Scene {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     let lie = Track { cos: 0.0, sin: 1.0, vx: -3.0, vy: -10.5, ..track(2, 5.0, -9.0) };
     scene.tracks = Some(vec![track(1, 3.0, 50.0), lie]);
     scene.detections = Some(vec![far(), crossing(0.0), parked(0.0)]);

@@ -3,13 +3,13 @@
 
 use crate::scene::{NOW_NS, Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Grid, Track, TrajectoryPoint};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::{AllRemote, PlanRemote};
 
 /// `s_stop` is 1.9e8 m, in places of 1 cm.
 fn farthest() -> Scene {
-    let mut scene = scene(Hardened, PlanRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, PlanRemote, [0.0, 0.0]);
     (scene.ego.speed, scene.ego.length, scene.ego.width) = (150.0, 0.01, 0.01);
     let parameters = &mut scene.parameters;
     (parameters.a_b, parameters.a_max, parameters.tau) = (0.1, 100.0, 60.0);
@@ -47,7 +47,7 @@ fn nothing_panics() {
             [(0.0, 0.01, 100.0), (150.0, 100.0, 0.01), (f64::MIN_POSITIVE, 4.5, 1.9)]
         {
             for velocity in [[0.0, 0.0], [5e-324, 0.0], [1e-100, -1e-170], [150.0, -150.0]] {
-                let mut scene = scene(Hardened, AllRemote, ego);
+                let mut scene = scene(Profile::HARDENED, AllRemote, ego);
                 (scene.ego.speed, scene.ego.length, scene.ego.width) = (speed, length, width);
                 scene.ego.center_offset = -100.0;
                 (scene.parameters.v_object, scene.parameters.a_max) = (1e3, 0.1);
@@ -74,7 +74,7 @@ fn whatever_the_points_are_it_ends() {
     for turn in [0.0_f64, 0.5, 1.6, 3.1] {
         for step in [[0.0, 0.0], [0.0, 0.3], [1e-300, 1e-300], [-0.2, 0.1]] {
             for ahead in [0.2, far] {
-                let mut scene = scene(Hardened, PlanRemote, [0.0, 0.0]);
+                let mut scene = scene(Profile::HARDENED, PlanRemote, [0.0, 0.0]);
                 let (sin, cos) = turn.sin_cos();
                 let point = |i: u32| {
                     let [x, y] = step.map(|it| it * f64::from(i));

@@ -4,7 +4,7 @@
 
 use crate::scene::{NOW_NS, Scene, scene, track};
 use mufasa::input::cycle::{Track, TrajectoryPoint};
-use mufasa::input::profile::Profile::{Hardened, Paper};
+use mufasa::input::profile::Profile;
 use mufasa::report::{Rule, Stage};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
@@ -21,7 +21,7 @@ pub(crate) const BESIDE: f64 = 0.95 + 1.0;
 
 /// A scene without stage i and stage iii, with these as tracks alone.
 pub(crate) fn with(tracks: Vec<Track>) -> Scene {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     (scene.tracks, scene.detections) = (Some(tracks), None);
     scene
 }
@@ -50,7 +50,7 @@ fn what_stands_is_met_up_to_s_stop() {
     assert_eq!(witness.point, Some(30 + 10));
     assert!(witness.compared.iter().all(|way| (way - S_STOP).abs() < 1e-12));
     let mut paper = scene;
-    paper.profile = Paper;
+    paper.profile = Profile::PAPER;
     assert_eq!(paper.rule(), None);
 }
 

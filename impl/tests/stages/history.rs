@@ -3,7 +3,7 @@
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::MotRemote;
 
@@ -17,7 +17,7 @@ fn standing_in_lists(items: &[Detection]) -> Vec<(i64, Vec<Detection>)> {
 
 /// The second track, 30 m ahead and 30 m aside, has no detection now.
 fn missed(history: &[(i64, Vec<Detection>)]) -> Scene {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     scene.tracks = Some(vec![track(1, 3.0, 50.0), track(2, 30.0, 30.0)]);
     scene.history = history.to_vec();
     scene
@@ -152,7 +152,7 @@ fn what_cannot_be_told_apart_is_rejected() {
 #[test]
 fn the_place_is_compared_with_detections() {
     for [x, y] in [[0.0, 0.0], [583_912.25, 5_361_004.5]] {
-        let mut scene = scene(Hardened, MotRemote, [x, y]);
+        let mut scene = scene(Profile::HARDENED, MotRemote, [x, y]);
         scene.track_age_ns = 125 * MS;
         scene.tracks = Some(vec![Track { vx: 8.0, ..track(1, x + 3.0, y + 50.0) }]);
         let mut at = |away: f64| {

@@ -3,7 +3,7 @@
 
 use crate::scene::{NOW_NS, scene};
 use mufasa::input::cycle::Cycle;
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote};
@@ -38,7 +38,7 @@ fn local_problems_are_errors() {
         ),
     ];
     for (change, problem) in cases {
-        let mut scene = scene(Hardened, AllRemote, [0.0, 0.0]);
+        let mut scene = scene(Profile::HARDENED, AllRemote, [0.0, 0.0]);
         scene.change = change;
         assert_eq!(scene.check(), Err(problem));
     }
@@ -47,7 +47,7 @@ fn local_problems_are_errors() {
 /// The extremes of 64 bits are stamps like others.
 #[test]
 fn stamps_may_be_as_far_apart_as_64_bits_allow() {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     scene.change = |cycle| {
         cycle.now_ns = i64::MAX;
         for stamp_ns in [
@@ -67,7 +67,7 @@ fn stamps_may_be_as_far_apart_as_64_bits_allow() {
 fn the_norm_has_no_margin() {
     let last = (1.0_f64 + 1e-6).sqrt();
     let accepted = |cos: f64| {
-        let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+        let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
         scene.ego.cos = cos;
         scene.check().is_ok()
     };
@@ -80,7 +80,7 @@ fn the_norm_has_no_margin() {
 
 #[test]
 fn scratch_that_is_too_small_is_an_error() {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     scene.change = |cycle| {
         let small = stages::check(cycle, &mut Scratch::new(&mut [], &mut []));
         assert_eq!(small, Err(invalid("scratch", None, Problem::ScratchTooSmall)));

@@ -15,6 +15,7 @@ mod input;
 mod keeps_beside;
 mod motions;
 mod naive;
+mod profiles;
 mod random;
 mod scene;
 mod slide;

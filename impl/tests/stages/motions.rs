@@ -3,7 +3,7 @@
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::{Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration::{self, AllRemote, MotRemote, PlanRemote};
 
@@ -17,7 +17,7 @@ fn met(scene: &Scene) -> bool {
 
 /// A car that comes from the right at 8 m/s and is 6 m aside now; the remote leaves it out.
 fn crossing(configuration: Configuration) -> Scene {
-    let mut scene = scene(Hardened, configuration, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, configuration, [0.0, 0.0]);
     scene.detections = Some(vec![detection(3.0, 50.1), detection(5.0, -6.0)]);
     scene.history = vec![(300 * MS, vec![before(0.3)]), (500 * MS, vec![before(0.5)])];
     scene

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::naive::{MARGIN, Naive, V};
 use crate::scene::{NOW_NS, Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track, TrajectoryPoint};
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::PlanRemote;
 
@@ -27,7 +27,7 @@ impl Draws {
 
     /// A CAV on an arc, at most 1 m behind its trajectory or ahead of it, and somewhat beside it.
     fn scene(&mut self) -> Scene {
-        let mut scene = scene(Hardened, PlanRemote, [0.0, 0.0]);
+        let mut scene = scene(Profile::HARDENED, PlanRemote, [0.0, 0.0]);
         scene.ego.speed = self.one_of(&[0.0, 2.0, 5.0, 9.0, 14.0]);
         scene.ego.center_offset = self.between(-1.0, 2.0);
         scene.parameters.tau = self.one_of(&[0.0, 0.1, 0.4]);

@@ -3,7 +3,7 @@
 
 use crate::scene::{NOW_NS, Scene, scene};
 use mufasa::input::cycle::TrajectoryPoint;
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::MotRemote;
 
@@ -12,7 +12,7 @@ const MOST: usize = 1024;
 
 /// The scene with these points, so many ns after one another, and a wide road.
 fn driven(points: Vec<[f64; 3]>, step_ns: i64) -> Scene {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     for section in &mut scene.cross_sections {
         (section.left[1], section.right[1]) = (40.0, -40.0);
     }

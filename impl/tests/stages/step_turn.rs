@@ -3,7 +3,7 @@
 
 use crate::scene::{NOW_NS, scene};
 use mufasa::input::cycle::TrajectoryPoint;
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::{Rule, Witness};
 use mufasa::services::configuration::Configuration::MotRemote;
 
@@ -16,7 +16,7 @@ fn point((t, x, y, sin): (f64, f64, f64, f64)) -> TrajectoryPoint {
 /// A CAV that drives 1 m in 0.2 s, moves by this in a step of so many s that turns by this sine, and
 /// stands.
 fn turning_in_a_step(sin: f64, dt: f64, [x, y]: [f64; 2]) -> Option<Witness> {
-    let mut scene = scene(Hardened, MotRemote, [0.0, 0.0]);
+    let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     (scene.ego.speed, scene.parameters.start_tolerance) = (0.0, 5.0);
     let straight = [(0.0, 0.0, 0.0, 0.0), (0.2, 1.0, 0.0, 0.0)];
     let turned = (0..5).map(|i| (0.2 + dt + 0.1 * f64::from(i), 1.0 + x, y, sin));

@@ -3,12 +3,12 @@
 
 use crate::scene::{NOW_NS, Scene, detection, scene};
 use mufasa::input::cycle::Lead;
-use mufasa::input::profile::Profile::Hardened;
+use mufasa::input::profile::Profile;
 use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
 fn base() -> Scene {
-    scene(Hardened, MotRemote, [0.0, 0.0])
+    scene(Profile::HARDENED, MotRemote, [0.0, 0.0])
 }
 
 /// What a change of the base makes fail, on either side of a threshold: by -1e-7 and by 1e-7.
@@ -111,7 +111,7 @@ fn a_step_on_an_arc() {
 #[test]
 fn the_grid_map_is_examined_beside_detections() {
     for configuration in [AllRemote, PlanRemote] {
-        let mut scene = scene(Hardened, configuration, [0.0, 0.0]);
+        let mut scene = scene(Profile::HARDENED, configuration, [0.0, 0.0]);
         // The cell of the CAV itself: 100 m from the origin of the grid of 1 m cells.
         let bit = 100 * 200 + 102;
         scene.occupied.as_mut().expect("a grid")[bit / 8] |= 1 << (bit % 8);
@@ -132,7 +132,7 @@ fn the_grid_map_is_examined_beside_detections() {
 #[test]
 fn the_gap_is_compared_when_stage_iv_does_not_run() {
     let with = |configuration, gap: f64, speed: f64| {
-        let mut scene = scene(Hardened, configuration, [0.0, 0.0]);
+        let mut scene = scene(Profile::HARDENED, configuration, [0.0, 0.0]);
         scene.parameters.safety_time = gap;
         scene.parameters.theta_tr = speed;
         scene.change = |cycle| {

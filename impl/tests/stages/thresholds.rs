@@ -2,7 +2,7 @@
 //! vectors (`conform/tests/vectors/implementation.rs`) have more thresholds, near the origin.
 
 use crate::scene::{detection, scene, track};
-use mufasa::input::profile::Profile::{Hardened, Paper};
+use mufasa::input::profile::Profile;
 use mufasa::report::{Rule, Stage};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
 
@@ -11,7 +11,7 @@ const PLACES: [[f64; 2]; 3] = [[0.0, 0.0], [583_912.25, 5_361_004.5], [-1.6e7, 1
 #[test]
 fn a_cycle_in_order_is_safe() {
     for place in PLACES {
-        for profile in [Paper, Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             for configuration in [MotRemote, AllRemote, PlanRemote] {
                 let report = scene(profile, configuration, place).report();
                 assert_eq!(report.failed_stage, None, "{profile:?} {configuration:?} {report:?}");
@@ -23,7 +23,7 @@ fn a_cycle_in_order_is_safe() {
 #[test]
 fn the_mean_cost_has_to_be_below_the_threshold() {
     for [x, y] in PLACES {
-        let mut scene = scene(Paper, MotRemote, [x, y]);
+        let mut scene = scene(Profile::PAPER, MotRemote, [x, y]);
         // Mean of 0.125 and 0.275 is the threshold itself; all distances are exact.
         scene.parameters.theta_tr = 0.1875;
         let (near, far) = (track(1, x + 30.0, y), track(2, x, y + 30.0));
@@ -39,7 +39,7 @@ fn the_mean_cost_has_to_be_below_the_threshold() {
 #[test]
 fn tracks_at_the_border_of_the_field_of_view_are_gated() {
     for [x, y] in PLACES {
-        let mut scene = scene(Paper, MotRemote, [x, y]);
+        let mut scene = scene(Profile::PAPER, MotRemote, [x, y]);
         scene.ego.x = x;
         // 3-4-5: exactly as far as the farthest detection, which is 1 m from no track.
         scene.detections = Some(vec![detection(x + 50.0, y)]);
@@ -53,7 +53,7 @@ fn tracks_at_the_border_of_the_field_of_view_are_gated() {
 #[test]
 fn touching_rectangles_collide() {
     for [x, y] in PLACES {
-        let mut scene = scene(Paper, PlanRemote, [x, y]);
+        let mut scene = scene(Profile::PAPER, PlanRemote, [x, y]);
         scene.ego.center_offset = 1.5;
         scene.ego.width = 2.0;
         // Beside the first point: half widths 1 and 1.
@@ -69,7 +69,7 @@ fn touching_rectangles_collide() {
 #[test]
 fn theta_map_and_the_corridor() {
     for [x, y] in PLACES {
-        let mut scene = scene(Paper, MotRemote, [x, y]);
+        let mut scene = scene(Profile::PAPER, MotRemote, [x, y]);
         for section in &mut scene.cross_sections {
             section.left = [section.x, y + 0.25];
             section.right = [section.x, y - 0.25];

@@ -28,7 +28,7 @@ fn main() {
     let arguments = Arguments::read(std::env::args_os().skip(1));
     let Arguments { json, sigma_m, files } = arguments.unwrap_or_else(|wrong| stop(&wrong));
     let mut tallies = Vec::new();
-    for (name, profile) in [("paper", Profile::Paper), ("hardened", Profile::Hardened)] {
+    for (name, profile) in [("paper", Profile::PAPER), ("hardened", Profile::HARDENED)] {
         let sensor = Sensor { sigma_m, ..Sensor::default() };
         let drives: Vec<Stream> =
             streams(&files, &Options { profile, sensor, ..Options::default() })

@@ -15,7 +15,7 @@ use crate::world::{MS, START_NS, World};
 
 #[test]
 fn a_clean_drive_is_offloaded_from_its_first_second_to_its_end() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let seen = World { profile, ..World::default() }.drive();
         let vehicle = &seen.vehicle;
         println!("{vehicle:#?} {:#?} {:?}", seen.station, seen.changes);

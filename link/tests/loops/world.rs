@@ -67,7 +67,7 @@ impl Somebody {
 impl Default for World {
     fn default() -> Self {
         Self {
-            profile: Profile::Hardened,
+            profile: Profile::HARDENED,
             disturbances: Vec::new(),
             inject: Vec::new(),
             requester: Parameters { dt_max_ns: 150 * MS, ..Parameters::default() },

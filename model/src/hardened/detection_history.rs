@@ -1,6 +1,7 @@
 //! What the CAV saw itself (`spec/3-stages.md#what-the-cav-saw-itself`): tracks beside the CAV's own
 //! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Detections, Object, Scene, Track, Tracks};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
@@ -206,14 +207,15 @@ fn sideways(scene: &Scene, v: &Vector, detection: Option<usize>) -> Option<[Real
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: these comparisons do not move, so the strict reading fails
-/// where one of them is too close to call, for some track.
+/// where one of them is too close to call, for some track, when a rule that rests on them is in force.
 pub fn ambiguous_failure(scene: &Scene, tracks: &Tracks) -> Option<Witness> {
     let ambiguous = |(track, seen): (&Track, &Seen)| {
         let [left, right] = too_close(scene, track, seen)?;
         let witness = Witness::new(Rule::Ambiguous, &left, &right);
         Some(Witness { track: Some(track.id), ..witness })
     };
-    if !scene.reads.is_strict() {
+    let is_asked = scene.profile.has(HardenedRule::H01) || scene.profile.has(HardenedRule::H14);
+    if !is_asked || !scene.reads.is_strict() {
         return None;
     }
     tracks.items.iter().zip(&seen(scene, tracks)).find_map(ambiguous)

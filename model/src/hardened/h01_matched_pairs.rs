@@ -1,11 +1,37 @@
 //! H-01: all gated tracks are matched, each with a detection closer than theta_track_max, but for at
 //! most miss_budget backed ones, which may be left out.
 
-use crate::hardened::detection_history::Seen;
-use crate::input::scene::{Scene, Track};
-use crate::numbers::assignment::{Costs, costs_less, count};
+use crate::hardened::detection_history::{Seen, seen};
+use crate::input::scene::{Object, Scene, Track, Tracks};
+use crate::numbers::assignment::{Costs, costs_less, count, work};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
+use crate::stages::i_track_validation::{costs, judge_gated, over_work_limit};
+
+/// Stage i with the place of a track for its position.
+pub fn validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -> Option<Witness> {
+    let seen = seen(scene, tracks);
+    let tracks: Vec<(&Track, &Seen)> = tracks.items.iter().zip(&seen).collect();
+    let judge = |gated: &[&(&Track, &Seen)]| matched_cost_failure(scene, gated, detections);
+    judge_gated(scene, &tracks, |(_, seen)| seen.place.clone(), detections, judge)
+}
+
+/// Some of the gated tracks may be left out, and a pair must be close; nothing that remains passes.
+fn matched_cost_failure(
+    scene: &Scene,
+    gated: &[&(&Track, &Seen)],
+    detections: &[Object],
+) -> Option<Witness> {
+    let gated: Vec<(&Track, &Seen)> = gated.iter().map(|both| **both).collect();
+    let left_out = may_be_left_out(scene, &gated);
+    if left_out == gated.len() {
+        return None;
+    }
+    over_work_limit(scene, work(gated.len(), detections.len() + left_out)).or_else(|| {
+        let costs = gated.iter().map(|(_, seen)| costs(&seen.place, detections)).collect();
+        mean_failure(scene, &gated, costs)
+    })
+}
 
 /// How many tracks may be left out: min(miss_budget, backed gated tracks).
 pub fn may_be_left_out(scene: &Scene, gated: &[(&Track, &Seen)]) -> usize {

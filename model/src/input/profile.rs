@@ -1,10 +1,153 @@
-//! The two profiles (`spec/3-stages.md`).
+//! The profiles (`spec/3-stages.md#hardened-profile`): the stages of the paper, and which rules H-nn are
+//! in force beside them.
 
-/// The published method, or the published method with the rules H-nn.
+use crate::report::Rule;
+
+/// The five stages in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// Track validation.
+    I,
+    /// Trajectory to map.
+    Ii,
+    /// Trajectory with tracks.
+    Iii,
+    /// Trajectory with detections.
+    Iv,
+    /// Trajectory with grid map.
+    V,
+}
+
+impl Stage {
+    /// All stages in the order in which they run.
+    pub const ALL: [Self; 5] = [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V];
+}
+
+/// A rule of the hardened profile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum HardenedRule {
+    /// Stage i matches every gated track, at its place, closely.
+    H01,
+    /// A stage iii on a list that nothing checked is no obstacle check.
+    H02,
+    /// Stages iv and v look as far as the CAV needs to stop.
+    H04,
+    /// No trajectory without an obstacle check.
+    H05,
+    /// Stage v takes the closed squares of cells, and what is unknown.
+    H06,
+    /// The trajectory starts now and here, and keeps to the route.
+    H07,
+    /// Make before break.
+    H08,
+    /// Stage v runs whatever else ran.
+    H10,
+    /// A vehicle can drive the steps of the trajectory.
+    H11,
+    /// The fail-safe rule.
+    H14,
+}
+
+/// Id, findings, stages, witness rules.
+type Row = (&'static str, &'static [&'static str], &'static [Stage], &'static [Rule]);
+
+impl HardenedRule {
+    /// All rules in the order of the table.
+    pub const ALL: [Self; 10] = [
+        Self::H01,
+        Self::H02,
+        Self::H04,
+        Self::H05,
+        Self::H06,
+        Self::H07,
+        Self::H08,
+        Self::H10,
+        Self::H11,
+        Self::H14,
+    ];
+
+    #[rustfmt::skip]
+    const fn row(self) -> Row {
+        use Rule::{
+            Corridor, Direction, FailSafe, Gap, NoAssignment, Outside, Reach, Slide, StartHeading,
+            StartOffset, StartPosition, StartTime, StepForward, StepLateral, StepLength, StepSpeed,
+            StepTime, StepTurn, Unknown, WorkLimit,
+        };
+        use Stage::{I, Ii, Iii, Iv, V};
+        match self {
+            Self::H01 => ("H-01", &["F-01", "F-02", "F-32"], &[I], &[NoAssignment]),
+            Self::H02 => ("H-02", &["F-18"], &[Iii], &[]),
+            Self::H04 => ("H-04", &["F-04", "F-05", "F-06", "F-17", "F-27"], &[Iv, V], &[Gap]),
+            Self::H05 => ("H-05", &["F-07"], &[V], &[]),
+            Self::H06 => ("H-06", &["F-08", "F-21"], &[V], &[Unknown, Outside]),
+            Self::H07 => ("H-07", &["F-09", "F-10", "F-16", "F-36", "F-37"], &[Ii],
+                &[StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction]),
+            Self::H08 => ("H-08", &["F-12", "F-25"], &[], &[]),
+            Self::H10 => ("H-10", &["F-14", "F-15", "F-34"], &[V], &[]),
+            Self::H11 => ("H-11", &["F-10", "F-11", "F-17", "F-28", "F-29", "F-35", "F-41"], &[Ii],
+                &[StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide]),
+            Self::H14 => ("H-14", &["F-03", "F-05", "F-06", "F-11", "F-13", "F-14", "F-15", "F-16",
+                "F-17", "F-22", "F-23", "F-26", "F-27", "F-28", "F-29", "F-30", "F-31", "F-35", "F-36",
+                "F-37", "F-41", "F-04", "F-38", "F-40", "F-42", "F-44", "F-46"], &[Ii, Iv],
+                &[WorkLimit, Reach, FailSafe]),
+        }
+    }
+
+    /// `H-01`
+    pub const fn id(self) -> &'static str {
+        self.row().0
+    }
+
+    /// The findings that it closes, wholly or in part, in the order of the table.
+    pub const fn findings(self) -> &'static [&'static str] {
+        self.row().1
+    }
+
+    /// The stages that it touches.
+    pub const fn stages(self) -> &'static [Stage] {
+        self.row().2
+    }
+
+    /// The witness rules that `report` marks with it.
+    pub const fn witnesses(self) -> &'static [Rule] {
+        self.row().3
+    }
+}
+
+/// A set of rules H-nn beside the published method, read as the interpretations I-nn say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Profile {
-    /// The published method, read as the interpretations I-nn say.
-    Paper,
-    /// The published method and the rules H-nn.
-    Hardened,
+pub struct Profile {
+    /// A bit for each rule in force.
+    rules: u16,
+    /// A bit for each stage that is left out.
+    left_out: u8,
+}
+
+impl Profile {
+    /// The published method.
+    pub const PAPER: Self = Self { rules: 0, left_out: 0 };
+
+    /// The published method and all rules.
+    pub const HARDENED: Self = Self { rules: (1 << HardenedRule::ALL.len()) - 1, left_out: 0 };
+
+    /// For studies: without one rule. Neither records nor a vehicle's interface can name such a set.
+    pub const fn without(self, rule: HardenedRule) -> Self {
+        Self { rules: self.rules & !(1 << rule as u16), ..self }
+    }
+
+    /// For studies: without one stage of the paper, which then counts as not scheduled. With it goes
+    /// what rules report as its own.
+    pub const fn without_stage(self, stage: Stage) -> Self {
+        Self { left_out: self.left_out | 1 << stage as u8, ..self }
+    }
+
+    /// Whether the rule is in force.
+    pub const fn has(self, rule: HardenedRule) -> bool {
+        self.rules & 1 << rule as u16 != 0
+    }
+
+    /// Whether the stage is there.
+    pub const fn runs(self, stage: Stage) -> bool {
+        self.left_out & 1 << stage as u8 == 0
+    }
 }

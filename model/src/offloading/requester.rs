@@ -15,7 +15,7 @@ pub use messages::{Action, Event, EventKind, GroupState, Sessions};
 pub use parameters::Parameters;
 pub use state::Session;
 
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::services::configuration::{Configuration, Source};
 use state::{Count, Farewell, Use};
 
@@ -160,12 +160,12 @@ impl Requester {
         let Some((station, session)) = self.group(group).partner() else { return true };
         let asked_last =
             self.last_asked.iter().filter(|((g, _), _)| *g == group).max_by_key(|(_, s)| **s);
-        let local_services_right = match (self.group(group), self.profile) {
-            (Use::Remote(running), Profile::Paper) => !running.local_computes,
-            (Use::Remote(running), Profile::Hardened) => {
+        let local_services_right = match self.group(group) {
+            Use::Remote(running) if self.profile.has(HardenedRule::H08) => {
                 running.local_computes || running.last_used_generated_ns.is_some()
             }
-            (Use::Local | Use::Requested { .. }, _) => true,
+            Use::Remote(running) => !running.local_computes,
+            Use::Local | Use::Requested { .. } => true,
         };
         self.offers.get(&station).is_some_and(|groups| groups.contains(group))
             && self.area.contains(group)

@@ -1,46 +1,35 @@
 //! Stage i: paper Sec. IV-B, "Track Validation", Eq. (2)
-//! (`spec/3-stages.md#stage-i-track-validation`, H-01):
+//! (`spec/3-stages.md#stage-i-track-validation`):
 //!
 //! 1/k (c_1 + ... + c_k) < theta_tr
 //!
 //! where the c_i are the costs of the best match of tracks with detections.
 
-use crate::hardened::detection_history::{Seen, ambiguous_failure, seen};
-use crate::hardened::h01_matched_pairs::{may_be_left_out, mean_failure};
-use crate::input::profile::Profile;
 use crate::input::scene::{Object, Scene, Track, Tracks};
 use crate::numbers::assignment::{Costs, mean_less, work};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// Compares the received tracks in the field of view with the detections; `None` passes. The field of
-/// view reaches from the CAV, at p, to the farthest detection.
+/// Compares the received tracks in the field of view with the detections; `None` passes.
 pub fn track_validation(scene: &Scene, tracks: &Tracks, detections: &[Object]) -> Option<Witness> {
+    let position = |track: &Track| track.object.frame.origin.clone();
+    let judge = |gated: &[&Track]| average_cost_failure(scene, gated, detections);
+    judge_gated(scene, &tracks.items, position, detections, judge)
+}
+
+/// Judges the tracks in the field of view, which reaches from the CAV, at p, to the farthest detection.
+pub fn judge_gated<T>(
+    scene: &Scene,
+    tracks: &[T],
+    position: impl Fn(&T) -> Vector,
+    detections: &[Object],
+    judge: impl Fn(&[&T]) -> Option<Witness>,
+) -> Option<Witness> {
     let p = &scene.ego.position;
     let r = detections.iter().map(|d| d.frame.origin.distance(p)).max().unwrap_or_else(Real::zero);
     let too_many = |delta: &Real| Witness::new(Rule::MeanCost, delta, delta);
-    match scene.profile {
-        Profile::Paper => scene.reads.judge_within(
-            &tracks.items,
-            |track| track.object.frame.origin.distance(p),
-            &r,
-            |gated| average_cost_failure(scene, gated, detections),
-            too_many,
-        ),
-        // H-01: the place of a track for its position.
-        Profile::Hardened => ambiguous_failure(scene, tracks).or_else(|| {
-            let seen = seen(scene, tracks);
-            let tracks: Vec<(&Track, &Seen)> = tracks.items.iter().zip(&seen).collect();
-            scene.reads.judge_within(
-                &tracks,
-                |(_, seen)| seen.place.distance(p),
-                &r,
-                |gated| matched_cost_failure(scene, gated, detections),
-                too_many,
-            )
-        }),
-    }
+    scene.reads.judge_within(tracks, |track| position(track).distance(p), &r, judge, too_many)
 }
 
 /// 1/k (c_1 + ... + c_k) < theta_tr: the c_i are the costs in the cheapest assignment of
@@ -59,26 +48,8 @@ fn average_cost_failure(scene: &Scene, gated: &[&Track], detections: &[Object]) 
     })
 }
 
-/// H-01: some of the gated tracks may be left out, and a pair must be close; nothing that remains
-/// passes.
-fn matched_cost_failure(
-    scene: &Scene,
-    gated: &[&(&Track, &Seen)],
-    detections: &[Object],
-) -> Option<Witness> {
-    let gated: Vec<(&Track, &Seen)> = gated.iter().map(|both| **both).collect();
-    let left_out = may_be_left_out(scene, &gated);
-    if left_out == gated.len() {
-        return None;
-    }
-    over_work_limit(scene, work(gated.len(), detections.len() + left_out)).or_else(|| {
-        let costs = gated.iter().map(|(_, seen)| costs(&seen.place, detections)).collect();
-        mean_failure(scene, &gated, costs)
-    })
-}
-
 /// The distances from a track to the detections, m.
-fn costs(position: &Vector, detections: &[Object]) -> Vec<Option<Real>> {
+pub fn costs(position: &Vector, detections: &[Object]) -> Vec<Option<Real>> {
     detections.iter().map(|d| Some(position.distance(&d.frame.origin))).collect()
 }
 

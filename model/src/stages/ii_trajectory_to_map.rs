@@ -5,7 +5,7 @@
 
 use crate::hardened::h14_fail_safe::reach;
 use crate::hardened::{h07_start, h11_steps};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Route, Scene};
 use crate::numbers::polygon::{Triangle, is_in_union};
 use crate::numbers::polyline::{Beside, beside};
@@ -24,13 +24,15 @@ pub fn trajectory_to_map(scene: &Scene, trajectory: &[Point]) -> Option<Witness>
         let witness = Witness::unless(passes, Rule::ThetaMap, &place.distance, theta_map)?;
         Some(Witness { segment: Some(place.nearest), ..witness.at_point(i) })
     });
-    match scene.profile {
-        Profile::Paper => failure,
-        Profile::Hardened => failure
-            .or_else(|| h07_start::failure(scene, trajectory, &path, &places, is_inside))
-            .or_else(|| h11_steps::step_failure(scene, trajectory))
-            .or_else(|| reach::failure(scene, trajectory)),
-    }
+    let rules: [(HardenedRule, &dyn Fn() -> Option<Witness>); 3] = [
+        (HardenedRule::H07, &|| h07_start::failure(scene, trajectory, &path, &places, is_inside)),
+        (HardenedRule::H11, &|| h11_steps::step_failure(scene, trajectory)),
+        (HardenedRule::H14, &|| reach::failure(scene, trajectory)),
+    ];
+    let mut in_force = rules.iter().filter(|(rule, _)| scene.profile.has(*rule));
+    failure
+        .or_else(|| in_force.find_map(|(_, failure)| failure()))
+        .or_else(|| reach::ambiguous_failure(scene, trajectory))
 }
 
 /// The union of (left_i, right_i, right_i+1) and (left_i, right_i+1, left_i+1).

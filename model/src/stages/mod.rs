@@ -1,5 +1,5 @@
 //! Which stages run, in which order, and what the cycle reports: paper Sec. IV-A, Fig. 3
-//! (`spec/3-stages.md#schedule`, H-02, H-04, H-05, H-10, H-14).
+//! (`spec/3-stages.md#schedule`, H-01, H-02, H-04, H-05, H-10, H-14).
 
 pub mod distances;
 pub mod horizon;
@@ -10,6 +10,8 @@ pub mod iv_detections;
 pub mod llcc;
 pub mod v_grid_map;
 
+use crate::hardened::detection_history::ambiguous_failure;
+use crate::hardened::h01_matched_pairs;
 use crate::hardened::h02_h05_h10_schedule::{
     has_stage_v_in_plan_remote, no_obstacle_check, runs_whatever_else_ran,
 };
@@ -17,7 +19,7 @@ use crate::hardened::h04_gap::failure_without_stage_iv;
 use crate::hardened::h14_fail_safe;
 use crate::input::cycle::Cycle;
 use crate::input::domain::{Problem, first_problem};
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::input::scene::Scene;
 use crate::report::{
     FailedStage, Input, InvalidInput, Outcome, Reading, Reason, Report, Stage, Witness,
@@ -41,7 +43,7 @@ pub enum Scheduled {
     Never,
 }
 
-/// The table of `spec/3-stages.md#schedule`.
+/// The table of `spec/3-stages.md#schedule`; never what the profile leaves out.
 pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -> Scheduled {
     use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
     use Scheduled::{Always, Conditional, Never};
@@ -54,6 +56,7 @@ pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -
         Stage::V => [Always, Conditional, in_plan_remote_v],
     };
     match configuration {
+        _ if !profile.runs(stage) => Never,
         Local => Never,
         MotRemote => mot_remote,
         AllRemote => all_remote,
@@ -154,23 +157,20 @@ impl Run<'_> {
 
     /// H-04, then H-14, where stage iv did not run.
     fn in_place_of_stage_iv(&mut self) -> Result<Option<Witness>, InvalidInput> {
-        let gap = match (self.scene.profile, &self.scene.trajectory) {
-            (Profile::Hardened, Some(_)) => failure_without_stage_iv(self.scene),
-            (Profile::Hardened, None) | (Profile::Paper, _) => None,
-        };
+        let trajectory = self.scene.trajectory.as_ref();
+        let gap = trajectory.and_then(|_| failure_without_stage_iv(self.scene));
         gap.map_or_else(|| self.fail_safe(), |witness| Ok(Some(witness)))
     }
 
     /// H-14.
     fn fail_safe(&mut self) -> Result<Option<Witness>, InvalidInput> {
         let scene = self.scene;
-        match (scene.profile, scene.trajectory.as_deref()) {
-            (Profile::Hardened, Some(trajectory)) => {
-                self.work.add(work::of_fail_safe(scene, trajectory))?;
-                Ok(h14_fail_safe::failure(scene, trajectory))
-            }
-            (Profile::Hardened, None) | (Profile::Paper, _) => Ok(None),
-        }
+        let is_asked = scene.profile.has(HardenedRule::H14);
+        let Some(trajectory) = scene.trajectory.as_deref().filter(|_| is_asked) else {
+            return Ok(None);
+        };
+        self.work.add(work::of_fail_safe(scene, trajectory))?;
+        Ok(h14_fail_safe::failure(scene, trajectory))
     }
 
     fn has_run(&self, stage: Stage) -> bool {
@@ -222,7 +222,13 @@ impl Run<'_> {
         let tracks = scene.tracks.as_ref();
         let detections = scene.detections.as_ref();
         match stage {
-            Stage::I => track_validation(scene, tracks?, &detections?.items),
+            Stage::I => {
+                let (tracks, detections) = (tracks?, &detections?.items);
+                let is_matched = scene.profile.has(HardenedRule::H01);
+                let judge =
+                    if is_matched { h01_matched_pairs::validation } else { track_validation };
+                ambiguous_failure(scene, tracks).or_else(|| judge(scene, tracks, detections))
+            }
             Stage::Ii => trajectory_to_map(scene, trajectory?),
             Stage::Iii => trajectory_with_tracks(scene, trajectory?, tracks?),
             Stage::Iv => trajectory_with_detections(scene, trajectory?, detections?),

@@ -6,7 +6,7 @@
 
 use crate::hardened::h06_closed_cells::{self, Place};
 use crate::hardened::h14_fail_safe::path;
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
@@ -37,12 +37,13 @@ pub fn trajectory_with_grid_map(
             )
         })
     };
-    match scene.profile {
-        Profile::Paper => first(Rule::Occupied, &|_, centre| {
+    if scene.profile.has(HardenedRule::H06) {
+        (h06_closed_cells::rules(scene, grid).into_iter())
+            .find_map(|(rule, reaches)| first(rule, &|place, centre| reaches(place, centre, &r)))
+    } else {
+        first(Rule::Occupied, &|_, centre| {
             mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
-        }),
-        Profile::Hardened => (h06_closed_cells::rules(scene, grid).into_iter())
-            .find_map(|(rule, reaches)| first(rule, &|place, centre| reaches(place, centre, &r))),
+        })
     }
 }
 
@@ -51,15 +52,11 @@ fn places<'a>(
     scene: &'a Scene,
     trajectory: &'a [Point],
     s: &Real,
-) -> Box<dyn Iterator<Item = (usize, Frame)> + 'a> {
+) -> impl Iterator<Item = (usize, Frame)> {
     let points = points_within(scene, trajectory, s).iter().map(|point| point.pose.clone());
-    match scene.profile {
-        Profile::Paper => Box::new(points.enumerate()),
-        Profile::Hardened => {
-            let places = path::places(scene, trajectory).map(|place| place.pose);
-            Box::new(points.enumerate().chain((trajectory.len()..).zip(places)))
-        }
-    }
+    let asks_places = scene.profile.has(HardenedRule::H04);
+    let places = asks_places.then(|| path::places(scene, trajectory).map(|place| place.pose));
+    points.enumerate().chain((trajectory.len()..).zip(places.into_iter().flatten()))
 }
 
 /// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.

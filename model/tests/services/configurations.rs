@@ -124,7 +124,7 @@ const SAFE: EventKind =
 /// `spec/1-services.md#configuration.1`
 #[test]
 fn the_source_is_the_local_services_while_they_compute_else_the_remote_station() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let mut requester = requested(profile);
         assert_eq!(requester.source(Group::Mot), Source::Local);
         let mut local_computes = true;
@@ -145,7 +145,7 @@ fn the_source_is_the_local_services_while_they_compute_else_the_remote_station()
 /// `spec/1-services.md#configuration.2`
 #[test]
 fn local_services_stop_at_the_confirmation_in_the_paper_profile() {
-    let mut requester = requested(Profile::Paper);
+    let mut requester = requested(Profile::PAPER);
     let actions = requester.step(&Event { t_ns: 1, kind: CONFIRM });
     assert_eq!(actions, [Action::Deactivate(Group::Mot)]);
     requester.step(&Event { t_ns: 2, kind: DATA });
@@ -155,7 +155,7 @@ fn local_services_stop_at_the_confirmation_in_the_paper_profile() {
 /// `spec/1-services.md#configuration.2` (H-08)
 #[test]
 fn local_services_stop_at_the_first_safe_verdict_after_a_used_result_in_the_hardened_profile() {
-    let mut requester = requested(Profile::Hardened);
+    let mut requester = requested(Profile::HARDENED);
     assert_eq!(requester.step(&Event { t_ns: 1, kind: CONFIRM }), []);
     assert_eq!(requester.step(&Event { t_ns: 1, kind: SAFE }), [], "no result yet");
     assert_eq!(requester.step(&Event { t_ns: 2, kind: DATA }), []);

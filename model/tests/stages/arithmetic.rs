@@ -52,7 +52,7 @@ fn defaults_are_the_nearest_doubles() {
 #[test]
 fn directions_are_used_as_given() {
     let with = |cos: f64| {
-        let mut cycle = base(Profile::Paper, PlanRemote);
+        let mut cycle = base(Profile::PAPER, PlanRemote);
         cycle.ego.speed = 0.0;
         cycle.trajectory.as_mut().expect("there is one").points[0].cos = cos;
         cycle.tracks = tracks(vec![track(1, 4.0 + 5e-7, 0.0)]);
@@ -69,7 +69,7 @@ fn directions_are_used_as_given() {
 fn the_last_bit_decides_far_away() {
     let east = 16_777_000.0;
     let with = |y: f64| {
-        let mut cycle = base(Profile::Paper, MotRemote);
+        let mut cycle = base(Profile::PAPER, MotRemote);
         cycle.parameters.theta_tr = 0.25;
         cycle.ego.x += east;
         cycle.trajectory = None;
@@ -82,60 +82,60 @@ fn the_last_bit_decides_far_away() {
 }
 
 const NEAR: &[Near] = &[
-    ("mean < theta_tr - m", MotRemote, Profile::Paper, |c, e| {
+    ("mean < theta_tr - m", MotRemote, Profile::PAPER, |c, e| {
         list(c).items[0].y = 0.2 + e;
     }),
-    ("matched distance < theta_track_max - m", MotRemote, Profile::Hardened, |c, e| {
+    ("matched distance < theta_track_max - m", MotRemote, Profile::HARDENED, |c, e| {
         c.parameters.theta_tr = 100.0;
         list(c).items[0].y = 1.0 + e;
     }),
-    ("distance to the reference path > theta_map - m", PlanRemote, Profile::Paper, |c, e| {
+    ("distance to the reference path > theta_map - m", PlanRemote, Profile::PAPER, |c, e| {
         narrow(c, 0.125);
         c.parameters.theta_map = 0.25;
         points(c)[9].y = 0.25 + e;
     }),
-    ("square in the corridor", PlanRemote, Profile::Hardened, |c, e| {
+    ("square in the corridor", PlanRemote, Profile::HARDENED, |c, e| {
         narrow(c, 0.25);
         points(c).iter_mut().for_each(|point| point.y = 0.25 + e);
     }),
-    ("arc length <= s + m", PlanRemote, Profile::Paper, |c, e| {
+    ("arc length <= s + m", PlanRemote, Profile::PAPER, |c, e| {
         // s_CAV = 18 m; the point that is about there touches the car, the one before does not.
         points(c)[18].x = 18.0 - e;
         c.tracks = tracks(vec![track(1, 21.999, 0.0)]);
     }),
-    ("gap <= s_follow + m", MotRemote, Profile::Paper, |c, e| {
+    ("gap <= s_follow + m", MotRemote, Profile::PAPER, |c, e| {
         c.parameters.safety_time = 1.5;
         c.lead = lead(15.0 - e, 10.0);
     }),
-    ("gap <= s_react + m", PlanRemote, Profile::Hardened, |c, e| {
+    ("gap <= s_react + m", PlanRemote, Profile::HARDENED, |c, e| {
         // s_stop = 2.5 + 3/32 + 10.75^2 / 16, and s_b(10) = 6.25.
         c.parameters.tau = 0.25;
         c.lead = lead(9.816_406_25 - 6.25 - e, 10.0);
     }),
-    ("half length of the CAV + m", PlanRemote, Profile::Paper, |c, e| {
+    ("half length of the CAV + m", PlanRemote, Profile::PAPER, |c, e| {
         c.ego.speed = 0.0;
         c.tracks = tracks(vec![track(1, 4.0 - e, 0.0)]);
     }),
-    ("half width of the CAV + m", PlanRemote, Profile::Paper, |c, e| {
+    ("half width of the CAV + m", PlanRemote, Profile::PAPER, |c, e| {
         c.ego.speed = 0.0;
         c.tracks = tracks(vec![track(1, 0.0, 2.0 - e)]);
     }),
-    ("centre distance < theta_obj + m", PlanRemote, Profile::Paper, |c, e| {
+    ("centre distance < theta_obj + m", PlanRemote, Profile::PAPER, |c, e| {
         c.ego.speed = 0.0;
         c.tracks = tracks(vec![Track { length: 12.0, ..track(1, 5.0 - e, 0.0) }]);
     }),
-    ("disk radius r + m, hardened", MotRemote, Profile::Hardened, |c, e| {
+    ("disk radius r + m, hardened", MotRemote, Profile::HARDENED, |c, e| {
         (c.ego.length, c.ego.width) = (24.0, 8.0);
         mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 5.5);
         c.grid.as_mut().expect("there is a grid").y -= e;
     }),
-    ("disk centre in a marked cell", MotRemote, Profile::Paper, |c, e| {
+    ("disk centre in a marked cell", MotRemote, Profile::PAPER, |c, e| {
         mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
         for point in points(c) {
             point.y = e;
         }
     }),
-    ("heading . route segment >= m", PlanRemote, Profile::Hardened, |c, e| {
+    ("heading . route segment >= m", PlanRemote, Profile::HARDENED, |c, e| {
         c.route.cross_sections = [-0.5, 0.5]
             .map(|x| CrossSection { x, y: 0.0, left: [x, 9.0], right: [x, -9.0] })
             .into();
@@ -175,7 +175,7 @@ fn the_filter_changes_no_report() {
 #[test]
 fn tracks_on_the_edge_count_both_ways() {
     let with = |offset: f64, ghosts: i64| {
-        let mut cycle = base(Profile::Paper, MotRemote);
+        let mut cycle = base(Profile::PAPER, MotRemote);
         // r = 90 m; the ghosts are as far, and nowhere near a detection.
         cycle.detections = detections(vec![detection(60.0, 0.0), detection(-90.0, 0.0)]);
         let ghost = |i: i64| {
@@ -206,7 +206,7 @@ fn tracks_on_the_edge_count_both_ways() {
 #[test]
 fn nearest_segments_within_delta_are_asked() {
     let with = |y: f64| {
-        let mut cycle = base(Profile::Hardened, PlanRemote);
+        let mut cycle = base(Profile::HARDENED, PlanRemote);
         // Two parallel ways, 2 m apart, the second against the first.
         let cross_section =
             |x: f64, y: f64| CrossSection { x, y, left: [x, 90.0], right: [x, -90.0] };
@@ -231,7 +231,7 @@ fn nearest_segments_within_delta_are_asked() {
 /// "a step of length 0 passes in every model"
 #[test]
 fn a_step_of_length_zero_passes_in_every_reading() {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     two_points(&mut cycle, 100, [0.0, 0.0]);
     assert_eq!(safe(&cycle), YES);
 }
@@ -239,7 +239,7 @@ fn a_step_of_length_zero_passes_in_every_reading() {
 /// Counts, ages and times never move.
 #[test]
 fn ages_never_move() {
-    let mut cycle = base(Profile::Hardened, AllRemote);
+    let mut cycle = base(Profile::HARDENED, AllRemote);
     for point in points(&mut cycle) {
         point.t_ns += 100_000_000;
     }
@@ -266,17 +266,17 @@ fn work_above_the_limit_fails_the_strict_reading() {
         safe(&cycle)
     };
     let [one, two] = [[20.0, 9.0, 0.0, 0.0], [40.0, 9.0, 0.0, 0.0]];
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         assert_eq!(with(profile, 12, 0, &[one, two]), YES, "{profile:?}");
         assert_eq!(with(profile, 11, 0, &[one, two]), NEAR_SAFE, "{profile:?}");
     }
-    assert_eq!(with(Profile::Hardened, 12, 2, &[]), YES, "none is backed");
-    assert_eq!(with(Profile::Hardened, 16, 2, &[one]), YES);
-    assert_eq!(with(Profile::Hardened, 15, 2, &[one]), NEAR_SAFE);
-    assert_eq!(with(Profile::Hardened, 16, 1, &[one, two]), YES);
-    assert_eq!(with(Profile::Hardened, 15, 1, &[one, two]), NEAR_SAFE);
-    assert_eq!(with(Profile::Hardened, 0, 2, &[one, two]), YES, "all may be left out");
-    let mut cycle = base(Profile::Paper, MotRemote);
+    assert_eq!(with(Profile::HARDENED, 12, 2, &[]), YES, "none is backed");
+    assert_eq!(with(Profile::HARDENED, 16, 2, &[one]), YES);
+    assert_eq!(with(Profile::HARDENED, 15, 2, &[one]), NEAR_SAFE);
+    assert_eq!(with(Profile::HARDENED, 16, 1, &[one, two]), YES);
+    assert_eq!(with(Profile::HARDENED, 15, 1, &[one, two]), NEAR_SAFE);
+    assert_eq!(with(Profile::HARDENED, 0, 2, &[one, two]), YES, "all may be left out");
+    let mut cycle = base(Profile::PAPER, MotRemote);
     cycle.parameters.work_limit = 0;
     cycle.tracks = tracks(Vec::new());
     assert_eq!(safe(&cycle), YES, "k = 0");

@@ -13,7 +13,7 @@ use mufasa_model::stages::check;
 pub const NOW: i64 = 1_000_000_000;
 /// Speed of the CAV in the base cycle, m/s.
 pub const V_NOW: f64 = 10.0;
-pub const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
+pub const PROFILES: [Profile; 2] = [Profile::PAPER, Profile::HARDENED];
 pub const REMOTE: [Configuration; 3] =
     [Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote];
 

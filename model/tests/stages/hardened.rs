@@ -19,7 +19,7 @@ fn h_04_a_larger_gap_is_no_run_of_stage_iv() {
     // s_stop = 2.5 + 3/32 + 10.75^2 / 16, and s_b(10) = 6.25.
     const S_REACT: f64 = 9.816_406_25 - 6.25;
     let with = |configuration: Configuration, gap: f64, change: fn(&mut Cycle)| {
-        let mut cycle = base(Profile::Hardened, configuration);
+        let mut cycle = base(Profile::HARDENED, configuration);
         cycle.parameters.tau = 0.25;
         cycle.lead = lead(gap, V_NOW);
         change(&mut cycle);
@@ -53,7 +53,7 @@ fn h_04_a_larger_gap_is_no_run_of_stage_iv() {
 #[test]
 fn h_06_the_rectangle_reaches_fewer_cells_than_the_disks() {
     let with = |occupied: [f64; 2], change: fn(&mut Cycle)| {
-        let mut cycle = base(Profile::Hardened, PlanRemote);
+        let mut cycle = base(Profile::HARDENED, PlanRemote);
         // The disks reach y = 1.16, the rectangle 0.95.
         cycle.ego.width = 1.9;
         let grid = cycle.grid.as_mut().expect("there is a grid");
@@ -76,7 +76,7 @@ fn h_06_the_rectangle_reaches_fewer_cells_than_the_disks() {
 fn h_06_unknown_cells_are_free_where_detections_are_current() {
     for configuration in [MotRemote, PlanRemote, Configuration::AllRemote] {
         let with = |is_current: bool| {
-            let mut cycle = base(Profile::Hardened, configuration);
+            let mut cycle = base(Profile::HARDENED, configuration);
             cycle.tracks = None;
             cycle.detections = detections(vec![]);
             cycle.detections.as_mut().expect("set").stamp_ns -=
@@ -94,7 +94,7 @@ fn h_06_unknown_cells_are_free_where_detections_are_current() {
 /// H-06: a cell both occupied and unknown is occupied.
 #[test]
 fn h_06_occupied_comes_before_unknown() {
-    let mut cycle = base(Profile::Hardened, MotRemote);
+    let mut cycle = base(Profile::HARDENED, MotRemote);
     cycle.detections = None;
     let grid = cycle.grid.as_mut().expect("there is a grid");
     let mut unknown = vec![0; grid.occupied.len()];

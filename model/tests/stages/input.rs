@@ -13,7 +13,7 @@ type Change = fn(&mut Cycle);
 
 /// What is wrong, with field and index: an error, or the reason of an unsafe cycle.
 fn problem(configuration: Configuration, change: Change) -> Option<(bool, String, Option<usize>)> {
-    let mut cycle = base(Profile::Hardened, configuration);
+    let mut cycle = base(Profile::HARDENED, configuration);
     cycle.lead = lead(90.0, 10.0);
     cycle.detection_history =
         vec![DetectionList { stamp_ns: NOW - 1, items: vec![detection(60.0, 0.0)] }];

@@ -8,5 +8,6 @@ mod exact;
 mod hardened;
 mod input;
 mod near;
+mod profile;
 mod schedule;
 mod work;

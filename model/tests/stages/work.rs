@@ -13,7 +13,7 @@ use crate::base::*;
 /// of the cycle 51 * 2 + 32 + 51 * 2000.
 /// The strict reading makes none of H-14, whose work is above work_limit.
 fn crowded(others: usize) -> Cycle {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     (cycle.tracks, cycle.parameters.work_limit) = (None, 0);
     cycle.detections = detections(vec![detection(60.0, 0.0); 2000]);
     let list = |ms: i64, count: usize| DetectionList {
@@ -45,7 +45,7 @@ fn only_what_a_stage_is_about_to_do_counts() {
     cycle.ego.y = 2.5;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
     let mut paper = crowded(413);
-    paper.profile = Profile::Paper;
+    paper.profile = Profile::PAPER;
     assert!(passes(&paper, Stage::Iv));
     // The gap fails stage iv before H-14 is come to.
     let mut near = crowded(413);

@@ -250,7 +250,7 @@ impl CheckArguments {
 }
 
 pub(super) fn profile() -> impl TypedValueParser<Value = Profile> {
-    one_of([Profile::Paper, Profile::Hardened], names::profile)
+    one_of([Profile::PAPER, Profile::HARDENED], names::profile)
 }
 
 fn configuration() -> impl TypedValueParser<Value = Configuration> {

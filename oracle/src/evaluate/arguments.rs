@@ -55,8 +55,9 @@ pub enum Experiment {
     Combinations(SizeArguments),
     /// Fallbacks and time not offloaded without an attack, by errors of detectors, link and wait.
     Availability(SizeArguments),
-    /// Whether stage v is needed: collisions and false alarms without grid or detections, by what detectors see.
-    Grid(SizeArguments),
+    /// What each stage and rule is for: collisions and false alarms without it, without the grid (is stage v needed?) and
+    /// without detections, by what detectors see.
+    LeftOut(SizeArguments),
     /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
     /// this machine.
     Cpu(SizeArguments),

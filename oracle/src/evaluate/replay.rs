@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use mufasa::input::profile::Profile;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_sim::attack::{Attack, Kind};
@@ -178,6 +179,10 @@ fn write(
     job: &Job<()>,
 ) -> Result<(String, Outcome, Vec<PathBuf>), String> {
     let name = job.id.clone();
+    let named = [None, Some(Profile::PAPER), Some(Profile::HARDENED)];
+    if arguments.mcap.is_some() && !named.contains(&job.settings.profile) {
+        return Err("a set of rules of a study has no record: leave out --mcap".to_owned());
+    }
     let file = arguments.out.clone();
     let file = file.unwrap_or_else(|| {
         let usual = format!("{}.html", name.replace('/', "-"));

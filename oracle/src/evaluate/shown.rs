@@ -6,8 +6,8 @@ use mufasa_sim::experiment::availability::{self, Availability};
 use mufasa_sim::experiment::combinations::{self, Combinations};
 use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::grid::{self, Grids};
 use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
+use mufasa_sim::experiment::left_out::{self, LeftOuts};
 use mufasa_sim::experiment::readings::{self, Readings};
 use mufasa_sim::experiment::stages::{self, Stages};
 use mufasa_sim::map::Town;
@@ -101,6 +101,6 @@ shown! {
     attacks: Attacks, |run| Some(run.end);
     combinations: Combinations, |run| Some(run.end);
     availability: Availability, |run| Some(run.end);
-    grid: Grids, |_| None;
+    left_out: LeftOuts, |_| None;
     cpu: Cpu, |_| None;
 }

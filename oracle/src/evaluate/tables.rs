@@ -7,7 +7,7 @@ use mufasa_drives::pictures::escape;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, grid, readings, scenes, stages,
+    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, scenes, stages,
 };
 
 use super::published;
@@ -210,13 +210,13 @@ pub fn availability(of: &availability::Availability) -> Rows {
 }
 
 /// What is missed, and what is found without need, without what a stage needs.
-pub fn grid(of: &grid::Grids) -> Rows {
+pub fn left_out(of: &left_out::LeftOuts) -> Rows {
     rows(
         &of.rows,
         &[
             text("detectors", |row| row.detectors.name().to_owned()),
             text("checked by", |row| row.variant.name().to_owned()),
-            text("left out", |row| grid::name_of(row.left_out).to_owned()),
+            text("left out", |row| row.left_out.name().to_owned()),
             number("runs", |row| row.runs.to_string()),
             number("collided offloading", |row| row.collided.to_string()),
             number("alone", |row| row.collided_local.to_string()),

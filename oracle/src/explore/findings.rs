@@ -106,11 +106,11 @@ impl Story<'_> {
 
     fn note(&self, profile: Profile) -> &'static str {
         match (self.property, profile) {
-            (Property::NoStopBeforeSafeCycle, Profile::Paper) => {
+            (Property::NoStopBeforeSafeCycle, Profile::PAPER) => {
                 "Break before make: the local services of the group stop at the confirmation, \
                  before any result of the station"
             }
-            (Property::NoStopBeforeSafeCycle, Profile::Hardened) => {
+            (Property::NoStopBeforeSafeCycle, Profile::HARDENED) => {
                 "Make before break: after the same events the local services of the group compute"
             }
             _ => "Shortest trace that the exploration found",

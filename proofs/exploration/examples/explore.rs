@@ -10,7 +10,7 @@ use mufasa_model::input::cycle::Profile;
 fn main() -> ExitCode {
     let names: Vec<String> = std::env::args().skip(1).collect();
     let mut fails = false;
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         for world in Bounds::Small.worlds() {
             if !names.is_empty() && !names.iter().any(|name| name == world.name) {
                 continue;

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use mufasa_model::input::cycle::Profile;
+use mufasa_model::input::profile::{HardenedRule, Profile};
 
 /// A property that holds in every reachable state or in every endless run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -178,10 +178,7 @@ impl Property {
 
     /// Whether the profile claims it. Break before make is what the paper describes (F-12).
     pub fn is_claimed(self, profile: Profile) -> bool {
-        match (self, profile) {
-            (Self::NoStopBeforeSafeCycle, Profile::Paper) => false,
-            (_, Profile::Paper | Profile::Hardened) => true,
-        }
+        self != Self::NoStopBeforeSafeCycle || profile.has(HardenedRule::H08)
     }
 
     /// The sights that show that it is not empty.
@@ -276,8 +273,8 @@ impl Sight {
     /// other at a safe verdict.
     pub fn is_expected(self, profile: Profile) -> bool {
         match self {
-            Self::RemoteBesideLocal | Self::StoppedAtSafeVerdict => profile == Profile::Hardened,
-            Self::StoppedAtConfirmation => profile == Profile::Paper,
+            Self::RemoteBesideLocal | Self::StoppedAtSafeVerdict => profile == Profile::HARDENED,
+            Self::StoppedAtConfirmation => profile == Profile::PAPER,
             _ => true,
         }
     }

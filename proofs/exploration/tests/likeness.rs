@@ -18,7 +18,7 @@ use mufasa_props::refine::Pair;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
+const PROFILES: [Profile; 2] = [Profile::PAPER, Profile::HARDENED];
 /// As far from 0 as a clock may be, and still far from where times saturate.
 const FAR_NS: i64 = i64::MAX / 2;
 

@@ -207,7 +207,7 @@ impl Walk {
                 (self.used[place], self.proven[place]) = (false, false);
             }
             assert!(self.computes[place] || remote, "no source");
-            if self.profile == Profile::Hardened {
+            if self.profile == Profile::HARDENED {
                 assert!(self.computes[place] || self.proven[place], "H-08");
             }
             self.offloaded += usize::from(remote);
@@ -274,7 +274,7 @@ proptest! {
         parameters in parameters(),
         strides in prop::collection::vec(stride(), 600),
     ) {
-        let profile = if hardened { Profile::Hardened } else { Profile::Paper };
+        let profile = if hardened { Profile::HARDENED } else { Profile::PAPER };
         let mut walk = Walk::new(profile, parameters);
         for stride in strides {
             walk.stride(stride);
@@ -291,7 +291,7 @@ fn walks_offload() {
     for _ in 0..64 {
         let tree = walks.new_tree(&mut runner).expect("a walk");
         let (parameters, strides) = tree.current();
-        let mut walk = Walk::new(Profile::Hardened, parameters);
+        let mut walk = Walk::new(Profile::HARDENED, parameters);
         for stride in strides {
             walk.stride(stride);
             stopped += usize::from(walk.computes.contains(&false));
@@ -307,7 +307,7 @@ fn walks_offload() {
 #[test]
 fn a_verdict_that_comes_after_its_session_stops_nothing() {
     let parameters = Parameters { request_timeout_ns: 9, ..Parameters::default() };
-    let mut pair = Pair::new(Profile::Hardened, parameters).expect("no difference");
+    let mut pair = Pair::new(Profile::HARDENED, parameters).expect("no difference");
     let groups = Groups { mot: true, plan: false };
     let (station, group) = (1, Group::Mot);
     let mut at = |t_ns, kind| pair.step(&Event { t_ns, kind }).expect("no difference");

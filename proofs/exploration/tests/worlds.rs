@@ -127,7 +127,7 @@ fn left_sessions_end_within_the_lease(outcome: &WorldOutcome) {
 #[test]
 fn a_session_whose_release_is_lost_ends_with_its_lease() {
     let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").expect("honest");
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let outcome = run::explore(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
         let mut seen = outcome.seen.iter();
         let (_, trace) = seen.find(|(it, _)| *it == Sight::ReleaseLost).expect("a lost release");
@@ -153,24 +153,24 @@ fn a_session_whose_release_is_lost_ends_with_its_lease() {
 
 #[test]
 fn all_properties_hold_in_the_hardened_profile() {
-    let outcomes = explore_all(Profile::Hardened, HARDENED);
+    let outcomes = explore_all(Profile::HARDENED, HARDENED);
     for outcome in &outcomes {
         both_engines_agree(outcome);
-        claimed_properties_hold(Profile::Hardened, outcome);
+        claimed_properties_hold(Profile::HARDENED, outcome);
         traces_are_real(outcome);
         left_sessions_end_within_the_lease(outcome);
     }
-    no_property_is_empty(Profile::Hardened, &outcomes);
+    no_property_is_empty(Profile::HARDENED, &outcomes);
 }
 
 /// In the paper profile all hold but one: F-12 is found in every world, and its trace, which is
 /// minimal, ends with the confirmation at which the local services stop.
 #[test]
 fn all_properties_but_f_12_hold_in_the_paper_profile() {
-    let outcomes = explore_all(Profile::Paper, PAPER);
+    let outcomes = explore_all(Profile::PAPER, PAPER);
     for outcome in &outcomes {
         both_engines_agree(outcome);
-        claimed_properties_hold(Profile::Paper, outcome);
+        claimed_properties_hold(Profile::PAPER, outcome);
         traces_are_real(outcome);
         left_sessions_end_within_the_lease(outcome);
         let finding =
@@ -184,7 +184,7 @@ fn all_properties_but_f_12_hold_in_the_paper_profile() {
         assert!(!last.cavs[0].computes[0], "the local services stopped");
         assert!(episodes.iter().rev().skip(1).all(|episode| episode.cavs[0].computes[0]));
     }
-    no_property_is_empty(Profile::Paper, &outcomes);
+    no_property_is_empty(Profile::PAPER, &outcomes);
 }
 
 #[test]

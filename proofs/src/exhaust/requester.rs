@@ -97,7 +97,7 @@ pub fn every_step(profile: Profile, length: usize, visit: &mut impl FnMut(&Taken
 
 fn run() -> Run {
     let mut run = Run::default();
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         every_step(profile, LENGTH, &mut |step| {
             for (name, law) in LAWS {
                 run.note(name, step.keeps(law), || std::format!("{step:?}"));

@@ -57,7 +57,7 @@ pub fn every_cycle(mut visit: impl FnMut(Configuration, [Given; 5])) {
 fn run() -> Run {
     let mut run = Run::default();
     every_cycle(|configuration, given| {
-        let reports = [Profile::Paper, Profile::Hardened].map(|profile| {
+        let reports = [Profile::PAPER, Profile::HARDENED].map(|profile| {
             let cycle = cycle(profile, configuration, given);
             let report = report(&cycle);
             for (name, law) in LAWS {

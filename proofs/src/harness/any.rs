@@ -69,7 +69,7 @@ pub fn option<T>(value: impl FnOnce() -> T) -> Option<T> {
 
 /// One of the two profiles.
 pub fn profile() -> Profile {
-    if kani::any() { Profile::Paper } else { Profile::Hardened }
+    if kani::any() { Profile::PAPER } else { Profile::HARDENED }
 }
 
 /// One of the four configurations.

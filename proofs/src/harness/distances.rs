@@ -145,7 +145,7 @@ fn behind(parameters: Parameters, v_now: f64, lead: Lead) -> Cycle<'static> {
         detections: Some(DetectionList { stamp_ns: NOW_NS, items: &[] }),
         lead: Some(lead),
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
-        ..alone(Profile::Paper, parameters, ego, NOW_NS)
+        ..alone(Profile::PAPER, parameters, ego, NOW_NS)
     }
 }
 

@@ -27,7 +27,7 @@ const CLOSER_THAN: u8 = 2;
 pub fn verify_mean_cost_is_minimal() {
     let (tracks, detections) = (places::<TRACKS>(), places::<COLUMNS>());
     let (tracks, detections) = (shown(&tracks), shown(&detections));
-    let passed = passes(Profile::Paper, 0, tracks, detections, &[]);
+    let passed = passes(Profile::PAPER, 0, tracks, detections, &[]);
     let radius = detections.iter().copied().max().unwrap_or(0);
     let mut gated = [0; TRACKS];
     let gated = gate(tracks, radius, &mut gated);
@@ -55,7 +55,7 @@ pub fn verify_matched_cost_is_minimal() {
     let items = places::<ITEMS>();
     let items = shown(&items);
     let budget = below(2);
-    let passed = passes(Profile::Hardened, budget, tracks, detections, items);
+    let passed = passes(Profile::HARDENED, budget, tracks, detections, items);
     let radius = detections.iter().copied().max().unwrap_or(0);
     let backed = |at: usize| {
         let own = origin(tracks[at], items);

@@ -36,7 +36,7 @@ pub fn verify_order_is_the_table() {
         detections: kani::any(),
         grid: kani::any(),
     };
-    let hardened = given.profile == Profile::Hardened;
+    let hardened = given.profile == Profile::HARDENED;
     let answers: [bool; 5] = [kani::any(), kani::any(), kani::any(), kani::any(), kani::any()];
     let (mut at, mut failed, mut ran) = (0, None, [false; 5]);
     let found = in_order(given, |stage, turn| {

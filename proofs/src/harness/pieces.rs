@@ -33,7 +33,7 @@ pub fn verify_points_examined_are_points() {
 /// Domain: 3 points and a cycle of any numbers of 64 bits. Not covered: other numbers of points, which
 /// starts are accepted.
 pub fn verify_the_start_breaks_rules_of_the_start() {
-    let found = start_failure(&cycle(Profile::Hardened), &points());
+    let found = start_failure(&cycle(Profile::HARDENED), &points());
     if let Some(Witness { rule, point, .. }) = found {
         assert!(rule >= Rule::StartTime && rule <= Rule::StartOffset && point == Some(0));
     }

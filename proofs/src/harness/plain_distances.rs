@@ -104,7 +104,7 @@ pub fn verify_s_valid_has_two_cases() {
 pub fn verify_s_stop_is_bounded() {
     let parameters =
         Parameters { tau: within(0.0, 60.0), a_max: within(0.1, 100.0), ..parameters() };
-    let cycle = alone(Profile::Hardened, parameters, Ego { speed: speed(), ..EGO }, NOW_NS);
+    let cycle = alone(Profile::HARDENED, parameters, Ego { speed: speed(), ..EGO }, NOW_NS);
     let way = s_stop(&cycle);
     assert!((0.0..=2e8).contains(&way));
     kani::cover!(way > 0.0, "some way");

@@ -86,7 +86,7 @@ fn mark(cycle: &Cycle<'_>, stage: usize) -> Mark {
     };
     // H-05: conditional in PlanRemote too.
     let v_in_plan_remote = stage == 4 && column == 2;
-    if v_in_plan_remote && cycle.profile == Profile::Hardened {
+    if v_in_plan_remote && cycle.profile == Profile::HARDENED {
         Conditional
     } else {
         TABLE[stage][column]
@@ -110,7 +110,7 @@ fn is_young(cycle: &Cycle<'_>, stamp_ns: i64) -> bool {
 
 /// Stage by stage, what the text says of it, given what became of the stages before.
 fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
-    let hardened = cycle.profile == Profile::Hardened;
+    let hardened = cycle.profile == Profile::HARDENED;
     let all_remote = cycle.configuration == Configuration::AllRemote;
     let mut ran = [false; 5];
     let mut failed = None;

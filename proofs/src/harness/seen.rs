@@ -30,7 +30,7 @@ pub(super) struct Seen {
 
 impl Seen {
     pub(super) fn is_hardened(&self) -> bool {
-        self.before.profile == Profile::Hardened
+        self.before.profile == Profile::HARDENED
     }
 
     /// The laws of a step that asks for nothing. What the events that name a session leave as it is has harnesses of its
@@ -164,9 +164,9 @@ impl Seen {
     /// after a result was used (H-08); paper, at the confirmation.
     pub(super) fn stops_services_when_the_profile_says(&self, at: usize) -> bool {
         let may = match (self.before.profile, self.event.kind, self.before.groups[at]) {
-            (Profile::Paper, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
+            (Profile::PAPER, EventKind::Confirm { group, .. }, _) => group == GROUPS[at],
             (
-                Profile::Hardened,
+                Profile::HARDENED,
                 EventKind::Verdict { safe: true, sessions },
                 GroupRecord::Remote(running),
             ) => {

@@ -30,7 +30,7 @@ const LOW: f64 = -2.0;
 /// cell outside. Not covered: other places, other radii, turned grids.
 pub fn verify_paper_cells_include_their_borders() {
     let (cell, place) = (cell(), place());
-    let report = judged(Profile::Paper, cell, place);
+    let report = judged(Profile::PAPER, cell, place);
     let lies_in = |[i, k]: [i64; 2]| {
         let [x, y] = place;
         (2 * i..=2 * i + 2).contains(&x) && (2 * k..=2 * k + 2).contains(&y)
@@ -60,7 +60,7 @@ pub fn verify_paper_cells_include_their_borders() {
 /// cell outside. Not covered: other places, other radii, turned grids, unknown cells.
 pub fn verify_hardened_cells_are_closed_squares() {
     let (cell, place) = (cell(), place());
-    let report = judged(Profile::Hardened, cell, place);
+    let report = judged(Profile::HARDENED, cell, place);
     let gap = |at: i64, from: i64, to: i64| (from - at).max(at - to).max(0);
     let [x, y] = place;
     let [dx, dy] = [(x, cell[0]), (y, cell[1])].map(|(at, i)| gap(at, 2 * i, 2 * i + 2));

@@ -1,6 +1,6 @@
 //! Laws of the requester (`spec/2-offloading.md`).
 
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::offloading::requester::{
     Action, Event, EventKind, Group, GroupState, Parameters, Requester, Source,
 };
@@ -131,16 +131,16 @@ pub fn actions_come_in_their_order(step: &Step<'_>) -> bool {
 pub fn local_services_stop_when_the_profile_says(step: &Step<'_>) -> bool {
     step.actions.iter().all(|action| {
         let Action::Deactivate(stopped) = *action else { return true };
-        match (step.profile, step.event.kind) {
-            (Profile::Paper, EventKind::Confirm { group, .. }) => group == stopped,
-            (Profile::Hardened, EventKind::Verdict { safe: true, sessions }) => {
+        match (step.profile.has(HardenedRule::H08), step.event.kind) {
+            (false, EventKind::Confirm { group, .. }) => group == stopped,
+            (true, EventKind::Verdict { safe: true, sessions }) => {
                 let state = step.before.states[usize::from(stopped == Group::Plan)];
                 let running = matches!(state, GroupState::Remote { session, .. }
                     if sessions.of(stopped) == Some(session));
                 running
             }
             (
-                Profile::Paper | Profile::Hardened,
+                true | false,
                 EventKind::Offer { .. }
                 | EventKind::Withdraw { .. }
                 | EventKind::Lost { .. }

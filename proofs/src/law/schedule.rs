@@ -27,7 +27,7 @@ pub fn no_stage_runs_in_local(cycle: &Cycle<'_>, report: &Report) -> bool {
 
 /// A stage is `not_scheduled` exactly where the table has a dash; H-05 puts v into `PlanRemote`.
 pub fn only_scheduled_stages_run(cycle: &Cycle<'_>, report: &Report) -> bool {
-    let hardened = cycle.profile == Profile::Hardened;
+    let hardened = cycle.profile == Profile::HARDENED;
     let scheduled = match cycle.configuration {
         Configuration::Local => [false; 5],
         Configuration::MotRemote => [true, true, false, true, true],
@@ -54,7 +54,7 @@ pub fn unsafe_exactly_when_something_failed(cycle: &Cycle<'_>, report: &Report) 
     match (report.failed_stage, first) {
         (Some(FailedStage::Stage(named)), Some((stage, _))) => named == stage,
         (None, None) => true,
-        (Some(FailedStage::NoObstacleCheck), None) => cycle.profile == Profile::Hardened,
+        (Some(FailedStage::NoObstacleCheck), None) => cycle.profile == Profile::HARDENED,
         (Some(FailedStage::Input), None) => report.input.is_some(),
         (Some(FailedStage::Stage(_)), None)
         | (None | Some(FailedStage::NoObstacleCheck | FailedStage::Input), Some(_)) => false,
@@ -84,7 +84,7 @@ pub fn nothing_runs_without_its_input(cycle: &Cycle<'_>, report: &Report) -> boo
 /// run, and in `AllRemote` a iii that stage i has not checked does not count (H-02).
 pub fn no_trajectory_is_accepted_unexamined(cycle: &Cycle<'_>, report: &Report) -> bool {
     let current = cycle.trajectory.is_some_and(|list| is_young(cycle, list.stamp_ns));
-    if cycle.profile == Profile::Paper
+    if cycle.profile == Profile::PAPER
         || cycle.configuration == Configuration::Local
         || report.failed_stage.is_some()
         || !current
@@ -114,7 +114,7 @@ pub fn fails_instead_of_iv(cycle: &Cycle<'_>, outcome: &Outcome) -> bool {
         .detections
         .is_some_and(|list| is_young(cycle, list.stamp_ns) && !list.items.is_empty());
     let both = cycle.configuration == Configuration::PlanRemote && tracks && detections;
-    cycle.profile == Profile::Hardened
+    cycle.profile == Profile::HARDENED
         && (*rule == Rule::Gap && lead
             || [Rule::FailSafe, Rule::WorkLimit].contains(rule) && (tracks || detections)
             || *rule == Rule::Ambiguous && both)

@@ -36,14 +36,14 @@ impl Search {
     /// Never: theorems count no work.
     pub fn find(&self) -> io::Result<Option<Cycle>> {
         let proof = prove_claim(&|| {
-            let scene = base::scene(&(self.cycle)(Profile::Paper));
+            let scene = base::scene(&(self.cycle)(Profile::PAPER));
             let [bounds, wrong] = (self.conditions)(&scene);
             given(bounds);
             given(wrong);
             not(Formula::from(decide(&scene).expect("no work is counted").failed_stage.is_none()))
         })?;
         let Decision::Refuted(values) = proof.decision else { return Ok(None) };
-        let mut cycle = (self.cycle)(Profile::Paper);
+        let mut cycle = (self.cycle)(Profile::PAPER);
         for number in numbers(&mut cycle) {
             let Some(name) = name_of(*number) else { continue };
             let found = values.iter().find(|(other, _)| *other == name);

@@ -2,12 +2,13 @@
 
 use mufasa::input::cycle as twin;
 use mufasa_model::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
-    TrackList, Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
+    Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::services::configuration::Configuration;
 
+use super::profile::{profile_from_impl, profile_to_impl};
 use super::requester::configuration_from_impl;
 
 /// The lists of a cycle in the implementation's types; `borrow` makes the cycle of them.
@@ -153,11 +154,6 @@ macro_rules! same_names {
 mufasa::parameters!(same_names);
 
 same_variants! {
-    /// The profile in the implementation's type.
-    pub fn profile_to_impl(Profile) -> mufasa::input::profile::Profile { Paper, Hardened, }
-
-    fn profile_from_impl(mufasa::input::profile::Profile) -> Profile { Paper, Hardened, }
-
     fn configuration_to_impl(Configuration) -> mufasa::services::configuration::Configuration {
         Local, MotRemote, AllRemote, PlanRemote,
     }
@@ -237,6 +233,8 @@ fn grid_from_impl(grid: &twin::Grid<'_>) -> Grid {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::input::profile::Profile;
+
     use super::*;
     use crate::strategy::draw::Draw;
     use crate::strategy::whole;
@@ -256,7 +254,7 @@ mod tests {
         for seed in 0..400_u32 {
             tape.clear();
             tape.extend((0..600_u32).map(|at| (seed * 600 + at).wrapping_mul(2_654_435_761)));
-            for profile in [Profile::Paper, Profile::Hardened] {
+            for profile in [Profile::PAPER, Profile::HARDENED] {
                 let mut cycle = whole::cycle(&mut Draw::new(&tape), profile);
                 if let Some(grid) = cycle.grid.as_mut().filter(|_| seed.is_multiple_of(2)) {
                     // Which such short tapes do not draw.

@@ -24,7 +24,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
             return at_gap(draw, cycle);
         }
     }
-    if profile == Profile::Hardened && draw.one_in(2) {
+    if profile == Profile::HARDENED && draw.one_in(2) {
         let aim = draw.below(fail_safe::AIMS.len());
         fail_safe::decide(draw, &mut cycle, aim);
         return cycle;
@@ -44,7 +44,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
 /// A lead whose gap is near `s_follow`, with nothing else that could fail; in the hardened profile at
 /// times near `s_react`, without detections, or beside a stage iii that ran (H-04).
 fn at_gap(draw: &mut Draw<'_>, mut cycle: Cycle) -> Cycle {
-    let follows = cycle.profile == Profile::Paper || draw.one_in(2);
+    let follows = cycle.profile == Profile::PAPER || draw.one_in(2);
     let gap = if follows { obstacle::s_follow(&cycle) } else { obstacle::s_react(&cycle) };
     let gap = draw.near(gap).max(0.0);
     if let Some(lead) = &mut cycle.lead {

@@ -10,7 +10,7 @@ use super::fail_safe::path::Path;
 
 /// Whether the path of the cycle is examined beyond the end of its trajectory.
 pub fn is_examined(cycle: &Cycle) -> bool {
-    cycle.profile == Profile::Hardened && cycle.configuration != Configuration::Local
+    cycle.profile == Profile::HARDENED && cycle.configuration != Configuration::Local
 }
 
 /// The CAV stands at the end of a new trajectory, `missing` before `s_stop`.

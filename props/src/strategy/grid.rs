@@ -1,7 +1,8 @@
 //! Stage v at its thresholds: disks and cells, borders of cells and of the grid, horizons
 //! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-06).
 
-use mufasa_model::input::cycle::{Cycle, Grid, Profile};
+use mufasa_model::input::cycle::{Cycle, Grid};
+use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame};
@@ -25,7 +26,7 @@ struct Plan {
 
 /// A cycle that stage v decides; tracks and detections are harmless, if there are any.
 pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
-    if profile == Profile::Hardened && draw.one_in(4) {
+    if profile == Profile::HARDENED && draw.one_in(4) {
         return beside_iv(draw, profile);
     }
     let mut cycle = without_grid(draw, profile);
@@ -55,10 +56,8 @@ fn without_grid(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         // Only the hardened profile has a stage v here (H-05).
         Configuration::PlanRemote,
     ];
-    let configurations = match profile {
-        Profile::Paper => &configurations[..2],
-        Profile::Hardened => &configurations[..],
-    };
+    let configurations =
+        if profile.has(HardenedRule::H05) { &configurations[..] } else { &configurations[..2] };
     let configuration = draw.pick(configurations);
     let mut cycle = base::cycle(draw, frame, profile, configuration);
     obstacle::widen(&mut cycle, frame);
@@ -154,14 +153,13 @@ fn cell_at_radius(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let plan = plan(draw, cycle);
     let mut grid = lay(draw, cycle, &plan);
     let offset = backwards(draw, cycle, &grid);
-    let distance = match cycle.profile {
-        Profile::Paper => (offset.0 as f64).hypot(offset.1 as f64),
-        Profile::Hardened => {
-            let axis = |within: f64, cells: i64| {
-                (cells as f64 - within).max(within - cells as f64 - 1.0).max(0.0)
-            };
-            axis(plan.within.0, offset.0).hypot(axis(plan.within.1, offset.1))
-        }
+    let distance = if cycle.profile.has(HardenedRule::H06) {
+        let axis = |within: f64, cells: i64| {
+            (cells as f64 - within).max(within - cells as f64 - 1.0).max(0.0)
+        };
+        axis(plan.within.0, offset.0).hypot(axis(plan.within.1, offset.1))
+    } else {
+        (offset.0 as f64).hypot(offset.1 as f64)
     };
     let r = draw.near(distance * plan.resolution);
     let share = cycle.ego.length / cycle.parameters.n as f64;
@@ -195,7 +193,7 @@ fn rebased(cycle: &Cycle, plan: &Plan, grid: &Grid) -> (f64, f64) {
 fn border(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let mut plan = plan(draw, cycle);
     let r = radius(cycle);
-    if cycle.profile == Profile::Hardened {
+    if cycle.profile == Profile::HARDENED {
         // The first column at r from the disk centre.
         let columns = draw.near(r / plan.resolution);
         plan.cell.0 = base::count(columns.floor());
@@ -231,10 +229,7 @@ fn horizon(draw: &mut Draw<'_>, cycle: &mut Cycle) {
     let front = ego.center_offset + 0.5 * ego.length - ego.length / (2.0 * n);
     // Half a step behind the front disk at the hit begins what that disk must not touch: the
     // first marked column (paper), what is within r of the occupied cell (hardened).
-    let to_cell = match cycle.profile {
-        Profile::Paper => SIDE * (r / SIDE).floor(),
-        Profile::Hardened => r,
-    };
+    let to_cell = if cycle.profile.has(HardenedRule::H06) { r } else { SIDE * (r / SIDE).floor() };
     let road = Frame { x: hit.x, y: hit.y, cos: ego.cos, sin: ego.sin };
     let ahead = front - 0.5 * advance + to_cell;
     cycle.grid = Some(wall(draw, cycle, road, ahead, reach));

@@ -20,16 +20,16 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.detections = Some(DetectionList { stamp_ns: cycle.now_ns, items: Vec::new() });
     match (profile, draw.below(11)) {
         // Hardened: what is outside the corridor fails however near the path is.
-        (Profile::Paper, 0 | 1) | (Profile::Hardened, 0) => {
+        (Profile::PAPER, 1) | (_, 0) => {
             reference_distance(draw, frame, &mut cycle);
         }
         (_, 2 | 3) => corridor_edge(draw, frame, &mut cycle),
         (_, 4) => crooked_road(draw, frame, &mut cycle),
-        (Profile::Paper, _) => anywhere(draw, frame, &mut cycle),
-        (Profile::Hardened, 5) => start(draw, frame, &mut cycle),
-        (Profile::Hardened, 6) => direction(draw, frame, &mut cycle),
-        (Profile::Hardened, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
-        (Profile::Hardened, _) => reach::cycle(draw, &mut cycle),
+        (Profile::PAPER, _) => anywhere(draw, frame, &mut cycle),
+        (_, 5) => start(draw, frame, &mut cycle),
+        (_, 6) => direction(draw, frame, &mut cycle),
+        (_, 1 | 7 | 8) => steps::cycle(draw, frame, &mut cycle),
+        (_, _) => reach::cycle(draw, &mut cycle),
     }
     cycle
 }

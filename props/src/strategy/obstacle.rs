@@ -92,7 +92,7 @@ fn far_centre(draw: &mut Draw<'_>, cycle: &Cycle) -> Obstacle {
 
 /// A new trajectory with one point at the horizon, and an object that only this one hits.
 pub fn at_horizon(draw: &mut Draw<'_>, cycle: &mut Cycle, horizon: Horizon) -> Obstacle {
-    let hardened = cycle.profile == Profile::Hardened;
+    let hardened = cycle.profile == Profile::HARDENED;
     let speed = cycle.ego.speed;
     let spacing = (0.15 * speed).clamp(0.05, 0.8 * cycle.ego.length);
     let reach = draw.near(horizon.metres).max(0.0);

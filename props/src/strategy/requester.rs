@@ -24,7 +24,7 @@ pub struct Trace {
 /// A trace of up to 40 events. A requester of the model goes along, but only so that events can
 /// name its sessions and meet its deadlines.
 pub fn trace(draw: &mut Draw<'_>) -> Trace {
-    let profile = draw.pick(&[Profile::Hardened, Profile::Paper]);
+    let profile = draw.pick(&[Profile::HARDENED, Profile::PAPER]);
     let parameters = parameters(draw);
     let mut guide = Guide::new(profile, parameters);
     let mut events = Vec::new();

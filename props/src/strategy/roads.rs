@@ -136,7 +136,7 @@ fn curve(draw: &mut Draw<'_>, frame: Frame, cycle: &mut Cycle, closed: bool) {
     // The boundaries, at times a diagonal; in the paper profile also theta_map beside the path.
     let (near, far) = match (draw.below(8), cycle.profile) {
         (0, _) => draw.pick(&[(half, -half), (-half, half)]),
-        (1 | 2, Profile::Paper) => draw.pick(&[(theta_map, theta_map), (-theta_map, -theta_map)]),
+        (1 | 2, Profile::PAPER) => draw.pick(&[(theta_map, theta_map), (-theta_map, -theta_map)]),
         _ => draw.pick(&[(half, half), (-half, -half)]),
     };
     let place = beside(draw, (on(from, near), on(from + 1, far)));

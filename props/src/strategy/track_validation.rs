@@ -1,7 +1,8 @@
 //! Stage i at its thresholds: mean cost, `theta_track_max`, field-of-view radius, left-out tracks
 //! (`spec/3-stages.md#stage-i-track-validation`, H-01).
 
-use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
+use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Frame, seconds};
@@ -19,10 +20,10 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     cycle.trajectory = None;
     match (draw.below(8), profile) {
         (0 | 1, _) => mean_to_threshold(draw, frame, &mut cycle),
-        (2, _) | (3 | 4, Profile::Paper) => threshold_to_mean(draw, frame, &mut cycle),
-        (3 | 4, Profile::Hardened) => pair_limit(draw, frame, &mut cycle),
-        (5, _) | (6, Profile::Paper) => radius(draw, frame, &mut cycle),
-        (6, Profile::Hardened) => left_out(draw, frame, &mut cycle),
+        (2, _) | (3 | 4, Profile::PAPER) => threshold_to_mean(draw, frame, &mut cycle),
+        (3 | 4, _) => pair_limit(draw, frame, &mut cycle),
+        (5, _) | (6, Profile::PAPER) => radius(draw, frame, &mut cycle),
+        (6, _) => left_out(draw, frame, &mut cycle),
         (_, _) => anything(draw, frame, &mut cycle),
     }
     cycle
@@ -215,11 +216,9 @@ impl Costs {
         let radius = detections.iter().map(|(a, b)| a.hypot(*b)).fold(0.0, f64::max);
         let gated: Vec<Place> =
             tracks.iter().copied().filter(|(a, b)| a.hypot(*b) <= radius).collect();
-        let spared = match cycle.profile {
-            Profile::Paper => gated.len().saturating_sub(detections.len()),
-            // Without a history no track is backed.
-            Profile::Hardened => 0,
-        };
+        // Without a history no track is backed.
+        let is_spared = !cycle.profile.has(HardenedRule::H01);
+        let spared = if is_spared { gated.len().saturating_sub(detections.len()) } else { 0 };
         let pairs = gated.len().saturating_sub(spared);
         if pairs == 0 || pairs > detections.len() {
             return None;

@@ -1,6 +1,7 @@
 //! Stage iii at its thresholds (`spec/3-stages.md#stage-iii-trajectory-with-tracks`).
 
-use mufasa_model::input::cycle::{Cycle, DetectionList, Profile, Track, TrackList};
+use mufasa_model::input::cycle::{Cycle, DetectionList, Track, TrackList};
+use mufasa_model::input::profile::{HardenedRule, Profile};
 use mufasa_model::services::configuration::Configuration;
 
 use super::base::{self, Obstacle, seconds};
@@ -32,7 +33,7 @@ pub fn cycle(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
         items.push(track(frame, (70.0, -8.0), 12));
     }
     cycle.tracks = Some(TrackList { stamp_ns, items });
-    if configuration == Configuration::AllRemote && profile == Profile::Hardened {
+    if configuration == Configuration::AllRemote && profile == Profile::HARDENED {
         if draw.one_in(2) {
             // A detection at every place: stage i runs and, when none is far off, passes.
             let seen_ns = cycle.now_ns - draw.pick(&[0, 20_000_000]);
@@ -61,9 +62,10 @@ pub fn before(draw: &mut Draw<'_>, profile: Profile) -> Cycle {
     let horizon = obstacle::horizon_of_tracks(&cycle);
     let found = obstacle::decisive(draw, &mut cycle, horizon);
     // The hardened profile lets it begin as long ago as data may be old (H-07).
-    let earlier_ns = match profile {
-        Profile::Hardened => draw.pick(&[60_000_000, 20_000_000, 100_000_000]),
-        Profile::Paper => draw.pick(&[600_000_000, 100_000_000, 3_000_000_000]),
+    let earlier_ns = if profile.has(HardenedRule::H07) {
+        draw.pick(&[60_000_000, 20_000_000, 100_000_000])
+    } else {
+        draw.pick(&[600_000_000, 100_000_000, 3_000_000_000])
     };
     for point in cycle.trajectory.iter_mut().flat_map(|list| &mut list.points) {
         point.t_ns -= earlier_ns;

@@ -166,7 +166,7 @@ pub fn cycle(tape: &[u32]) -> Cycle {
     any.wild = any.draw.pick(&[0, 200, 6]);
     let s = any.draw.pick(&[1.0, 30.0, 1e3, 16_777_216.0]);
     let now_ns = any.integer(-1_000_000_000_000, 1_000_000_000_000);
-    let profile = any.draw.pick(&[Profile::Paper, Profile::Hardened]);
+    let profile = any.draw.pick(&[Profile::PAPER, Profile::HARDENED]);
     let tracks = |any: &mut Any<'_>| TrackList {
         stamp_ns: any.stamp(now_ns),
         items: any.list(0, 5, Any::track, s),

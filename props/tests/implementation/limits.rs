@@ -103,7 +103,7 @@ fn cycle(counts: Counts, profile: Profile, configuration: Configuration) -> Cycl
 /// Of the tracks the first comes from behind, beside the path, and would meet straight on, at this drift to the right,
 /// m/s, the CAV where it stops: at 1/10 of its way it keeps beside, which is the deepest that H-14 goes.
 fn with_passer(counts: Counts, drift: f64) -> Cycle {
-    let mut cycle = cycle(counts, Profile::Hardened, PlanRemote);
+    let mut cycle = cycle(counts, Profile::HARDENED, PlanRemote);
     (cycle.parameters.theta_obj, cycle.parameters.safety_time) = (1e-3, 0.0);
     let passer = &mut cycle.tracks.as_mut().expect("set").items[0];
     (passer.x, passer.y, passer.vx, passer.vy) = (-14.0, 3.5, 7.0, -drift);
@@ -113,7 +113,7 @@ fn with_passer(counts: Counts, drift: f64) -> Cycle {
 /// One cycle for every configuration and profile, and those that stage iv lacks its input in.
 fn cycles(counts: Counts) -> Vec<Owned> {
     let mut cycles = Vec::new();
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         for configuration in [AllRemote, MotRemote, PlanRemote] {
             cycles.push(cycle(counts, profile, configuration));
         }

@@ -31,7 +31,7 @@ fn first_good(good: usize, end: &[Deed]) -> Habit {
 /// as long as they are not then, some for as long, some for longer.
 #[test]
 fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let mut at_once = 0;
         for good in [0, 1, 2, 5, 9, 10, 11, 19, 20, 37, 50, 100] {
             for end in ENDS {
@@ -55,7 +55,7 @@ fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
 /// The rule has no price where sessions do not end.
 #[test]
 fn a_station_of_use_is_kept() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         for share in drive(profile, &Habit::of(vec![Deed::Good]), PERIODS) {
             assert_eq!((share.sessions, share.without_ns()), (1, 0), "{profile:?}: {share:?}");
             assert!(share.with > PERIODS - 10, "{profile:?}: {share:?}");

@@ -53,13 +53,13 @@ fn tracks_out(profile: Profile, sees: &[Option<i64>]) -> Vec<(bool, bool)> {
 #[test]
 fn tracks_come_out_only_of_cycles_in_which_they_were_compared() {
     let (now, old, none) = (Some(0), Some(101 * MS), None);
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let ends = tracks_out(profile, &[now, none, old, none, now, none, now]);
         let out: Vec<bool> = ends.iter().map(|it| it.0).collect();
         assert_eq!(out, [false, false, false, false, true, false, true], "{profile:?}");
         // The paper stops them at the confirmation.
         let stopped: Vec<usize> = (0..7).filter(|i| ends[*i].1).collect();
         let hardened: &[usize] = &[4];
-        assert_eq!(stopped, if profile == Profile::Hardened { hardened } else { &[] }, "{ends:?}");
+        assert_eq!(stopped, if profile == Profile::HARDENED { hardened } else { &[] }, "{ends:?}");
     }
 }

@@ -111,9 +111,9 @@ fn a_trajectory_names_the_time_of_its_cycle_plus_tau() {
     let saturated = RefCell::new(0);
     let one = |tau: f64, now_ns: i64, groups: Groups| {
         let by_ns = now_ns.saturating_add(whole_ns(tau));
-        let by = named(Profile::Hardened, tau, now_ns, groups);
+        let by = named(Profile::HARDENED, tau, now_ns, groups);
         assert_eq!(by, Some(at(by_ns)), "tau {tau} at {now_ns}, {groups:?}");
-        assert_eq!(named(Profile::Paper, tau, now_ns, groups), None, "the paper has no tau");
+        assert_eq!(named(Profile::PAPER, tau, now_ns, groups), None, "the paper has no tau");
         *saturated.borrow_mut() += u32::from(now_ns.checked_add(whole_ns(tau)).is_none());
     };
     for tau in TAUS {

@@ -31,7 +31,7 @@ fn asked(monitor: &mut Monitor<'_>, now_ns: i64) -> usize {
 #[test]
 fn a_station_is_asked_when_half_a_second_was_seen() {
     let cross_sections = road();
-    for (profile, first_ms) in [(Profile::Hardened, 470), (Profile::Paper, 0)] {
+    for (profile, first_ms) in [(Profile::HARDENED, 470), (Profile::PAPER, 0)] {
         let mut buffers = Buffers::new(16, 40);
         let mut monitor = buffers.monitor(Settings { profile, ..settings() }).expect("a monitor");
         monitor.set_route(&route(&cross_sections)).expect("a route");

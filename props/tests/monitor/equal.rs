@@ -391,10 +391,10 @@ fn as_the_plain_calls(profile: Profile) {
 
 #[test]
 fn the_monitor_answers_as_the_plain_calls_in_the_hardened_profile() {
-    as_the_plain_calls(Profile::Hardened);
+    as_the_plain_calls(Profile::HARDENED);
 }
 
 #[test]
 fn the_monitor_answers_as_the_plain_calls_in_the_paper_profile() {
-    as_the_plain_calls(Profile::Paper);
+    as_the_plain_calls(Profile::PAPER);
 }

@@ -49,7 +49,7 @@ fn habits() -> Vec<Habit> {
 fn no_habit_takes_the_plan_for_more_than_a_tenth_of_the_time() {
     let of_session_ns = 2 * settings().requester.dt_max_ns + 2 * PERIOD_NS;
     let time_ns = PERIODS * PERIOD_NS;
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         let mut worst: [(i64, String); 3] = Default::default();
         let mut shortened = 0;
         for habit in habits() {
@@ -75,7 +75,7 @@ fn no_habit_takes_the_plan_for_more_than_a_tenth_of_the_time() {
 /// That one group is of use pays nothing for the other, and the other's wait takes nothing from it.
 #[test]
 fn each_group_pays_for_itself() {
-    for profile in [Profile::Paper, Profile::Hardened] {
+    for profile in [Profile::PAPER, Profile::HARDENED] {
         for (good, end) in [0, 1, 10, 30].into_iter().flat_map(|it| {
             [Deed::Silent, Deed::Late, Deed::Ahead(10), Deed::Old].map(|end| (it, end))
         }) {

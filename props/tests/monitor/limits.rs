@@ -45,12 +45,12 @@ fn a_tau_that_is_not_above_the_period_is_refused() {
         settings
     };
     for tau in [0.1, 0.0] {
-        let (error, words) = refused(with(Profile::Hardened, tau));
+        let (error, words) = refused(with(Profile::HARDENED, tau));
         assert_eq!(error, MonitorError::TauNotAbovePeriod { tau, period });
         assert!(words.contains(&format!("tau = {tau} s")) && words.contains("0.1 s:"), "{words}");
-        assert!(Buffers::new(16, 40).monitor(with(Profile::Paper, tau)).is_ok());
+        assert!(Buffers::new(16, 40).monitor(with(Profile::PAPER, tau)).is_ok());
     }
-    assert!(Buffers::new(16, 40).monitor(with(Profile::Hardened, 0.1_f64.next_up())).is_ok());
+    assert!(Buffers::new(16, 40).monitor(with(Profile::HARDENED, 0.1_f64.next_up())).is_ok());
     let default = Settings::new(Duration::from_millis(100) - Duration::from_nanos(1));
     assert!(Buffers::new(16, 40).monitor(default).is_ok());
 }
@@ -146,22 +146,22 @@ fn too_little_memory_is_refused_by_name() {
             other => panic!("{other}"),
         })
     };
-    let stations = without(|it| it.stations.clear(), Profile::Paper);
+    let stations = without(|it| it.stations.clear(), Profile::PAPER);
     assert_eq!(stations, Some(("stations", 1, 0)));
-    let few = without(|it| it.detections.truncate(11), Profile::Hardened);
+    let few = without(|it| it.detections.truncate(11), Profile::HARDENED);
     assert_eq!(few, Some(("detections", 12, 11)));
-    let slots = without(|it| it.slots.truncate(207), Profile::Hardened);
+    let slots = without(|it| it.slots.truncate(207), Profile::HARDENED);
     assert_eq!(slots, Some(("slots", 208, 207)));
-    let rows = without(|it| it.rows.clear(), Profile::Paper);
+    let rows = without(|it| it.rows.clear(), Profile::PAPER);
     assert_eq!(rows, Some(("rows", 1, 0)));
-    let columns = without(|it| it.columns.truncate(9), Profile::Paper);
+    let columns = without(|it| it.columns.truncate(9), Profile::PAPER);
     assert!(matches!(columns, Some(("columns", needed, 9)) if needed > 9), "{columns:?}");
     let mut few = Buffers::new(16, 40);
     few.columns.truncate(9);
     let words = few.monitor(settings()).expect_err("too few").to_string();
     assert!(words.contains("scratch::Sizes::for_cycle"), "{words}");
     let nothing = |it: &mut Buffers| (it.detections.clear(), it.slots.clear()).1;
-    assert_eq!(without(nothing, Profile::Paper), None, "nothing is kept in this profile");
+    assert_eq!(without(nothing, Profile::PAPER), None, "nothing is kept in this profile");
 }
 
 /// `spec/5-interfaces.md#monitor.5`: a list of detections that could not be kept makes its own cycle

@@ -22,7 +22,7 @@ fn record<'w>(
 ) -> Cycle<'w> {
     let stamp_ns = world.now_ns;
     Cycle {
-        profile: Profile::Hardened,
+        profile: Profile::HARDENED,
         parameters: settings().stages,
         now_ns: stamp_ns,
         configuration,
@@ -201,7 +201,7 @@ fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     let (now_us, generated_us) = (10_000_000, 5_000_000);
     let mut table = [StationRecord::FREE; 1];
     let mut requester =
-        Requester::new(Profile::Hardened, settings().requester, &mut table).expect("a requester");
+        Requester::new(Profile::HARDENED, settings().requester, &mut table).expect("a requester");
     let confirm = EventKind::Confirm { station: 1, group: Group::Mot, session: 1 };
     let offer = EventKind::Offer { station: 1, groups: Groups::ALL };
     let (group, session) = (Group::Mot, 1);

@@ -110,7 +110,7 @@ impl<'a> Plain<'a> {
     pub fn brake_by(&self, now_ns: i64) -> Option<i64> {
         let tau_ns = format!("{:.0}", (self.settings.stages.tau * 1e9).floor());
         let by_ns = now_ns.saturating_add(tau_ns.parse().expect("in the domain"));
-        (self.settings.profile == Profile::Hardened).then_some(by_ns)
+        (self.settings.profile == Profile::HARDENED).then_some(by_ns)
     }
 
     /// An element arrives; of one that is in time, but too old for any cycle or of a group that is
@@ -217,7 +217,7 @@ impl<'a> Plain<'a> {
     fn has_seen_enough(&self, t_ns: i64) -> bool {
         let age_ns = |stamp_ns: i64| i128::from(t_ns) - i128::from(stamp_ns);
         let usable = i128::from(500 * MS)..=i128::from(1000 * MS);
-        self.settings.profile == Profile::Paper
+        self.settings.profile == Profile::PAPER
             || self.kept.iter().any(|(stamp_ns, _)| usable.contains(&age_ns(*stamp_ns)))
     }
 
@@ -355,7 +355,7 @@ impl<'a> Plain<'a> {
 
     /// The lists nearest to 300, 500 and 800 ms, the youngest first.
     fn history(&self, own: &Own<'_>) -> Vec<(i64, Vec<Detection>)> {
-        let (Some((now_ns, _)), Profile::Hardened) = (own.detections, self.settings.profile) else {
+        let (Some((now_ns, _)), Profile::HARDENED) = (own.detections, self.settings.profile) else {
             return Vec::new();
         };
         let age = |stamp_ns: i64| now_ns.saturating_sub(stamp_ns);

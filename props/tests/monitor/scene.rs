@@ -5,7 +5,7 @@ use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Brake, Gap, GridMap, Inputs, Settings, Stall};
 use mufasa::report::{InvalidInput, Outcome, Report, Witness};
-use mufasa_props::bridge::{Owned, to_impl};
+use mufasa_props::bridge::{Owned, profile_from_impl, to_impl};
 use mufasa_props::strategy::draw::Draw;
 use mufasa_props::strategy::whole;
 
@@ -43,11 +43,7 @@ pub fn start(draw: &mut Draw<'_>, profile: Profile) -> Start {
         let (cross_sections, stages) = (road(), settings().stages);
         return Start { base: Base::Road, closed: false, cross_sections, now_ns: 0, stages };
     }
-    let model_profile = match profile {
-        Profile::Paper => mufasa_model::input::cycle::Profile::Paper,
-        Profile::Hardened => mufasa_model::input::cycle::Profile::Hardened,
-    };
-    let mut cycle = whole::cycle(draw, model_profile);
+    let mut cycle = whole::cycle(draw, profile_from_impl(profile));
     cycle.detection_history.clear();
     let owned = to_impl(&cycle);
     let it = owned.borrow(&[]);

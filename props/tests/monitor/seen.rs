@@ -106,7 +106,7 @@ impl Seen {
             assert!(100 * count >= cycles, "something hardly occurs: {self:?}");
         }
         assert!(200 * local_trajectories >= cycles, "{self:?}");
-        let needs_history = profile == Profile::Hardened;
+        let needs_history = profile == Profile::HARDENED;
         assert!(!needs_history || 20 * self.with_history >= cycles, "{self:?}");
         assert!(2_000 * self.no_tick >= cycles, "{self:?}");
         let &Self { starved_ahead, starved_old, starved_and_dropped, .. } = self;

@@ -14,7 +14,7 @@ const TIMEOUT_NS: i64 = 500_000_000;
 /// `spec/2-offloading.md#requester.4`
 #[test]
 fn a_confirmation_of_the_requested_session_from_its_station_before_its_deadline_moves_to_remote() {
-    for (profile, actions) in [(Profile::Paper, vec![Deactivate(Mot)]), (Profile::Hardened, vec![])]
+    for (profile, actions) in [(Profile::PAPER, vec![Deactivate(Mot)]), (Profile::HARDENED, vec![])]
     {
         let mut cav = Cav::requested(profile, MOT);
         let requested = GroupState::Requested { station: 1, session: 1, deadline_ns: TIMEOUT_NS };
@@ -58,7 +58,7 @@ fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and
 /// `spec/2-offloading.md#requester.5`
 #[test]
 fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_can_tell() {
-    let mut cav = Cav::requested(Profile::Paper, MOT);
+    let mut cav = Cav::requested(Profile::PAPER, MOT);
     cav.ignores(TIMEOUT_NS - 1, TICK);
     assert_eq!(cav.at(TIMEOUT_NS, TICK), [release(1, Mot, 1)]);
     assert_eq!(cav.model().state(Mot), GroupState::Local);
@@ -68,7 +68,7 @@ fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_ca
 /// `spec/2-offloading.md#requester.5`
 #[test]
 fn a_rejection_of_the_requested_session_returns_it_at_once_without_a_release() {
-    let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
     assert_eq!(cav.at(1, reject(1, Plan, 2)), []);
     assert_eq!(cav.model().state(Plan), GroupState::Local);
     assert_eq!(cav.at(TIMEOUT_NS + 1, reject(1, Mot, 1)), [], "the deadline does not matter");

@@ -17,7 +17,7 @@ const T_WAIT_NS: i64 = 10_000_000_000;
 /// `spec/2-offloading.md#fallback.1`
 #[test]
 fn a_safety_issue_returns_every_remote_or_requested_group_in_the_same_step() {
-    let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
     cav.at(1, confirm(1, Plan, 2));
     let fallen_back = [release(1, Mot, 1), release(1, Plan, 2), Activate(Plan)];
     assert_eq!(cav.at(2, UNSAFE), fallen_back);
@@ -78,7 +78,7 @@ fn hold_until_becomes_the_later_of_its_old_value_and_now_plus_t_wait() {
 /// `spec/2-offloading.md#fallback.3` (I-08)
 #[test]
 fn offloading_is_possible_again_at_hold_until_and_not_before() {
-    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::remote(Profile::PAPER, Groups::ALL);
     cav.at(1, UNSAFE);
     cav.ignores(T_WAIT_NS, TICK);
     assert_eq!(cav.at(1 + T_WAIT_NS, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
@@ -91,7 +91,7 @@ fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
     for qos_hold in [false, true] {
         for (t_ns, kind) in [(1, data(1, Mot, 1, 2)), (100_000_001, TICK)] {
             let parameters = Parameters { qos_hold, ..Parameters::default() };
-            let mut cav = Cav::new(Profile::Paper, parameters);
+            let mut cav = Cav::new(Profile::PAPER, parameters);
             cav.at(0, offer(1, MOT));
             cav.at(0, TICK);
             cav.at(0, confirm(1, Mot, 1));
@@ -110,7 +110,7 @@ fn a_violation_starts_a_hold_only_if_qos_hold_is_set() {
 fn a_hold_of_silence_forbids_the_requests_of_the_same_tick() {
     for qos_hold in [false, true] {
         let parameters = Parameters { qos_hold, ..Parameters::default() };
-        let mut cav = Cav::new(Profile::Paper, parameters);
+        let mut cav = Cav::new(Profile::PAPER, parameters);
         cav.at(0, offer(1, PLAN));
         cav.at(0, TICK);
         cav.at(0, confirm(1, Plan, 1));
@@ -141,13 +141,13 @@ fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
 #[test]
 fn hold_until_saturates_at_the_limits_of_64_bits() {
     let parameters = Parameters { t_wait_ns: i64::MAX, ..Parameters::default() };
-    let mut cav = Cav::new(Profile::Paper, parameters);
+    let mut cav = Cav::new(Profile::PAPER, parameters);
     cav.at(0, offer(1, MOT));
     cav.at(1, UNSAFE);
     assert_eq!(cav.model().hold_until_ns(), Some(i64::MAX));
     assert_eq!(cav.at(i64::MAX - 1, TICK), []);
     assert_eq!(cav.at(i64::MAX, TICK), [request(1, Mot, 1)]);
-    let mut cav = Cav::new(Profile::Paper, parameters);
+    let mut cav = Cav::new(Profile::PAPER, parameters);
     cav.at(i64::MIN, UNSAFE);
     assert_eq!(cav.model().hold_until_ns(), Some(-1));
 }
@@ -174,23 +174,23 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
 /// `spec/2-offloading.md#fallback.7`: PLAN is overdue, MOT silent, and the order is by kind first.
 #[test]
 fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_plan_within_each() {
-    let mut cav = Cav::requested(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
     cav.at(0, confirm(1, Mot, 1));
     let tick = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot)];
     assert_eq!(cav.at(500_000_000, TICK), tick);
 
-    let mut cav = Cav::remote(Profile::Hardened, Groups::ALL);
+    let mut cav = Cav::remote(Profile::HARDENED, Groups::ALL);
     cav.at(1, data(1, Plan, 2, 1));
     cav.at(1, data(1, Mot, 1, 1));
     assert_eq!(cav.at(2, safe(Some(1), Some(2))), [Deactivate(Mot), Deactivate(Plan)]);
     let early = [Drop(Plan), release(1, Plan, 2), Activate(Plan)];
     assert_eq!(cav.at(3, data(1, Plan, 2, 4)), early);
 
-    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::remote(Profile::PAPER, Groups::ALL);
     let all = [release(1, Mot, 1), release(1, Plan, 2), Activate(Mot), Activate(Plan)];
     assert_eq!(cav.at(3, UNSAFE), all);
 
-    let mut cav = Cav::remote(Profile::Paper, MOT);
+    let mut cav = Cav::remote(Profile::PAPER, MOT);
     cav.at(1, offer(1, Groups::ALL));
     let tick = [release(1, Mot, 1), Activate(Mot), request(1, Plan, 2)];
     assert_eq!(cav.at(100_000_001, TICK), tick);
@@ -199,7 +199,7 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
 /// `spec/2-offloading.md#properties-of-the-whole-protocol.6` (H-08)
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
-    let mut cav = Cav::remote(Profile::Hardened, MOT);
+    let mut cav = Cav::remote(Profile::HARDENED, MOT);
     assert_eq!(cav.at(1, safe(Some(1), None)), [], "no result");
     cav.at(2, data(1, Mot, 9, 2));
     assert_eq!(cav.at(2, safe(Some(1), None)), [], "no result of the running session");
@@ -220,7 +220,7 @@ fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_
 /// `spec/5-interfaces.md#offloading-trace`: `safe` matters only for H-08.
 #[test]
 fn a_safe_verdict_changes_nothing_in_the_paper_profile() {
-    let mut cav = Cav::remote(Profile::Paper, Groups::ALL);
+    let mut cav = Cav::remote(Profile::PAPER, Groups::ALL);
     cav.at(1, data(1, Mot, 1, 1));
     cav.ignores(2, safe(Some(1), Some(2)));
 }

@@ -23,7 +23,7 @@ const TICK: EventKind = EventKind::Tick;
 const UNSAFE: EventKind = EventKind::Verdict { safe: false, sessions: Sessions::NONE };
 /// Session 1 runs MOT.
 const SESSION_1: Sessions = Sessions { mot: Some(1), plan: None };
-const PROFILES: [Profile; 2] = [Profile::Paper, Profile::Hardened];
+const PROFILES: [Profile; 2] = [Profile::PAPER, Profile::HARDENED];
 
 /// Both requesters, checked after every step.
 struct Cav(Pair);
@@ -35,7 +35,7 @@ impl Cav {
 
     /// Paper profile, default parameters.
     fn paper() -> Self {
-        Self::new(Profile::Paper, Parameters::default())
+        Self::new(Profile::PAPER, Parameters::default())
     }
 
     /// With these groups requested from station 1 at 0 ns, sessions from 1 on.

@@ -247,7 +247,7 @@ impl World {
                 self.count.stopped += 1;
                 assert!(seen.local_computes, "stopped twice");
                 let safe = matches!(kind, EventKind::Verdict { safe: true, .. });
-                assert!(self.profile == Profile::Paper || (seen.used && safe), "H-08");
+                assert!(self.profile == Profile::PAPER || (seen.used && safe), "H-08");
                 seen.local_computes = false;
             }
             if actions.contains(&Action::Activate(group)) {

@@ -38,14 +38,14 @@ fn an_offer_replaces_the_stations_previous_offer() {
 /// `spec/2-offloading.md#requester.1`
 #[test]
 fn a_group_in_use_that_the_new_offer_no_longer_contains_is_left_as_by_a_withdrawal() {
-    let mut cav = Cav::remote(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::remote(crate::Profile::PAPER, Groups::ALL);
     assert_eq!(cav.at(1, offer(1, PLAN)), [release(1, Mot, 1), Activate(Mot)]);
     assert_eq!(cav.states(), (Local, on(1, 2)));
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     assert_eq!(cav.at(1, offer(1, MOT)), [release(1, Plan, 2)]);
     assert_eq!(cav.model().state(Plan), Local);
     assert_eq!(cav.model().hold_until_ns(), None);
-    let mut cav = Cav::remote(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::remote(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, offer(2, Groups::NONE));
     assert_eq!(cav.states(), (on(1, 1), on(1, 2)), "another station's offer");
 }
@@ -53,7 +53,7 @@ fn a_group_in_use_that_the_new_offer_no_longer_contains_is_left_as_by_a_withdraw
 /// `spec/2-offloading.md#requester.2`
 #[test]
 fn a_request_is_sent_only_for_a_group_in_local() {
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, offer(2, Groups::ALL));
     assert_eq!(cav.at(2, TICK), [], "both are requested");
     cav.at(3, confirm(1, Mot, 1));
@@ -117,7 +117,7 @@ fn requests_are_decided_at_ticks_only() {
 /// `spec/2-offloading.md#requester.2`: an overdue request and a silent session.
 #[test]
 fn a_group_that_returned_to_local_at_this_tick_waits_for_the_next() {
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, confirm(1, Plan, 2));
     cav.at(2, offer(2, Groups::ALL));
     let late = 500_000_000;
@@ -129,7 +129,7 @@ fn a_group_that_returned_to_local_at_this_tick_waits_for_the_next() {
 /// `spec/2-offloading.md#requester.2`: the other group does not wait.
 #[test]
 fn only_the_group_that_returned_at_this_tick_waits() {
-    let mut cav = Cav::requested(crate::Profile::Paper, PLAN);
+    let mut cav = Cav::requested(crate::Profile::PAPER, PLAN);
     cav.at(1, offer(1, Groups::ALL));
     assert_eq!(cav.at(500_000_000, TICK), [release(1, Plan, 1), request(1, Mot, 2)]);
 }
@@ -145,7 +145,7 @@ fn all_groups_are_in_the_area_until_the_first_area_event() {
 /// `spec/2-offloading.md#requester.6`
 #[test]
 fn an_area_event_replaces_the_set_and_a_group_outside_returns_to_local_with_a_release() {
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, confirm(1, Mot, 1));
     assert_eq!(cav.at(2, area(PLAN)), [release(1, Mot, 1), Activate(Mot)]);
     assert_eq!(cav.at(3, area(MOT)), [release(1, Plan, 2)], "requested: nothing to activate");
@@ -174,7 +174,7 @@ fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_r
 /// `spec/2-offloading.md#requester.7`
 #[test]
 fn all_other_data_are_dropped_and_counted() {
-    let mut cav = Cav::remote(crate::Profile::Paper, MOT);
+    let mut cav = Cav::remote(crate::Profile::PAPER, MOT);
     let before = cav.model().clone();
     assert_eq!(cav.model().foreign_data(), 0);
     cav.at(1, data(2, Mot, 1, 1));
@@ -188,7 +188,7 @@ fn all_other_data_are_dropped_and_counted() {
 /// `spec/2-offloading.md#requester.8`
 #[test]
 fn a_withdrawal_removes_the_offer_and_returns_every_group_of_the_station_with_a_release() {
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, confirm(1, Plan, 2));
     let both = [release(1, Mot, 1), release(1, Plan, 2), Activate(Plan)];
     assert_eq!(cav.at(2, withdraw(1)), both);
@@ -202,7 +202,7 @@ fn a_withdrawal_removes_the_offer_and_returns_every_group_of_the_station_with_a_
 /// `spec/2-offloading.md#requester.8`
 #[test]
 fn a_loss_does_the_same_without_a_release() {
-    let mut cav = Cav::requested(crate::Profile::Paper, Groups::ALL);
+    let mut cav = Cav::requested(crate::Profile::PAPER, Groups::ALL);
     cav.at(1, confirm(1, Plan, 2));
     assert_eq!(cav.at(2, lost(1)), [Activate(Plan)]);
     assert_eq!(cav.states(), (Local, Local));
@@ -214,7 +214,7 @@ fn a_loss_does_the_same_without_a_release() {
 #[test]
 fn a_withdrawal_or_loss_of_another_station_changes_no_session() {
     for kind in [withdraw(2), lost(2)] {
-        let mut cav = Cav::remote(crate::Profile::Paper, Groups::ALL);
+        let mut cav = Cav::remote(crate::Profile::PAPER, Groups::ALL);
         cav.ignores(1, kind);
         cav.at(1, offer(2, Groups::ALL));
         assert_eq!(cav.at(2, kind), []);

@@ -106,7 +106,7 @@ fn cycle(position: (f64, f64), tracks: &[(f64, f64)], detections: &[(f64, f64)])
     };
     let detection = |(x, y): &(f64, f64)| Detection { x: *x, y: *y, cos, sin, length, width };
     Cycle {
-        profile: Profile::Paper,
+        profile: Profile::PAPER,
         parameters: Parameters::default(),
         now_ns: 0,
         configuration: Configuration::MotRemote,

@@ -106,7 +106,7 @@ fn cycle(occupied: &Table, radius_in_cells: f64) -> Cycle {
     };
     let parameters = Parameters { n: 1, ..Parameters::default() };
     Cycle {
-        profile: Profile::Paper,
+        profile: Profile::PAPER,
         parameters,
         now_ns: 0,
         configuration: Configuration::MotRemote,

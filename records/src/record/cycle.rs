@@ -217,7 +217,7 @@ record! {
 
 /// The profile of a record that has none.
 pub fn hardened() -> Word<Profile> {
-    Word(Profile::Hardened)
+    Word(Profile::HARDENED)
 }
 
 impl TryFrom<Cycle> for model::Cycle {

@@ -44,8 +44,8 @@ impl Variant {
     pub const fn profile(self) -> Option<Profile> {
         match self {
             Self::Sofof => None,
-            Self::Paper => Some(Profile::Paper),
-            Self::Hardened => Some(Profile::Hardened),
+            Self::Paper => Some(Profile::PAPER),
+            Self::Hardened => Some(Profile::HARDENED),
         }
     }
 
@@ -85,13 +85,13 @@ impl<'a> Guard<'a> {
     ///
     /// Errors: settings that no monitor can keep.
     pub fn new(
-        variant: Variant,
+        profile: Option<Profile>,
         settings: Settings,
         table: &'a mut [StationRecord],
         memory: mufasa::monitor::Memory<'a>,
     ) -> Result<Self, MonitorError> {
-        let Some(profile) = variant.profile() else {
-            let requester = Requester::new(Profile::Paper, settings.requester, table)
+        let Some(profile) = profile else {
+            let requester = Requester::new(Profile::PAPER, settings.requester, table)
                 .map_err(MonitorError::Requester)?;
             return Ok(Self::of(Kind::Plain(requester)));
         };

@@ -6,7 +6,7 @@
 
 use mufasa::input::cycle::{Ego, Route};
 use mufasa::input::parameters::Parameters;
-use mufasa::input::profile::Profile;
+use mufasa::input::profile::{HardenedRule, Profile};
 use mufasa::offloading::requester::Requester;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_props::bridge;
@@ -77,10 +77,9 @@ impl Recorder {
         if count % every != first % every {
             return None;
         }
-        let history = match fixed.profile {
-            Profile::Paper => Vec::new(),
-            Profile::Hardened => self.seen.history(sensed.stamp_ns),
-        };
+        let looks_back =
+            [HardenedRule::H01, HardenedRule::H14].into_iter().any(|it| fixed.profile.has(it));
+        let history = if looks_back { self.seen.history(sensed.stamp_ns) } else { Vec::new() };
         let cycle =
             assembled::cycle(fixed, requester.configuration(), moment, sensed, chosen, &history);
         Some(Box::new(bridge::from_impl(&cycle)))

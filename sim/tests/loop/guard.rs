@@ -54,7 +54,8 @@ fn nothing_of_an_ended_session_is_used() {
         let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
         let mut settings = Settings::new(std::time::Duration::from_nanos(PERIOD.unsigned_abs()));
         (settings.requester, settings.stages.tau) = (requester, TAU_S);
-        let mut guard = Guard::new(variant, settings, &mut table, lent.memory()).expect("settings");
+        let mut guard =
+            Guard::new(variant.profile(), settings, &mut table, lent.memory()).expect("settings");
         let corridor =
             Route { closed: world.route().path.is_closed(), cross_sections: &cross_sections };
         guard.set_route(&corridor).expect("a route");

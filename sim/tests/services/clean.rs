@@ -169,7 +169,7 @@ impl Run<'_> {
         let history = [6, 10, 16].map(list);
         let (mut rows, mut columns) =
             (vec![Row::default(); Sizes::MAX.rows], vec![Column::default(); Sizes::MAX.columns]);
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             for configuration in CONFIGURATIONS {
                 let cycle = Cycle {
                     profile,
@@ -182,11 +182,12 @@ impl Run<'_> {
                     detections: Some(list(0)),
                     lead,
                     route: Route { closed: false, cross_sections: &self.cross_sections },
-                    grid: Some(grid.borrow(profile == Profile::Hardened)),
+                    grid: Some(grid.borrow(profile == Profile::HARDENED)),
                     detection_history: &history,
                 };
                 let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
                 let report = report.unwrap_or_else(|error| panic!("{error:?}"));
+                let of = if profile == Profile::PAPER { "Paper" } else { "Hardened" };
                 for (stage, outcome) in Stage::ALL.into_iter().zip(report.stages) {
                     let outcome = match outcome {
                         Outcome::Failed(witness) => format!("failed {:?}", witness.rule),
@@ -195,7 +196,7 @@ impl Run<'_> {
                             continue;
                         }
                     };
-                    tally.add(format!("{profile:?} {configuration:?} {stage:?} {outcome}"));
+                    tally.add(format!("{of} {configuration:?} {stage:?} {outcome}"));
                 }
                 assert!(report.failed_stage.is_some() == report.stages.iter().any(failed));
             }

@@ -8,7 +8,7 @@ use crate::cases::generate::Generator;
 
 /// A cycle with a valid ego.
 fn valid() -> Cycle {
-    let generator = Generator { seed: 0, profile: Profile::Paper, kinds: vec![Kind::Cycle] };
+    let generator = Generator { seed: 0, profile: Profile::PAPER, kinds: vec![Kind::Cycle] };
     let cycles = (0..100).filter_map(|case| match generator.question(case) {
         Question::Cycle(cycle) => Some(*cycle),
         Question::Offloading(_)

@@ -2,7 +2,8 @@
 //! are in the field of view (stage i), and on which side of an edge of the corridor a point lies
 //! (stage ii). In doubles: this is a hint for a reader, and decides nothing.
 
-use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
+use mufasa_model::input::cycle::{CrossSection, Cycle, Track};
+use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{FailedStage, Reading, Stage};
 use mufasa_model::stages::check;
 
@@ -59,9 +60,10 @@ fn field_of_view(cycle: &Cycle) -> Vec<Candidate> {
     let from_p = |x: f64, y: f64| (x - cycle.ego.x).hypot(y - cycle.ego.y);
     let r = detections.items.iter().map(|it| from_p(it.x, it.y)).fold(0.0, f64::max);
     // H-01 takes the place of a track where it has come to since its stamp.
-    let dt_s = match cycle.profile {
-        Profile::Paper => 0.0,
-        Profile::Hardened => seconds(detections.stamp_ns) - seconds(tracks.stamp_ns),
+    let dt_s = if cycle.profile.has(HardenedRule::H01) {
+        seconds(detections.stamp_ns) - seconds(tracks.stamp_ns)
+    } else {
+        0.0
     };
     let candidate = |(at, track): (usize, &Track)| {
         let (x, y) = (track.x + track.vx * dt_s, track.y + track.vy * dt_s);

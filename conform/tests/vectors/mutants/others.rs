@@ -1,7 +1,6 @@
 //! Mutants of the requester, of the orchestrator and of readers.
 
 use mufasa_conform::vectors::flag;
-use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{Event, EventKind, Groups, Sessions};
 use mufasa_model::services::orchestrator::Task;
 use mufasa_records::{self as json, Trace};
@@ -127,9 +126,7 @@ const EARS: &[(&str, Ear)] = &[
 
 const SETTINGS: &[(&str, Setting)] = &[
     ("the other profile of the protocol", |t| {
-        t.profile = match t.profile {
-            Profile::Paper | Profile::Hardened => flag::other(t.profile),
-        };
+        t.profile = flag::other(t.profile);
     }),
     ("t_wait a nanosecond longer", |t| {
         t.parameters.t_wait_ns = t.parameters.t_wait_ns.saturating_add(1);

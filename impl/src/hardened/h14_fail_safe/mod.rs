@@ -22,7 +22,6 @@ use crate::input::scratch::Scratch;
 use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
-use crate::services::configuration::Configuration;
 use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
 
 /// What the rule examines; all of it current.
@@ -52,9 +51,8 @@ impl FailSafe<'_, '_> {
         if let Some(witness) = self.over_work_limit(nodes, [objects, detected]) {
             return Some(witness);
         }
-        if let (Configuration::PlanRemote, Seen::Unclear(witness)) =
-            (cycle.configuration, self.seen)
-        {
+        if let (Seen::Unclear(witness), true) = (self.seen, tracks.is_some()) {
+            // Where stage i ran, it has failed.
             return Some(witness);
         }
         let explained = Explained::new(history, tracks, scratch);

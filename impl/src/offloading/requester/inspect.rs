@@ -116,7 +116,7 @@ mod tests {
             EventKind::Verdict { safe: false, sessions: Sessions::NONE },
             EventKind::Tick,
         ];
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             let mut table = [StationRecord::FREE; 2];
             let mut whole = Requester::new(profile, Parameters::default(), &mut table)?;
             let mut copy = [StationRecord::FREE; 2];

@@ -148,7 +148,7 @@ mod tests {
             EventKind::Data { station: 2, group: Group::Mot, session: 9, generated_ns: 0 },
             EventKind::Verdict { safe: false, sessions: Sessions::NONE },
         ];
-        for profile in [Profile::Paper, Profile::Hardened] {
+        for profile in [Profile::PAPER, Profile::HARDENED] {
             let (mut table, mut copy) = ([StationRecord::FREE; 2], [StationRecord::FREE; 2]);
             let mut whole = Requester::new(profile, Parameters::default(), &mut table)?;
             for (t_ns, kind) in (0..).zip(events) {

@@ -1,6 +1,6 @@
 //! The state of one group (`spec/2-offloading.md#requester`).
 
-use crate::input::profile::Profile;
+use crate::input::profile::{HardenedRule, Profile};
 use crate::offloading::quality_of_service::Arrivals;
 use crate::services::configuration::Source;
 
@@ -36,17 +36,14 @@ pub(super) enum Slot {
 }
 
 impl Slot {
-    /// A session confirmed at `now_ns`. In the hardened profile the local services go on (H-08).
+    /// A session confirmed at `now_ns`. By H-08 the local services go on.
     pub(super) const fn activated(
         profile: Profile,
         now_ns: i64,
         station: i64,
         session: i64,
     ) -> Self {
-        let local_computes = match profile {
-            Profile::Paper => false,
-            Profile::Hardened => true,
-        };
+        let local_computes = profile.has(HardenedRule::H08);
         let arrivals = Arrivals::since_activation(now_ns);
         Self::Remote { station, session, arrivals, local_computes }
     }
@@ -87,15 +84,15 @@ impl Slot {
         Source::of(self.local_computes(), remote)
     }
 
-    /// In the paper profile no local services compute beside remote ones; in the hardened profile
-    /// none are stopped before a result was used.
+    /// Without H-08 no local services compute beside remote ones; with it none are stopped before a
+    /// result was used.
     pub(super) const fn is_valid(&self, profile: Profile) -> bool {
-        match (*self, profile) {
-            (Self::Local | Self::Requested { .. }, _) => true,
-            (Self::Remote { local_computes, .. }, Profile::Paper) => !local_computes,
-            (Self::Remote { arrivals, local_computes, .. }, Profile::Hardened) => {
+        match *self {
+            Self::Local | Self::Requested { .. } => true,
+            Self::Remote { arrivals, local_computes, .. } if profile.has(HardenedRule::H08) => {
                 local_computes || arrivals.has_used()
             }
+            Self::Remote { local_computes, .. } => !local_computes,
         }
     }
 }

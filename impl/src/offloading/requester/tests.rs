@@ -16,7 +16,7 @@ const PLAN: Group = Group::Plan;
 
 /// MOT and PLAN run on station 1 since time 0, in the sessions 1 and 2.
 fn remote(table: &mut [StationRecord]) -> Result<Requester<'_>, RequesterError> {
-    let mut requester = Requester::new(Profile::Paper, Parameters::default(), table)?;
+    let mut requester = Requester::new(Profile::PAPER, Parameters::default(), table)?;
     let confirm = |group, session| EventKind::Confirm { station: 1, group, session };
     for kind in [offer(1, Groups::ALL), EventKind::Tick, confirm(MOT, 1), confirm(PLAN, 2)] {
         let _done = requester.step(&Event { t_ns: 0, kind })?;
@@ -91,14 +91,14 @@ fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult 
         dt_max_ns: 0,
         qos_hold: true,
     };
-    Requester::new(Profile::Paper, widest, &mut [])?;
+    Requester::new(Profile::PAPER, widest, &mut [])?;
     for (field, parameters) in [
         ("t_wait_ns", Parameters { t_wait_ns: -1, dt_max_ns: -1, ..expected }),
         ("request_timeout_ns", Parameters { request_timeout_ns: i64::MIN, ..expected }),
         ("l_max_ns", Parameters { l_max_ns: -1, ..expected }),
         ("dt_max_ns", Parameters { dt_max_ns: -1, ..expected }),
     ] {
-        let refused = Requester::new(Profile::Paper, parameters, &mut []).err();
+        let refused = Requester::new(Profile::PAPER, parameters, &mut []).err();
         assert_eq!(refused, Some(RequesterError::NegativeParameter { field }));
     }
     Ok(())
@@ -109,7 +109,7 @@ fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult 
 #[test]
 fn a_verdict_of_another_session_stops_nothing() -> TestResult {
     let mut table = [StationRecord::FREE; 2];
-    let mut requester = Requester::new(Profile::Hardened, Parameters::default(), &mut table)?;
+    let mut requester = Requester::new(Profile::HARDENED, Parameters::default(), &mut table)?;
     let mut step = |kind| requester.step(&Event { t_ns: 0, kind }).map(|actions| actions.to_vec());
     let safe = |mot| EventKind::Verdict { safe: true, sessions: Sessions { mot, plan: None } };
     step(offer(1, Groups::from(MOT)))?;
@@ -130,7 +130,7 @@ fn a_verdict_of_another_session_stops_nothing() -> TestResult {
 fn a_hold_from_outside_bars_requests_until_its_end() -> TestResult {
     let mut table = [StationRecord::FREE; 2];
     let parameters = Parameters { t_wait_ns: 10, ..Parameters::default() };
-    let mut requester = Requester::new(Profile::Hardened, parameters, &mut table)?;
+    let mut requester = Requester::new(Profile::HARDENED, parameters, &mut table)?;
     requester.hold(i64::MIN);
     let _none = requester.step(&Event { t_ns: 0, kind: offer(1, Groups::from(MOT)) })?;
     let asked = requester.step(&Event { t_ns: 0, kind: EventKind::Tick })?;

@@ -1,9 +1,8 @@
-//! Where the tracks are that stage i compares with detections: where the list says, or, in the
-//! hardened profile, at their place when the detections were made
+//! Where the tracks are that stage i compares with detections: where the list says, or, by H-01, at
+//! their place when the detections were made
 //! (`spec/3-stages.md#what-the-cav-saw-itself`).
 
-use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
-use crate::input::profile::Profile;
+use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -12,27 +11,20 @@ use crate::numbers::time::{elapsed_ns, seconds};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Places<'a> {
     pub(crate) tracks: &'a [Track],
-    /// From the stamp of the tracks to that of the detections, ns; 0 in the paper profile.
+    /// From the stamp of the tracks to that of the detections, ns; 0 without H-01.
     pub(crate) ahead_ns: i64,
     /// The same in s.
     ahead: f64,
 }
 
 impl<'a> Places<'a> {
-    pub(crate) fn new(
-        cycle: &Cycle<'_>,
-        tracks: &TrackList<'a>,
-        detections: &DetectionList<'_>,
-    ) -> Self {
-        let ahead_ns = match cycle.profile {
-            Profile::Paper => 0,
-            Profile::Hardened => elapsed_ns(tracks.stamp_ns, detections.stamp_ns),
-        };
+    /// When the detections were made (H-01).
+    pub(crate) fn then(tracks: &TrackList<'a>, detections: &DetectionList<'_>) -> Self {
+        let ahead_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
         Self { tracks: tracks.items, ahead_ns, ahead: seconds(ahead_ns) }
     }
 
-    /// Tracks that have not moved.
-    #[cfg(test)]
+    /// Where the list says: tracks that have not moved.
     pub(crate) const fn standing(tracks: &'a [Track]) -> Self {
         Self { tracks, ahead_ns: 0, ahead: 0.0 }
     }

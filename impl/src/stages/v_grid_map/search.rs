@@ -6,8 +6,10 @@ use crate::input::cycle::{Cycle, Ego, Grid, TrajectoryPoint};
 use crate::report::{Rule, Witness};
 use crate::stages::llcc::Pose;
 use crate::stages::v_grid_map::band::{Band, CellFrame};
-use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
+
+/// The path whose places are examined behind the points (H-04), and how many points the trajectory has.
+pub(crate) type Places<'c, 'a> = (Nodes<'c, 'a>, usize);
 
 /// Points that are examined, on a grid.
 pub(crate) struct DiskSearch<'c, 'a> {
@@ -29,16 +31,6 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
     /// For cells that the CAV's rectangle has to touch, too.
     pub(crate) fn with_rectangle(self) -> Self {
         Self { frame: CellFrame::with_rectangle(self.cycle, self.grid), ..self }
-    }
-
-    /// The first disk that `hit` says collides with a cell of the bitmap.
-    pub(crate) fn cells(
-        &self,
-        rule: Rule,
-        cells: &Bitmap<'_>,
-        hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
-    ) -> Option<Witness> {
-        self.first(rule, |band| band.is_free(cells), hit)
     }
 
     /// The first hit in the order of points, then disks. As many points as possible are passed at
@@ -73,7 +65,7 @@ impl<'c, 'a> DiskSearch<'c, 'a> {
     /// places of a piece lie on a line with one heading, and are in the band of the first and the last.
     pub(crate) fn first_place(
         &self,
-        (nodes, points): (Nodes<'_, '_>, usize),
+        (nodes, points): Places<'_, '_>,
         rule: Rule,
         is_free: impl Fn(&Band) -> bool,
         hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,

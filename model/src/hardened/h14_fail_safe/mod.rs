@@ -10,7 +10,7 @@ pub mod times;
 
 use crate::hardened::detection_history::{ambiguous_failure, usable};
 use crate::input::scene::{Point, Scene};
-use crate::report::Witness;
+use crate::report::{Stage, Witness};
 use crate::services::configuration::Configuration;
 use crate::stages::i_track_validation::over_work_limit;
 
@@ -21,11 +21,11 @@ pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
         .or_else(|| meeting::failure(scene, trajectory))
 }
 
-/// In `PlanRemote` stage i, which asks it elsewhere, does not run.
+/// Where stage i, which asks it elsewhere, is not scheduled.
 fn too_close_to_call(scene: &Scene) -> Option<Witness> {
-    let is_asked = scene.configuration == Configuration::PlanRemote
-        && scene.tracks_current
-        && scene.detections.is_some();
+    let has_stage_i =
+        scene.configuration != Configuration::PlanRemote && scene.profile.runs(Stage::I);
+    let is_asked = !has_stage_i && scene.tracks_current && scene.detections.is_some();
     ambiguous_failure(scene, scene.tracks.as_ref().filter(|_| is_asked)?)
 }
 

@@ -2,21 +2,19 @@
 
 use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
 use crate::hardened::h14_fail_safe::times::Driving;
+use crate::input::profile::HardenedRule;
 use crate::input::scene::{Point, Scene};
 use crate::numbers::real::Real;
 use crate::numbers::vector::Vector;
 use crate::report::{Rule, Witness};
 
-/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2; then, strictly, whether a
-/// point is a node is too close to call.
+/// A place with f < s_b(v) is farther aside than 0.5 m + 0.17 f + 5.75 t^2.
 pub fn failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
     let mut places = places(scene, trajectory).enumerate().skip(1);
-    places
-        .find_map(|(k, place)| {
-            let witness = aside_failure(scene, &place.pose.origin)?;
-            Some(witness.at_point(trajectory.len() + k))
-        })
-        .or_else(|| ambiguous_failure(scene, trajectory))
+    places.find_map(|(k, place)| {
+        let witness = aside_failure(scene, &place.pose.origin)?;
+        Some(witness.at_point(trajectory.len() + k))
+    })
 }
 
 /// abs((place - p) x h) <= 0.5 m + 0.17 f + 5.75 m/s^2 t^2, t = last(f), where f < s_b(v).
@@ -33,9 +31,10 @@ fn aside_failure(scene: &Scene, place: &Vector) -> Option<Witness> {
 }
 
 /// `spec/4-arithmetic.md#strict-and-lax`: of the first point that is more than 1/8 m ahead, or one before
-/// it, the strict reading cannot say whether it is.
-fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
-    if !scene.reads.is_strict() {
+/// it, the strict reading cannot say whether it is; H-04 and H-14 look at the places that follow.
+pub fn ambiguous_failure(scene: &Scene, trajectory: &[Point]) -> Option<Witness> {
+    let is_asked = scene.profile.has(HardenedRule::H04) || scene.profile.has(HardenedRule::H14);
+    if !is_asked || !scene.reads.is_strict() {
         return None;
     }
     let count = first_ahead(scene, trajectory).map_or(trajectory.len(), |first| first + 1);

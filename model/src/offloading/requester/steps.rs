@@ -4,7 +4,7 @@
 use super::Requester;
 use super::messages::{Action, Sessions};
 use super::state::{Farewell, Session, Use};
-use crate::input::profile::Profile;
+use crate::input::profile::HardenedRule;
 use crate::offloading::quality_of_service;
 use crate::services::configuration::{Group, Groups};
 
@@ -145,12 +145,9 @@ impl Requester {
 
 /// The parts of the events.
 impl Requester {
-    /// A confirmed group becomes remote; in the paper profile its local services stop.
+    /// A confirmed group becomes remote; without H-08 its local services stop.
     fn activate(&mut self, now_ns: i64, station: i64, group: Group, session: i64) -> Vec<Action> {
-        let local_computes = match self.profile {
-            Profile::Paper => false,
-            Profile::Hardened => true,
-        };
+        let local_computes = self.profile.has(HardenedRule::H08);
         *self.group_mut(group) = Use::Remote(Session {
             station,
             number: session,

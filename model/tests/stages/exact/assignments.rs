@@ -214,7 +214,7 @@ fn a_mean_of_many_tracks_on_the_threshold_fails_and_one_double_below_passes() {
 }
 
 fn cycle(place: (f64, f64), sent: &[(f64, f64)], seen: &[(f64, f64)]) -> Cycle {
-    let mut cycle = base(Profile::Paper, MotRemote);
+    let mut cycle = base(Profile::PAPER, MotRemote);
     (cycle.ego.x, cycle.ego.y) = place;
     cycle.trajectory = None;
     cycle.tracks = tracks((1..).zip(sent).map(|(id, (x, y))| track(id, *x, *y)).collect());

@@ -51,7 +51,7 @@ fn cells_are_marked_as_all_pairs_of_integers_say() {
                 })
             })
         };
-        let mut cycle = base(Profile::Paper, MotRemote);
+        let mut cycle = base(Profile::PAPER, MotRemote);
         let metres = |halves: i32| f64::from(halves) / 8.0;
         (cycle.ego.speed, cycle.parameters.n) = (0.0, n.into());
         (cycle.ego.length, cycle.ego.width) = (metres(2 * l), metres(2 * w));

@@ -54,7 +54,7 @@ fn a_point_is_too_far_from_the_reference_path_as_integers_say() {
         let at = (1..=30).find(|limit| is_at(p, &path, *limit));
         let limit = at.unwrap_or_else(|| i128::from(draw.between(1, 30)));
         let metres = |quarters: i128| f64::from(i32::try_from(quarters).expect("small")) / 4.0;
-        let mut cycle = base(Profile::Paper, PlanRemote);
+        let mut cycle = base(Profile::PAPER, PlanRemote);
         cycle.tracks = None;
         let cross_section = |[x, y]: [i128; 2]| {
             let (x, y) = (metres(x), metres(y));
@@ -116,7 +116,7 @@ fn the_gap_is_compared_as_integers_are() {
         let (v, v_lead) = (draw.between(0, 120), draw.between(0, 120));
         let (a_b, eighths) = (draw.between(1, 10), draw.between(0, 24));
         let s_follow = (v * v - v_lead * v_lead).max(0) + eighths * v * a_b;
-        let mut cycle = base(Profile::Paper, MotRemote);
+        let mut cycle = base(Profile::PAPER, MotRemote);
         cycle.ego.speed = f64::from(v) / 4.0;
         cycle.parameters.a_b = f64::from(a_b);
         cycle.parameters.safety_time = f64::from(eighths) / 8.0;

@@ -16,7 +16,7 @@ use crate::near::*;
 
 /// Stage i alone, with these tracks and detections, and lists of these ages in ms.
 fn cycle(items: Vec<Track>, seen: Vec<Detection>, lists: &[(i64, Vec<Detection>)]) -> Cycle {
-    let mut cycle = base(Profile::Hardened, MotRemote);
+    let mut cycle = base(Profile::HARDENED, MotRemote);
     cycle.trajectory = None;
     cycle.tracks = tracks(items);
     cycle.detections = detections(seen);

@@ -10,7 +10,7 @@ use crate::near::*;
 /// Stage i alone: tracks that stand at (x, y), detections there, and what the CAV saw before of
 /// `backed`.
 fn cycle(at: &[[f64; 2]], seen: &[[f64; 2]], backed: &[[f64; 2]]) -> Cycle {
-    let mut cycle = base(Profile::Hardened, MotRemote);
+    let mut cycle = base(Profile::HARDENED, MotRemote);
     cycle.trajectory = None;
     let items = (1..).zip(at).map(|(id, [x, y])| track(id, *x, *y));
     cycle.tracks = tracks(items.collect());
@@ -92,13 +92,13 @@ fn the_mean_is_that_of_what_remains() {
 #[test]
 fn margins_move_what_remains() {
     margins_move(&[
-        ("mean of what remains < theta_tr - m", MotRemote, Profile::Hardened, |c, e| {
+        ("mean of what remains < theta_tr - m", MotRemote, Profile::HARDENED, |c, e| {
             *c = cycle(&[A, B], &[[20.0, 5.2 + e], FAR], &[B]);
         }),
         (
             "closeness of what remains < theta_track_max - m",
             MotRemote,
-            Profile::Hardened,
+            Profile::HARDENED,
             |c, e| {
                 *c = cycle(&[A, B], &[[20.0, 6.0 + e], FAR], &[B]);
                 c.parameters.theta_tr = 100.0;
@@ -115,12 +115,12 @@ fn tracks_are_compared_at_their_places() {
     cycle.tracks = tracks(vec![late]);
     cycle.tracks.as_mut().expect("set").stamp_ns -= 50_000_000;
     assert_eq!(rule(&cycle, Stage::I), None, "59 + 20 * 0.05 = 60");
-    cycle.profile = Profile::Paper;
+    cycle.profile = Profile::PAPER;
     assert_eq!(rule(&cycle, Stage::I), Some(Rule::MeanCost));
     // Outside the field of view at its stamp, inside at its place, and the other way round.
     let gate = |x: f64, vx: f64| {
         let mut cycle = cycle.clone();
-        cycle.profile = Profile::Hardened;
+        cycle.profile = Profile::HARDENED;
         let ghost = Track { vx, ..track(2, x, 0.0) };
         cycle.tracks.as_mut().expect("set").items.push(ghost);
         rule(&cycle, Stage::I)

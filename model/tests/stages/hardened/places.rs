@@ -9,7 +9,7 @@ use mufasa_model::services::configuration::Configuration::{
 use crate::base::*;
 use crate::near::*;
 
-const HARDENED: Profile = Profile::Hardened;
+const HARDENED: Profile = Profile::HARDENED;
 
 const NEAR: &[Near] = &[("half width of the CAV at a cell + m", PlanRemote, HARDENED, |c, e| {
     // The cell begins at y = 1, and disks reach it.
@@ -45,7 +45,7 @@ fn h_04_the_grid_is_examined_up_to_s_stop() {
         // The foremost disk is 1.5 m ahead and reaches 1.118 m: 9 m from 6.5 m on, 11 m not from s_stop = 7.65 m.
         assert_eq!(with(HARDENED, 9.5), Some((Rule::Occupied, Some(1 + 26))), "{configuration:?}");
         assert_eq!(with(HARDENED, 11.5), None, "{configuration:?}");
-        assert_eq!(with(Profile::Paper, 9.5), None, "{configuration:?}");
+        assert_eq!(with(Profile::PAPER, 9.5), None, "{configuration:?}");
         // The paper's point comes first, whose number is its own.
         assert_eq!(with(HARDENED, 2.5), Some((Rule::Occupied, Some(0))), "{configuration:?}");
     }
@@ -61,8 +61,8 @@ fn nothing_that_ran_calls_off_the_grid() {
     assert_eq!(ran(HARDENED, AllRemote), [true, false, true]);
     assert_eq!(ran(HARDENED, PlanRemote), [true, false, true]);
     assert_eq!(ran(HARDENED, MotRemote), [false, true, true]);
-    assert_eq!(ran(Profile::Paper, AllRemote), [true, false, false]);
-    assert_eq!(ran(Profile::Paper, PlanRemote), [true, false, false]);
+    assert_eq!(ran(Profile::PAPER, AllRemote), [true, false, false]);
+    assert_eq!(ran(Profile::PAPER, PlanRemote), [true, false, false]);
     for configuration in [AllRemote, PlanRemote] {
         let mut blind = base(HARDENED, configuration);
         (blind.tracks, blind.detections) = (tracks(vec![]), detections(vec![]));
@@ -70,7 +70,7 @@ fn nothing_that_ran_calls_off_the_grid() {
         let grid = blind.grid.as_mut().expect("there is a grid");
         mark(&mut grid.occupied, 8.5, 0.5);
         assert_eq!(failed(&blind), Some(FailedStage::Stage(Stage::V)), "{configuration:?}");
-        blind.profile = Profile::Paper;
+        blind.profile = Profile::PAPER;
         assert_eq!(failed(&blind), None);
     }
 }

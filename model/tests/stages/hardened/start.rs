@@ -8,19 +8,19 @@ use crate::base::*;
 use crate::near::*;
 
 const NEAR: &[Near] = &[
-    ("start <= limit - m", PlanRemote, Profile::Hardened, |c, e| c.ego.x = 2.0 + e),
-    ("heading x heading <= 0.17 - m", PlanRemote, Profile::Hardened, |c, e| {
+    ("start <= limit - m", PlanRemote, Profile::HARDENED, |c, e| c.ego.x = 2.0 + e),
+    ("heading x heading <= 0.17 - m", PlanRemote, Profile::HARDENED, |c, e| {
         let sin = 0.17 + e;
         (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), sin);
     }),
-    ("heading x heading >= -0.17 + m", PlanRemote, Profile::Hardened, |c, e| {
+    ("heading x heading >= -0.17 + m", PlanRemote, Profile::HARDENED, |c, e| {
         let sin = 0.17 + e;
         (c.ego.cos, c.ego.sin) = ((1.0 - sin * sin).sqrt(), -sin);
     }),
-    ("offset to the right <= lateral_tolerance - m", PlanRemote, Profile::Hardened, |c, e| {
+    ("offset to the right <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
         c.ego.y = -0.5 - e;
     }),
-    ("offset to the left <= lateral_tolerance - m", PlanRemote, Profile::Hardened, |c, e| {
+    ("offset to the left <= lateral_tolerance - m", PlanRemote, Profile::HARDENED, |c, e| {
         (c.ego.x, c.ego.y) = (-1.0, 0.25 + e);
         c.parameters.lateral_tolerance = 0.25;
     }),
@@ -46,7 +46,7 @@ fn the_filter_changes_no_report_of_the_start() {
 /// The cross product alone would take the opposite for the same.
 #[test]
 fn the_opposite_heading_is_another_one() {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     cycle.ego.cos = -1.0;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartHeading));
     // Position comes before heading, heading before offset.
@@ -59,7 +59,7 @@ fn the_opposite_heading_is_another_one() {
 /// F-37: the CAV is 2 m beside a trajectory that goes past what stands ahead of it.
 #[test]
 fn a_trajectory_does_not_start_beside_the_cav() {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     cycle.ego.y = -1.9;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartOffset));
 }

@@ -7,7 +7,7 @@ use mufasa_model::services::configuration::Configuration::PlanRemote;
 use crate::base::*;
 use crate::near::*;
 
-const HARDENED: Profile = Profile::Hardened;
+const HARDENED: Profile = Profile::HARDENED;
 
 /// Mean direction of the headings (1, 0) and (0.96, 0.28), for a step along an arc.
 const BETWEEN: [f64; 2] = [1.96, 0.28];

@@ -15,7 +15,7 @@ pub use super::chart::Figure;
 pub(super) use super::chart::figure;
 use super::chart::{float, ratio, series};
 use super::dots::{self, Dot, Dots, Panel};
-pub use super::left_out::{grid, readings};
+pub use super::left_out::{parts as left_out, readings};
 use super::lines::{self, COLLIDED, Row, Small};
 use super::page::{Mark, Series};
 use crate::evaluate::published;

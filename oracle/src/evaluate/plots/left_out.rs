@@ -1,7 +1,7 @@
 //! Charts of what is left out: true lists, and inputs of stages.
 
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::grid::{self, Detectors, Grids};
+use mufasa_sim::experiment::left_out::{self, Detectors, LeftOuts};
 use mufasa_sim::experiment::readings::{self, Readings};
 
 use super::bars::{self, Bar, Bars, Group};
@@ -42,19 +42,19 @@ pub fn readings(of: &Readings) -> Vec<Figure> {
 }
 
 /// Collisions under attacks by what is left out.
-pub fn grid(of: &Grids) -> Vec<Figure> {
-    let bar = |row: &grid::Row| Bar {
+pub fn parts(of: &LeftOuts) -> Vec<Figure> {
+    let bar = |row: &left_out::Row| Bar {
         series: series(row.variant),
         value: 100.0 * ratio(row.attacked_collided, row.attacked_runs),
         paler: 0.0,
-        label: format!("{}/{}", row.attacked_collided, row.attacked_runs),
+        label: row.attacked_collided.to_string(),
         published: Vec::new(),
     };
     let figure_of = |detectors: Detectors| {
         let rows = || of.rows.iter().filter(move |row| row.detectors == detectors);
-        let paper = rows().filter(|row| row.variant == Variant::Paper);
-        let group = |named: &grid::Row| Group {
-            name: grid::name_of(named.left_out).to_owned(),
+        let hardened = rows().filter(|row| row.variant == Variant::Hardened);
+        let group = |named: &left_out::Row| Group {
+            name: named.left_out.name().trim_start_matches("stage-").to_owned(),
             bars: rows().filter(|row| row.left_out == named.left_out).map(bar).collect(),
             note: String::new(),
         };
@@ -63,14 +63,16 @@ pub fn grid(of: &Grids) -> Vec<Figure> {
                 "Collisions while offloading, by what is left out: {}",
                 detectors.name()
             ),
-            about: &["Under three attacks. Above: collisions of runs."],
+            about: &[
+                "Under attacks, by stages and rules that are left out. Above: runs that collided.",
+            ],
             key: &[Series::PAPER, Series::HARDENED],
             unit: "runs that collided, %",
             most: 100.0,
             step: 25.0,
-            groups: paper.map(group).collect(),
+            groups: hardened.map(group).collect(),
         });
-        figure(&format!("{}-{}", grid::NAME, detectors.name()), svg)
+        figure(&format!("{}-{}", left_out::NAME, detectors.name()), svg)
     };
     Detectors::ALL.map(figure_of).into()
 }

@@ -24,7 +24,7 @@ pub(super) fn claims() -> Vec<Claim> {
     };
     Property::ALL
         .into_iter()
-        .filter(|property| property.is_claimed(Profile::Hardened))
+        .filter(|property| property.is_claimed(Profile::HARDENED))
         .map(claim)
         .collect()
 }
@@ -57,7 +57,7 @@ pub(super) fn judge(claims: Vec<Claim>, bar: &ProgressBar) -> Vec<Claim> {
         }
         bar.set_message(world.name);
         bar.inc(1);
-        match run::explore(world, Profile::Hardened, 0, |_| bar.tick()) {
+        match run::explore(world, Profile::HARDENED, 0, |_| bar.tick()) {
             Ok(outcome) => outcome.results.iter().for_each(|finding| {
                 let found = found.entry(finding.property.name()).or_default();
                 found.add(world, &outcome, finding);

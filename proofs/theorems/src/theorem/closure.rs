@@ -22,10 +22,10 @@ macro_rules! closure {
                  headings along it; ",
                 $domain
             ),
-            claim: || is_rejected($finding, Profile::Hardened, $stage),
+            claim: || is_rejected($finding, Profile::HARDENED, $stage),
             wrong: Wrong {
                 statement: "the paper profile rejects it, too",
-                claim: || is_rejected($finding, Profile::Paper, $stage),
+                claim: || is_rejected($finding, Profile::PAPER, $stage),
             },
         }
     };

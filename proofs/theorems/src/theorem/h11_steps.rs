@@ -49,7 +49,7 @@ fn point(index: usize, step_ns: i64, origin: Vector, direction: Vector) -> Point
 
 /// A trajectory of three points along x that the rule slide lets pass.
 fn one_heading(share: f64) -> Formula {
-    let scene = any_cav(Profile::Hardened);
+    let scene = any_cav(Profile::HARDENED);
     let along = || home(&Real::from_integer(1)).pose.direction;
     let mut trajectory = vec![home(&Real::from_integer(1))];
     trajectory.extend([1, 2].map(|i| point(i, 100_000_000, vector(&format!("p{i}")), along())));
@@ -65,7 +65,7 @@ fn one_heading(share: f64) -> Formula {
 
 /// The bound at the point with this number, of a trajectory whose headings are turned to and fro.
 fn to_and_fro(at: usize) -> Formula {
-    let scene = any_cav(Profile::Hardened);
+    let scene = any_cav(Profile::HARDENED);
     // The tangent of half the turn is 1/40.
     let turned = || Vector { x: Real::ratio(1599, 1601), y: Real::ratio(80, 1601) };
     let ahead = || home(&Real::from_integer(1)).pose.direction;
@@ -87,7 +87,7 @@ fn to_and_fro(at: usize) -> Formula {
 /// Whether `slide` is not the rule that fails a vehicle whose reference is up to `most` L ahead of its
 /// rear axle.
 fn one_reference(most: &Real) -> Formula {
-    let scene = any_cav(Profile::Hardened);
+    let scene = any_cav(Profile::HARDENED);
     let reference = Real::variable("reference");
     given(at_most(&Real::zero(), &reference));
     given(at_most(&reference, &(most * &scene.ego.length)));

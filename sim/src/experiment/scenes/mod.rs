@@ -178,8 +178,8 @@ impl Options {
     const fn checked(&self) -> Option<Profile> {
         match self.profile {
             Variant::Sofof => None,
-            Variant::Paper => Some(Profile::Paper),
-            Variant::Hardened => Some(Profile::Hardened),
+            Variant::Paper => Some(Profile::PAPER),
+            Variant::Hardened => Some(Profile::HARDENED),
         }
     }
 
@@ -201,7 +201,7 @@ impl Options {
             judged(cycle, &mut Scratch::new(&mut rows, &mut columns))
         };
         let parameters = self.parameters();
-        drive(scene, profile.unwrap_or(Profile::Paper), parameters, &mut monitor)
+        drive(scene, profile.unwrap_or(Profile::PAPER), parameters, &mut monitor)
     }
 
     /// The cycles of a scene as records, up to the first rejected one or the collision.

@@ -22,7 +22,7 @@ fn without_a_monitor_they_meet_where_they_are_aimed() {
     let is_aimed = |it: &Scene| (it.kinds.side, it.kinds.drive) == (Side::Crossing, Drive::Keeps);
     let (mut scenes, mut hits) = (0, 0);
     for scene in numbered(1500).filter(is_aimed) {
-        let driven = drive(&scene, Profile::Paper, parameters, &mut |_: &Cycle<'_>| None);
+        let driven = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| None);
         assert_eq!(driven.hit, driven.hit_going_on);
         scenes += 1;
         hits += usize::from(driven.hit.is_some_and(|it| (it.t_s - scene.meeting).abs() < 2.0));
@@ -36,8 +36,8 @@ fn a_brake_from_the_start_avoids_what_is_avoidable() {
     let alarm = Alarm { stage: "all", rule: "" };
     let mut avoidable = 0;
     for scene in numbered(200) {
-        let on = drive(&scene, Profile::Paper, parameters, &mut |_: &Cycle<'_>| None);
-        let braked = drive(&scene, Profile::Paper, parameters, &mut |_: &Cycle<'_>| Some(alarm));
+        let on = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| None);
+        let braked = drive(&scene, Profile::PAPER, parameters, &mut |_: &Cycle<'_>| Some(alarm));
         assert_eq!(braked.rejected, Some((0.0, alarm)));
         assert_eq!((braked.hit, braked.failed()), (on.hit_at_once, None));
         avoidable += usize::from(on.is_avoidable() && braked.hit.is_none());

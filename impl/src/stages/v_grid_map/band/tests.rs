@@ -33,7 +33,7 @@ fn cycle(random: &mut Random, grid: Grid<'static>) -> Cycle<'static> {
     };
     let n = 1 + random.below(6) as i64;
     Cycle {
-        profile: Profile::Paper,
+        profile: Profile::PAPER,
         parameters: Parameters { n, ..Parameters::default() },
         now_ns: 0,
         configuration: Configuration::AllRemote,

@@ -16,7 +16,7 @@ use crate::near::points;
 pub(super) const READINGS: [Reading; 3] = [Reading::Strict, Reading::Exact, Reading::Lax];
 
 pub(super) fn cycle(track: Track) -> Cycle {
-    let mut cycle = base(Profile::Hardened, MotRemote);
+    let mut cycle = base(Profile::HARDENED, MotRemote);
     alone(&mut cycle, track);
     cycle
 }

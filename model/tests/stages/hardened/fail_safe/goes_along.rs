@@ -157,7 +157,7 @@ fn before_a_corner(cycle: &mut Cycle, y: f64) {
 }
 
 const NEAR: &[Near] =
-    &[("who merges from behind follows", MotRemote, Profile::Hardened, |c, e| {
+    &[("who merges from behind follows", MotRemote, Profile::HARDENED, |c, e| {
         // At 20 m/s and 3/5 aside; 1.5 m are 1 m/s.
         let far = FAR - 1.5 * e;
         alone(c, Track { vx: 16.0, vy: 12.0, ..track(1, -0.8 * far, -0.6 * far) });
@@ -185,7 +185,7 @@ fn who_does_not_go_along_is_examined() {
     assert!(merges([16.0, 12.0]), "0.6 > 0.05 + 12.93/30");
     assert!(!merges([18.0, 8.5]), "0.427 < 0.481");
     let at_corner = |y: f64| {
-        let mut cycle = base(Profile::Hardened, MotRemote);
+        let mut cycle = base(Profile::HARDENED, MotRemote);
         before_a_corner(&mut cycle, y);
         assert!(passes(&cycle, Stage::Ii));
         found(&cycle).is_some()

@@ -7,7 +7,7 @@ use super::{alone, crossing, found};
 use crate::base::*;
 use crate::near::*;
 
-const HARDENED: Profile = Profile::Hardened;
+const HARDENED: Profile = Profile::HARDENED;
 
 /// Where an object from below has to be at now to be at the CAV's side after it has gone `r` m: its front
 /// is 1/4 m before its centre, the CAV's side at -1 m.

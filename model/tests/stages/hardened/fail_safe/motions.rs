@@ -13,7 +13,7 @@ use super::{found, scene};
 use crate::base::*;
 use crate::near::*;
 
-const HARDENED: Profile = Profile::Hardened;
+const HARDENED: Profile = Profile::HARDENED;
 
 /// What was seen 250 and 500 ms ago of objects at (x, y) that drive at (vx, vy).
 fn seen(objects: &[[f64; 4]]) -> Vec<DetectionList> {

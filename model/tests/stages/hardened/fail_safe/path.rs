@@ -13,7 +13,7 @@ use crate::near::points;
 
 /// The CAV at `v` m/s brakes at once: s_stop = v^2 / 16. The trajectory leads to these poses.
 fn cycle(v: f64, poses: &[[f64; 4]]) -> Cycle {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     (cycle.ego.speed, cycle.parameters.tau) = (v, 0.0);
     let point = |(i, [x, y, cos, sin]): (i64, &[f64; 4])| TrajectoryPoint {
         cos: *cos,

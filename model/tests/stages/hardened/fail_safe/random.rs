@@ -17,7 +17,7 @@ fn near_eighths(draw: &mut Draw, low: i32, high: i32) -> f64 {
 /// A path that bends a little, at a speed whose way to stop is a multiple of an eighth of a metre, and an
 /// object about it.
 fn drawn(draw: &mut Draw) -> Cycle {
-    let mut cycle = base(Profile::Hardened, PlanRemote);
+    let mut cycle = base(Profile::HARDENED, PlanRemote);
     cycle.parameters.tau = [0.0, 0.5][usize::try_from(draw.between(0, 1)).expect("small")];
     (cycle.parameters.a_max, cycle.parameters.lateral_tolerance) = (4.0, 2.0);
     cycle.parameters.safety_time = 0.0;

@@ -8,7 +8,7 @@ use mufasa_model::stages::check;
 use crate::base::*;
 use crate::near::*;
 
-const HARDENED: Profile = Profile::Hardened;
+const HARDENED: Profile = Profile::HARDENED;
 
 /// The CAV at 8 m/s, on a trajectory that leads `aside` m to its left.
 fn beside(cycle: &mut Cycle, aside: f64) {
@@ -41,7 +41,7 @@ fn margins_move_the_reach() {
         let mut cycle = base(*profile, *configuration);
         with(&mut cycle, 3e-6);
         assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::Reach), "{name}");
-        cycle.profile = Profile::Paper;
+        cycle.profile = Profile::PAPER;
         assert_eq!(rule(&cycle, Stage::Ii), None, "{name}");
     }
 }

@@ -201,7 +201,7 @@ fn each_segment_of_the_route_counts() {
 }
 
 const NEAR: &[Near] =
-    &[("who comes from behind before a lane change", MotRemote, Profile::Hardened, |c, e| {
+    &[("who comes from behind before a lane change", MotRemote, Profile::HARDENED, |c, e| {
         alone(c, Track { vx: 30.0, vy: -2.0, ..track(1, -12.0, 3.1) });
         let (sin, length) = (0.3 + e / 5.0, 5.0);
         let end = [75.0 + length * (1.0 - sin * sin).sqrt(), length * sin];
@@ -212,7 +212,7 @@ const NEAR: &[Near] =
 #[test]
 fn margins_move_where_the_route_bends() {
     margins_move(NEAR);
-    let mut cycle = base(Profile::Hardened, MotRemote);
+    let mut cycle = base(Profile::HARDENED, MotRemote);
     (NEAR[0].3)(&mut cycle, 3e-6);
     assert!(found(&cycle).is_some());
 }

@@ -13,7 +13,7 @@ use crate::near::*;
 
 /// What stands 9 m ahead is beyond s_b(10) = 6.25 m and within s_stop = 7.65 m: H-14 alone fails.
 fn standing(configuration: Configuration) -> Cycle {
-    let mut cycle = base(Profile::Hardened, configuration);
+    let mut cycle = base(Profile::HARDENED, configuration);
     cycle.tracks = tracks(vec![track(1, 11.5, 0.0)]);
     cycle.detections = detections(vec![detection(11.5, 0.0)]);
     // The point at 6 m is the last that the paper examines.
@@ -30,9 +30,9 @@ fn it_runs_in_every_configuration_but_local() {
         assert_eq!(witness.track, Some(1), "{configuration:?}");
         assert_eq!(failed(&cycle), Some(FailedStage::Stage(Stage::Iv)));
         assert_eq!(outcome(&cycle, Stage::V), Outcome::Skipped(Reason::AfterFailure));
-        cycle.profile = Profile::Paper;
+        cycle.profile = Profile::PAPER;
         assert_eq!(failed(&cycle), None, "{configuration:?}");
-        (cycle.profile, cycle.configuration) = (Profile::Hardened, Local);
+        (cycle.profile, cycle.configuration) = (Profile::HARDENED, Local);
         assert_eq!(failed(&cycle), None);
     }
 }
@@ -41,7 +41,7 @@ fn it_runs_in_every_configuration_but_local() {
 #[test]
 fn without_a_failure_it_leaves_no_trace() {
     let iv = |cycle: &Cycle| outcome(cycle, Stage::Iv);
-    let with = |configuration| base(Profile::Hardened, configuration);
+    let with = |configuration| base(Profile::HARDENED, configuration);
     assert_eq!(iv(&with(MotRemote)), Outcome::Passed);
     assert_eq!(iv(&with(PlanRemote)), Outcome::Skipped(Reason::OtherStageRan));
     assert_eq!(iv(&with(AllRemote)), Outcome::Skipped(Reason::OtherStageRan));
@@ -107,7 +107,7 @@ fn it_comes_after_gap_and_collision() {
 #[test]
 fn work_above_the_limit_fails_the_strict_reading() {
     let with = |configuration, lists: &[usize], tracked: bool, work_limit: i64| {
-        let mut cycle = base(Profile::Hardened, configuration);
+        let mut cycle = base(Profile::HARDENED, configuration);
         let items = vec![detection(60.0, 9.0), detection(60.0, -9.0)];
         cycle.detections = detections(items.clone());
         let list = |(i, count): (i64, &usize)| DetectionList {

@@ -73,7 +73,7 @@ fn place(name: &str) -> Vector {
 /// A scene of MotRemote with these tracks, two detections c and d, the items a and b of 500 ms ago and s of
 /// 300 ms ago, and parameters above 0.
 fn scene(tracks: Vec<Track>) -> Scene {
-    let mut cycle = base::cycle(Profile::Hardened, MotRemote);
+    let mut cycle = base::cycle(Profile::HARDENED, MotRemote);
     cycle.tracks = Some(TrackList { stamp_ns: NOW_NS, items: tracks });
     cycle.detections = Some(list(0, vec![anywhere("c"), anywhere("d")]));
     cycle.detection_history =

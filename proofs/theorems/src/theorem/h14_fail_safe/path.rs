@@ -47,7 +47,7 @@ pub const THEOREMS: &[Theorem] = &[
 
 /// A scene and a trajectory of points of these names, each at most so far in x and in y from what is before.
 fn any<const N: usize>(names: [&str; N], most: &Real) -> (Scene, [Point; N]) {
-    let mut scene = any_cav(Profile::Hardened);
+    let mut scene = any_cav(Profile::HARDENED);
     given(at_most(&Real::zero(), &scene.ego.v_now));
     given(at_most(&Real::ratio(1, 4), &scene.ego.length));
     scene.parameters.tau = Real::zero();
@@ -102,7 +102,7 @@ fn apart(most: &Real) -> Formula {
 }
 
 fn between_places(least: &Real) -> Formula {
-    let mut scene = any_cav(Profile::Hardened);
+    let mut scene = any_cav(Profile::HARDENED);
     let [x, y] = Real::unit("heading");
     let heading = Vector { x, y };
     scene.ego.heading = heading.clone();

@@ -326,7 +326,7 @@ fn in_window(beyond: &Real) -> Formula {
     let [before, f, after] = ["before", "f", "after"].map(way);
     given(at_most(&before, &f));
     given(at_most(&f, &(&after + beyond)));
-    let reads = any_cav(Profile::Hardened).reads;
+    let reads = any_cav(Profile::HARDENED).reads;
     let Window { begin, end } = window(&reads, &driving, &before, Some(&after));
     let begins = at_most(&begin, &cav.first(&f));
     let ends = end.map_or(Formula::Known(true), |end| {

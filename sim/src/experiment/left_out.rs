@@ -1,10 +1,13 @@
-//! Whether the grid is needed: what the stages find, and miss, without what one of them needs.
+//! What each stage and each rule is for: what is found, and missed, without it, and without what stages need.
 //!
 //! The paper leaves open "if the grid validation stage is actually necessary" (Sec. V-B). Here the stages do not get the
-//! grid (no stage v) or the detections (no stages i and iv), with detectors that are exact, noisy, or blind for one object
-//! in two, with tracking, planning or both offered, without an attack and under three. Rays meet whom a detector is blind
-//! for: the grid has them. The CAV's and the station's detectors are blind for the same ones.
+//! grid (no stage v) or the detections (no stages i and iv), or a stage or a rule is left out, with detectors that are
+//! exact, noisy, or blind for one object in two, with tracking, planning or both offered, without an attack and under
+//! seven. Rays meet whom a detector is blind for: the grid has them. The CAV's and the station's detectors are blind for
+//! the same ones.
 
+use mufasa::input::profile::{HardenedRule, Profile};
+use mufasa::report::Stage;
 use mufasa::services::configuration::Group;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,15 +24,23 @@ use crate::services::detectors::Errors;
 use crate::services::way::seconds;
 
 /// Its name.
-pub const NAME: &str = "grid";
-/// A few scenarios on each route of 288 combinations.
+pub const NAME: &str = "left-out";
+/// A few scenarios on each route of many combinations.
 pub const OPTIONS: Options = Options::town(2, 15, 0);
 /// One object in so many is not detected by anyone.
 const ONE_IN: f64 = 2.0;
 /// A collision this soon after something was remote is one of offloading, s.
 const AFTER: f64 = 3.0;
-/// Attacks that hide somebody, or drive into somebody.
-const ATTACKS: [Kind; 3] = [Kind::TracksEmpty, Kind::OneRemoved, Kind::IntoLead];
+/// Attacks that hide somebody, lie about somebody, or drive into somebody.
+const ATTACKS: [Kind; 7] = [
+    Kind::TracksEmpty,
+    Kind::OneRemoved,
+    Kind::FalseVelocities,
+    Kind::Ghosts,
+    Kind::IntoLead,
+    Kind::Swerve,
+    Kind::StartsLate,
+];
 
 /// How wrong all detectors are.
 #[derive(
@@ -73,18 +84,84 @@ impl Detectors {
     }
 }
 
-/// What is left out, each with its name.
-const LEFT_OUT: [(Option<Withheld>, &str); 3] =
-    [(None, "nothing"), (Some(Withheld::Grid), "grid"), (Some(Withheld::Detections), "detections")];
+/// What is left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(into = "String", try_from = "String")]
+#[schemars(with = "String")]
+pub enum LeftOut {
+    /// Nothing.
+    Nothing,
+    /// The grid, hence stage v.
+    Grid,
+    /// The detections, and what rests on them.
+    Detections,
+    /// A stage of the paper; v is `Grid`.
+    Stage(Stage),
+    /// A rule of the hardened profile.
+    Rule(HardenedRule),
+}
 
-/// What is left out, in a word.
-pub fn name_of(withheld: Option<Withheld>) -> &'static str {
-    LEFT_OUT.iter().find(|it| it.0 == withheld).map_or("", |it| it.1)
+impl LeftOut {
+    /// What is left out of a variant: stages and rules with two of the detectors.
+    pub fn all(variant: Variant, detectors: Detectors) -> Vec<Self> {
+        let mut all = vec![Self::Nothing, Self::Grid, Self::Detections];
+        if matches!(detectors, Detectors::Noisy | Detectors::Blind) {
+            all.extend([Stage::I, Stage::Ii, Stage::Iii, Stage::Iv].map(Self::Stage));
+            if variant == Variant::Hardened {
+                all.extend(HardenedRule::ALL.map(Self::Rule));
+            }
+        }
+        all
+    }
+
+    /// In tables and ids.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Grid => "grid",
+            Self::Detections => "detections",
+            Self::Stage(Stage::I) => "stage-i",
+            Self::Stage(Stage::Ii) => "stage-ii",
+            Self::Stage(Stage::Iii) => "stage-iii",
+            Self::Stage(Stage::Iv) => "stage-iv",
+            Self::Stage(Stage::V) => "stage-v",
+            Self::Rule(rule) => rule.id(),
+        }
+    }
+
+    fn set(self, settings: &mut Settings) {
+        let without = |profile: Profile| match self {
+            Self::Stage(stage) => profile.without_stage(stage),
+            Self::Rule(rule) => profile.without(rule),
+            Self::Nothing | Self::Grid | Self::Detections => profile,
+        };
+        settings.profile = settings.profile.map(without);
+        settings.withheld = match self {
+            Self::Grid => Some(Withheld::Grid),
+            Self::Detections => Some(Withheld::Detections),
+            Self::Nothing | Self::Stage(_) | Self::Rule(_) => None,
+        };
+    }
+}
+
+impl From<LeftOut> for String {
+    fn from(of: LeftOut) -> Self {
+        of.name().to_owned()
+    }
+}
+
+impl TryFrom<String> for LeftOut {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        let found = Self::all(Variant::Hardened, Detectors::Noisy).into_iter();
+        found.into_iter().find(|it| it.name() == name).ok_or(name)
+    }
 }
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Grids {
+pub struct LeftOuts {
     /// How large it was.
     pub options: Options,
     /// The table.
@@ -100,8 +177,8 @@ pub struct Row {
     pub detectors: Detectors,
     /// What is checked.
     pub variant: Variant,
-    /// What the stages do not get.
-    pub left_out: Option<Withheld>,
+    /// What is left out.
+    pub left_out: LeftOut,
     /// Runs without an attack.
     pub runs: usize,
     /// Those that collided while something was remote or within 3 s after, and those that did later.
@@ -133,8 +210,8 @@ pub struct Run {
     pub detectors: Detectors,
     /// What is checked.
     pub variant: Variant,
-    /// What the stages do not get.
-    pub left_out: Option<Withheld>,
+    /// What is left out.
+    pub left_out: LeftOut,
     /// The attack; none in the control.
     pub attack: Option<Kind>,
     /// What the station offers.
@@ -160,14 +237,14 @@ pub struct Run {
 }
 
 /// Detectors, what is left out, the attack, and what is offered.
-pub type What = (Detectors, Option<Withheld>, Option<Kind>, Offered);
+pub type What = (Detectors, LeftOut, Option<Kind>, Offered);
 
 /// The runs.
 pub fn jobs(town: &Town, options: Options) -> Vec<Job<What>> {
     let mut jobs = Vec::new();
     for detectors in Detectors::ALL {
         for variant in [Variant::Paper, Variant::Hardened] {
-            for left_out in LEFT_OUT {
+            for left_out in LeftOut::all(variant, detectors) {
                 let same = (detectors, variant, left_out);
                 for attack in [None].into_iter().chain(ATTACKS.map(Some)) {
                     let of = |offered| of_one_kind(town, options, same, (attack, offered));
@@ -182,15 +259,16 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<What>> {
 fn of_one_kind(
     town: &Town,
     options: Options,
-    (detectors, variant, (left_out, name)): (Detectors, Variant, (Option<Withheld>, &str)),
+    (detectors, variant, left_out): (Detectors, Variant, LeftOut),
     (attack, offered): (Option<Kind>, Offered),
 ) -> Vec<Job<What>> {
     let (detected, by, to) = (detectors.name(), kind_name(attack), offered.name());
+    let name = left_out.name();
     let word = format!("{detected}+{name}+{by}+{to}");
     let one = |(route, scenario)| {
         let what = (detectors, left_out, attack, offered);
         let mut job = Job::new(NAME, (&word, what), (variant, route, scenario), options);
-        job.settings.withheld = left_out;
+        left_out.set(&mut job.settings);
         job.settings.offers = offered.groups();
         detectors.set(&mut job.settings);
         job.attacked(attack)
@@ -199,12 +277,12 @@ fn of_one_kind(
 }
 
 /// Makes the runs. Errors: those of [`job::make`].
-pub fn experiment(campaign: &Campaign<'_>) -> Result<Grids, ExperimentError> {
+pub fn experiment(campaign: &Campaign<'_>) -> Result<LeftOuts, ExperimentError> {
     let &Campaign { town, options, .. } = campaign;
     let runs = job::make(campaign, jobs(town, options), kept)?;
     let key = |run: &Run| (run.detectors, run.variant, run.left_out);
     let rows = runs.chunk_by(|a, b| key(a) == key(b)).map(row).collect();
-    Ok(Grids { options, rows, runs })
+    Ok(LeftOuts { options, rows, runs })
 }
 
 fn kept(job: &Job<What>, outcome: &Outcome, watch: &Watch) -> Run {
