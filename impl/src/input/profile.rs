@@ -97,46 +97,47 @@ impl HardenedRule {
 /// are in it. Source: `spec/3-stages.md#hardened-profile`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Profile {
-    /// A bit for each rule in force.
-    rules: u16,
-    /// A bit for each stage that is left out.
-    left_out: u8,
+    /// A bit for each rule in force, then a bit for each stage that is left out.
+    bits: u16,
 }
 
 impl Profile {
     /// The published method: no rule. Source: `spec/3-stages.md#hardened-profile`.
-    pub const PAPER: Self = Self { rules: 0, left_out: 0 };
+    pub const PAPER: Self = Self { bits: 0 };
     /// Every rule. Source: `spec/3-stages.md#hardened-profile`.
-    pub const HARDENED: Self = Self { rules: (1 << HardenedRule::ALL.len()) - 1, left_out: 0 };
+    pub const HARDENED: Self = Self { bits: (1 << RULES) - 1 };
 
     /// For studies: without one rule. Neither records nor the C interface can name such a set. Source:
     /// `spec/3-stages.md#hardened-profile`.
     pub const fn without(self, rule: HardenedRule) -> Self {
-        Self { rules: self.rules & !rule.bit(), ..self }
+        Self { bits: self.bits & !rule.bit() }
     }
 
     /// For studies: without one stage of the paper, which then counts as not scheduled, and without what
     /// rules add to it. Source: `spec/3-stages.md#schedule`.
     pub const fn without_stage(self, stage: Stage) -> Self {
-        Self { left_out: self.left_out | bit_of(stage), ..self }
+        Self { bits: self.bits | bit_of(stage) }
     }
 
     /// Whether a rule is in force. Source: `spec/3-stages.md#hardened-profile`.
     #[inline]
     pub const fn has(self, rule: HardenedRule) -> bool {
-        self.rules & rule.bit() != 0
+        self.bits & rule.bit() != 0
     }
 
     /// Whether a stage is not left out. Source: `spec/3-stages.md#schedule`.
     #[inline]
     pub const fn runs(self, stage: Stage) -> bool {
-        self.left_out & bit_of(stage) == 0
+        self.bits & bit_of(stage) == 0
     }
 }
 
-/// Of the stages that are left out, the bit of this one.
-const fn bit_of(stage: Stage) -> u8 {
-    1_u8.wrapping_shl(stage as u32)
+/// How many rules there are: the first bit of the stages.
+const RULES: u32 = HardenedRule::H14 as u32 + 1;
+
+/// The bit of a stage that is left out.
+const fn bit_of(stage: Stage) -> u16 {
+    1_u16.wrapping_shl(RULES.wrapping_add(stage as u32))
 }
 
 #[cfg(test)]

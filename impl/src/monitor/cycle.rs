@@ -10,7 +10,7 @@ use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
-use crate::report::{InvalidInput, Outcome, Problem, Report, Stage};
+use crate::report::{InvalidInput, Outcome, Problem, Report};
 use crate::services::configuration::{Configuration, Group};
 use crate::stages::check_with;
 use crate::stages::given::is_current;
@@ -153,8 +153,10 @@ impl Monitor<'_> {
         for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        let was_compared = !self.settings.profile.runs(Stage::I)
-            || report.as_ref().is_ok_and(|report| matches!(report.stages, [Outcome::Passed, ..]));
+        // Of a safe cycle with remote tracks stage i passed, or had no detections; a study can leave it out.
+        let was_compared = report
+            .as_ref()
+            .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
         let tracks = tracks.filter(|_| is_safe && was_compared && mot.is_some());
         let is_checked = is_safe && (mot.is_some() || plan.is_some());
         let trajectory = trajectory.filter(|_| is_checked);
@@ -210,8 +212,7 @@ impl Monitor<'_> {
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
-        let is_kept = looks_back(self.settings.profile);
-        let Some(list) = inputs.detections.filter(|_| is_kept) else {
+        let (true, Some(list)) = (looks_back(self.settings.profile), inputs.detections) else {
             return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
         };
         let holds = self.history.holds(&list);
