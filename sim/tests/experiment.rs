@@ -112,14 +112,14 @@ fn empty_lists_within_the_station_alone_are_found_and_those_for_both_are_not() {
     assert_eq!(collided("readings/hardened/both+farthest+list"), (0, 4));
 }
 
+/// The rows of these runs.
+fn rows(only: &str) -> Vec<left_out::Row> {
+    let select = Select::only(Some(only));
+    left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be").rows
+}
+
 #[test]
 fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
-    let rows = |only| {
-        let select = Select::only(Some(only));
-        let made =
-            left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
-        made.rows
-    };
     let with = rows("left-out/hardened/blind+nothing+none+both");
     let without = rows("left-out/hardened/blind+grid+none+both");
     assert_eq!((with.len(), without.len(), with[0].runs), (1, 1, 4));
@@ -132,12 +132,6 @@ fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
 /// Without H-10 stage iii takes the place of v in `AllRemote`.
 #[test]
 fn a_rule_that_is_left_out_is_not_asked() {
-    let rows = |only| {
-        let select = Select::only(Some(only));
-        let made =
-            left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
-        made.rows
-    };
     let with = rows("left-out/hardened/noisy+nothing+none+both");
     let without = rows("left-out/hardened/noisy+H-10+none+both");
     assert!(with[0].executions_v > 100, "{with:?}");

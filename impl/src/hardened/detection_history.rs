@@ -19,7 +19,7 @@ use crate::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use crate::input::detection_index::DetectionIndex;
 use crate::input::indexes::Indexes;
 use crate::input::parameters::Parameters;
-use crate::input::profile::{HardenedRule, Profile};
+use crate::input::profile::HardenedRule;
 use crate::input::scratch::{Row, Scratch};
 use crate::numbers::range::larger;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -77,7 +77,7 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
     ) -> Self {
         let [least_ns, most_ns] = AGES_NS;
         let mut usable = [None; 4];
-        if let Some(current) = detections.filter(|_| looks_back(cycle.profile)) {
+        if let Some(current) = detections.filter(|_| cycle.profile.looks_back()) {
             for (place, list) in usable.iter_mut().zip(cycle.detection_history) {
                 let age_ns = elapsed_ns(list.stamp_ns, current.stamp_ns);
                 let is_usable = least_ns <= age_ns
@@ -152,11 +152,6 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
             None => Seen::Open,
         }
     }
-}
-
-/// Whether a rule asks what the CAV saw itself: H-01 which tracks are backed, H-14 what has moved.
-pub(crate) const fn looks_back(profile: Profile) -> bool {
-    profile.has(HardenedRule::H01) || profile.has(HardenedRule::H14)
 }
 
 /// The places of usable lists in the order of `UsableList::order`, then of place.

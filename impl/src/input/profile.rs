@@ -1,6 +1,6 @@
 //! The profiles, as sets of rules (`spec/3-stages.md#hardened-profile`).
 
-use crate::report::{Rule, Stage};
+use crate::report::Stage;
 
 /// A rule of the hardened profile. Source: `spec/3-stages.md#hardened-profile`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,9 +27,6 @@ pub enum HardenedRule {
     H14,
 }
 
-/// What is said of a rule: its id, witnesses, findings and stages.
-type Said = (&'static str, &'static [Rule], &'static [&'static str], &'static [Stage]);
-
 impl HardenedRule {
     /// All rules in their order. Source: `spec/3-stages.md#hardened-profile`.
     pub const ALL: [Self; 10] = [
@@ -45,46 +42,20 @@ impl HardenedRule {
         Self::H14,
     ];
 
-    #[rustfmt::skip]
-    const fn said(self) -> Said {
-        use Rule::{FailSafe, Gap, NoAssignment, Outside, Reach, Unknown, WorkLimit};
-        use Rule::{Corridor, Direction, StartHeading, StartOffset, StartPosition, StartTime};
-        use Rule::{Slide, StepForward, StepLateral, StepLength, StepSpeed, StepTime, StepTurn};
-        use Stage::{I, Ii, Iii, Iv, V};
-        match self {
-            Self::H01 => ("H-01", &[NoAssignment], &["F-01", "F-02", "F-32"], &[I]),
-            Self::H02 => ("H-02", &[], &["F-18"], &[Iii]),
-            Self::H04 => ("H-04", &[Gap], &["F-04", "F-05", "F-06", "F-17", "F-27"], &[Iv, V]),
-            Self::H05 => ("H-05", &[], &["F-07"], &[V]),
-            Self::H06 => ("H-06", &[Unknown, Outside], &["F-08", "F-21"], &[V]),
-            Self::H07 => ("H-07", &[StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction], &["F-09", "F-10", "F-16", "F-36", "F-37"], &[Ii]),
-            Self::H08 => ("H-08", &[], &["F-12", "F-25"], &[]),
-            Self::H10 => ("H-10", &[], &["F-14", "F-15", "F-34"], &[V]),
-            Self::H11 => ("H-11", &[StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide], &["F-10", "F-11", "F-17", "F-28", "F-29", "F-35", "F-41"], &[Ii]),
-            Self::H14 => ("H-14", &[WorkLimit, Reach, FailSafe], &["F-03", "F-05", "F-06", "F-11", "F-13", "F-14", "F-15", "F-16", "F-17", "F-22", "F-23", "F-26", "F-27", "F-28", "F-29", "F-30", "F-31", "F-35", "F-36", "F-37", "F-41", "F-04", "F-38", "F-40", "F-42", "F-44", "F-46"], &[Ii, Iv]),
-        }
-    }
-
     /// As the text names it. Source: `spec/3-stages.md#hardened-profile`.
     pub const fn id(self) -> &'static str {
-        self.said().0
-    }
-
-    /// The witness rules that `report` marks with it. What it changes in a comparison of the paper keeps the
-    /// name that this has there. Source: `spec/3-stages.md#hardened-profile`.
-    pub const fn witnesses(self) -> &'static [Rule] {
-        self.said().1
-    }
-
-    /// The findings that it closes, alone or with others, then those that it closes in part. Source:
-    /// `spec/3-stages.md#hardened-profile`.
-    pub const fn findings(self) -> &'static [&'static str] {
-        self.said().2
-    }
-
-    /// The stages that it touches. Source: `spec/3-stages.md#hardened-profile`.
-    pub const fn stages(self) -> &'static [Stage] {
-        self.said().3
+        match self {
+            Self::H01 => "H-01",
+            Self::H02 => "H-02",
+            Self::H04 => "H-04",
+            Self::H05 => "H-05",
+            Self::H06 => "H-06",
+            Self::H07 => "H-07",
+            Self::H08 => "H-08",
+            Self::H10 => "H-10",
+            Self::H11 => "H-11",
+            Self::H14 => "H-14",
+        }
     }
 
     /// Of a set, the bit of this rule.
@@ -123,6 +94,13 @@ impl Profile {
     #[inline]
     pub const fn has(self, rule: HardenedRule) -> bool {
         self.bits & rule.bit() != 0
+    }
+
+    /// Whether a rule asks what the CAV saw itself, hence for earlier detections: H-01 which tracks are
+    /// backed, H-14 what has moved. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    #[inline]
+    pub const fn looks_back(self) -> bool {
+        self.has(HardenedRule::H01) || self.has(HardenedRule::H14)
     }
 
     /// Whether a stage is not left out. Source: `spec/3-stages.md#schedule`.

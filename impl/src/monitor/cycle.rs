@@ -5,7 +5,6 @@ use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
 use super::stall::Stall;
-use crate::hardened::detection_history::looks_back;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
@@ -153,7 +152,7 @@ impl Monitor<'_> {
         for (group, has_current) in Group::ALL.into_iter().zip(has_current) {
             self.served.get_mut(group).cycle(now_ns, has_current, dt_max_ns);
         }
-        // Of a safe cycle with remote tracks stage i passed, or had no detections; a study can leave it out.
+        // In a safe cycle with remote tracks stage i passed or had no detections; only a study leaves it out.
         let was_compared = report
             .as_ref()
             .is_ok_and(|report| !matches!(report.stages, [Outcome::NotApplicable(_), ..]));
@@ -212,7 +211,7 @@ impl Monitor<'_> {
         let index = self.route.index();
         let route = index.as_ref();
         let scratch = &mut Scratch::new(self.rows, self.columns);
-        let (true, Some(list)) = (looks_back(self.settings.profile), inputs.detections) else {
+        let (true, Some(list)) = (self.settings.profile.looks_back(), inputs.detections) else {
             return check_with(&cycle, &Indexes { route, detections: &[] }, scratch);
         };
         let holds = self.history.holds(&list);

@@ -39,7 +39,6 @@ use self::memory::PLACES;
 use self::route::KeptRoute;
 use self::served::Served;
 use self::stall::Progress;
-use crate::hardened::detection_history::looks_back;
 use crate::input::cycle::Route;
 use crate::input::scratch::{Column, Row};
 use crate::offloading::requester::per_group::PerGroup;
@@ -78,7 +77,7 @@ impl<'a> Monitor<'a> {
             return Err(MonitorError::Memory { field: "stations", needed: 1, given: 0 });
         }
         let mut capacity = 0;
-        if looks_back(settings.profile) {
+        if settings.profile.looks_back() {
             capacity = detections.len().wrapping_div(PLACES);
             if capacity == 0 {
                 let given = detections.len();

@@ -1,8 +1,6 @@
 //! The profiles (`spec/3-stages.md#hardened-profile`): the stages of the paper, and which rules H-nn are
 //! in force beside them.
 
-use crate::report::Rule;
-
 /// The five stages in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
@@ -48,9 +46,6 @@ pub enum HardenedRule {
     H14,
 }
 
-/// Id, findings, stages, witness rules.
-type Row = (&'static str, &'static [&'static str], &'static [Stage], &'static [Rule]);
-
 impl HardenedRule {
     /// All rules in the order of the table.
     pub const ALL: [Self; 10] = [
@@ -65,53 +60,6 @@ impl HardenedRule {
         Self::H11,
         Self::H14,
     ];
-
-    #[rustfmt::skip]
-    const fn row(self) -> Row {
-        use Rule::{
-            Corridor, Direction, FailSafe, Gap, NoAssignment, Outside, Reach, Slide, StartHeading,
-            StartOffset, StartPosition, StartTime, StepForward, StepLateral, StepLength, StepSpeed,
-            StepTime, StepTurn, Unknown, WorkLimit,
-        };
-        use Stage::{I, Ii, Iii, Iv, V};
-        match self {
-            Self::H01 => ("H-01", &["F-01", "F-02", "F-32"], &[I], &[NoAssignment]),
-            Self::H02 => ("H-02", &["F-18"], &[Iii], &[]),
-            Self::H04 => ("H-04", &["F-04", "F-05", "F-06", "F-17", "F-27"], &[Iv, V], &[Gap]),
-            Self::H05 => ("H-05", &["F-07"], &[V], &[]),
-            Self::H06 => ("H-06", &["F-08", "F-21"], &[V], &[Unknown, Outside]),
-            Self::H07 => ("H-07", &["F-09", "F-10", "F-16", "F-36", "F-37"], &[Ii],
-                &[StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction]),
-            Self::H08 => ("H-08", &["F-12", "F-25"], &[], &[]),
-            Self::H10 => ("H-10", &["F-14", "F-15", "F-34"], &[V], &[]),
-            Self::H11 => ("H-11", &["F-10", "F-11", "F-17", "F-28", "F-29", "F-35", "F-41"], &[Ii],
-                &[StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide]),
-            Self::H14 => ("H-14", &["F-03", "F-05", "F-06", "F-11", "F-13", "F-14", "F-15", "F-16",
-                "F-17", "F-22", "F-23", "F-26", "F-27", "F-28", "F-29", "F-30", "F-31", "F-35", "F-36",
-                "F-37", "F-41", "F-04", "F-38", "F-40", "F-42", "F-44", "F-46"], &[Ii, Iv],
-                &[WorkLimit, Reach, FailSafe]),
-        }
-    }
-
-    /// `H-01`
-    pub const fn id(self) -> &'static str {
-        self.row().0
-    }
-
-    /// The findings that it closes, wholly or in part, in the order of the table.
-    pub const fn findings(self) -> &'static [&'static str] {
-        self.row().1
-    }
-
-    /// The stages that it touches.
-    pub const fn stages(self) -> &'static [Stage] {
-        self.row().2
-    }
-
-    /// The witness rules that `report` marks with it.
-    pub const fn witnesses(self) -> &'static [Rule] {
-        self.row().3
-    }
 }
 
 /// A set of rules H-nn beside the published method, read as the interpretations I-nn say.

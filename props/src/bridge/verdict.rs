@@ -81,7 +81,7 @@ both_ways! {
 
     fn input_from_impl(twin::Input), fn input_to_impl(Input) { Trajectory, Tracks, Detections, Grid, }
 
-    fn rule_from_impl(twin::Rule), pub(super) fn rule_to_impl(Rule) {
+    fn rule_from_impl(twin::Rule), fn rule_to_impl(Rule) {
         Ambiguous, MeanCost, WorkLimit, NoAssignment,
         ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
         StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,

@@ -4,7 +4,7 @@ use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, TrajectoryPoint,
 };
 use mufasa::input::parameters::Parameters;
-use mufasa::input::profile::{HardenedRule, Profile};
+use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::provider::Precheck;
 use mufasa::services::configuration::Configuration;
@@ -115,9 +115,8 @@ impl Asking {
         let Fixed { profile, parameters, route: (closed, ref cross_sections), withheld } =
             self.fixed;
         let Known { configuration, now_ns, ego, detections, lead, grid } = *known;
-        let looks_back =
-            [HardenedRule::H01, HardenedRule::H14].into_iter().any(|it| profile.has(it));
-        let history = if looks_back { self.seen.history(detections.stamp_ns) } else { Vec::new() };
+        let history =
+            if profile.looks_back() { self.seen.history(detections.stamp_ns) } else { Vec::new() };
         let cycle = Cycle {
             profile,
             parameters,

@@ -6,7 +6,7 @@
 
 use mufasa::input::cycle::{Ego, Route};
 use mufasa::input::parameters::Parameters;
-use mufasa::input::profile::{HardenedRule, Profile};
+use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::Requester;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_props::bridge;
@@ -77,9 +77,11 @@ impl Recorder {
         if count % every != first % every {
             return None;
         }
-        let looks_back =
-            [HardenedRule::H01, HardenedRule::H14].into_iter().any(|it| fixed.profile.has(it));
-        let history = if looks_back { self.seen.history(sensed.stamp_ns) } else { Vec::new() };
+        let history = if fixed.profile.looks_back() {
+            self.seen.history(sensed.stamp_ns)
+        } else {
+            Vec::new()
+        };
         let cycle =
             assembled::cycle(fixed, requester.configuration(), moment, sensed, chosen, &history);
         Some(Box::new(bridge::from_impl(&cycle)))

@@ -154,8 +154,8 @@ impl TryFrom<String> for LeftOut {
     type Error = String;
 
     fn try_from(name: String) -> Result<Self, String> {
-        let found = Self::all(Variant::Hardened, Detectors::Noisy).into_iter();
-        found.into_iter().find(|it| it.name() == name).ok_or(name)
+        let mut all = Self::all(Variant::Hardened, Detectors::Noisy).into_iter();
+        all.find(|it| it.name() == name).ok_or(name)
     }
 }
 
