@@ -6,6 +6,7 @@ mod circles;
 mod length;
 mod links;
 mod loops;
+mod must;
 mod names;
 mod packages;
 mod style;
@@ -116,6 +117,12 @@ fn every_file_that_is_named_exists() {
 #[test]
 fn every_heading_that_is_named_exists() {
     judge(&links::headings_named(&Tree::here()), &[]);
+}
+
+/// "No remote result MUST reach control" would let each of them.
+#[test]
+fn what_is_forbidden_says_must_not() {
+    judge(&must::turned_round(&Tree::here()), &[]);
 }
 
 /// A page that is longer is not read.
