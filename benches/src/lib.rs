@@ -4,7 +4,6 @@ pub mod contestant;
 pub mod monitored;
 pub mod peer;
 pub mod periods;
-pub mod plot;
 pub mod race;
 pub mod table;
 pub mod workload;

@@ -32,7 +32,6 @@ use mufasa_sim::experiment::attacks::Attacks;
 use mufasa_sim::experiment::availability::Availability;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::experiment::combinations::Combinations;
-use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::Failures;
 use mufasa_sim::experiment::job::{Campaign, Job, Options};
 use mufasa_sim::experiment::left_out::LeftOuts;
@@ -87,23 +86,10 @@ pub fn run(
         Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
         Some(Experiment::Availability(size)) => (size, named::<Availability>()),
         Some(Experiment::LeftOut(size)) => (size, named::<LeftOuts>()),
-        Some(Experiment::Cpu(size)) => (size, named::<Cpu>()),
     };
-    let is_timed = matches!(arguments.experiment, Some(Experiment::Cpu(_)));
-    if is_timed && size.check_all {
-        complain(
-            err,
-            "--check-all: not for cpu, whose figures are times that a check would change",
-        );
-        return Ok(BAD_INPUT);
-    }
     let select = Select {
         shard: size.shard,
-        checked_every: match (is_timed, size.check_all) {
-            (true, _) => 0,
-            (false, true) => 1,
-            (false, false) => CHECKED_EVERY,
-        },
+        checked_every: if size.check_all { 1 } else { CHECKED_EVERY },
         draws: size.out.is_some(),
         ..Select::only(size.only.as_deref())
     };
@@ -213,7 +199,7 @@ const fn named<E: Shown>() -> Named {
 }
 
 /// The experiments.
-const EXPERIMENTS: [Named; 8] = [
+const EXPERIMENTS: [Named; 7] = [
     named::<Failures>(),
     named::<Readings>(),
     named::<Stages>(),
@@ -221,7 +207,6 @@ const EXPERIMENTS: [Named; 8] = [
     named::<Combinations>(),
     named::<Availability>(),
     named::<LeftOuts>(),
-    named::<Cpu>(),
 ];
 
 /// The runs of an experiment; none, if there is no such one.
@@ -334,7 +319,7 @@ fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result
         table: &results.table,
         figures: &results.figures,
         failed: results.failed.iter().map(failed).collect(),
-        checks: (results.name != cpu::NAME).then_some(checks),
+        checks: Some(checks),
     };
     report::write(folder, &section)?;
     Ok(PathBuf::from(report::FILE))

@@ -10,7 +10,7 @@ use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
 use mufasa_sim::experiment::select::Part;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, scenes, stages,
+    attacks, availability, combinations, failures, falsify, left_out, readings, scenes, stages,
 };
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ use crate::prove::claim::Claim;
 
 /// What the program writes as JSON: the command, its option (none: standard output), and the schemas of what
 /// is written, each of a file or of a line.
-pub const WRITTEN: [(&str, &str, &[&str]); 20] = [
+pub const WRITTEN: [(&str, &str, &[&str]); 19] = [
     ("check", "json", &["checked-cycle", "checked-drive", "checked"]),
     ("oracle", "", &["cycle-answer", "offloading-answer", "composition-answer", "error-answer"]),
     ("conform", "out", &["conform-summary"]),
@@ -33,7 +33,6 @@ pub const WRITTEN: [(&str, &str, &[&str]); 20] = [
     ("evaluate combinations", "out", &["evaluation-combinations"]),
     ("evaluate availability", "out", &["evaluation-availability"]),
     ("evaluate left-out", "out", &["evaluation-left-out"]),
-    ("evaluate cpu", "out", &["evaluation-cpu"]),
     ("evaluate falsify", "out", &["evaluation-falsify", "evaluation-found"]),
     ("evaluate scenes", "out", &["evaluation-scenes"]),
     (
@@ -67,7 +66,6 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
     schemas.push(("evaluation-left-out", schema::written::<left_out::LeftOuts>()));
-    schemas.push(("evaluation-cpu", schema::written::<cpu::Cpu>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
     let part = schema::written::<Part<falsify::Options>>();
     schemas.push(("evaluation-falsify-part", part));

@@ -155,7 +155,6 @@ fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
         ("attacks", "attacks/hardened/made-up-lead/mot/0"),
         ("availability", "availability/paper/t-wait-s=60/0"),
         ("combinations", "combinations/hardened/both/1"),
-        ("cpu", "cpu/hardened/none/1"),
     ] {
         let size = ["--only", only, "--scenarios", "2", "--vehicles", "3", "--out", "files"];
         run(&folder, &[&["evaluate", name], &size[..]].concat());

@@ -10,7 +10,7 @@ use mufasa_sim::experiment::left_out::{Detectors, LeftOut};
 use mufasa_sim::experiment::select::Select;
 use mufasa_sim::experiment::watch::{By, First, Watch};
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, stages,
+    attacks, availability, combinations, failures, falsify, left_out, readings, stages,
 };
 use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
@@ -166,12 +166,11 @@ fn ids_differ_and_every_combination_is_there() {
     ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(cpu::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(readings::jobs(&town, size).into_iter().map(|it| it.id));
     ids.extend(left_out::jobs(&town, size).into_iter().map(|it| it.id));
     let (all, kinds) = (ids.len(), Kind::ALL.len());
     let of_left_out = (4 * 2 * 3 + 2 * (2 * 4 + 10)) * (7 + 1) * 3 * 4;
-    let others = 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4 + 3 * 4;
+    let others = 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4;
     assert_eq!(all, 4 * 3 * 4 + others + 9 * (3 + 1) * 4 + of_left_out);
     assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
     ids.sort();
@@ -240,23 +239,6 @@ fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
     assert_eq!((first.by, first.cycles), (By::Iii, 4));
     // From 50 to 51 m and from 60 to 61 m; the way between was driven by the CAV alone.
     assert!((first.metres - 2.0).abs() < 1e-9, "{:?}", First { ..first });
-}
-
-#[test]
-fn processor_time_is_counted_in_the_state_in_which_it_was_spent() {
-    let made = cpu::experiment(&campaign(&town(), SMALL, &Select::default())).expect("a town");
-    assert_eq!(made.rows.len(), 9);
-    for row in &made.rows {
-        let all = made.runs.iter().filter(|run| run.variant == row.variant);
-        let simulated_s: f64 = all.map(|run| run.simulated_s).sum();
-        assert!((row.active_s + row.inactive_s - simulated_s).abs() < 1e-6, "{row:?}");
-        assert!(row.active_cpu_s > 0.0, "{row:?}");
-        if row.who == cpu::Who::Guard {
-            assert!(row.inactive_s == 0.0, "{row:?}");
-            continue;
-        }
-        assert!(row.active_s > 0.0 && row.inactive_s > 0.0, "{row:?}");
-    }
 }
 
 #[test]

@@ -19,7 +19,7 @@ use crate::limits::whole;
 #[command(
     args_conflicts_with_subcommands = true,
     after_help = "\
-Of the cycles that the stages decide one in a hundred is checked by the exact model, too (not of `cpu`).
+Of the cycles that the stages decide one in a hundred is checked by the exact model, too.
 
 Exit codes: 0 done, 1 a run that was checked by the hardened profile failed (a collision, or too late), 2 bad input or a
 file cannot be written, 3 model and implementation disagree."
@@ -58,9 +58,6 @@ pub enum Experiment {
     /// What each stage and rule is for: collisions and false alarms without it, without the grid (is stage v needed?) and
     /// without detections, by what detectors see.
     LeftOut(SizeArguments),
-    /// Processor time of each service while it runs and while it is stopped, and of what checks; figures of
-    /// this machine.
-    Cpu(SizeArguments),
     /// Search for collisions: attacks, their times and their sizes, by an attacker who knows every rule.
     Falsify(FalsifyArguments),
     /// Search for avoidable collisions with one other that comes to where the CAV will be: all kinds of lies, trajectories
@@ -73,7 +70,7 @@ pub enum Experiment {
 /// How large an experiment is, and where its results go.
 #[derive(Args, Clone, Debug, PartialEq, Eq)]
 pub struct SizeArguments {
-    /// Scenarios of each combination, on each of two routes [default: failures, readings and combinations 10, cpu 6, others 2]; of
+    /// Scenarios of each combination, on each of two routes [default: failures, readings and combinations 10, others 2]; of
     /// `stages`: in all [default: 4].
     #[arg(long, value_name = "N", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
     pub scenarios: Option<u64>,

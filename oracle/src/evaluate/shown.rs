@@ -4,7 +4,6 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::attacks::{self, Attacks};
 use mufasa_sim::experiment::availability::{self, Availability};
 use mufasa_sim::experiment::combinations::{self, Combinations};
-use mufasa_sim::experiment::cpu::{self, Cpu};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
 use mufasa_sim::experiment::left_out::{self, LeftOuts};
@@ -102,5 +101,4 @@ shown! {
     combinations: Combinations, |run| Some(run.end);
     availability: Availability, |run| Some(run.end);
     left_out: LeftOuts, |_| None;
-    cpu: Cpu, |_| None;
 }

@@ -7,7 +7,7 @@ use mufasa_drives::pictures::escape;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::{
-    attacks, availability, combinations, cpu, failures, falsify, left_out, readings, scenes, stages,
+    attacks, availability, combinations, failures, falsify, left_out, readings, scenes, stages,
 };
 
 use super::published;
@@ -231,23 +231,6 @@ pub fn left_out(of: &left_out::LeftOuts) -> Rows {
     )
 }
 
-/// Processor time of the CAV's services and of what checks them.
-pub fn cpu(of: &cpu::Cpu) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("checked by", |row| row.variant.name().to_owned()),
-            text("what", |row| row.who.name().to_owned()),
-            number("active: CPU %", |row| percent(row.active_cpu_s, row.active_s)),
-            number("s", |row| format!("{:.1}", row.active_s)),
-            number("inactive: CPU %", |row| percent(row.inactive_cpu_s, row.inactive_s)),
-            number("s", |row| format!("{:.1}", row.inactive_s)),
-            text("active in the paper", |row| published(row)[0].clone()),
-            text("inactive in the paper", |row| published(row)[1].clone()),
-        ],
-    )
-}
-
 /// How near the runs of a search came, by kind of attack.
 pub fn falsified(of: &falsify::Falsified) -> Rows {
     rows(
@@ -285,22 +268,9 @@ pub fn scenes(of: &scenes::Scenes) -> Rows {
     )
 }
 
-fn published(row: &cpu::Row) -> [String; 2] {
-    published::cpu(row.variant, row.who).map(usage)
-}
-
-fn percent(cpu_s: f64, of_s: f64) -> String {
-    if of_s > 0.0 { format!("{:.3}", 100.0 * cpu_s / of_s) } else { String::new() }
-}
-
 /// Share of the time, to the percent.
 fn share(of: f64) -> String {
     format!("{:.0} %", of * 100.0)
-}
-
-fn usage(of: &[published::Usage]) -> String {
-    let one = |(percent, in_s): &published::Usage| format!("{percent} % in {in_s:.1} s");
-    of.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 fn per_thousand(part: u64, of: u64) -> String {

@@ -2,7 +2,6 @@
 
 pub mod asking;
 mod assembled;
-pub mod cost;
 pub mod decided;
 pub mod guard;
 pub mod local;
@@ -18,7 +17,6 @@ use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
 
 use self::asking::{Asking, Known};
-use self::cost::{Cost, Part};
 use self::guard::{Decided, Guard, Local};
 use self::local::Services;
 use self::sensing::{Sensed, Sensors, ego};
@@ -83,7 +81,6 @@ pub struct Cav<'a> {
     examined: [u64; 2],
     /// What its planner asks before it hands a plan over in `MotRemote`, if it asks.
     asking: Option<Asking>,
-    cost: Cost,
     /// What the CAV counts.
     pub counts: Counts,
 }
@@ -119,7 +116,6 @@ impl<'a> Cav<'a> {
             brakes_from: f64::INFINITY,
             examined: [0; 2],
             asking: None,
-            cost: Cost::default(),
             counts: Counts::default(),
         }
     }
@@ -156,11 +152,6 @@ impl<'a> Cav<'a> {
     /// What guards the link.
     pub fn guard(&self) -> &Guard<'a> {
         &self.guard
-    }
-
-    /// Processor time of its own services and of what guards the link.
-    pub fn cost(&self) -> &Cost {
-        &self.cost
     }
 
     /// Its own services.
@@ -218,8 +209,7 @@ impl<'a> Cav<'a> {
         if self.asking.is_none() || self.guard.configuration() != Configuration::PlanRemote {
             return;
         }
-        let services = &mut self.services;
-        if let Some(tracks) = self.cost.of(Part::Mot, || services.track(now_ns, detections)) {
+        if let Some(tracks) = self.services.track(now_ns, detections) {
             self.tracked = Some((now_ns, tracks.clone()));
             self.send(
                 now_ns,
@@ -239,8 +229,8 @@ impl<'a> Cav<'a> {
         }
         let time = Time::from_nanoseconds;
         let generated = time(generated_ns);
-        let Self { cost, guard, counts, .. } = self;
-        let answer = cost.of(Part::Guard, || match payload {
+        let Self { guard, counts, .. } = self;
+        let answer = match payload {
             Payload::Offer { groups } => {
                 guard.happens(now_ns, EventKind::Offer { station, groups })
             }
@@ -267,7 +257,7 @@ impl<'a> Cav<'a> {
                 counts.dropped += 1;
                 Ok(Vec::new())
             }
-        });
+        };
         self.answered(now_ns, answer, radio);
     }
 
@@ -280,7 +270,7 @@ impl<'a> Cav<'a> {
         let tracked = self.tracked.take().filter(|it| it.0 == sensed.stamp_ns);
         let own = match tracked.filter(|_| services.run(Group::Mot)) {
             Some((_, tracks)) => Some(tracks),
-            None => self.cost.of(Part::Mot, || services.track(sensed.stamp_ns, &sensed.detections)),
+            None => services.track(sensed.stamp_ns, &sensed.detections),
         };
         let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
         let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
@@ -289,7 +279,7 @@ impl<'a> Cav<'a> {
         let (near_s, signals) = (Some(truth.ego.s), &*truth.closed_signals());
         let road = Road { town: self.town, route: self.route, near_s, signals };
         let services = &mut self.services;
-        let points = self.cost.of(Part::Plan, || services.plan(now_ns, &ego, &road, &list));
+        let points = services.plan(now_ns, &ego, &road, &list);
         let (asking, guard) = (&mut self.asking, &self.guard);
         let points = points.map(|plan| match asking {
             Some(asking) if guard.configuration() == Configuration::MotRemote => {
@@ -304,7 +294,7 @@ impl<'a> Cav<'a> {
         });
         let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
         let guard = &mut self.guard;
-        let mut decided = self.cost.of(Part::Guard, || guard.decide(now_ns, ego, &sensed, local));
+        let mut decided = guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
         self.own = own.map(|(stamp_ns, tracks)| (stamp_ns, tracks.to_vec()));
         self.act(now_ns, &decided.actions, radio);
@@ -345,7 +335,7 @@ impl<'a> Cav<'a> {
     }
 
     fn happens(&mut self, now_ns: i64, kind: EventKind, radio: &mut Radio) {
-        let answer = self.cost.of(Part::Guard, || self.guard.happens(now_ns, kind));
+        let answer = self.guard.happens(now_ns, kind);
         self.answered(now_ns, answer, radio);
     }
 

@@ -8,7 +8,6 @@ pub mod attacks;
 pub mod availability;
 pub mod checks;
 pub mod combinations;
-pub mod cpu;
 pub mod failures;
 pub mod falsify;
 pub mod job;

@@ -5,7 +5,6 @@ use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::attacks::{self, Attacks, Offered};
 use mufasa_sim::experiment::availability::{self, Availability, Factor};
 use mufasa_sim::experiment::combinations::{self, Combinations};
-use mufasa_sim::experiment::cpu::{self, Cpu, Who};
 use mufasa_sim::experiment::failures::{self, Failures};
 use mufasa_sim::experiment::job::kind_name;
 use mufasa_sim::experiment::stages::{self, Stages};
@@ -256,88 +255,4 @@ const fn words_of(factor: Factor) -> &'static str {
         Factor::Loss => "loss, %",
         Factor::TWaitS => "t_wait, s",
     }
-}
-
-/// The share that is offloaded, and processor time, by service.
-pub fn cpu(of: &Cpu) -> Vec<Figure> {
-    let of_who = |who: Who| of.rows.iter().filter(move |row| row.who == who);
-    let offloaded = |who: Who| Group {
-        name: who.name().to_owned(),
-        bars: of_who(who).map(share).collect(),
-        note: String::new(),
-    };
-    let shares = bars::draw(&Bars {
-        title: "Share of the time in which a service is offloaded",
-        about: &[
-            "No attack here; in the paper there are attacks and other areas. ENV and TPL are two services there.",
-        ],
-        key: &VARIANTS,
-        unit: "time in which the CAV's own is stopped, %",
-        most: 100.0,
-        step: 25.0,
-        groups: [Who::Mot, Who::EnvTpl].map(offloaded).into(),
-    });
-    let mut dots = Vec::new();
-    let mut rows = Vec::new();
-    for who in Who::ALL {
-        for row in of_who(who) {
-            let at = rows.len();
-            rows.push(format!("{}, {}", who.name(), row.variant.name()));
-            dots.extend(processor(row, at));
-        }
-    }
-    let ours = Series { name: "ours", ..Series::HARDENED };
-    let processor = dots::draw(&Dots {
-        title: "Processor time of each service",
-        about: &[
-            "Filled: while it runs on the CAV, open: while it is stopped. Ours are functions called in a loop, on this machine;",
-            "the paper's are ROS 2 nodes with their messages, on its own.",
-        ],
-        key: &[ours, Series::COMPARED],
-        rows,
-        left: 236.0,
-        powers: [-4, 2],
-        unit: "processor time over simulated time, % of one core",
-        off: None,
-        panels: vec![Panel { name: String::new(), dots, lines: vec![] }],
-    });
-    vec![
-        figure(&format!("{}-offloaded", cpu::NAME), shares),
-        figure(&format!("{}-processor", cpu::NAME), processor),
-    ]
-}
-
-fn share(row: &cpu::Row) -> Bar {
-    let all = row.active_s + row.inactive_s;
-    let [active, inactive] = published::cpu(row.variant, row.who);
-    let of = active.iter().zip(inactive).map(|(a, i)| 100.0 * i.1 / (a.1 + i.1));
-    let value = if all > 0.0 { 100.0 * row.inactive_s / all } else { 0.0 };
-    Bar {
-        series: series(row.variant),
-        value,
-        paler: 0.0,
-        label: format!("{value:.0} %"),
-        published: of.collect(),
-    }
-}
-
-fn processor(row: &cpu::Row, at: usize) -> Vec<Dot> {
-    let percent = |cpu_s: f64, of_s: f64| (of_s > 0.0).then(|| 100.0 * cpu_s / of_s);
-    let ours =
-        [percent(row.active_cpu_s, row.active_s), percent(row.inactive_cpu_s, row.inactive_s)];
-    let dot = |value: f64, series: Series, is_open: bool| Dot {
-        row: at,
-        value: Some(value),
-        series,
-        is_open,
-        shift: 0.0,
-    };
-    let mut dots = Vec::new();
-    let published = published::cpu(row.variant, row.who);
-    for ((ours, published), is_open) in ours.into_iter().zip(published).zip([false, true]) {
-        dots.extend(ours.map(|value| dot(value, Series::HARDENED, is_open)));
-        let of = published.iter().map(|(value, _)| dot(*value, Series::COMPARED, is_open));
-        dots.extend(of);
-    }
-    dots
 }

@@ -61,9 +61,6 @@ impl Series {
     /// By the hardened ones.
     pub(super) const HARDENED: Self =
         Self { name: "hardened", class: "hardened", mark: Mark::Square };
-    /// What the paper says of what is filled or open.
-    pub(super) const COMPARED: Self =
-        Self { name: "published in the paper", class: "sofof", mark: Mark::Diamond };
     /// What the paper says.
     pub(super) const PUBLISHED: Self =
         Self { name: "published in the paper", class: "published", mark: Mark::Diamond };
