@@ -56,14 +56,14 @@ fn same(folder: &Path, one: &str, other: &str) {
     }
 }
 
-/// The command of the job of Kubernetes in `docs/evaluation.md`, which sets a number in the environment, with
+/// The command of the job of Kubernetes in `docs/experiments.md`, which sets a number in the environment, with
 /// fewer scenarios.
 #[cfg(unix)]
 #[test]
 fn every_index_of_the_job_in_the_documents_makes_a_part() {
     use std::process::Command;
 
-    let docs = include_str!("../../docs/evaluation.md");
+    let docs = include_str!("../../docs/experiments.md");
     let behind = docs.split_once("command: [sh, -c, '").expect("a job").1;
     let command = behind.split_once("']").expect("its end").0;
     let ours = format!("exec \"$MUFASA\" evaluate failures {}", SIZE.join(" "));
