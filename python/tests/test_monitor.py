@@ -16,6 +16,8 @@ import pytest
 from conftest import ROOT, Scene, at
 from mufasa import Detections, Gap, GridMap, Lead, Time, Track, Verdict
 
+# Of the monitor, and of the records that `check` is asked: the monitor refuses the default tau with a period of 100 ms.
+PARAMETERS: dict[str, Any] = {"dt_max_ns": 150_000_000, "tau": 0.25}
 DEMO = [ROOT / "drives/data/demo" / name for name in ("urban.xml", "urban.solution.xml")]
 
 
@@ -37,8 +39,7 @@ def seen_by(record: dict[str, Any]) -> Detections:
 
 def decided(records: list[dict[str, Any]], profile: mufasa.Profile) -> Verdict | None:
     """The report of the last cycle by a monitor that has seen those before, and is offloading in it."""
-    parameters = {"dt_max_ns": 150_000_000, "tau": 0.25}
-    monitor = mufasa.Monitor(timedelta(milliseconds=100), profile=profile, parameters=parameters)
+    monitor = mufasa.Monitor(timedelta(milliseconds=100), profile=profile, parameters=PARAMETERS)
     [*before, record] = records
     now, route = ns(record["now_ns"]), record["route"]
     monitor.set_route(route["stations"], closed=route["closed"])
@@ -75,7 +76,7 @@ def decided(records: list[dict[str, Any]], profile: mufasa.Profile) -> Verdict |
 def test_the_monitor_decides_as_check_does(attack: str | None, profile: mufasa.Profile) -> None:
     [drive] = mufasa.read_drives(*DEMO)
     drive = drive if attack is None else drive.attacked(attack)
-    records = list(drive)
+    records = [{**record, "parameters": PARAMETERS} for record in drive]
     ends: Counter[str | None] = Counter()
     without_history = 0
     # In the first second the monitor remembers less than the record.
