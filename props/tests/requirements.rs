@@ -4,7 +4,7 @@
 //! heading and its place among the requirements under that heading, such as
 //! `spec/3-stages.md#distances.2`. The rules H-nn and the interpretations I-nn have names of their
 //! own. A test names them in its doc comment or in a comment beside it; a vector names the one that it
-//! is of, and `conform/tests/vectors` holds model and implementation to every vector.
+//! is of, and `lab/conform/tests/vectors` holds model and implementation to every vector.
 //! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
 
 mod tree;

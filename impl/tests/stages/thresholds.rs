@@ -1,5 +1,5 @@
 //! Stages at their thresholds near the origin, in UTM coordinates and at the border of the domain. The
-//! vectors (`conform/tests/vectors/implementation.rs`) have more thresholds, near the origin.
+//! vectors (`lab/conform/tests/vectors/implementation.rs`) have more thresholds, near the origin.
 
 use crate::scene::{detection, scene, track};
 use mufasa::input::profile::Profile;

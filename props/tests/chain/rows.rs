@@ -36,7 +36,7 @@ pub enum Cell {
 pub const BOOKS: [&str; 3] = ["props/tests/chain", "props/tests/requirements", "props/tests/tidy"];
 
 /// It holds model and implementation to every vector.
-const EVERY_VECTOR: &str = "conform/tests/vectors/main.rs";
+const EVERY_VECTOR: &str = "lab/conform/tests/vectors/main.rs";
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,7 +8,7 @@ const PERIODS: [(&str, [&str; 2]); 6] = [
     ("impl/src/lib.rs", ["Duration::from_millis(", ")"]),
     ("capi/examples/vehicle.c", ["#define PERIOD_MS ", "\n"]),
     ("capi/README.md", ["mufasa_monitor_settings_default(", "000000)"]),
-    ("python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
+    ("lab/python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
     ("python/README.md", ["timedelta(milliseconds=", ")"]),
 ];
 const ADVICE: (&str, [&str; 2]) =

@@ -1,0 +1,384 @@
+//! What a clean run means: with what chance such a run finds each bug that was seeded into a program.
+//! The record is written by `examples/conformance/campaign --write`.
+
+use serde::Deserialize;
+
+use crate::judge::class::Kind;
+use crate::results::summary::{Campaign, Summary};
+
+const RECORD: &str = include_str!("../../data/seeded-bugs.json");
+
+/// A bug counts as found by so many cases when they find it with this share of the seeds, percent.
+const LIKELY: u64 = 99;
+
+/// So many bugs that are less likely found are named with their chances.
+const NAMED: usize = 5;
+
+/// What was measured.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    /// A number of what the generators gave when it was measured.
+    #[cfg_attr(not(test), expect(dead_code, reason = "a test compares it"))]
+    generators: Generators,
+    /// The same of the vectors.
+    #[cfg_attr(not(test), expect(dead_code, reason = "a test compares it"))]
+    vectors_asked: String,
+    /// What it was measured with: commit, versions, day; of older records unknown.
+    #[serde(default)]
+    #[expect(dead_code, reason = "for the documents")]
+    measured: Option<String>,
+    /// The same of the vectors, where they were asked anew since.
+    #[serde(default)]
+    #[expect(dead_code, reason = "for the documents")]
+    vectors_measured: Option<String>,
+    /// Seeds tried with each bug.
+    seeds: u64,
+    /// Cases of each seed.
+    most: u64,
+    bugs: Vec<Bug>,
+}
+
+/// A number of each profile's cases.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Generators {
+    paper: String,
+    hardened: String,
+}
+
+/// A bug of a program under test.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Bug {
+    name: String,
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the table in the documents"))]
+    program: String,
+    profile: String,
+    /// Of the records in which it shows.
+    kind: Kind,
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the table in the documents"))]
+    about: String,
+    /// Vectors that find it.
+    vectors: u64,
+    /// By seed: the first random case that finds it, from 1 on.
+    first: Vec<Option<u64>>,
+    /// What it was measured with, where that was done for it alone.
+    #[serde(default)]
+    #[expect(dead_code, reason = "for the documents")]
+    measured: Option<String>,
+}
+
+impl Bug {
+    /// With what share of the seeds so many cases find it, percent, rounded down.
+    fn chance(&self, cases: u64) -> u64 {
+        let found = self.first.iter().flatten().filter(|first| **first <= cases).count() as u64;
+        (100 * found).checked_div(self.first.len() as u64).unwrap_or(0)
+    }
+}
+
+/// Of the seeded bugs of this profile and these kinds how many the vectors find, how many as many
+/// random cases, and the chances of the least likely; `None` for a run that is not clean, of drives,
+/// or with a tolerance.
+pub fn words(summary: &Summary) -> Option<String> {
+    let campaign = &summary.campaign;
+    let is_whole = summary.is_complete() && summary.skipped + summary.vectors_skipped == 0;
+    let is_clean = summary.classes.is_empty() && is_whole;
+    let is_plain = campaign.drives.is_empty() && campaign.tolerance.is_none();
+    // It is a file of this package; a test reads it.
+    let record = serde_json::from_str(RECORD).ok()?;
+    (is_clean && is_plain && !summary.is_empty()).then(|| of_record(&record, campaign))?
+}
+
+fn of_record(record: &Record, campaign: &Campaign) -> Option<String> {
+    let is_asked =
+        |bug: &&Bug| bug.profile == campaign.profile && campaign.kinds.contains(&bug.kind);
+    let bugs: Vec<&Bug> = record.bugs.iter().filter(is_asked).collect();
+    if bugs.is_empty() {
+        return None;
+    }
+    let cases = campaign.cases.min(record.most);
+    let by_vectors = |bug: &&&Bug| campaign.vectors > 0 && bug.vectors > 0;
+    let by_cases = |bug: &&&Bug| bug.chance(cases) >= LIKELY;
+    let mut ways = Vec::new();
+    if campaign.vectors > 0 {
+        ways.push(format!("the vectors find {}", bugs.iter().filter(by_vectors).count()));
+    }
+    if cases > 0 {
+        let (count, seeds) = (bugs.iter().filter(by_cases).count(), record.seeds);
+        ways.push(format!(
+            "{cases} random cases find {count} with a chance of at least {LIKELY} % ({seeds} seeds)"
+        ));
+    }
+    let missed = bugs.iter().filter(|bug| !by_vectors(bug) && !by_cases(bug));
+    let missed: Vec<&str> = missed.map(|bug| bug.name.as_str()).collect();
+    let missed = if missed.is_empty() { String::from("none") } else { missed.join(", ") };
+    let least = match cases {
+        0 => String::new(),
+        _ => format!("least likely by the cases: {};\n", least_likely(&bugs, cases)),
+    };
+    Some(format!(
+        "what that means: of {} bugs seeded in programs, of this profile and these kinds, {};\n\
+         {least}found in neither way: {missed}",
+        bugs.len(),
+        ways.join(", ")
+    ))
+}
+
+/// The bugs that so many cases find with the lowest chances, and how many more are not sure.
+fn least_likely(bugs: &[&Bug], cases: u64) -> String {
+    let mut chances: Vec<(u64, &str)> =
+        bugs.iter().map(|bug| (bug.chance(cases), bug.name.as_str())).collect();
+    chances.retain(|(chance, _)| *chance < LIKELY);
+    chances.sort_unstable();
+    let mut words: Vec<String> =
+        chances.iter().take(NAMED).map(|(chance, name)| format!("{name} {chance} %")).collect();
+    match chances.len().saturating_sub(NAMED) {
+        _ if words.is_empty() => return String::from("none"),
+        0 => {}
+        more => words.push(format!("{more} more below {LIKELY} %")),
+    }
+    words.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use mufasa_model::input::cycle::Profile;
+
+    use super::*;
+    use crate::cases::generate::Generator;
+    use crate::cases::vectors::fitting;
+    use crate::settings::Settings;
+
+    fn campaign(profile: &str, kinds: &[Kind], vectors: u64, cases: u64) -> Campaign {
+        Campaign {
+            version: String::new(),
+            command: Vec::new(),
+            profile: profile.to_owned(),
+            seed: 0,
+            vectors,
+            cases,
+            kinds: kinds.into(),
+            drives: Vec::new(),
+            time_limit_ms: 1000,
+            tolerance: None,
+            of: 1,
+        }
+    }
+
+    fn summary(campaign: Campaign) -> Summary {
+        Summary {
+            vectors: campaign.vectors,
+            asked: campaign.cases,
+            campaign,
+            shards: vec![0],
+            vectors_skipped: 0,
+            vectors_tolerated: 0,
+            skipped: 0,
+            tolerated: 0,
+            late: 0,
+            restarts: 0,
+            interrupted: false,
+            enough: false,
+            given_up: Vec::new(),
+            groups: Vec::new(),
+            classes: Vec::new(),
+        }
+    }
+
+    /// The record as plain JSON, read another way than the code reads it.
+    fn counts(profile: &str, kinds: &[&str], cases: u64) -> [usize; 3] {
+        let record: serde_json::Value = serde_json::from_str(RECORD).expect("JSON");
+        let bugs = record["bugs"].as_array().expect("bugs").iter();
+        let bugs: Vec<_> = bugs
+            .filter(|bug| {
+                bug["profile"] == profile && kinds.iter().any(|kind| bug["kind"] == **kind)
+            })
+            .collect();
+        // Of 20 seeds 99 % are all.
+        let likely = |bug: &&&serde_json::Value| {
+            let firsts = bug["first"].as_array().expect("first");
+            firsts.iter().all(|it| it.as_u64().is_some_and(|it| it <= cases))
+        };
+        let by_vectors = bugs.iter().filter(|bug| bug["vectors"] != 0).count();
+        [bugs.len(), by_vectors, bugs.iter().filter(likely).count()]
+    }
+
+    #[test]
+    fn a_clean_run_says_what_the_record_says() {
+        for (profile, kinds, names, cases) in [
+            ("paper", &[Kind::Cycle][..], &["cycle"][..], 1000),
+            ("paper", &Kind::ALL, &["cycle", "offloading", "composition", "line"], 10_000),
+            ("hardened", &[Kind::Cycle, Kind::Offloading], &["cycle", "offloading"], 50_000),
+        ] {
+            let [all, by_vectors, by_cases] = counts(profile, names, cases);
+            let said = words(&summary(campaign(profile, kinds, 100, cases))).expect("a clean run");
+            assert!(said.contains(&format!("of {all} bugs seeded")), "{said}");
+            assert!(said.contains(&format!("the vectors find {by_vectors},")), "{said}");
+            let cases = cases.min(10_000);
+            assert!(
+                said.contains(&format!(" {cases} random cases find {by_cases} with")),
+                "{said}"
+            );
+            assert!(all > 5 && by_vectors <= all && by_cases <= all);
+        }
+    }
+
+    #[test]
+    fn record_list_and_table_have_the_same_bugs() {
+        let read = |file: &str| {
+            let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../").to_owned() + file;
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+        };
+        let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let seeds = usize::try_from(record.seeds).expect("few");
+        let (list, page) =
+            (read("examples/conformance/seeded_bugs.py"), read("docs/conformance.md"));
+        let starts = ["python(", "hardened(", "cpp(", "javascript("];
+        let of_list = list.lines().filter_map(|line| {
+            let line = line.strip_prefix("    ")?;
+            let rest = starts.iter().find_map(|start| line.strip_prefix(start))?;
+            rest.strip_prefix('"')?.split('"').next()
+        });
+        let named: Vec<&str> = record.bugs.iter().map(|bug| bug.name.as_str()).collect();
+        assert_eq!(named, of_list.collect::<Vec<_>>());
+        assert_eq!(named.len(), 46);
+        for Bug { name, program, profile, about, vectors, first, .. } in &record.bugs {
+            assert_eq!(first.len(), seeds, "{name}");
+            let chance = |cases: u64| {
+                let found = first.iter().flatten().filter(|it| **it <= cases).count();
+                format!("{} %", (200 * found + seeds) / (2 * seeds))
+            };
+            let vectors = if *vectors > 0 { vectors.to_string() } else { String::from("-") };
+            let chances = [100, 1000, 10_000].map(chance).join(" | ");
+            let row =
+                format!("| {program} | {profile} | {name} | {about} | {vectors} | {chances} |\n");
+            assert!(page.contains(&row), "docs/conformance.md has another table: {row}");
+        }
+    }
+
+    /// As `digest` of `examples/conformance/campaign` has it.
+    fn digest(lines: impl Iterator<Item = String>) -> String {
+        let mut number = 0xcbf2_9ce4_8422_2325_u64;
+        for byte in lines.flat_map(|line| (line + "\n").into_bytes()) {
+            number = (number ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        format!("{number:016x}")
+    }
+
+    /// What was measured says nothing of other cases than those that are asked now.
+    #[test]
+    fn the_bugs_were_measured_with_the_generators_as_they_are() {
+        let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let of = |profile| {
+            digest([1, 2].into_iter().flat_map(move |seed| {
+                let generator = Generator { seed, profile, kinds: Kind::ALL.into() };
+                (0..150).map(move |case| generator.question(case).line(&format!("c-{case}")))
+            }))
+        };
+        assert_eq!(
+            record.generators,
+            Generators { paper: of(Profile::PAPER), hardened: of(Profile::HARDENED) },
+            "the generators of `mufasa conform` have changed since its seeded bugs were measured; \
+             examples/conformance/campaign --bugs ... --write measures those of a profile anew"
+        );
+    }
+
+    /// Nor of other vectors.
+    #[test]
+    fn the_bugs_were_measured_with_the_vectors_as_they_are() {
+        let record: Record = serde_json::from_str(RECORD).expect("the record");
+        let vectors = [Profile::PAPER, Profile::HARDENED].into_iter().flat_map(|profile| {
+            let settings = Settings::of(profile, &Kind::ALL);
+            let given = fitting(&settings).expect("author and model agree");
+            given.into_iter().map(|it| it.question.line(&it.id))
+        });
+        assert_eq!(
+            record.vectors_asked,
+            digest(vectors),
+            "the vectors of `mufasa conform` have changed since its seeded bugs were measured; \
+             examples/conformance/campaign --vectors --write measures that anew (two minutes)"
+        );
+    }
+
+    #[test]
+    fn what_neither_way_finds_is_named() {
+        let bug = |name: &str, vectors, first: &[Option<u64>]| Bug {
+            name: name.to_owned(),
+            program: String::new(),
+            profile: "paper".to_owned(),
+            kind: Kind::Cycle,
+            about: String::new(),
+            vectors,
+            first: first.into(),
+            measured: None,
+        };
+        let bugs = vec![
+            bug("hidden", 0, &[Some(99), None]),
+            bug("written", 2, &[None, None]),
+            bug("drawn", 0, &[Some(1), Some(100)]),
+        ];
+        let record = Record {
+            generators: Generators::default(),
+            vectors_asked: String::new(),
+            measured: None,
+            vectors_measured: None,
+            seeds: 2,
+            most: 1000,
+            bugs,
+        };
+        let say = |vectors, cases| {
+            of_record(&record, &campaign("paper", &[Kind::Cycle], vectors, cases)).expect("words")
+        };
+        assert_eq!(
+            say(5, 100),
+            "what that means: of 3 bugs seeded in programs, of this profile and these kinds, the \
+             vectors find 1, 100 random cases find 1 with a chance of at least 99 % (2 seeds);\n\
+             least likely by the cases: written 0 %, hidden 50 %;\n\
+             found in neither way: hidden"
+        );
+        assert!(say(5, 99).ends_with(
+            "find 0 with a chance of at least 99 % (2 seeds);\n\
+             least likely by the cases: written 0 %, drawn 50 %, hidden 50 %;\n\
+             found in neither way: hidden, drawn"
+        ));
+        assert!(say(0, 100).ends_with("\nfound in neither way: hidden, written"));
+        assert!(!say(0, 100).contains("vectors") && !say(5, 0).contains("random"));
+        assert_eq!(of_record(&record, &campaign("hardened", &[Kind::Cycle], 5, 100)), None);
+    }
+
+    /// What is not named is counted, and what is found with every seed is not among it.
+    #[test]
+    fn five_of_the_least_likely_are_named() {
+        let names = ["a", "b", "c", "d", "e", "f", "g", "sure"];
+        let bug = |(at, name): (usize, &&str)| Bug {
+            name: (*name).to_owned(),
+            program: String::new(),
+            profile: String::new(),
+            kind: Kind::Cycle,
+            about: String::new(),
+            vectors: 1,
+            first: (0..7).map(|seed| (seed < at).then_some(9)).collect(),
+            measured: None,
+        };
+        let bugs: Vec<Bug> = names.iter().enumerate().map(bug).collect();
+        let of =
+            |count: usize, cases| least_likely(&bugs.iter().take(count).collect::<Vec<_>>(), cases);
+        assert_eq!(of(8, 9), "a 0 %, b 14 %, c 28 %, d 42 %, e 57 %, 2 more below 99 %");
+        assert_eq!(of(2, 8), "a 0 %, b 0 %");
+        assert_eq!(least_likely(&[&bugs[7]], 9), "none");
+    }
+
+    #[test]
+    fn only_a_clean_and_whole_run_says_it() {
+        let clean = || summary(campaign("paper", &[Kind::Cycle], 10, 100));
+        assert!(words(&clean()).is_some());
+        let tolerance = Some(1e-6);
+        let tolerant = Campaign { tolerance, ..clean().campaign };
+        assert_eq!(words(&Summary { campaign: tolerant, ..clean() }), None);
+        assert_eq!(words(&Summary { interrupted: true, ..clean() }), None);
+        assert_eq!(words(&Summary { skipped: 1, ..clean() }), None);
+        assert_eq!(words(&Summary { vectors_skipped: 1, ..clean() }), None);
+        assert_eq!(words(&Summary { shards: Vec::new(), ..clean() }), None);
+    }
+}

@@ -1,0 +1,322 @@
+//! Compositions as a table and as a graph; the example is the service set of the paper's Fig. 2.
+
+use mufasa_oracle::compose::{Composed, composed};
+use mufasa_records::{Answer, answer};
+
+const FIG_2: &str = include_str!("../../../examples/fig2.json");
+
+fn fig_2() -> Composed {
+    composed(FIG_2).expect("the example composes")
+}
+
+/// Composes services given as (id, requires, guarantees, station).
+fn of_services(goal: &str, services: &[(&str, &[&str], &[&str], i64)]) -> Composed {
+    let services: Vec<String> = services
+        .iter()
+        .map(|(id, requires, guarantees, station)| {
+            format!(
+                "{{\"id\": {id:?}, \"requires\": {requires:?}, \"guarantees\": {guarantees:?}, \
+                 \"station\": {station}}}"
+            )
+        })
+        .collect();
+    let services = services.join(",\n");
+    composed(&format!(
+        "{{\"kind\": \"composition\", \"id\": \"s\", \"goal\": {goal:?}, \"services\": [{services}]}}"
+    ))
+    .expect("the services compose")
+}
+
+/// The attribute of an element as a number.
+fn number(element: roxmltree::Node<'_, '_>, name: &str) -> f64 {
+    element.attribute(name).and_then(|text| text.parse().ok()).expect("a number")
+}
+
+/// Boxes (left, right, top, bottom) and labels of a picture, which must be well-formed XML.
+fn boxes(svg: &str) -> Vec<([f64; 4], String)> {
+    let document = roxmltree::Document::parse(svg).expect("a picture is XML");
+    let groups = document.descendants().filter(|node| node.has_tag_name("g"));
+    groups
+        .filter_map(|group| {
+            let find = |name: &str| group.children().find(|node| node.has_tag_name(name));
+            find("title")?;
+            let rect = find("rect").expect("a box");
+            let [x, y, width, height] =
+                ["x", "y", "width", "height"].map(|name| number(rect, name));
+            let label = find("text").and_then(|text| text.text()).unwrap_or_default();
+            Some(([x, x + width, y, y + height], label.to_owned()))
+        })
+        .collect()
+}
+
+fn assert_no_overlap(svg: &str) {
+    let boxes = boxes(svg);
+    for (i, (a, name_a)) in boxes.iter().enumerate() {
+        for (b, name_b) in &boxes[..i] {
+            let apart = a[1] + 8.0 < b[0] || b[1] + 8.0 < a[0] || a[3] < b[2] || b[3] < a[2];
+            assert!(apart, "{name_a} {a:?} and {name_b} {b:?}");
+        }
+    }
+}
+
+/// The arrows of Fig. 2, in the order of the figure's source.
+const ARROWS: [(&str, &str); 17] = [
+    ("control", "actuation"),
+    ("cav-tpl", "control"),
+    ("mec-tpl", "control"),
+    ("cav-env", "cav-tpl"),
+    ("mec-env", "mec-tpl"),
+    ("cav-ego-motion", "cav-env"),
+    ("cav-ego-motion", "mec-env"),
+    ("cav-map", "cav-env"),
+    ("mec-map", "mec-env"),
+    ("cav-tracking", "cav-env"),
+    ("mec-tracking", "cav-env"),
+    ("mec-tracking", "mec-env"),
+    ("cav-tracking", "mec-env"),
+    ("cav-detection", "cav-tracking"),
+    ("mec-detection", "cav-tracking"),
+    ("mec-detection", "mec-tracking"),
+    ("cav-detection", "mec-tracking"),
+];
+
+#[test]
+fn the_graph_of_fig_2_has_exactly_the_arrows_of_the_figure() {
+    let graph = fig_2().graph();
+    assert_eq!(graph.nodes.len(), 13);
+    assert_eq!(graph.nodes[0].id, "actuation");
+    let id = |node: usize| graph.nodes[node].id.as_str();
+    let mut drawn: Vec<_> = graph.edges.iter().map(|e| (id(e.provider), id(e.consumer))).collect();
+    let mut figure = ARROWS.to_vec();
+    drawn.sort_unstable();
+    figure.sort_unstable();
+    assert_eq!(drawn, figure);
+    for edge in &graph.edges {
+        let [from, to] = [edge.provider, edge.consumer].map(|node| graph.nodes[node].station);
+        assert_eq!(edge.switch, from != to);
+    }
+}
+
+/// The vectors say what the answer must be, `model/tests/services/figure_2.rs` why.
+#[test]
+fn the_example_composes_as_the_vector_of_fig_2() {
+    let vectors = include_str!("../../../vectors/services/composition.jsonl");
+    let vectors = vectors.lines().map(|line| serde_json::from_str(line).expect("a vector"));
+    let of_fig_2 = |it: &serde_json::Value| it["id"] == "composition-figure-2";
+    let vector = vectors.into_iter().find(of_fig_2).expect("there is one");
+    let answer = serde_json::to_value(fig_2().answer()).expect("JSON");
+    assert_eq!(answer["compositions"], vector["expect"]["compositions"]);
+}
+
+#[test]
+fn the_table_has_one_row_per_composition() {
+    let table = fig_2().table();
+    assert!(table.starts_with("8 compositions for actuation, 7 distributed\n"), "{table}");
+    assert!(table.contains("in every one: actuation, cav-ego-motion, control\n"), "{table}");
+    for row in 1..=8 {
+        assert!(table.contains(&format!("\u{2502} {row} \u{2506}")), "{table}");
+    }
+    assert!(!table.contains("\u{2502} 9 "), "{table}");
+    assert!(table.contains("mec-tpl \u{2192} control"), "{table}");
+}
+
+#[test]
+fn the_table_says_what_is_chosen_when_the_members_do_not() {
+    // Both serve `top` and `left` in turn, so that two compositions have the same members.
+    let all = of_services(
+        "top",
+        &[
+            ("top", &["a", "b"], &[], 0),
+            ("left", &[], &["a", "b"], 0),
+            ("right", &[], &["a", "b"], 0),
+            ("spare", &[], &["c"], 0),
+        ],
+    );
+    let table = all.table();
+    assert!(table.starts_with("4 compositions for top, 0 distributed\n"), "{table}");
+    for chosen in ["a of top: left", "a of top: right", "b of top: left", "b of top: right"] {
+        assert_eq!(table.matches(chosen).count(), 2, "{table}");
+    }
+    assert!(table.contains("in none: spare\n"), "{table}");
+}
+
+#[test]
+fn without_a_composition_the_table_says_why() {
+    let nobody = of_services("top", &[("top", &["a"], &[], 0)]);
+    assert_eq!(nobody.table(), "no composition for top: nobody guarantees a, which top requires\n");
+    let round = of_services("top", &[("top", &["a"], &["a"], 0)]);
+    assert_eq!(round.table(), "no composition for top: the rule acyclic stands in the way\n");
+    assert_eq!(round.graph().edges.len(), 1);
+}
+
+#[test]
+fn the_picture_of_fig_2_shows_every_service_once_and_none_over_another() {
+    let svg = fig_2().svg();
+    assert_no_overlap(&svg);
+    let boxes = boxes(&svg);
+    let mut labels: Vec<_> = boxes.iter().map(|(_, label)| label.as_str()).collect();
+    labels.sort_unstable();
+    let graph = fig_2().graph();
+    let mut ids: Vec<_> = graph.nodes.iter().map(|node| node.id.as_str()).collect();
+    ids.sort_unstable();
+    assert_eq!(labels, ids);
+    // The goal at the top, every provider below its consumers.
+    let top = |id: &str| boxes.iter().find(|(_, label)| label == id).expect("drawn").0[2];
+    for (provider, consumer) in ARROWS {
+        assert!(top(provider) > top(consumer), "{provider} {consumer}");
+    }
+    let switches = ARROWS.iter().filter(|(a, b)| a.starts_with("mec") != b.starts_with("mec"));
+    // One more in the legend.
+    assert_eq!(svg.matches("<path class=\"switch\"").count(), switches.count() + 1);
+    for word in ["station 0 (CAV)", "station 1 (MEC)", "device switch", "provides for"] {
+        assert!(svg.contains(&format!(">{word}<")), "{word}");
+    }
+}
+
+/// An arrow over several layers passes between the boxes, not through them.
+#[test]
+fn no_arrow_of_a_picture_crosses_a_box() {
+    let long = of_services(
+        "goal",
+        &[
+            ("goal", &["a", "b", "c", "d"], &[], 0),
+            ("first", &["b", "d"], &["a"], 1),
+            ("second", &["c", "d"], &["b"], 2),
+            ("third", &["d"], &["c"], 3),
+            ("the source of everything, with a long name", &[], &["d"], 4),
+        ],
+    );
+    let svg = long.svg();
+    assert_no_overlap(&svg);
+    let boxes = boxes(&svg);
+    let document = roxmltree::Document::parse(&svg).expect("XML");
+    let arrows = document.descendants().filter(|node| {
+        node.attribute("class") == Some("switch")
+            && node.children().any(|child| child.has_tag_name("title"))
+    });
+    let mut curves = 0;
+    for arrow in arrows {
+        for [x, y] in curve(arrow.attribute("d").expect("a path")) {
+            for ([left, right, top, bottom], name) in &boxes {
+                let inside = *left < x && x < *right && *top < y && y < *bottom;
+                assert!(!inside, "{name} is crossed at {x}, {y}");
+            }
+        }
+        curves += 1;
+    }
+    assert_eq!(curves, long.graph().edges.len());
+}
+
+/// Points of a path `M point C control control point S control point ...`, 50 a curve.
+fn curve(path: &str) -> Vec<[f64; 2]> {
+    let numbers: Vec<f64> = path.split(' ').filter_map(|word| word.parse().ok()).collect();
+    let mut given = numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
+    let mut next = || given.next();
+    let (mut from, mut leave) = (next().expect("a start"), next().expect("a control point"));
+    let mut points = Vec::new();
+    while let (Some(arrive), Some(to)) = (next(), next()) {
+        points.extend((1..50).map(|step| {
+            let t = f64::from(step) / 50.0;
+            let weights = [(1.0 - t).powi(3), 3.0 * t * (1.0 - t).powi(2), 3.0 * t * t * (1.0 - t)];
+            [0, 1].map(|axis| {
+                let ends = weights[0] * from[axis] + t.powi(3) * to[axis];
+                ends + weights[1] * leave[axis] + weights[2] * arrive[axis]
+            })
+        }));
+        leave = [2.0 * to[0] - arrive[0], 2.0 * to[1] - arrive[1]];
+        from = to;
+    }
+    points
+}
+
+/// Two compositions may need a service above and below another: the union has a cycle.
+#[test]
+fn compositions_that_form_a_cycle_together_can_be_drawn() {
+    let both = of_services(
+        "goal",
+        &[
+            ("goal", &["x", "y"], &[], 0),
+            ("a", &["u"], &["x", "v"], 0),
+            ("b", &["v"], &["y", "u"], 1),
+            ("sensor", &[], &["u", "v"], 0),
+        ],
+    );
+    assert!(both.answer().compositions.len() > 1);
+    let graph = both.graph();
+    let id = |node: usize| graph.nodes[node].id.as_str();
+    let has = |from: &str, to: &str| {
+        graph.edges.iter().any(|edge| (id(edge.provider), id(edge.consumer)) == (from, to))
+    };
+    assert!(has("a", "b") && has("b", "a"));
+    // The head of an arrow is at the consumer, whichever of the two lies higher.
+    let svg = both.svg();
+    for (link, end) in [("b to a: u", "start"), ("a to b: v", "end")] {
+        let title = format!("<title>{link}</title>");
+        let path = svg.lines().find(|line| line.contains(&title)).expect("drawn");
+        assert!(path.contains(&format!(" marker-{end}=")), "{path}");
+    }
+    assert_no_overlap(&svg);
+}
+
+#[test]
+fn names_that_a_picture_cannot_hold_are_escaped() {
+    let odd = of_services(
+        "<goal> & \"co\"",
+        &[("<goal> & \"co\"", &["a\\b"], &[], 0), ("tab\tand \u{e9}\u{1f697}", &[], &["a\\b"], 9)],
+    );
+    let labels: Vec<String> = boxes(&odd.svg()).into_iter().map(|(_, label)| label).collect();
+    assert_eq!(labels, ["<goal> & \"co\"", "tab\u{fffd}and \u{e9}\u{1f697}"]);
+    let dot = odd.dot();
+    assert!(dot.contains(r#"label="<goal> & \"co\"""#), "{dot}");
+    assert!(dot.contains(r#"n1 -> n0 [label="a\\b", style=dashed];"#), "{dot}");
+}
+
+#[test]
+fn the_dot_file_has_every_service_and_every_link() {
+    let dot = fig_2().dot();
+    assert!(dot.starts_with("digraph services {\n  rankdir=BT;\n") && dot.ends_with("}\n"));
+    assert_eq!(dot.matches("fillcolor").count(), 13);
+    assert_eq!(dot.matches(" -> ").count(), ARROWS.len());
+    assert_eq!(dot.matches("style=dashed").count(), 6);
+}
+
+#[test]
+fn a_composition_is_answered_as_the_line_protocol_answers_it() {
+    let line = FIG_2.replace('\n', " ");
+    assert_eq!(answer(line.as_bytes(), 1), Answer::Composition(fig_2().answer()));
+}
+
+#[test]
+fn a_file_that_is_no_composition_is_an_error_with_its_line() {
+    let broken = FIG_2.replace("\"goal\": \"actuation\",", "\"goal\": actuation,");
+    let error = composed(&broken).err().expect("no JSON");
+    let line = FIG_2.lines().position(|line| line.contains("\"goal\"")).expect("there") + 1;
+    assert_eq!((error.line, error.field.as_str()), (line, ""));
+    let trace = r#"{"kind": "offloading", "id": "o", "events": []}"#;
+    assert_eq!(composed(trace).err().expect("a trace").field, "kind");
+    let goal = FIG_2.replace("\"goal\": \"actuation\"", "\"goal\": \"brake\"");
+    let error = composed(&goal).err().expect("no such service");
+    assert_eq!((error.field.as_str(), error.id.as_deref()), ("goal", Some("paper-fig-2")));
+    assert!(error.to_string().contains("brake"));
+}
+
+/// Layers of services, each of which requires something of all in the next: 400 of one, and 40 of
+/// two, through which there are 2^40 ways.
+#[test]
+fn long_chains_can_be_drawn() {
+    for (layers, width) in [(400, 1), (40, 2)] {
+        let interfaces = |layer: usize| (0..width).map(move |at| format!("i{layer}-{at}"));
+        let ids: Vec<Vec<String>> = (0..=layers).map(|layer| interfaces(layer).collect()).collect();
+        let ids: Vec<Vec<&str>> =
+            ids.iter().map(|layer| layer.iter().map(String::as_str).collect()).collect();
+        let mut services: Vec<(&str, &[&str], &[&str], i64)> = vec![("goal", &ids[0], &[], 0)];
+        for layer in 0..layers {
+            let requires = if layer + 1 < layers { &ids[layer + 1][..] } else { &[] };
+            let provides = ids[layer].iter().map(std::slice::from_ref);
+            services.extend(provides.map(|id| (id[0], requires, id, 0)));
+        }
+        let chain = of_services("goal", &services);
+        assert_no_overlap(&chain.svg());
+        assert_eq!(chain.graph().edges.len(), width + (layers - 1) * width * width);
+    }
+}

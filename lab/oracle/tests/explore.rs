@@ -1,0 +1,171 @@
+//! `mufasa explore`, and what is kept of F-12: the vectors and the chart.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use mufasa_exploration::bounds::Bounds;
+use mufasa_exploration::properties::Property;
+use mufasa_exploration::run::{self, WorldOutcome};
+use mufasa_model::input::cycle::Profile;
+use mufasa_oracle::document;
+use mufasa_oracle::explore::report::ExplorationReport;
+use mufasa_oracle::explore::{self, findings};
+use mufasa_records::{self as json, Record};
+use serde_json::Value;
+
+fn kept(name: &str) -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vectors/offloading").join(name);
+    fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
+}
+
+/// The world without an attacker, which is small, in the paper profile.
+fn honest() -> Vec<WorldOutcome> {
+    let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").unwrap();
+    vec![run::explore(world, Profile::PAPER, 0, |_| {}).unwrap()]
+}
+
+/// F-12 is what the exploration finds today, neither longer nor shorter.
+#[test]
+fn the_kept_vectors_and_chart_of_f_12_are_what_is_found() {
+    let outcomes = honest();
+    let stories = findings::stories(Profile::PAPER, &outcomes).unwrap();
+    let [story] = stories.as_slice() else { panic!("{} stories", stories.len()) };
+    assert_eq!(story.name, "explored-F-12");
+    assert_eq!(
+        story.vectors().unwrap(),
+        kept("explored-F-12.jsonl"),
+        "mufasa explore --out writes it"
+    );
+    assert_eq!(story.chart(), kept("explored-F-12.svg"), "mufasa explore --out writes it");
+}
+
+/// The page has a row for every world and property in both profiles; that of the smallest world is
+/// what is explored today.
+#[test]
+fn the_tables_of_the_page_are_those_of_a_run() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/exploration.md");
+    let tables = document::read(&page, &explore::table_name(Bounds::Small)).unwrap();
+    let rows = |text: &str, name: &str| -> Vec<String> {
+        let start = format!("| {name} | ");
+        text.lines().filter(|line| line.starts_with(&start)).map(str::to_owned).collect()
+    };
+    let worlds = Bounds::Small.worlds().iter().map(|world| world.name.to_owned());
+    let laws = Property::ALL.iter().map(|law| law.name().replace('_', " "));
+    for name in worlds.chain(laws) {
+        assert_eq!(
+            rows(&tables, &name).len(),
+            2,
+            "{name}: mufasa explore --into docs/exploration.md"
+        );
+    }
+    let today = ExplorationReport::new(Profile::PAPER, Bounds::Small, &honest()).markdown();
+    // Up to the depth; what follows depends on the machine.
+    let sizes = |text: &str| -> Vec<String> {
+        rows(text, "honest")[0].split(" | ").take(6).map(str::to_owned).collect()
+    };
+    assert_eq!(sizes(&tables), sizes(&today));
+}
+
+/// H-08 and F-12: after the same events the local services stand still in the paper profile and
+/// compute in the hardened one; the oracle answers as the vectors expect.
+#[test]
+fn the_oracle_answers_the_vectors_of_f_12() {
+    let text = kept("explored-F-12.jsonl");
+    let mut stopped = Vec::new();
+    for line in text.lines() {
+        let vector: Value = serde_json::from_str(line).unwrap();
+        let input = vector["input"].to_string();
+        let record = json::parse(input.as_bytes(), 1).unwrap();
+        assert!(matches!(&record, Record::Offloading { id, .. } if *id == vector["id"]));
+        let answer = serde_json::to_value(json::decide(record).unwrap()).unwrap();
+        assert_eq!(answer, vector["expect"], "{}", vector["id"]);
+        assert_eq!(vector["requirement"], "F-12");
+        let last = vector["expect"]["states"].as_array().unwrap().last().unwrap();
+        assert_eq!(last["mot"], "remote:1");
+        let profile = vector["input"]["profile"].as_str().unwrap().to_owned();
+        assert_eq!(vector["flag"], format!("{profile}-only"));
+        stopped.push((profile, last["actions"].to_string().contains("deactivate")));
+    }
+    assert_eq!(stopped, [("paper".to_owned(), true), ("hardened".to_owned(), false)]);
+}
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let name = format!("mufasa-explore-{name}-{}", std::process::id());
+        Self(std::env::temp_dir().join(name))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn run_explore(folder: &Folder, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mufasa"))
+        .arg("explore")
+        .args(arguments)
+        .arg("--out")
+        .arg(&folder.0)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_program_shows_verdicts_and_writes_what_it_found() {
+    let folder = Folder::new("honest");
+    let output = run_explore(&folder, &["--world", "honest", "--threads", "1"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("fails after 4 moves (F-12)"), "{text}");
+    // Both engines in both profiles.
+    assert_eq!(text.matches("5,073").count(), 4, "{text}");
+    assert_eq!(
+        fs::read_to_string(folder.0.join("explored-F-12.jsonl")).unwrap(),
+        kept("explored-F-12.jsonl")
+    );
+    assert_eq!(
+        fs::read_to_string(folder.0.join("explored-F-12.svg")).unwrap(),
+        kept("explored-F-12.svg")
+    );
+}
+
+#[test]
+fn nothing_is_found_in_the_hardened_profile() {
+    let folder = Folder::new("hardened");
+    let arguments = ["--profile", "hardened", "--world", "honest", "--threads", "0"];
+    let output = run_explore(&folder, &arguments);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(!String::from_utf8(output.stdout).unwrap().contains("fails"));
+    let files = fs::read_dir(&folder.0).unwrap().map(|file| file.unwrap().file_name());
+    let mut files: Vec<_> = files.collect();
+    files.sort();
+    assert_eq!(files, ["exploration.json", "exploration.md"], "no counterexample");
+    let json = fs::read_to_string(folder.0.join("exploration.json")).unwrap();
+    let reports: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(reports[0]["profile"], "hardened");
+    assert_eq!(reports[0]["worlds"][0]["states"], 5073);
+    assert_eq!(reports[0]["worlds"][0]["stateright_states"], Value::Null, "it was not asked");
+    for property in reports[0]["properties"].as_array().unwrap() {
+        assert_eq!(property["fails_in"], 0, "{property}");
+    }
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    let folder = Folder::new("bad");
+    for arguments in [
+        &["--world", "nowhere"][..],
+        &["--bounds", "huge"],
+        &["--threads", "-1"],
+        &["--world", "honest", "--serve", "no address"],
+    ] {
+        let output = run_explore(&folder, arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!output.stderr.is_empty(), "{arguments:?}");
+    }
+}

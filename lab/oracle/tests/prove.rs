@@ -1,0 +1,203 @@
+//! `mufasa prove`: what is not here is not run, what is refuted is no success.
+
+#[path = "kit/folders.rs"]
+mod folders;
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use folders::folder;
+use mufasa_oracle::document;
+use mufasa_oracle::prove::{SOURCES, TABLE_NAME, sources, tables};
+use mufasa_theorems::{gappa, theorem};
+
+fn prove(arguments: &[&str], path: Option<&str>, folder: &Path) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    command.arg("prove").args(arguments).arg("--out").arg(folder.join("prove.json"));
+    if let Some(path) = path {
+        command.env("PATH", path);
+    }
+    command.output().expect("the program runs")
+}
+
+#[test]
+fn without_solvers_nothing_is_proved() {
+    let folder = folder("prove-without");
+    let output = prove(&["z3", "gappa"], Some(""), &folder);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).expect("text");
+    let all = theorem::all().count() + gappa::BOUNDS.len();
+    let last = format!("0 proved, 0 refuted, 0 unknown, 0 tested, {all} not run");
+    assert!(all > 50 && text.contains(&last), "{text}");
+    let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
+    assert_eq!(lines.matches("\"verdict\":\"not run\"").count(), all);
+}
+
+/// A line of compiled code, as `scripts/prove-wasm` writes it.
+fn compiled(verdict: &str, sources: &str) -> String {
+    format!(
+        "{{\"id\": \"quality_of_service::verify_latency_is_exact\", \"engine\": \"cbmc-wasm\", \"verdict\": \"{verdict}\", \"seconds\": 1.5, \
+         \"sources\": \"{sources}\"}}\n"
+    )
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+#[test]
+fn a_refuted_harness_is_no_success() {
+    let folder = folder("prove-refuted");
+    let cbmc = folder.join("cbmc.json");
+    let here = sources::hash(root()).expect("the sources are here");
+    for (verdict, code) in [("proved", 0), ("refuted", 1), ("unknown", 1), ("perhaps", 2)] {
+        std::fs::write(&cbmc, compiled(verdict, &here)).expect("the file");
+        let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
+        let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
+        assert_eq!(output.status.code(), Some(code), "{verdict}: {output:?}");
+    }
+}
+
+#[test]
+fn a_proof_of_other_sources_counts_nothing() {
+    let folder = folder("prove-other");
+    let cbmc = folder.join("cbmc.json");
+    std::fs::write(&cbmc, compiled("proved", "0123456789abcdef")).expect("the file");
+    let [file, root] = [&cbmc, root()].map(|path| path.to_str().expect("a plain path"));
+    let output = prove(&["latency", "--cbmc", file, "--sources", root], None, &folder);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(text.contains("0 proved, 0 refuted, 0 unknown, 1 tested, 0 not run"), "{text}");
+    let lines = std::fs::read_to_string(folder.join("prove.json")).expect("the lines");
+    assert!(lines.contains("of other sources"), "{lines}");
+}
+
+#[test]
+fn the_hash_of_the_sources_is_that_of_the_script() {
+    let script = root().join("scripts/prove-wasm");
+    let Ok(output) = Command::new(script).arg("--hash").output() else {
+        println!("NOT RUN: no Python here");
+        return;
+    };
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(text.trim(), sources::hash(root()).expect("the sources are here"));
+}
+
+#[test]
+fn the_document_has_a_row_for_every_claim() {
+    let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
+    let table = document::read(&root().join("docs/proofs.md"), TABLE_NAME).expect("the table");
+    let expected = tables::markdown(&claims);
+    assert_eq!(tables::claims(&expected).len(), claims.len());
+    assert_eq!(
+        tables::claims(&table),
+        tables::claims(&expected),
+        "the table is old: cargo run -- prove --into docs/proofs.md"
+    );
+    // The README says the numbers of the table.
+    let counts = table.lines().find(|line| line.contains(" proved, ")).expect("the counts");
+    let number = |of: &str| {
+        let before = counts.split(of).next().unwrap_or_default();
+        before.rsplit([',', ':']).next().unwrap_or_default().trim().to_owned()
+    };
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("a README");
+    // Of what was proved of compiled code alone nothing is proved where `scripts/prove-wasm` was not run.
+    let rows = || table.lines().filter(|row| row.starts_with("| `"));
+    let is_wasm =
+        |row: &&str| row.contains("-wasm | ") && row.contains(" | proved; sampling tested");
+    let wasm = rows().filter(is_wasm).count();
+    for said in [
+        format!("Of {} claims {} are proved", claims.len(), number(" proved")),
+        format!(" {} tested", number(" tested")),
+        format!("{wasm} of them after `scripts/prove-wasm`"),
+    ] {
+        assert!(readme.contains(&said), "the README does not say: {said}");
+    }
+    for line in &claims {
+        assert!(!line.mutants.is_empty(), "{}: nothing makes it fail", line.id);
+    }
+}
+
+#[test]
+fn the_document_is_of_these_sources_or_that_is_said() {
+    let table = document::read(&root().join("docs/proofs.md"), TABLE_NAME).expect("the table");
+    let number = table.split_once(SOURCES).and_then(|(_, rest)| rest.get(..16));
+    let number = number.expect("the number of the sources below the table");
+    assert!(number.chars().all(|digit| digit.is_ascii_hexdigit()), "{number}");
+    if number != sources::hash_of_all(root()).expect("the sources are here") {
+        println!("NOT RUN: docs/proofs.md: of other sources: mufasa prove --into docs/proofs.md");
+    }
+}
+
+/// Before anything is run, with what may be meant.
+#[test]
+fn a_name_of_nothing_is_bad_input() {
+    for (names, said) in [
+        (&["no such name"][..], "no such name: nothing has such a name; "),
+        (
+            &["z3", "s_b_growz_with_v"],
+            "s_b_growz_with_v: nothing has such a name; is s_b_grows_with_v meant?",
+        ),
+        (&["gapa"], "gapa: nothing has such a name; is gappa meant?"),
+    ] {
+        let output = prove(names, Some(""), &folder("prove-none"));
+        let told = String::from_utf8(output.stderr).expect("text");
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{told}");
+        assert!(told.starts_with(&format!("mufasa: {said}")), "{told}");
+    }
+}
+
+/// Whatever the table prints can be given back.
+#[test]
+fn names_are_taken_as_the_table_prints_them() {
+    let folder = folder("prove-printed");
+    for name in ["s b grows with v", "s_b_grows_with_v"] {
+        let output = prove(&[name], Some(""), &folder);
+        let text = String::from_utf8(output.stdout).expect("text");
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        assert!(text.lines().nth(1).is_some_and(|row| row.contains("s b grows with v")), "{text}");
+        assert!(text.contains(" 2 not run"), "{text}");
+    }
+}
+
+/// What a few names give is not the whole that such a file holds.
+#[test]
+fn a_run_of_names_writes_where_it_is_told_only() {
+    let folder = folder("prove-some");
+    let run = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+        let command = command.args(["prove", "gappa"]).args(more).env("PATH", "");
+        let output = command.current_dir(&folder).output().expect("the program runs");
+        assert_eq!((output.status.code(), output.stderr.len()), (Some(0), 0), "{output:?}");
+        std::fs::read_dir(&folder).expect("a folder").count()
+    };
+    assert_eq!(run(&[]), 0);
+    assert_eq!(run(&["--out", "gappa.json"]), 1);
+}
+
+#[test]
+fn a_run_of_all_says_first_where_it_writes() {
+    let folder = folder("prove-all");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
+    let command = command.arg("prove").env("PATH", "").current_dir(&folder);
+    let mut all = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("it runs");
+    let mut first = String::new();
+    let stderr = all.stderr.take().expect("it is piped");
+    let read = BufReader::new(stderr).read_line(&mut first);
+    all.kill().expect("it can be ended");
+    all.wait().expect("it ends");
+    read.expect("there is a line");
+    let said = "mufasa: writes into target/proofs/prove.json; --out names another file\n";
+    assert_eq!(first, said);
+}
+
+#[test]
+fn every_mutant_refutes_claims_that_there_are() {
+    let claims = mufasa_oracle::prove::claims().expect("the lists of claims");
+    for mutant in mufasa_mutants::all().expect("the list is read") {
+        for claim in mutant.refutes.values().flatten() {
+            assert!(claims.iter().any(|line| line.id == *claim), "{}: {claim}", mutant.change);
+        }
+    }
+}
