@@ -1,124 +1,188 @@
-//! Every MUST of `spec/` is named by a test, and every name stands for a MUST.
+//! Every requirement of `spec/` has an id, is cited, and stays what it was when it was cited.
 //!
-//! A requirement is a line of `spec/` with a MUST in it. Its name is the file, the anchor of its
-//! heading and its place among the requirements under that heading, such as
-//! `spec/3-stages.md#distances.2`. The rules H-nn and the interpretations I-nn have names of their
-//! own. A test names them in its doc comment or in a comment beside it; a vector names the one that it
-//! is of, and `lab/conform/tests/vectors` holds model and implementation to every vector.
-//! `cargo test -p mufasa-props --test requirements -- --nocapture` prints the table.
+//! `**[DIST-02]**` in the text names a requirement (`tree/ids.rs`); comments and strings of tests and
+//! of `proofs/`, and `requirement` and `flag` of vectors, cite it. `spec/requirements.lock` holds a
+//! hash of each requirement and, of each citation, the hash of what was confirmed. Who changes a
+//! sentence reads what cites it and confirms it, id by id:
+//! `CONFIRM=DIST-02,H-04.1 cargo test -p mufasa-props --test requirements`.
+//! With `-- --nocapture` the table of requirements and citations is printed.
 
+#[path = "tree/citations.rs"]
+mod citations;
+#[path = "tree/ids.rs"]
+mod ids;
+#[path = "tree/lines.rs"]
+mod lines;
+#[path = "tree/lock.rs"]
+mod lock;
 mod tree;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use tree::{Tree, sections};
+use citations::{Citations, citations, strangers};
+use ids::{Requirement, prefix, requirements, rule};
+use lock::Lock;
+use tree::Tree;
 
-/// Requirements without a test, each with the reason.
-const OPEN: &[(&str, &str)] = &[];
+const LOCK: &str = "spec/requirements.lock";
 
-/// Names and first words of all requirements, in the order of `spec/`.
-fn requirements(tree: &Tree) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    for (file, text) in tree.ending(".md").filter(|(path, _)| is_normative(path)) {
-        for section in sections(text) {
-            let mut count = 0;
-            for line in section.lines {
-                let words = line.trim_start_matches(['*', ' ', '|']).chars().take(90).collect();
-                if let Some(rule) = rule_of_row(line) {
-                    found.push((rule.to_owned(), words));
-                } else if line.contains("MUST") {
-                    count += 1;
-                    found.push((format!("{file}#{}.{count}", section.anchor), words));
-                }
-            }
+/// Says which prefix stands for which heading.
+const PREFIXES: &str = "spec/README.md";
+
+/// Texts whose requirements have no ids yet.
+const WITHOUT: &[&str] = &[
+    "spec/1-services.md",
+    "spec/2-offloading.md",
+    "spec/3-stages.md",
+    "spec/4-arithmetic.md",
+    "spec/5-interfaces.md",
+    "spec/6-link.md",
+    "spec/7-fail-safe.md",
+];
+
+/// Ids that stand twice, lines with a MUST that have none, and prefixes that stand elsewhere than the
+/// table of prefixes says, or nowhere.
+fn ill_named(tree: &Tree) -> Vec<String> {
+    let (found, nameless) = requirements(tree);
+    let is_without = |line: &String| WITHOUT.iter().any(|it| line.starts_with(it));
+    let mut wrong: Vec<String> = nameless
+        .into_iter()
+        .filter(|it| !is_without(it))
+        .map(|it| format!("no id: {it}"))
+        .collect();
+    let mut known = BTreeSet::new();
+    let table = prefixes(tree);
+    for Requirement { id, place, .. } in &found {
+        if !known.insert(id) {
+            wrong.push(format!("{id} stands twice"));
+        }
+        if ids::ids_in(id) != [id] {
+            wrong.push(format!("{id}: an id is a prefix and two digits, such as DIST-02"));
+        }
+        if !table.iter().any(|(name, target)| *name == prefix(id) && place.starts_with(target)) {
+            wrong.push(format!("{id} stands at {place}: {PREFIXES} says otherwise"));
         }
     }
-    found
+    for (name, target) in &table {
+        if !found.iter().any(|it| prefix(&it.id) == *name) {
+            wrong.push(format!("{PREFIXES}: {name} ({target}) has no requirement"));
+        }
+    }
+    wrong
 }
 
-/// `spec/3-stages.md`, but not `spec/CHANGES.md`.
-fn is_normative(path: &str) -> bool {
-    path.strip_prefix("spec/").is_some_and(|name| name.starts_with(|c: char| c.is_ascii_digit()))
+/// The rows `| DIST | [words](3-stages.md#distances) |`.
+fn prefixes(tree: &Tree) -> Vec<(&str, String)> {
+    let text = tree.0.get(PREFIXES).map(String::as_str).unwrap_or_default();
+    text.lines().filter_map(prefix_of_row).collect()
 }
 
-/// `| H-04 | ...` is the row of a rule, `| I-02 | ...` of an interpretation.
-fn rule_of_row(line: &str) -> Option<&str> {
-    let name = line.strip_prefix("| ")?.split(' ').next()?;
-    is_rule(name).then_some(name)
+fn prefix_of_row(line: &str) -> Option<(&str, String)> {
+    let (name, rest) = line.strip_prefix("| ")?.split_once(" | ")?;
+    let target = rest.split_once("](")?.1.split_once(')')?.0;
+    Some((name.trim_matches('`'), format!("spec/{target}")))
 }
 
-fn is_rule(name: &str) -> bool {
-    let digits = name.strip_prefix("H-").or_else(|| name.strip_prefix("I-"));
-    digits.is_some_and(|digits| digits.len() == 2 && digits.chars().all(|c| c.is_ascii_digit()))
-}
-
-/// Names in a text: `spec/<file>#<anchor>.<number>`, `H-<number>`, `I-<number>`.
-fn names_in(text: &str) -> impl Iterator<Item = String> {
-    let rules = ["H-", "I-"].into_iter().flat_map(|kind| text.match_indices(kind));
-    let rules = rules.filter_map(|(start, _)| text.get(start..start + 4).filter(|n| is_rule(n)));
-    rules.map(String::from).chain(places_in(text))
-}
-
-fn places_in(text: &str) -> impl Iterator<Item = String> {
-    text.match_indices("spec/").filter_map(|(start, _)| {
-        let rest = &text[start..];
-        let end = rest
-            .find(|c: char| !(c.is_alphanumeric() || matches!(c, '/' | '.' | '#' | '-' | '_')))
-            .unwrap_or(rest.len());
-        let name = rest[..end].trim_end_matches('.');
-        let (place, number) = name.rsplit_once('.')?;
-        (place.contains('#') && number.parse::<usize>().is_ok()).then(|| name.to_string())
-    })
+/// Requirements that no test, vector or proof cites. A vector of a rule cites all that it asks for.
+fn not_cited(found: &[Requirement], cited: &Citations) -> Vec<String> {
+    let of_rule = |id: &str| {
+        let by = cited.get(rule(id)).into_iter().flatten();
+        by.into_iter().any(|it| it.starts_with("vectors/"))
+    };
+    let without = found.iter().filter(|it| !cited.contains_key(&it.id) && !of_rule(&it.id));
+    without.map(|it| format!("{}: {}", it.id, it.text)).collect()
 }
 
 #[test]
-fn every_must_is_named_by_a_test() {
+fn every_requirement_has_an_id_of_its_own() {
+    let wrong = ill_named(&Tree::here());
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_requirement_is_cited_by_a_test_a_vector_or_a_proof() {
     let tree = Tree::here();
-    let requirements = requirements(&tree);
-    assert!(requirements.len() > 80, "spec/ has about a hundred lines with a MUST");
-    let known: BTreeSet<&str> = requirements.iter().map(|(name, _)| name.as_str()).collect();
-    let mut named: BTreeMap<String, Vec<&str>> = BTreeMap::new();
-    for (path, text) in tree.ending(".rs").filter(|(path, _)| !path.ends_with("requirements.rs")) {
-        if text.contains("#[test]") || text.contains("proptest!") {
-            names_in(text).for_each(|name| named.entry(name).or_default().push(path));
-        }
+    let (found, _) = requirements(&tree);
+    let cited = citations(&tree);
+    for Requirement { id, text, .. } in &found {
+        let by: Vec<&str> = cited.get(id).into_iter().flatten().map(String::as_str).collect();
+        println!("{id}\n    {text}\n    {}", by.join(" "));
     }
-    for (path, text) in tree.ending(".jsonl").filter(|(path, _)| path.starts_with("vectors/")) {
-        for line in text.lines() {
-            let value = |key: &str| {
-                let (_, rest) = line.split_once(&format!("\"{key}\": \""))?;
-                rest.split('"').next()
-            };
-            // The flag of a vector that depends on an interpretation ends in the interpretation.
-            let flag = value("flag").and_then(|flag| flag.strip_prefix("interpretation "));
-            for name in [value("requirement"), flag].into_iter().flatten() {
-                let files = named.get(name);
-                if known.contains(name) && !files.is_some_and(|files| files.contains(&path)) {
-                    named.entry(name.to_owned()).or_default().push(path);
-                }
-            }
-        }
-    }
-    let mut open = Vec::new();
-    for (name, why) in OPEN {
-        assert!(known.contains(name), "{name} is no requirement");
-        assert!(!named.contains_key(*name), "{name} has a test and is no longer open: {why}");
-    }
-    for (name, words) in &requirements {
-        let files = named.get(name).map(Vec::as_slice).unwrap_or_default();
-        println!("{name}\n    {words}\n    {}", files.join(" "));
-        if files.is_empty() && !OPEN.iter().any(|(open, _)| open == name) {
-            open.push(format!("{name}: {words}"));
-        }
-    }
-    let strangers: Vec<_> = named.keys().filter(|name| !known.contains(name.as_str())).collect();
-    assert!(strangers.is_empty(), "names without a requirement: {strangers:#?}");
-    assert!(open.is_empty(), "requirements without a test: {open:#?}");
+    let wrong = not_cited(&found, &cited);
+    assert!(wrong.is_empty(), "requirements without a test: {wrong:#?}");
 }
 
 #[test]
-fn a_name_ends_where_the_sentence_goes_on() {
-    let names: Vec<_> =
-        names_in("see spec/3-stages.md#distances.2, spec/3-stages.md#distances.").collect();
-    assert_eq!(names, ["spec/3-stages.md#distances.2"]);
+fn every_citation_is_of_a_requirement() {
+    let tree = Tree::here();
+    let wrong = strangers(&tree, &requirements(&tree).0, &Lock::parse(lock_of(&tree)).retired);
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+fn lock_of(tree: &Tree) -> &str {
+    tree.0.get(LOCK).map(String::as_str).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tree(files: &[(&str, &str)]) -> Tree {
+        let table = "| prefix | where |\n|---|---|\n| `A` | [here](x.md) |\n";
+        let files = files.iter().copied().chain([(PREFIXES, table)]);
+        Tree(files.map(|(path, text)| (path.to_owned(), text.to_owned())).collect())
+    }
+
+    #[test]
+    fn an_id_that_is_missing_or_stands_twice_or_elsewhere_is_seen() {
+        let file = "spec/monitor.md";
+        let wrong = ill_named(&tree(&[(
+            file,
+            "# M\n\n* **[A-01]** It MUST.\n* **[A-01]** So MUST it.\n* It MUST.\n",
+        )]));
+        let expected = [
+            format!("no id: {file}#m: * It MUST."),
+            format!("A-01 stands at {file}#m: {PREFIXES} says otherwise"),
+            "A-01 stands twice".to_owned(),
+            format!("A-01 stands at {file}#m: {PREFIXES} says otherwise"),
+        ];
+        assert_eq!(wrong, expected);
+        assert_eq!(ill_named(&tree(&[])), ["spec/README.md: A (spec/x.md) has no requirement"]);
+    }
+
+    /// What is not cited and what is cited in vain, with a file beside two requirements.
+    fn judged(path: &str, text: &str) -> [Vec<String>; 2] {
+        let asked = "# M\n\n* **[A-01]** It MUST.\n* **[H-04.1]** So MUST it.\n";
+        let tree = tree(&[("spec/monitor.md", asked), (path, text)]);
+        let found = requirements(&tree).0;
+        let retired = BTreeSet::from(["A-09".to_owned()]);
+        [not_cited(&found, &citations(&tree)), strangers(&tree, &found, &retired)]
+    }
+
+    #[test]
+    fn a_requirement_without_a_test_and_a_test_without_a_requirement_are_seen() {
+        let fine = [Vec::<String>::new(), Vec::new()];
+        let both = "/// A-01, H-04.1\n#[test]\nfn f() {}\n";
+        assert_eq!(judged("a/tests/b.rs", both), fine);
+        assert_eq!(
+            judged("proofs/src/law/a.rs", "/// A-01, H-04.1\npub fn f() -> bool {}\n"),
+            fine
+        );
+        let first = ["A-01: It MUST."];
+        assert_eq!(
+            judged("vectors/a.jsonl", r#"{"requirement": "H-04", "note": "A-01"}"#)[0],
+            first
+        );
+        // A rule as a whole is cited by a vector alone, and a source is no test.
+        let second = ["H-04.1: So MUST it."];
+        assert_eq!(judged("a/tests/b.rs", "// A-01, H-04\n#[test]\nfn f() {}\n")[0], second);
+        assert_eq!(judged("a/src/b.rs", "/// A-01, H-04.1\nfn f() {}\n")[0].len(), 2);
+
+        let stranger = |path: &str| format!("{path}: A-09 is no requirement");
+        assert_eq!(judged("a/src/b.rs", "// A-09, B-01")[1], [stranger("a/src/b.rs")]);
+        let vector = r#"{"requirement": "A-09", "id": "A-07"}"#;
+        assert_eq!(judged("vectors/a.jsonl", vector)[1], [stranger("vectors/a.jsonl")]);
+        assert_eq!(judged("a.md", "A-09 was retired.")[1], [""; 0]);
+        assert_eq!(judged("a.md", "A-08 is made up.")[1], ["a.md: A-08 is no requirement"]);
+    }
 }

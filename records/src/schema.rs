@@ -111,10 +111,10 @@ fn vector() -> Value {
                 "type": "string", "minLength": 1,
             },
             "requirement": {
-                "description": "A heading of spec/ with the number of its MUST, or a rule, or a \
-                                finding.",
+                "description": "The id of a requirement of spec/, or a heading there, or a rule, or \
+                                a finding.",
                 "type": "string",
-                "pattern": "^(spec/[1-7]-[a-z-]+\\.md#[a-z0-9-]+(\\.[0-9]+)?|[FH]-[0-9]{2})$",
+                "pattern": "^(spec/[1-7]-[a-z-]+\\.md#[a-z0-9-]+(\\.[0-9]+)?|[A-Z][A-Z0-9]*-[0-9]{2}(\\.[0-9]+)?)$",
             },
             "flag": {
                 "description": "Whom the vector binds.",

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 
 use toml::{Table, Value};
 
-use super::comments::{Place, item, mentions, names};
+use super::comments::{mentions, names};
+use super::lines::{Place, item};
 use super::rows::{Cell, Link};
 use super::symbols::has_word;
 use super::tree::{Tree, sections};
@@ -70,7 +71,7 @@ fn place_of(tree: &Tree, place: &Table) -> (BTreeSet<String>, String) {
         let owner = path.len() < 2 || source.contains(path[0]) || file.contains(path[0]);
         if here && owner {
             let all = mentions(source);
-            let own = all.iter().filter(|it| it.at == Place::Item(function.to_owned()));
+            let own = all.iter().filter(|it| it.at == Place::Item(function));
             let head = all.iter().filter(|it| it.at == Place::Head);
             about.extend(own.chain(head).map(|it| it.name.clone()));
         }

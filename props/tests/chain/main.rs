@@ -6,6 +6,10 @@
 
 mod claims;
 mod comments;
+#[path = "../tree/ids.rs"]
+mod ids;
+#[path = "../tree/lines.rs"]
+mod lines;
 mod page;
 mod rows;
 mod symbols;

@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::claims::{self, Claim};
-use super::comments::{Mention, Place, item, mentions, names};
+use super::comments::{Mention, mentions, names};
+use super::ids::{Requirement, is_normative, prefix, requirements, rule};
+use super::lines::{Place, item};
 use super::symbols;
 use super::tree::{Tree, sections};
 
@@ -33,7 +35,8 @@ pub enum Cell {
 }
 
 /// Tests that read the names of all rows.
-pub const BOOKS: [&str; 3] = ["props/tests/chain", "props/tests/requirements", "props/tests/tidy"];
+pub const BOOKS: [&str; 4] =
+    ["props/tests/chain", "props/tests/requirements", "props/tests/tidy", "props/tests/tree"];
 
 /// It holds model and implementation to every vector.
 const EVERY_VECTOR: &str = "lab/conform/tests/vectors/main.rs";
@@ -55,6 +58,8 @@ pub struct Row {
     pub title: String,
     /// Where the paper has it.
     pub paper: String,
+    /// Ids of the requirements under a heading or of a rule.
+    pub ids: BTreeSet<String>,
     /// Interpretations that the lines of a heading name.
     pub readings: BTreeSet<String>,
     /// What stands where.
@@ -68,11 +73,17 @@ impl Row {
             name: name.to_owned(),
             title: title.to_owned(),
             paper: paper.to_owned(),
+            ids: BTreeSet::new(),
             readings: BTreeSet::new(),
             cells: BTreeMap::new(),
         };
         row.add(Cell::Spec, spec, "");
         row
+    }
+
+    /// Whether a name is the row's, or of a requirement of it.
+    pub fn is_named(&self, name: &str) -> bool {
+        self.name == name || self.ids.contains(name)
     }
 
     /// Adds a link.
@@ -107,22 +118,26 @@ pub fn all(tree: &Tree) -> Vec<Row> {
 struct Source<'a> {
     file: &'a str,
     text: &'a str,
-    mentions: Vec<Mention>,
+    mentions: Vec<Mention<'a>>,
 }
 
 impl Source<'_> {
     /// Where it names a row.
-    fn places(&self, row: &Row) -> Vec<Place> {
-        let of_row = self.mentions.iter().filter(|it| it.name == row.name);
-        of_row.map(|it| it.at.clone()).collect()
+    fn places(&self, row: &Row) -> Vec<Place<'_>> {
+        let of_row = self.mentions.iter().filter(|it| row.is_named(&it.name));
+        of_row.map(|it| it.at).collect()
     }
 }
 
 fn headings_and_rules(tree: &Tree) -> Vec<Row> {
+    let (asked, _) = requirements(tree);
+    let ids = |of: &dyn Fn(&Requirement) -> bool| {
+        asked.iter().filter(|it| of(it)).map(|it| it.id.clone()).collect::<BTreeSet<_>>()
+    };
     let (mut headings, mut rules) = (Vec::new(), Vec::new());
-    for (file, text) in tree.ending(".md") {
-        let number = file.strip_prefix("spec/").and_then(|name| name.chars().next());
-        let Some(number) = number.filter(char::is_ascii_digit) else { continue };
+    for (file, text) in tree.ending(".md").filter(|(file, _)| is_normative(file)) {
+        let name = file.trim_start_matches("spec/").trim_end_matches(".md");
+        let number = name.split('-').next().unwrap_or_default();
         for section in sections(text) {
             let place = format!("{file}#{}", section.anchor);
             let title = section.lines[0].trim_start_matches(['#', ' ']);
@@ -130,27 +145,34 @@ fn headings_and_rules(tree: &Tree) -> Vec<Row> {
                 .lines
                 .iter()
                 .find(|line| line.starts_with("Paper ") || line.starts_with("Not in "));
-            if section.lines.iter().any(|line| line.contains("MUST")) {
+            let own = ids(&|it| it.place == place && !is_of_rule(&it.id));
+            if !own.is_empty() || section.lines.iter().any(|line| line.contains("MUST")) {
                 let title = format!("{number} {title}");
                 let mut row = Row::new(&place, &title, paper.unwrap_or(&""), &place);
+                row.ids = own;
                 row.readings.extend(section.lines.iter().flat_map(|line| names(line)));
                 headings.push(row);
             }
-            for line in &section.lines {
-                let mut cells = line.split(" | ");
-                let name =
-                    cells.next().and_then(|cell| cell.strip_prefix("| ")).unwrap_or_default();
-                if names(name) == [name] {
-                    let words: String =
-                        cells.next().unwrap_or_default().chars().take(100).collect();
-                    rules.push(Row::new(name, name, &words, &place));
-                }
-            }
         }
     }
+    for Requirement { id, place, text } in asked.iter().filter(|it| is_of_rule(&it.id)) {
+        let page = place.split('#').next().unwrap_or_default();
+        let place = if page.starts_with("spec/hardened/") { page } else { place };
+        let words: String =
+            text.split(" | ").next().unwrap_or_default().chars().take(100).collect();
+        let mut row = Row::new(rule(id), rule(id), &words, place);
+        row.ids = ids(&|it| rule(&it.id) == rule(id));
+        rules.push(row);
+    }
     rules.sort_by(|a: &Row, b: &Row| a.name.cmp(&b.name));
+    rules.dedup_by(|a, b| a.name == b.name);
     headings.extend(rules);
     headings
+}
+
+/// A rule H-nn or an interpretation I-nn has a row of its own.
+fn is_of_rule(id: &str) -> bool {
+    ["H", "I"].contains(&prefix(id))
 }
 
 /// An interpretation says how a requirement is read: what it has no link of its own for is what that
@@ -200,9 +222,9 @@ fn add_code(sources: &[Source], row: &mut Row) {
             }
             for place in places {
                 if let Place::Item(name) = place
-                    && !is_test_function(source.text, &name)
+                    && !is_test_function(source.text, name)
                 {
-                    row.add(cell, source.file, &name);
+                    row.add(cell, source.file, name);
                 }
             }
         }
@@ -210,8 +232,10 @@ fn add_code(sources: &[Source], row: &mut Row) {
 }
 
 fn add_claims(claims: &[Claim], row: &mut Row) {
-    for claim in claims.iter().filter(|claim| claim.about.contains(&row.name)) {
-        row.cells.entry(claim.cell).or_default().insert(claim.link.clone());
+    for claim in claims {
+        if claim.about.iter().any(|it| row.is_named(it)) {
+            row.cells.entry(claim.cell).or_default().insert(claim.link.clone());
+        }
     }
 }
 
@@ -222,8 +246,8 @@ fn add_tests(sources: &[Source], row: &mut Row) {
         let is_own = BOOKS.iter().any(|it| source.file.starts_with(it));
         for place in source.places(row).into_iter().filter(|_| has_tests && !is_own) {
             match place {
-                Place::Item(name) if is_test_function(source.text, &name) => {
-                    row.add(Cell::Test, source.file, &name);
+                Place::Item(name) if is_test_function(source.text, name) => {
+                    row.add(Cell::Test, source.file, name);
                 }
                 _ if is_test(source.file) => row.add(Cell::Test, source.file, ""),
                 _ => {}
@@ -247,11 +271,12 @@ fn is_test_function(text: &str, name: &str) -> bool {
 /// Vectors of the requirement, and those that depend on the interpretation.
 fn add_vectors(tree: &Tree, row: &mut Row) {
     for (file, text) in tree.ending(".jsonl").filter(|(file, _)| file.starts_with("vectors/")) {
-        let place = format!("\"requirement\": \"{}", row.name);
         let flag = format!("\"flag\": \"interpretation {}\"", row.name);
         let is_it = |line: &str| {
-            let after = line.split_once(&place).map(|(_, rest)| rest);
-            after.is_some_and(|rest| rest.starts_with(['.', '"'])) || line.contains(&flag)
+            let of =
+                line.split_once("\"requirement\": \"").and_then(|(_, it)| it.split('"').next());
+            let heading = |of: &str| of.rsplit_once('.').is_some_and(|(it, _)| it == row.name);
+            of.is_some_and(|of| row.is_named(of) || heading(of)) || line.contains(&flag)
         };
         if text.lines().any(is_it) {
             row.add(Cell::Vector, file, "");

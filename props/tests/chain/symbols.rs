@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::claims::Claim;
-use super::comments::item;
+use super::lines::{Place, item, lines};
 use super::rows::{BOOKS, Cell, Row, add_benches, is_test};
 use super::tree::{Tree, sections};
 
@@ -125,18 +125,14 @@ fn complete(tree: &Tree, claims: &[Claim], rows: &[Row], row: &mut Row) {
 
 /// The functions in which a word stands, and a function of this name.
 fn functions_with(text: &str, word: &str) -> BTreeSet<String> {
-    let mut found = BTreeSet::new();
-    let mut current = None;
-    for line in text.lines() {
-        if let Some(name) = item(line.trim_start()) {
-            current = Some(name);
-        }
-        let code = line.split("//").next().unwrap_or_default();
-        if has_word(code, word) || has_word(code, &format!("{word}_ns")) {
-            found.extend(current.map(str::to_owned));
-        }
-    }
-    found
+    let timed = format!("{word}_ns");
+    let lines = lines(text).into_iter();
+    let with = lines.filter(|line| has_word(line.code, word) || has_word(line.code, &timed));
+    let items = with.filter_map(|line| match line.at {
+        Place::Item(name) => Some(name.to_owned()),
+        Place::Head => None,
+    });
+    items.collect()
 }
 
 /// Whether a word stands in a text, also as a part of a name with underscores. A single letter has

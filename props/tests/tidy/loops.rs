@@ -9,14 +9,14 @@ const PERIODS: [(&str, [&str; 2]); 6] = [
     ("capi/examples/vehicle.c", ["#define PERIOD_MS ", "\n"]),
     ("capi/README.md", ["mufasa_monitor_settings_default(", "000000)"]),
     ("lab/python/examples/vehicle.py", ["timedelta(milliseconds=", ")"]),
-    ("python/README.md", ["timedelta(milliseconds=", ")"]),
+    ("lab/python/README.md", ["timedelta(milliseconds=", ")"]),
 ];
 const ADVICE: (&str, [&str; 2]) =
     ("docs/configuration.md", ["| period of the cycle and of the results | ", " ms |"]);
 /// What a page says of a loop, whoever writes it anew.
 const SAID: [(&str, &str); 4] = [
     ("capi/README.md", "take(&decision.actions);"),
-    ("python/README.md", "take(decision.actions)"),
+    ("lab/python/README.md", "take(decision.actions)"),
     ("impl/README.md", "`docs/assumptions.md`"),
     ("impl/README.md", "`docs/configuration.md`"),
 ];

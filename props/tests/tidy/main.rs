@@ -83,6 +83,12 @@ fn no_packages_depend_on_each_other_in_a_circle() {
     judge(&packages::circles(&Tree::here()), &[]);
 }
 
+/// What is certified can be read without the laboratory.
+#[test]
+fn no_package_outside_of_lab_needs_one_in_it() {
+    judge(&packages::need_the_laboratory(&Tree::here()), &[]);
+}
+
 /// The table is what a newcomer reads first.
 #[test]
 fn the_architecture_names_the_packages_with_their_dependencies() {

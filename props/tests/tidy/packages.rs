@@ -12,6 +12,7 @@ use super::tree::Tree;
 struct Package {
     dependencies: BTreeSet<String>,
     of_tests: BTreeSet<String>,
+    in_lab: bool,
 }
 
 /// Circles of packages, their tests included.
@@ -50,23 +51,36 @@ pub fn table_is_wrong(tree: &Tree) -> Vec<(String, String)> {
     wrong
 }
 
+/// Packages outside of `lab/` that need one in it, for their tests alone, too.
+pub fn need_the_laboratory(tree: &Tree) -> Vec<(String, String)> {
+    let packages = packages(tree);
+    let in_lab = |name: &&String| packages[*name].in_lab;
+    let apart = packages.iter().filter(|(_, it)| !it.in_lab);
+    let needs = apart.flat_map(|(name, it)| {
+        let needed = it.dependencies.union(&it.of_tests).filter(in_lab);
+        needed.map(move |it| (name.clone(), format!("needs {it} of the laboratory")))
+    });
+    needs.collect()
+}
+
 fn packages(tree: &Tree) -> BTreeMap<String, Package> {
-    let manifests: Vec<Table> = tree
+    let manifests: Vec<(&str, Table)> = tree
         .ending("Cargo.toml")
-        .map(|(path, text)| text.parse().unwrap_or_else(|error| panic!("{path}: {error}")))
-        .filter(|manifest: &Table| manifest.contains_key("package"))
+        .map(|(path, text)| (path, text.parse().unwrap_or_else(|error| panic!("{path}: {error}"))))
+        .filter(|(_, manifest): &(_, Table)| manifest.contains_key("package"))
         .collect();
     let name = |manifest: &Table| manifest["package"]["name"].as_str().map(str::to_owned);
-    let names: BTreeSet<_> = manifests.iter().filter_map(name).collect();
+    let names: BTreeSet<_> = manifests.iter().filter_map(|(_, it)| name(it)).collect();
     let of = |manifest: &Table, table: &str| -> BTreeSet<String> {
         let table = manifest.get(table).and_then(|table| table.as_table());
         let all = table.into_iter().flat_map(Table::keys).cloned();
         all.filter(|name| names.contains(name)).collect()
     };
-    let package = |manifest: &Table| {
+    let package = |(path, manifest): &(&str, Table)| {
         let dependencies = &of(manifest, "dependencies") | &of(manifest, "build-dependencies");
         let of_tests = &of(manifest, "dev-dependencies") - &dependencies;
-        Some((name(manifest)?, Package { dependencies, of_tests }))
+        let in_lab = path.starts_with("lab/");
+        Some((name(manifest)?, Package { dependencies, of_tests, in_lab }))
     };
     manifests.iter().filter_map(package).collect()
 }
@@ -91,4 +105,20 @@ fn circles_and_wrong_rows_are_seen() {
     assert_eq!(wrong, ["b"]);
     files.insert("b/Cargo.toml".to_owned(), manifest("b", ""));
     assert!(circles(&Tree(files.clone())).is_empty() && table_is_wrong(&Tree(files)).is_empty());
+}
+
+#[test]
+fn a_package_that_needs_the_laboratory_is_seen() {
+    let of = |b: &str| {
+        let a = "[package]\nname = \"a\"\n[dev-dependencies]\nb.workspace = true\n";
+        let files = [
+            ("a/Cargo.toml", a),
+            (b, "[package]\nname = \"b\"\n[dependencies]\na.workspace = true\n"),
+        ];
+        need_the_laboratory(&Tree(
+            files.map(|(path, text)| (path.to_owned(), text.to_owned())).into(),
+        ))
+    };
+    assert_eq!(of("lab/b/Cargo.toml"), [("a".to_owned(), "needs b of the laboratory".to_owned())]);
+    assert_eq!(of("b/Cargo.toml"), []);
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 pub struct Tree(pub BTreeMap<String, String>);
 
 /// What is read; other files are known by name alone.
-const TEXT: [&str; 8] = ["rs", "md", "toml", "jsonl", "gitignore", "svg", "c", "py"];
+const TEXT: [&str; 9] = ["rs", "md", "toml", "jsonl", "gitignore", "svg", "c", "py", "lock"];
 
 impl Tree {
     /// The repository, without what is built, downloaded or hidden.

@@ -1,0 +1,91 @@
+//! What cites a requirement: tests, vectors and proofs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::ids::{Requirement, ids_in, prefix, rule};
+use super::lines::{Place, lines};
+use super::tree::Tree;
+
+/// Of each id what cites it: the name of a function or type of Rust, or a file.
+pub type Citations = BTreeMap<String, BTreeSet<String>>;
+
+/// The tests that read ids themselves.
+const BOOKS: [&str; 3] = ["props/tests/chain/", "props/tests/requirements.rs", "props/tests/tree/"];
+
+/// All that tests, vectors and proofs cite.
+pub fn citations(tree: &Tree) -> Citations {
+    let mut found = Citations::new();
+    for (path, text) in tree.ending("") {
+        for (id, by) in of_file(path, text) {
+            found.entry(id.to_owned()).or_default().insert(by.to_owned());
+        }
+    }
+    found
+}
+
+fn of_file<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, &'a str)> {
+    let is_test = text.contains("#[test]") || text.contains("proptest!");
+    match (path.split('/').next(), kind(path)) {
+        _ if BOOKS.iter().any(|it| path.starts_with(it)) => Vec::new(),
+        (Some("vectors"), "jsonl") => {
+            text.lines().flat_map(of_vector).map(|id| (id, path)).collect()
+        }
+        _ if path == "proofs/expected.toml" => {
+            ids_in(text).into_iter().map(|id| (id, path)).collect()
+        }
+        (Some("proofs"), "rs") => of_rust(path, text),
+        (_, "rs") if is_test => of_rust(path, text),
+        _ => Vec::new(),
+    }
+}
+
+/// What stands behind the last point of a name.
+fn kind(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or_default()
+}
+
+/// The requirement of a vector, and the interpretation in which its flag ends.
+fn of_vector(line: &str) -> impl Iterator<Item = &str> {
+    let value = |key: &str| {
+        let (_, rest) = line.split_once(&format!("\"{key}\": \""))?;
+        rest.split('"').next()
+    };
+    [value("requirement"), value("flag")].into_iter().flatten().flat_map(ids_in)
+}
+
+/// Ids of a file of Rust, each with the item whose comment or body cites it, else with the file.
+fn of_rust<'a>(path: &'a str, text: &'a str) -> Vec<(&'a str, &'a str)> {
+    let cited = lines(text).into_iter().flat_map(|line| {
+        let by = if let Place::Item(name) = line.at { name } else { path };
+        ids_in(line.code).into_iter().chain(ids_in(line.comment)).map(move |id| (id, by))
+    });
+    cited.collect()
+}
+
+/// Citations of no requirement. Prose may name what is retired.
+pub fn strangers(
+    tree: &Tree,
+    requirements: &[Requirement],
+    retired: &BTreeSet<String>,
+) -> Vec<String> {
+    let known: BTreeSet<&str> =
+        requirements.iter().flat_map(|it| [it.id.as_str(), rule(&it.id)]).collect();
+    let prefixes: BTreeSet<&str> = known.iter().map(|id| prefix(id)).collect();
+    let mut wrong = BTreeSet::new();
+    for (path, text) in tree.ending("") {
+        let is_book = BOOKS.iter().any(|it| path.starts_with(it)) || kind(path) == "lock";
+        let is_prose = kind(path) == "md";
+        let ids = if kind(path) == "jsonl" {
+            text.lines().flat_map(of_vector).collect()
+        } else {
+            ids_in(text)
+        };
+        for id in ids {
+            let is_named = known.contains(id) || (is_prose && retired.contains(id));
+            if prefixes.contains(prefix(id)) && !is_named && !is_book {
+                wrong.insert(format!("{path}: {id} is no requirement"));
+            }
+        }
+    }
+    wrong.into_iter().collect()
+}
