@@ -17,11 +17,13 @@
 //! | Sec. V, Eq. (7), l_max and dt_max | [`offloading::quality_of_service`] |
 //! | Table II, parameters | [`input::parameters`], [`offloading::requester::Parameters`] |
 //!
+//! The rules change the stages from outside: [`cycle`] decides a cycle of a profile.
+//!
 //! | rule | here |
 //! |---|---|
 //! | H-01 | [`hardened::h01_matched_pairs`] |
 //! | H-02, H-05, H-10 | [`hardened::h02_h05_h10_schedule`] |
-//! | H-04 | [`stages::v_grid_map`], [`hardened::h04_gap`] |
+//! | H-04 | [`cycle`] (places of stage v), [`hardened::h04_gap`] |
 //! | H-06 | [`hardened::h06_closed_cells`] |
 //! | H-07 | [`hardened::h07_start`] |
 //! | H-08 | [`offloading::requester`] |
@@ -31,6 +33,7 @@
 //! | strict, exact and lax reading (`spec/4-arithmetic.md`) | [`numbers::reading`] |
 //! | how much the model computes | [`work`] |
 
+pub mod cycle;
 pub mod hardened;
 pub mod input;
 pub mod numbers;

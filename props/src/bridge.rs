@@ -77,9 +77,10 @@ pub use crate::conformance::{Answer, Disagreement, conforms, stage_conforms};
 use mufasa::input::cycle::Cycle as ImplCycle;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::stages::ValidCycle;
+use mufasa_model::hardened::h02_h05_h10_schedule::schedule;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{InvalidInput, Outcome, Report, Stage};
-use mufasa_model::stages::{Scheduled, scheduled};
+use mufasa_model::stages::Scheduled;
 
 /// The implementation's answer to one cycle, with scratch of exactly the size it asks for
 /// (`spec/4-arithmetic.md#conformance-of-an-implementation`). `Err` is invalid local input.
@@ -93,15 +94,15 @@ pub fn check_impl(cycle: &Cycle) -> Result<Report, InvalidInput> {
 /// The stages of the configuration of which each, run on its own, finds a safety issue, to the
 /// implementation; none in a cycle with invalid input.
 pub fn failing_alone(cycle: &Cycle) -> Vec<Stage> {
-    let never =
-        |stage: &Stage| scheduled(cycle.profile, cycle.configuration, *stage) == Scheduled::Never;
+    let schedule = schedule(cycle.profile, cycle.configuration);
+    let scheduled = schedule.into_iter().filter(|entry| entry.scheduled != Scheduled::Never);
     with_impl(cycle, |cycle, scratch| {
         let Ok(valid) = ValidCycle::new(cycle, None, scratch) else { return Vec::new() };
         let mut fails = |stage: &Stage| {
             let outcome = valid.stage(stage_to_impl(*stage), scratch);
             matches!(outcome_from_impl(outcome), Outcome::Failed(_))
         };
-        Stage::ALL.into_iter().filter(|stage| !never(stage) && fails(stage)).collect()
+        scheduled.map(|entry| entry.stage).filter(|stage| fails(stage)).collect()
     })
 }
 

@@ -5,9 +5,9 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{Outcome, Reading, Rule, Witness};
-use mufasa_model::stages::check;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 

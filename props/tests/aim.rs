@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{Outcome, Reading, Rule};
-use mufasa_model::stages::check;
 use mufasa_props::conformance::name;
 use mufasa_props::differential::{Generator, Tally, near_threshold, runner};
 use mufasa_props::strategy::draw::{Draw, tape};

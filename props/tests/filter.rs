@@ -4,10 +4,10 @@
 
 use std::collections::BTreeMap;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::numbers::real::unfiltered;
 use mufasa_model::report::Reading;
-use mufasa_model::stages::check;
 use mufasa_props::conformance::name;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};

@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Ego, Profile};
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 use mufasa_props::differential::{agree, hold, near_threshold, runner, same_witness};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::grid;

@@ -1,10 +1,10 @@
 //! Strict, exact and lax reading of the model (`spec/4-arithmetic.md#strict-and-lax`): what one
 //! accepts the next accepts, with the same outcomes, so `readings` may copy reports.
 
+use mufasa_model::cycle::check;
+use mufasa_model::cycle::readings;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::Reading;
-use mufasa_model::stages::check;
-use mufasa_model::stages::readings;
 use mufasa_props::conformance::Answer;
 use mufasa_props::differential::{hold, near_threshold};
 use mufasa_props::strategy::{fail_safe, whole};

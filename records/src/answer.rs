@@ -1,10 +1,10 @@
 //! Answers as JSON (`spec/5-interfaces.md#cycle`).
 
+use mufasa_model::cycle::readings;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{
     FailedStage, Input, InvalidInput, Outcome, Reason, Report, Rule, Witness,
 };
-use mufasa_model::stages::readings;
 use schemars::JsonSchema;
 use serde::Serialize;
 

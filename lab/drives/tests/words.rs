@@ -55,7 +55,7 @@ fn the_relation_holds_between_the_numbers_as_they_are_printed() {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let (mut by_less, mut starts, mut turns) = (0, [0; 2], [0; 2]);
     for (id, cycle) in mufasa_records::cycles_from_lines(&cycles()).into_iter().flatten() {
-        let Ok(report) = mufasa_model::stages::check(&cycle, Reading::Exact) else { continue };
+        let Ok(report) = mufasa_model::cycle::check(&cycle, Reading::Exact) else { continue };
         let Some(witness) = words::failed_witness(&report) else { continue };
         let words = words::witness(witness);
         let numbers = compared(&words);

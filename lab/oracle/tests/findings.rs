@@ -5,15 +5,15 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Reading, Stage};
-use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_records::{self as json, Record};
 use mufasa_theorems::numbers::real::formula::Formula;
 use mufasa_theorems::prove::{Decision, prove_claim};
 use mufasa_theorems::report::Reading as SymbolicReading;
-use mufasa_theorems::{stages as symbolic_schedule, theorem, witness};
+use mufasa_theorems::{cycle as symbolic_cycle, theorem, witness};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -171,7 +171,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
         let Ok(Record::Cycle { cycle, .. }) = json::parse(vector.input.text().as_bytes(), 1) else {
             continue;
         };
-        let exact = stages::check(&cycle, Reading::Exact).expect("the local input is valid");
+        let exact = check(&cycle, Reading::Exact).expect("the local input is valid");
         // The places of H-14 take z3 minutes for each cycle; its theorems run the same source with symbols.
         let is_before_h14 = exact.failed_stage == Some(FailedStage::Stage(Stage::I));
         if cycle.profile == Profile::HARDENED && !is_before_h14 {
@@ -179,7 +179,7 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
         }
         let expected = format!("{:?}", exact.failed_stage);
         let proof = prove_claim(&|| {
-            let symbolic = symbolic_schedule::check(&cycle, SymbolicReading::Exact);
+            let symbolic = symbolic_cycle::check(&cycle, SymbolicReading::Exact);
             let failed = symbolic.map(|report| report.failed_stage);
             Formula::from(failed.is_ok_and(|failed| format!("{failed:?}") == expected))
         });
@@ -192,6 +192,6 @@ fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
 }
 
 fn is_safe(cycle: &Cycle) -> bool {
-    let report = stages::check(cycle, Reading::Exact).expect("the local input is valid");
+    let report = check(cycle, Reading::Exact).expect("the local input is valid");
     report.failed_stage.is_none()
 }

@@ -4,36 +4,34 @@
 //! `MotRemote` this holds at the places of H-14 alone: at its points the paper examines the grid beside
 //! every other stage.
 
-use crate::input::scene::{Grid, Object, Scene};
+use crate::input::scene::{Grid, Object, Point, Scene};
 use crate::numbers::cells::{Cell, Hit, around, centre, distance_to_cell};
 use crate::numbers::real::Real;
 use crate::numbers::rectangle::{Rectangle, may_share_a_point, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::Rule;
 use crate::services::configuration::Configuration;
+use crate::stages::v_grid_map::Disk;
 
-/// The CAV where it is examined.
-pub struct Place {
-    /// Its rectangle.
-    pub cav: Rectangle,
-    /// A point that the paper names, else a place of H-14.
-    pub is_of_paper: bool,
-}
+/// Whether a disk of the CAV hits something.
+pub type Test<'a> = Box<dyn Fn(&Disk) -> Option<Hit> + 'a>;
 
-/// What the CAV, a disk of it with its centre (in the frame of the grid) and the radius r must not reach.
-pub type Test<'a> = Box<dyn Fn(&Place, &Vector, &Real) -> Option<Hit> + 'a>;
-
-/// The rules in the order in which they are asked of all disks.
-pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid) -> Vec<(Rule, Test<'a>)> {
+/// The rules in the order in which they are asked of all disks of a trajectory.
+pub fn rules<'a>(
+    scene: &'a Scene,
+    trajectory: &'a [Point],
+    grid: &'a Grid,
+) -> Vec<(Rule, Test<'a>)> {
     let is_detected = scene.detections.as_ref().is_some_and(|list| !list.items.is_empty());
     let in_paper = scene.configuration == Configuration::MotRemote;
     let touched = |is_kind: fn(&Grid, Cell) -> bool| -> Test<'a> {
-        Box::new(move |place, centre, r| {
-            touched_cells(scene, grid, centre, r, is_kind).find(|hit| {
-                let is_exact = is_detected && !(in_paper && place.is_of_paper);
+        Box::new(move |disk| {
+            touched_cells(scene, grid, disk, is_kind).find(|hit| {
+                let is_of_paper = disk.point < trajectory.len();
+                let is_exact = is_detected && !(in_paper && is_of_paper);
                 let square = hit.cell.map(|cell| square(grid, cell));
                 let collides = |square: Rectangle| {
-                    may_share_a_point(&scene.reads, &place.cav, &square)
+                    may_share_a_point(&scene.reads, disk.cav, &square)
                         && !is_covered(scene, &square)
                 };
                 !is_exact || square.is_some_and(collides)
@@ -44,7 +42,7 @@ pub fn rules<'a>(scene: &'a Scene, grid: &'a Grid) -> Vec<(Rule, Test<'a>)> {
     if scene.detections.is_some() {
         return vec![occupied];
     }
-    let outside: Test = Box::new(|_, centre, r| touched_border(scene, grid, centre, r));
+    let outside: Test = Box::new(|disk| touched_border(scene, grid, disk));
     vec![occupied, (Rule::Unknown, touched(Grid::is_unknown)), (Rule::Outside, outside)]
 }
 
@@ -68,10 +66,10 @@ fn is_covered(scene: &Scene, square: &Rectangle) -> bool {
 fn touched_cells(
     scene: &Scene,
     grid: &Grid,
-    centre: &Vector,
-    r: &Real,
+    disk: &Disk,
     is_kind: fn(&Grid, Cell) -> bool,
 ) -> impl Iterator<Item = Hit> {
+    let (centre, r) = (disk.centre, disk.r);
     let near = around(centre, &scene.reads.raised(r), &grid.resolution);
     grid.cells(near).filter(move |cell| is_kind(grid, *cell)).filter_map(move |(i, k)| {
         let cell = [i, k].map(|number| Real::from_integer(number.into()));
@@ -81,14 +79,10 @@ fn touched_cells(
 }
 
 /// A place outside the grid is at distance <= r.
-fn touched_border(scene: &Scene, grid: &Grid, centre: &Vector, r: &Real) -> Option<Hit> {
+fn touched_border(scene: &Scene, grid: &Grid, disk: &Disk) -> Option<Hit> {
+    let (Vector { x, y }, r) = (disk.centre, disk.r);
     let side = |cells: i64| Real::from_integer(cells.into()) * &grid.resolution;
-    let inside = [
-        centre.x.clone(),
-        side(grid.width) - &centre.x,
-        centre.y.clone(),
-        side(grid.height) - &centre.y,
-    ];
+    let inside = [x.clone(), side(grid.width) - x, y.clone(), side(grid.height) - y];
     let distance = inside.into_iter().min()?.max(Real::zero());
     scene.reads.may_be_at_most(&distance, r).then_some(Hit { cell: None, distance })
 }

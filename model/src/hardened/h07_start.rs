@@ -4,37 +4,26 @@ use crate::input::scene::{Point, Scene};
 use crate::numbers::polyline::{Beside, Segment};
 use crate::numbers::real::Real;
 use crate::report::{Rule, Witness};
+use crate::stages::ii_trajectory_to_map::OnMap;
 
 /// The trajectory does not start now and here, leaves the corridor, or heads against the route.
-/// `places` of its points beside the reference path; `is_inside` the corridor, by index.
-pub fn failure(
-    scene: &Scene,
-    trajectory: &[Point],
-    path: &[Segment],
-    places: &[Beside],
-    is_inside: impl Fn(usize) -> bool,
-) -> Option<Witness> {
-    start_failure(scene, trajectory)
-        .or_else(|| corridor_failure(places, is_inside))
-        .or_else(|| direction_failure(scene, trajectory, path, places))
+pub fn failure(scene: &Scene, map: &OnMap) -> Option<Witness> {
+    start_failure(scene, map.trajectory)
+        .or_else(|| corridor_failure(scene, map))
+        .or_else(|| direction_failure(scene, map))
 }
 
 /// Every point is inside the corridor, however near the reference path.
-fn corridor_failure(places: &[Beside], is_inside: impl Fn(usize) -> bool) -> Option<Witness> {
-    let i = (0..places.len()).find(|&i| !is_inside(i))?;
-    let witness = Witness::new(Rule::Corridor, &places[i].distance, &Real::zero());
-    Some(Witness { segment: Some(places[i].nearest), ..witness.at_point(i) })
+fn corridor_failure(scene: &Scene, map: &OnMap) -> Option<Witness> {
+    let (i, place) = map.places.iter().enumerate().find(|(i, _)| !map.is_inside(scene, *i))?;
+    let witness = Witness::new(Rule::Corridor, &place.distance, &Real::zero());
+    Some(Witness { segment: Some(place.nearest), ..witness.at_point(i) })
 }
 
 /// Every point heads along the route.
-fn direction_failure(
-    scene: &Scene,
-    trajectory: &[Point],
-    path: &[Segment],
-    places: &[Beside],
-) -> Option<Witness> {
-    trajectory.iter().zip(places).enumerate().find_map(|(i, (point, place))| {
-        let witness = heading_failure(scene, point, path, place)?.at_point(i);
+fn direction_failure(scene: &Scene, map: &OnMap) -> Option<Witness> {
+    map.trajectory.iter().zip(&map.places).enumerate().find_map(|(i, (point, place))| {
+        let witness = heading_failure(scene, point, &map.path, place)?.at_point(i);
         Some(Witness { segment: Some(place.nearest), ..witness })
     })
 }

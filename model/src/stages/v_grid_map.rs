@@ -1,15 +1,13 @@
 //! Stage v: paper Sec. IV-F, "Trajectory Validation with a Grid Map", within Eq. (4)
-//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`, H-04, H-06):
+//! (`spec/3-stages.md#stage-v-trajectory-with-grid-map`):
 //!
 //! the footprint is covered by disks of one radius r; the grid is dilated by r; no disk centre at a
 //! trajectory point within s_b lies in a marked cell
 
-use crate::hardened::h06_closed_cells::{self, Place};
-use crate::hardened::h14_fail_safe::path;
-use crate::input::profile::HardenedRule;
 use crate::input::scene::{Grid, Point, Scene};
 use crate::numbers::cells::{self, Cell, Hit, around, mark_at};
 use crate::numbers::real::Real;
+use crate::numbers::rectangle::Rectangle;
 use crate::numbers::vector::{Frame, Vector};
 use crate::report::{Rule, Witness};
 use crate::stages::distances::s_b;
@@ -22,41 +20,53 @@ pub fn trajectory_with_grid_map(
     trajectory: &[Point],
     grid: &Grid,
 ) -> Option<Witness> {
-    let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
-    let s_b = s_b(&ego.v_now, &scene.parameters.a_b);
-    let r = disk_radius(&ego.length, &ego.width, &n);
-    let first = |rule: Rule, collides: &dyn Fn(&Place, &Vector) -> Option<Hit>| {
-        places(scene, trajectory, &s_b).find_map(|(i, pose)| {
-            let place = Place { cav: cav(scene, &pose), is_of_paper: i < trajectory.len() };
-            disk_centres(scene, grid, &place.cav.frame).iter().enumerate().find_map(
-                |(d, centre)| {
-                    let Hit { cell, distance } = collides(&place, centre)?;
-                    let witness = Witness::new(rule, &distance, &r).at_point(i);
-                    Some(Witness { disk: Some(d), cell, ..witness })
-                },
-            )
-        })
-    };
-    if scene.profile.has(HardenedRule::H06) {
-        (h06_closed_cells::rules(scene, grid).into_iter())
-            .find_map(|(rule, reaches)| first(rule, &|place, centre| reaches(place, centre, &r)))
-    } else {
-        first(Rule::Occupied, &|_, centre| {
-            mark_at(&scene.reads, centre, &grid.resolution, |cell| mark(scene, grid, &r, cell))
-        })
-    }
+    let places = places(scene, trajectory).cloned().enumerate();
+    first_hit(scene, grid, Rule::Occupied, places, |disk| dilated(scene, grid, disk))
 }
 
-/// The places that are examined, with their number: the points within s, and then (H-04) those of H-14.
-fn places<'a>(
-    scene: &'a Scene,
-    trajectory: &'a [Point],
-    s: &Real,
-) -> impl Iterator<Item = (usize, Frame)> {
-    let points = points_within(scene, trajectory, s).iter().map(|point| point.pose.clone());
-    let asks_places = scene.profile.has(HardenedRule::H04);
-    let places = asks_places.then(|| path::places(scene, trajectory).map(|place| place.pose));
-    points.enumerate().chain((trajectory.len()..).zip(places.into_iter().flatten()))
+/// The poses within s_b(v_now).
+pub fn places<'a>(scene: &Scene, trajectory: &'a [Point]) -> impl Iterator<Item = &'a Frame> {
+    let s_b = s_b(&scene.ego.v_now, &scene.parameters.a_b);
+    points_within(scene, trajectory, &s_b).iter().map(|point| &point.pose)
+}
+
+/// A disk of the CAV at one of the places that are examined.
+#[derive(Debug)]
+pub struct Disk<'a> {
+    /// The number of the place.
+    pub point: usize,
+    /// The CAV there.
+    pub cav: &'a Rectangle,
+    /// The centre of the disk, in the frame of the grid.
+    pub centre: &'a Vector,
+    /// Its radius, m.
+    pub r: &'a Real,
+}
+
+/// The first of the numbered places, and of its disks, that `hits` something.
+pub fn first_hit(
+    scene: &Scene,
+    grid: &Grid,
+    rule: Rule,
+    mut places: impl Iterator<Item = (usize, Frame)>,
+    hits: impl Fn(&Disk) -> Option<Hit>,
+) -> Option<Witness> {
+    let (ego, n) = (&scene.ego, Real::from_integer(scene.parameters.n.into()));
+    let r = disk_radius(&ego.length, &ego.width, &n);
+    places.find_map(|(point, pose)| {
+        let cav = cav(scene, &pose);
+        disk_centres(scene, grid, &cav.frame).iter().enumerate().find_map(|(d, centre)| {
+            let Hit { cell, distance } = hits(&Disk { point, cav: &cav, centre, r: &r })?;
+            let witness = Witness::new(rule, &distance, &r).at_point(point);
+            Some(Witness { disk: Some(d), cell, ..witness })
+        })
+    })
+}
+
+/// The centre of a disk lies in a cell that the dilated grid marks.
+pub fn dilated(scene: &Scene, grid: &Grid, disk: &Disk) -> Option<Hit> {
+    let mark = |cell| mark(scene, grid, disk.r, cell);
+    mark_at(&scene.reads, disk.centre, &grid.resolution, mark)
 }
 
 /// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.

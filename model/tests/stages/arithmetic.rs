@@ -1,10 +1,10 @@
 //! `spec/4-arithmetic.md`: exactness, the strict and the lax reading, margin by margin.
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track, Trajectory};
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::stages::check;
 
 use crate::base::*;
 use crate::near::*;

@@ -1,6 +1,7 @@
 //! A cycle that is safe in every configuration of both profiles, for tests to change one thing.
 #![expect(clippy::unnecessary_wraps, reason = "the fields of a cycle are optional")]
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Profile, Route, Track,
     TrackList, Trajectory, TrajectoryPoint,
@@ -8,7 +9,6 @@ use mufasa_model::input::cycle::{
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 
 pub const NOW: i64 = 1_000_000_000;
 /// Speed of the CAV in the base cycle, m/s.

@@ -1,11 +1,11 @@
 //! `spec/3-stages.md#invalid-input`, `spec/4-arithmetic.md#domain`
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
 use mufasa_model::report::{InvalidInput, Reading};
 use mufasa_model::services::configuration::Configuration::{
     self, AllRemote, MotRemote, PlanRemote,
 };
-use mufasa_model::stages::check;
 
 use crate::base::*;
 

@@ -1,10 +1,10 @@
 //! Cases near a threshold, and what the three readings say of them (`spec/4-arithmetic.md#strict-and-lax`).
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::numbers::real::unfiltered;
 use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 
 use crate::base::*;
 

@@ -1,8 +1,9 @@
 //! `spec/3-stages.md#schedule`
 
+use mufasa_model::hardened::h02_h05_h10_schedule::schedule;
 use mufasa_model::input::cycle::Cycle;
-use mufasa_model::report::{FailedStage, Outcome, Stage};
-use mufasa_model::stages::{Scheduled, scheduled};
+use mufasa_model::report::{FailedStage, Outcome};
+use mufasa_model::stages::Scheduled;
 
 use crate::base::*;
 
@@ -45,9 +46,9 @@ fn unsafe_exactly_when_a_stage_failed() {
                     assert!(!(failed && no_check));
                     assert_eq!(report.failed_stage.is_some(), failed || no_check);
                     unsafe_cycles += u32::from(report.failed_stage.is_some());
-                    for stage in Stage::ALL {
-                        let never = scheduled(profile, configuration, stage) == Scheduled::Never;
-                        let outcome = &report.stages[stage as usize];
+                    for entry in schedule(profile, configuration) {
+                        let never = entry.scheduled == Scheduled::Never;
+                        let outcome = &report.stages[entry.stage as usize];
                         assert_eq!(never, *outcome == Outcome::NotScheduled);
                     }
                 }

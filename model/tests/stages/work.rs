@@ -1,10 +1,10 @@
 //! `spec/4-arithmetic.md#conformance-of-an-implementation`: a cycle that needs more than 10^10
 //! comparisons is an error.
 
+use mufasa_model::cycle::{check, readings};
 use mufasa_model::input::cycle::{Cycle, DetectionList, Profile};
 use mufasa_model::report::{InvalidInput, Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
-use mufasa_model::stages::{check, readings};
 
 use crate::base::*;
 

@@ -17,6 +17,8 @@ pub mod work;
 
 pub use mufasa_model::{parameters, services};
 
+#[path = "../../../model/src/cycle.rs"]
+pub mod cycle;
 #[path = "../../../model/src/hardened/mod.rs"]
 pub mod hardened;
 #[path = "../../../model/src/report.rs"]

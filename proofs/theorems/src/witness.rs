@@ -9,12 +9,12 @@ use std::io;
 
 pub use searches::SEARCHES;
 
+use crate::cycle::decide;
 use crate::input::cycle::{Cycle, Profile};
 use crate::input::scene::Scene;
 use crate::numbers::real::formula::{Formula, given, not};
 use crate::numbers::real::hole::name_of;
 use crate::prove::{Decision, prove_claim};
-use crate::stages::decide;
 use crate::theorem::base;
 
 /// A finding whose witness is searched.

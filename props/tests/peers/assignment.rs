@@ -1,5 +1,6 @@
 //! Assignments: the model's search against scipy's, and stage i of both against its means.
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Profile, Route, Track, TrackList,
 };
@@ -8,7 +9,6 @@ use mufasa_model::numbers::assignment::{Costs, least_cost};
 use mufasa_model::numbers::real::Real;
 use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 use mufasa_props::bridge::check_impl;
 use serde_json::Value;
 

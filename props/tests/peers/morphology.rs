@@ -1,13 +1,13 @@
 //! Dilated grids: the marks of scipy.ndimage, cell by cell, with radii that meet distances of
 //! cell centres exactly.
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{
     CrossSection, Cycle, Ego, Grid, Profile, Route, Trajectory, TrajectoryPoint,
 };
 use mufasa_model::input::parameters::Parameters;
 use mufasa_model::report::Reading;
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages::check;
 use mufasa_props::bridge::check_impl;
 
 /// Side of a cell, m: five times a number of cells is the hypotenuse of a 3-4-5 triangle.

@@ -138,8 +138,8 @@ pub fn mix(value: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::cycle::check;
     use mufasa_model::report::{Outcome, Reading};
-    use mufasa_model::stages::check;
 
     use super::*;
 

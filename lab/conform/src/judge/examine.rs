@@ -1,9 +1,9 @@
 //! One record: asked, decided by the model, and compared
 //! (`spec/4-arithmetic.md#conformance-of-an-implementation`).
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{FailedStage, InvalidInput, Outcome, Reading, Stage};
-use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, Disagreement, is_too_much, name, rank, stage_conforms};
 use serde_json::{Map, Value};
 

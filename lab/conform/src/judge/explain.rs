@@ -3,9 +3,9 @@
 
 mod edges;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{FailedStage, Outcome, Reading, Report, Rule, Witness};
-use mufasa_model::stages::check;
 use mufasa_props::conformance::{Answer, name};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

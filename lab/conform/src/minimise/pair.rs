@@ -54,9 +54,9 @@ pub fn one_pair(case: &mut Case<'_>) {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::cycle::check;
     use mufasa_model::input::cycle::Profile;
     use mufasa_model::report::{FailedStage, Reading, Stage};
-    use mufasa_model::stages::check;
 
     use crate::cases::generate::Generator;
     use crate::cases::question::Question;

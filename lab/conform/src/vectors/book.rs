@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Reading;
 use mufasa_model::services::orchestrator::Task;
-use mufasa_model::stages::check;
 use serde_json::Value;
 
 use crate::vectors::expected::Expected;

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Reading};
-use mufasa_model::stages::check;
 
 use mufasa_records::Trace;
 use mufasa_records::offloading_answer::OffloadingAnswer;

@@ -1,9 +1,9 @@
 //! The implementation conforms on every vector.
 
 use mufasa::offloading::requester as twin;
+use mufasa_model::cycle::check;
 use mufasa_model::offloading::requester::{Action, Event, GroupState};
 use mufasa_model::report::Reading;
-use mufasa_model::stages::check;
 use mufasa_props::bridge;
 use mufasa_records::{Record, Trace};
 

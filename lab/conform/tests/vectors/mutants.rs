@@ -7,8 +7,8 @@ mod cycles;
 mod others;
 
 use mufasa_conform::vectors::book::{STAYS, Vector};
+use mufasa_model::cycle::check;
 use mufasa_model::report::{Outcome, Reading, Report, Rule, Witness};
-use mufasa_model::stages::check;
 use mufasa_props::bridge::{self, Answer};
 use mufasa_records::{Record, decide};
 

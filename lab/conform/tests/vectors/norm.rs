@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use mufasa_model::cycle::check;
 use mufasa_model::report::Reading;
-use mufasa_model::stages::check;
 use mufasa_props::strategy::input::directions;
 use mufasa_records::Record;
 

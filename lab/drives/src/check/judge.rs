@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError, mpsc};
 use std::thread;
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{Reading, Report, Stage};
-use mufasa_model::stages;
 use mufasa_props::bridge;
 use mufasa_props::conformance::{Answer, Disagreement, conforms};
 
@@ -30,11 +30,11 @@ pub struct Judged {
 impl Judged {
     /// Judges a cycle; with `readings` also by the strict and the lax model.
     pub fn new(cycle: &Cycle, readings: bool) -> Self {
-        let model = stages::check(cycle, Reading::Exact);
+        let model = check(cycle, Reading::Exact);
         let implementation = bridge::check_impl(cycle);
-        let strict = || stages::check(cycle, Reading::Strict);
+        let strict = || check(cycle, Reading::Strict);
         let disagreement = compare(&model, strict, &implementation);
-        let readings = readings.then(|| [strict(), stages::check(cycle, Reading::Lax)]);
+        let readings = readings.then(|| [strict(), check(cycle, Reading::Lax)]);
         let alone = bridge::failing_alone(cycle);
         Self { model, implementation, disagreement, readings, alone }
     }

@@ -33,9 +33,9 @@ pub(super) fn part_near(route: &Route, points: &[Point]) -> Route {
 
 #[cfg(test)]
 mod tests {
+    use mufasa_model::cycle::check;
     use mufasa_model::input::cycle::{CrossSection, Route};
     use mufasa_model::report::{Outcome, Reading};
-    use mufasa_model::stages::check;
 
     use super::WHOLE;
     use crate::geometry::{Point, direction, scale};

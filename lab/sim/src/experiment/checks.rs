@@ -1,9 +1,9 @@
 //! Cycles of runs, checked by the exact model beside what the monitor decided.
 
 use mufasa_drives::check::judge::compare;
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::Reading;
-use mufasa_model::stages;
 use mufasa_props::bridge::{invalid_input_from_impl, report_from_impl};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,8 +41,8 @@ impl Checks {
         self.checked += 1;
         let cycle: &Cycle = cycle;
         let implementation = report.as_ref().map(report_from_impl).map_err(invalid_input_from_impl);
-        let exact = stages::check(cycle, Reading::Exact);
-        let strict = || stages::check(cycle, Reading::Strict);
+        let exact = check(cycle, Reading::Exact);
+        let strict = || check(cycle, Reading::Strict);
         if let Some(found) = compare(&exact, strict, &implementation) {
             let (id, t_ns, why) = (id.to_owned(), cycle.now_ns, found.to_string());
             self.disagreements.push(Disagreement { id, t_ns, why });

@@ -1,6 +1,7 @@
 //! `spec/3-stages.md#what-the-cav-saw-itself`: each term at its bound and on both sides of it, and what
 //! is too close to call.
 
+use mufasa_model::cycle::check;
 use mufasa_model::hardened::detection_history::{
     Seen, confirmed, nearest_to_reference, seen, usable,
 };
@@ -9,7 +10,6 @@ use mufasa_model::input::scene::Scene;
 use mufasa_model::numbers::real::Real;
 use mufasa_model::report::{Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::stages::check;
 
 use crate::base::*;
 use crate::near::*;

@@ -2,10 +2,10 @@
 //! hardened profile rejects the cycle. The whole decision of the model is run, all stages. It is one
 //! family of cycles for each finding, not every cycle that the finding is about.
 
+use crate::cycle::decide;
 use crate::input::cycle::Profile;
 use crate::numbers::real::formula::{Formula, given};
 use crate::report::{Outcome, Stage};
-use crate::stages::decide;
 use crate::theorem::{Theorem, Wrong, base};
 use crate::witness::SEARCHES;
 

@@ -2,10 +2,10 @@
 //! are in the field of view (stage i), and on which side of an edge of the corridor a point lies
 //! (stage ii). In doubles: this is a hint for a reader, and decides nothing.
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{CrossSection, Cycle, Track};
 use mufasa_model::input::profile::HardenedRule;
 use mufasa_model::report::{FailedStage, Reading, Stage};
-use mufasa_model::stages::check;
 
 /// Farther from its threshold than this a comparison is not looked at, m: the most that `delta` may be.
 const FARTHEST_M: f64 = 1e-2;

@@ -1,5 +1,6 @@
 //! `spec/7-fail-safe.md#motions`
 
+use mufasa_model::cycle::check;
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Profile, Track};
 use mufasa_model::numbers::real::Real;
@@ -7,7 +8,6 @@ use mufasa_model::report::{Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::{
     self, AllRemote, MotRemote, PlanRemote,
 };
-use mufasa_model::stages::check;
 
 use super::{found, scene};
 use crate::base::*;

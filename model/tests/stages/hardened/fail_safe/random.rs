@@ -1,9 +1,9 @@
 //! Random cycles near their thresholds: what strict accepts exact accepts, and what exact accepts lax does.
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Track, Trajectory, TrajectoryPoint};
 use mufasa_model::report::{FailedStage, Outcome, Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration::PlanRemote;
-use mufasa_model::stages::check;
 
 use crate::base::*;
 use crate::exact::Draw;

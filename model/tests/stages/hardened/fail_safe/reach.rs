@@ -1,9 +1,9 @@
 //! `spec/7-fail-safe.md#reach`
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};
 use mufasa_model::report::{Outcome, Reading, Rule, Stage, Witness};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};
-use mufasa_model::stages::check;
 
 use crate::base::*;
 use crate::near::*;

@@ -1,11 +1,11 @@
 //! When H-14 runs, what comes before it, and its work (`spec/7-fail-safe.md#motions`, `#meeting`).
 
+use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, DetectionList, Lead, Profile};
 use mufasa_model::report::{FailedStage, Input, Outcome, Reading, Reason, Rule, Stage, Witness};
 use mufasa_model::services::configuration::Configuration::{
     self, AllRemote, Local, MotRemote, PlanRemote,
 };
-use mufasa_model::stages::check;
 
 use super::found;
 use crate::base::*;
