@@ -5,13 +5,13 @@
 
 use std::hint::black_box;
 
+use mufasa::cycle::{ValidCycle, check_with};
 use mufasa::input::cycle::{Cycle, DetectionList};
 use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{Outcome, Report, Stage};
-use mufasa::stages::{ValidCycle, check_with};
 
 /// A cycle with its scratch memory and the index of its route.
 pub struct Contestant<'a> {

@@ -1,13 +1,13 @@
-//! `mufasa::stages::check` for C.
+//! `mufasa::cycle::check` for C.
 
 use core::ffi::c_void;
 use core::ptr::null;
 
+use mufasa::cycle;
 use mufasa::input::indexes::Indexes;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{InvalidInput, Report};
-use mufasa::stages;
 
 use crate::convert::{self, Counts};
 use crate::cycle::MufasaCycle;
@@ -116,5 +116,5 @@ unsafe fn check(
     let (indexes, count) = unsafe { convert::indexes(raw, kept) }?;
     let detections = indexes.get(..count).unwrap_or(&[]);
     let indexes = Indexes { route: None, detections };
-    Ok(stages::check_with(&cycle, &indexes, &mut Scratch::new(rows, columns)))
+    Ok(cycle::check_with(&cycle, &indexes, &mut Scratch::new(rows, columns)))
 }

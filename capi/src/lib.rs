@@ -1,4 +1,4 @@
-//! C interface of MUFASA's implementation: `mufasa::stages::check` and `mufasa::offloading::requester`.
+//! C interface of MUFASA's implementation: `mufasa::cycle::check` and `mufasa::offloading::requester`.
 //!
 //! All memory is the caller's: nothing is allocated, and nothing is kept between two calls but the
 //! requester in the memory that it was given. Numbers that stand for a choice (profile,

@@ -134,8 +134,8 @@
 //! |---|---|
 //! | `5-interfaces.md#monitor` | [`monitor`] |
 //! | `5-interfaces.md#precheck` | [`provider`] |
-//! | `3-stages.md#schedule` | [`stages`] |
-//! | stage i to stage v | `stages::{i_track_validation, .., v_grid_map}` |
+//! | `3-stages.md#schedule` | [`cycle`] |
+//! | stage i to stage v, without a rule | `stages::{i_track_validation, .., v_grid_map}` |
 //! | `3-stages.md#distances`, LLCC | `stages::{distances, horizon, llcc}` |
 //! | `3-stages.md#invalid-input` | `input::domain` |
 //! | the rules H-nn | `hardened`, a file for each rule or group of rules |
@@ -171,6 +171,7 @@
     )
 )]
 
+pub mod cycle;
 pub mod input;
 pub mod monitor;
 pub mod offloading;
@@ -180,10 +181,10 @@ pub mod parts;
 pub mod provider;
 pub mod report;
 pub mod services;
-pub mod stages;
 
 mod hardened;
 mod numbers;
+mod stages;
 
 #[cfg(test)]
 extern crate std;

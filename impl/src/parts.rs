@@ -171,7 +171,7 @@ pub fn gated_tracks(
 ) -> [Option<u16>; 2] {
     let mut rows = [Row::default(); 2];
     let places = if cycle.profile.has(HardenedRule::H01) {
-        Places::then(tracks, detections)
+        Places::at(tracks, detections.stamp_ns)
     } else {
         Places::standing(tracks.items)
     };

@@ -5,10 +5,10 @@
 //! [`Precheck`] asks them, and has no rule of its own: tracks that stage i would fail for are left out, and of
 //! the planner's candidates the first that passes is the one to be sent. What the CAV checks stays as it is.
 
+use crate::cycle::check;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::scratch::{Column, Row, Scratch};
 use crate::report::{FailedStage, InvalidInput, Outcome, Report, Witness};
-use crate::stages::check;
 use crate::stages::i_track_validation::gate::apart_squared;
 
 /// Why something is not to be sent: what the CAV would answer. Source: `spec/5-interfaces.md#precheck`.
@@ -113,7 +113,7 @@ pub struct Kept<'t> {
 }
 
 impl<'s> Precheck<'s> {
-    /// With memory as for `stages::check`: `Sizes` of the largest cycle. Source:
+    /// With memory as for `cycle::check`: `Sizes` of the largest cycle. Source:
     /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub const fn new(rows: &'s mut [Row], columns: &'s mut [Column]) -> Self {
         Self { rows, columns }

@@ -3,6 +3,7 @@
 //!
 //! Domain: speeds 0 to 150 m/s in steps of 2.5, gaps at and around `s_CAV` and `s_follow`.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{
     CrossSection, Cycle, DetectionList, Ego, Lead, Route, Trajectory, TrajectoryPoint,
 };
@@ -11,7 +12,6 @@ use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{Outcome, Report};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 use mufasa_proofs::law::distances::{
     a_larger_gap_is_never_worse, failed_by_gap, next_below, s_follow_falls_with_v_lead,
     s_follow_is_never_below_s_cav,

@@ -12,6 +12,7 @@
 
 use std::time::{Duration, Instant};
 
+use mufasa::cycle;
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Route, Trajectory, TrajectoryPoint,
 };
@@ -19,7 +20,6 @@ use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -169,7 +169,7 @@ fn passes(ego: &Ego, points: &[TrajectoryPoint]) -> bool {
     let sizes = Sizes::for_cycle(&cycle);
     let mut rows = vec![Row::default(); sizes.rows];
     let mut columns = vec![Column::default(); sizes.columns];
-    let report = stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
+    let report = cycle::check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
     report.is_ok_and(|report| report.failed_stage.is_none())
 }
 

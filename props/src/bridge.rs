@@ -74,9 +74,9 @@ pub use self::verdict::{
 };
 pub use crate::conformance::{Answer, Disagreement, conforms, stage_conforms};
 
+use mufasa::cycle::ValidCycle;
 use mufasa::input::cycle::Cycle as ImplCycle;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
-use mufasa::stages::ValidCycle;
 use mufasa_model::hardened::h02_h05_h10_schedule::schedule;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_model::report::{InvalidInput, Outcome, Report, Stage};
@@ -85,7 +85,7 @@ use mufasa_model::stages::Scheduled;
 /// The implementation's answer to one cycle, with scratch of exactly the size it asks for
 /// (`spec/4-arithmetic.md#conformance-of-an-implementation`). `Err` is invalid local input.
 pub fn check_impl(cycle: &Cycle) -> Result<Report, InvalidInput> {
-    with_impl(cycle, |cycle, scratch| match mufasa::stages::check(cycle, scratch) {
+    with_impl(cycle, |cycle, scratch| match mufasa::cycle::check(cycle, scratch) {
         Ok(report) => Ok(report_from_impl(&report)),
         Err(problem) => Err(invalid_input_from_impl(&problem)),
     })

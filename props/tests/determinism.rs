@@ -25,12 +25,12 @@ fn the_same_input_gives_the_same_answer_bit_for_bit() {
         assert_eq!(first, format!("{:?}", check_impl(&moved(&cycle))), "other memory: {cycle:?}");
         let owned = to_impl(&cycle);
         let mut scratch = Scratch::new(&mut rows, &mut columns);
-        let used = mufasa::stages::check(&owned.borrow(&owned.history()), &mut scratch);
+        let used = mufasa::cycle::check(&owned.borrow(&owned.history()), &mut scratch);
         let fresh = {
             let mut rows = vec![Row::default(); Sizes::MAX.rows];
             let mut columns = vec![Column::default(); Sizes::MAX.columns];
             let mut scratch = Scratch::new(&mut rows, &mut columns);
-            mufasa::stages::check(&owned.borrow(&owned.history()), &mut scratch)
+            mufasa::cycle::check(&owned.borrow(&owned.history()), &mut scratch)
         };
         assert_eq!(format!("{used:?}"), format!("{fresh:?}"), "used scratch: {cycle:?}");
         let used = used.map(|it| report_from_impl(&it)).map_err(|it| invalid_input_from_impl(&it));

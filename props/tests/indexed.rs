@@ -4,12 +4,12 @@
 
 use std::collections::BTreeMap;
 
+use mufasa::cycle::{check, check_indexed, check_with};
 use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, Outcome, Rule, Stage, Witness};
-use mufasa::stages::{check, check_indexed, check_with};
 use mufasa_model::input::cycle::{CrossSection, Cycle, Detection, Profile};
 use mufasa_props::bridge::to_impl;
 use mufasa_props::differential::runner;

@@ -26,7 +26,7 @@ fn judged(cycle: &Cycle) -> Result<Option<Report>, String> {
     let sizes = Sizes::for_cycle(&cycle);
     let (mut rows, mut columns) =
         (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);
-    let Ok(report) = mufasa::stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+    let Ok(report) = mufasa::cycle::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
     else {
         return Ok(None);
     };

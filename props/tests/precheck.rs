@@ -37,7 +37,7 @@ fn failure(cycle: &twin::Cycle<'_>) -> Option<Failure> {
     let sizes = Sizes::MAX;
     let (mut rows, mut columns) =
         (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);
-    let report = mufasa::stages::check(cycle, &mut Scratch::new(&mut rows, &mut columns));
+    let report = mufasa::cycle::check(cycle, &mut Scratch::new(&mut rows, &mut columns));
     Failure::of(&report.expect("valid local input"))
 }
 

@@ -5,6 +5,7 @@ mod draws;
 mod geometry;
 pub mod recipe;
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
     TrajectoryPoint,
@@ -14,7 +15,6 @@ use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{Outcome, Rule, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use self::geometry::Pose;
 use self::recipe::{HISTORY_AGES, LENGTH, Numbers, Object, SPEED, Size, WIDTH};

@@ -307,7 +307,7 @@ fn own_detections_pass(
     detections: &DetectionList<'_>,
     rows: &[Row],
 ) -> bool {
-    let places = Places::then(tracks, detections);
+    let places = Places::at(tracks, detections.stamp_ns);
     let mut gate = Gate::new([cycle.ego.x, cycle.ego.y], &places);
     detections.items.iter().for_each(|item| gate.include([item.x, item.y]));
     let limits = pair_limits(cycle);

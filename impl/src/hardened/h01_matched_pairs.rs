@@ -1,22 +1,24 @@
 //! Stage i: every gated track but a few backed ones is paired, and closely (H-01 of
 //! `spec/3-stages.md#hardened-profile`).
 
+use core::ops::Range;
+
 use crate::input::cycle::{Cycle, DetectionList, TrackList};
-use crate::input::scratch::{Row, Scratch};
+use crate::input::scratch::{Column, NONE, Row, Scratch};
 use crate::report::Witness;
-use crate::stages::i_track_validation::assignment::assign;
+use crate::stages::i_track_validation::assignment::{Costs, assign};
 use crate::stages::i_track_validation::gated_but_not_paired;
 use crate::stages::i_track_validation::mean_cost::{
     columns_of, mean_cost_failure, no_assignment, over_work_limit,
 };
 use crate::stages::i_track_validation::pairing::PairLimits;
-use crate::stages::i_track_validation::pairs::{PairRules, Pairs};
+use crate::stages::i_track_validation::pairs::{Pair, Pairs, Place};
 use crate::stages::i_track_validation::places::Places;
 
 /// What the pairs have to keep: all but `miss_budget` closer than `theta_track_max`.
 pub(crate) fn pair_limits(cycle: &Cycle<'_>) -> PairLimits {
     let (theta_tr, limit) = (cycle.parameters.theta_tr, cycle.parameters.theta_track_max);
-    PairLimits { limit, theta_tr, spare: budget(cycle) }
+    PairLimits { limit, theta_tr, spare: budget(cycle), may_be_left: is_backed }
 }
 
 fn budget(cycle: &Cycle<'_>) -> usize {
@@ -33,7 +35,7 @@ pub(crate) fn matched_tracks(
     detections: &DetectionList<'_>,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let places = Places::then(tracks, detections);
+    let places = Places::at(tracks, detections.stamp_ns);
     let gated = gated_but_not_paired(cycle, &places, detections, pair_limits(cycle), scratch)?;
     matched_pairs(cycle, places, detections, gated, scratch)
 }
@@ -50,9 +52,7 @@ fn matched_pairs(
     gated: usize,
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
-    let tracks = scratch.rows.iter().take(gated).map(|row| usize::from(row.track));
-    let is_backed = |&track: &usize| scratch.rows.get(track).is_some_and(Row::is_backed);
-    let backed = tracks.filter(is_backed).count();
+    let backed = (0..gated).filter(|&row| is_row_backed(scratch.rows, row)).count();
     let spare = budget(cycle).min(backed);
     if spare == gated {
         return None;
@@ -63,14 +63,85 @@ fn matched_pairs(
     }
     let columns = columns_of(scratch.columns, count);
     let (limit, left_out) = (cycle.parameters.theta_track_max, cycle.parameters.theta_tr);
-    let rules = PairRules { swapped: false, limit, left_out, scale: SCALE };
-    let pairs = Pairs::new((places, detections.items), rules, scratch.rows, columns);
-    let assigned = assign(scratch.rows, gated, columns, &pairs);
-    if let (true, Some(left)) = (assigned == gated, pairs.left_out(scratch.rows, columns)) {
+    let pairs = Pairs::new((places, detections.items), false, SCALE, (scratch.rows, columns));
+    let matched = MatchedPairs { pairs, limit, left_out };
+    let assigned = assign(scratch.rows, gated, columns, &matched);
+    if let (true, Some(left)) = (assigned == gated, matched.left_out(scratch.rows, columns)) {
         let k = gated.saturating_sub(left);
-        return mean_cost_failure(cycle, &pairs, scratch.rows, columns, k);
+        return mean_cost_failure(cycle, &matched.pairs, scratch.rows, columns, k);
     }
-    // The first track that is near no detection and may not be left out; else several compete, and no one of them is it.
-    let lone = pairs.lone(scratch.rows, gated, spare).and_then(|index| places.tracks.get(index));
+    // The first track that is near no detection and may not be left out; else several compete, and no one of
+    // them is it.
+    let lone = matched.lone(scratch.rows, gated, spare).and_then(|index| places.tracks.get(index));
     Some(Witness { track: lone.map(|track| track.id), ..no_assignment(assigned, gated) })
+}
+
+/// Whether the track with this index is backed.
+fn is_backed(rows: &[Row], track: usize) -> bool {
+    rows.get(track).is_some_and(Row::is_backed)
+}
+
+/// Whether the track of a row of the assignment is.
+fn is_row_backed(rows: &[Row], row: usize) -> bool {
+    rows.get(row).is_some_and(|row| is_backed(rows, usize::from(row.track)))
+}
+
+/// Rows are gated tracks, which may be paired with near detections alone; the row of a backed track may
+/// take a spare column, which leaves the track out.
+struct MatchedPairs<'a> {
+    pairs: Pairs<'a>,
+    /// Every pair has to be closer, m.
+    limit: f64,
+    /// What it costs to leave out a backed track, m.
+    left_out: f64,
+}
+
+impl Costs for MatchedPairs<'_> {
+    type Place = Place;
+
+    fn place(&self, rows: &[Row], row: usize) -> Option<Place> {
+        self.pairs.place(rows, row)
+    }
+
+    fn cost(&self, rows: &[Row], place: Place, column: usize) -> Option<i64> {
+        let Some(metres) = self.pairs.metres(rows, place, column) else {
+            return is_row_backed(rows, place.row).then(|| self.pairs.units(self.left_out));
+        };
+        certainly_closer(metres, self.limit).then(|| self.pairs.units(metres))
+    }
+
+    fn lists(&self, place: Place) -> impl Iterator<Item = (i64, Range<usize>)> {
+        let near = self.pairs.lists_around(place).take_while(|&(metres, _)| metres <= self.limit);
+        near.map(|(metres, lists)| (self.pairs.least_units(metres), lists))
+    }
+}
+
+impl MatchedPairs<'_> {
+    /// How many tracks the assignment leaves out; `None` when one of them is not backed.
+    fn left_out(&self, rows: &[Row], columns: &[Column]) -> Option<usize> {
+        let spare = columns.iter().skip(self.pairs.detections.len());
+        let mut left = spare.map(|column| column.row).filter(|&row| row != NONE);
+        left.try_fold(0_usize, |count, row| {
+            is_row_backed(rows, usize::from(row)).then(|| count.saturating_add(1))
+        })
+    }
+
+    /// The index of the first track of which no detection is near enough, and which may not be
+    /// left out; `spare`: how many may.
+    fn lone(&self, rows: &[Row], gated: usize, spare: usize) -> Option<usize> {
+        let Self { pairs, limit, .. } = self;
+        let is_lone = |&row: &usize| {
+            if spare > 0 && is_row_backed(rows, row) {
+                return false;
+            }
+            let mut near = (0..pairs.detections.len()).filter_map(|it| pairs.get(rows, row, it));
+            !near.any(|Pair(t, d)| certainly_closer(pairs.places.metres(t, d), *limit))
+        };
+        (0..gated).find(is_lone).and_then(|row| rows.get(row)).map(|row| usize::from(row.track))
+    }
+}
+
+/// The bound covers the error of `Places::metres`; limits are at least 1e-3 m.
+fn certainly_closer(metres: f64, limit: f64) -> bool {
+    metres * (1.0 + 1e-14) + 1e-10 < limit
 }

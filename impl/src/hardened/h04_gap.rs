@@ -1,5 +1,7 @@
-//! The gap to the leading vehicle where stage iv did not run (H-04 of
-//! `spec/3-stages.md#hardened-profile`).
+//! As far as the CAV needs to stop: the gap to the leading vehicle where stage iv did not run, and more
+//! places for stage v (H-04 of `spec/3-stages.md#hardened-profile`).
+
+pub(crate) mod places;
 
 use crate::hardened::h14_fail_safe::times::Times;
 use crate::input::cycle::{Cycle, Lead};

@@ -3,29 +3,32 @@
 
 mod covered;
 
+use crate::hardened::h04_gap::places::Places;
 use crate::hardened::h06_closed_cells::covered::{Covered, plain_square, square};
-use crate::input::cycle::{Cycle, DetectionList, Grid, TrajectoryPoint};
+use crate::input::cycle::{Cycle, DetectionList, Grid, Trajectory, TrajectoryPoint};
 use crate::numbers::range::{float, integer, larger, smaller};
 use crate::numbers::rectangle::possibly_touch;
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
 use crate::services::configuration::Configuration;
+use crate::stages::horizon::{Horizon, points_examined};
 use crate::stages::llcc::footprint;
 use crate::stages::llcc::sweep::MovingRectangle;
-use crate::stages::v_grid_map::band::Band;
+use crate::stages::v_grid_map::band::{Band, CellFrame};
 use crate::stages::v_grid_map::bitmap::Bitmap;
 use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit, floor};
-use crate::stages::v_grid_map::search::{DiskSearch, Places};
+use crate::stages::v_grid_map::search::DiskSearch;
 
 /// The first disk that may touch an occupied cell, else an unknown one, else a place outside the
-/// grid. `points`: those that the paper examines; `places`: as of H-04; `detections`: the current ones,
+/// grid. At the points that the paper examines, then at the places of H-04; `detections`: the current ones,
 /// with which the last two do not count, and no cell that one of them covers.
 pub(crate) fn closed_cells(
     cycle: &Cycle<'_>,
     grid: &Grid<'_>,
-    (points, places): (&[TrajectoryPoint], Option<Places<'_, '_>>),
+    (trajectory, places): (&Trajectory<'_>, Option<Places<'_, '_>>),
     detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
+    let points = points_examined(cycle, trajectory.points, Horizon::Braking);
     let items = detections.map_or(&[][..], |list| list.items);
     let covered = Covered { grid, items };
     let examined = Examined { cycle, points, places, covered };
@@ -57,8 +60,11 @@ impl Examined<'_, '_> {
         let at_places = !self.covered.items.is_empty();
         let at_points = at_places && self.cycle.configuration != Configuration::MotRemote;
         let at = |asks_rectangle| {
-            let search = DiskSearch::new(self.cycle, self.covered.grid, self.points);
-            let search = if asks_rectangle { search.with_rectangle() } else { search };
+            let (cycle, grid) = (self.cycle, self.covered.grid);
+            let mut search = DiskSearch::new(cycle, grid);
+            if asks_rectangle {
+                search.frame = CellFrame::with_rectangle(cycle, grid);
+            }
             let is_free = move |band: &Band| {
                 let mut latest = 0;
                 band.is_free_but(cells, |i, k| {
@@ -71,7 +77,7 @@ impl Examined<'_, '_> {
             (search, is_free, hit)
         };
         let (search, is_free, hit) = at(at_points);
-        let found = search.first(rule, is_free, hit);
+        let found = search.first(self.points, rule, is_free, hit);
         found.or_else(|| {
             let (search, is_free, hit) = at(at_places);
             search.first_place(self.places?, rule, is_free, hit)
@@ -108,9 +114,9 @@ impl Examined<'_, '_> {
     fn beyond_the_grid(&self) -> Option<Witness> {
         let grid = self.covered.grid;
         let is_inside = |band: &Band| band.is_within(grid.width, grid.height);
-        let search = DiskSearch::new(self.cycle, grid, self.points);
+        let search = DiskSearch::new(self.cycle, grid);
         let (rule, hit) = (Rule::Outside, GridGeometry::outside);
-        let found = search.first(rule, is_inside, hit);
+        let found = search.first(self.points, rule, is_inside, hit);
         found.or_else(|| search.first_place(self.places?, rule, is_inside, hit))
     }
 }

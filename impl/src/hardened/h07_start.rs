@@ -7,7 +7,7 @@ use crate::numbers::range::larger;
 use crate::numbers::rounding::Real;
 use crate::numbers::time::elapsed_ns;
 use crate::report::{Rule, Witness};
-use crate::stages::ii_trajectory_to_map::indexed_route::IndexedRoute;
+use crate::stages::ii_trajectory_to_map::indexed_route::{IndexedRoute, STEPS, Segment};
 
 /// Abs(heading x heading) at most this: a planner starts its trajectory at most 50 ms from now when
 /// it turns faster than 1.7 rad/s.
@@ -157,4 +157,39 @@ fn certainly_along(route: IndexedRoute<'_, '_>, point: &TrajectoryPoint, hint: u
         let (x, y) = (point.cos * (bx - ax), point.sin * (by - ay));
         x + y > (x.abs() + y.abs()) * 1e-15 + 1e-300
     })
+}
+
+impl IndexedRoute<'_, '_> {
+    /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.
+    /// Plain doubles err by less than 2^-22 m.
+    pub(crate) fn at_most(&self, q: [f64; 2], index: usize) -> f64 {
+        let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(index) else {
+            return f64::MAX;
+        };
+        let ([x, y], ux, uy) = (q, bx - ax, by - ay);
+        let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
+        let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
+        let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
+        libm::sqrt(dx * dx + dy * dy) + 1e-6
+    }
+
+    /// A segment that is at least as near as that of the hint, as far as walking along the route
+    /// leads there. A guess, in plain doubles.
+    pub(crate) fn nearer(&self, q: [f64; 2], hint: usize) -> usize {
+        let mut at = hint;
+        for _ in 0..STEPS {
+            let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(at) else {
+                break;
+            };
+            let ([x, y], ux, uy) = (q, bx - ax, by - ay);
+            let along = (x - ax) * ux + (y - ay) * uy;
+            let next = at.saturating_add(1);
+            if along > ux * ux + uy * uy && next < self.pairs() {
+                at = next;
+            } else {
+                break;
+            }
+        }
+        at
+    }
 }

@@ -1,7 +1,7 @@
 //! The record of one cycle: what the CAV knows when it decides (`spec/5-interfaces.md#cycle`).
 //!
 //! Everything is borrowed from the caller; numbers are the doubles as they came, and
-//! `stages::check` says what is wrong with them.
+//! `cycle::check` says what is wrong with them.
 //!
 //! All places are in one right-handed frame of the road plane that stands still; a direction is
 //! (cos, sin) of the angle from x towards y, and to the left of it is (-sin, cos). Times are of the CAV's

@@ -108,7 +108,7 @@ impl Sizes {
     }
 }
 
-/// Memory lent by the caller for one call of `stages::check`. Source:
+/// Memory lent by the caller for one call of `cycle::check`. Source:
 /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
 #[derive(Debug)]
 pub struct Scratch<'a> {

@@ -5,14 +5,14 @@ use super::decision::{Decision, Verified};
 use super::element::Element;
 use super::inputs::Inputs;
 use super::stall::Stall;
+use crate::cycle::check_with;
 use crate::input::cycle::{Cycle, Track, TrackList, Trajectory, TrajectoryPoint};
 use crate::input::indexes::Indexes;
 use crate::input::scratch::Scratch;
 use crate::offloading::requester::{Actions, EventKind, Running, Sessions, Source};
 use crate::report::{InvalidInput, Outcome, Problem, Report};
 use crate::services::configuration::{Configuration, Group};
-use crate::stages::check_with;
-use crate::stages::given::is_current;
+use crate::stages::order::is_current;
 
 impl Monitor<'_> {
     /// Decides on the inputs and tells the requester: after an unsafe cycle no group is remote, and
@@ -20,7 +20,7 @@ impl Monitor<'_> {
     /// is: releases to be sent, local services that start, and after a safe one those that stop (H-08). To be called in each period, offloading
     /// or not, so that the detections of the last second are there when they are needed.
     ///
-    /// Time: that of `stages::check` with indexes, and linear in the detections.
+    /// Time: that of `cycle::check` with indexes, and linear in the detections.
     ///
     /// A decision is to be looked at before the next one:
     ///

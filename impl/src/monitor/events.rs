@@ -11,7 +11,7 @@ use crate::offloading::requester::{
     Action, Actions, Event, EventKind, GroupState, Groups, RequesterError,
 };
 use crate::services::configuration::Group;
-use crate::stages::given::is_current;
+use crate::stages::order::is_current;
 
 /// Sessions are numbered from 1.
 const NO_SESSION: i64 = 0;

@@ -6,7 +6,7 @@ use super::decision::Brake;
 use super::inputs::Inputs;
 use crate::report::Outcome;
 use crate::services::configuration::Configuration;
-use crate::stages::given::is_current;
+use crate::stages::order::is_current;
 
 impl Monitor<'_> {
     /// What the decision says of the CAV's own plan, once the requester has its verdict. `is_led`: a trajectory

@@ -9,7 +9,7 @@ pub(crate) mod places;
 pub(crate) mod spatial_hash;
 
 use crate::input::cycle::{Cycle, DetectionList, TrackList};
-use crate::input::scratch::{Row, Scratch};
+use crate::input::scratch::Scratch;
 use crate::report::Witness;
 use crate::stages::i_track_validation::assignment::assign;
 use crate::stages::i_track_validation::gate::gated_tracks;
@@ -17,7 +17,7 @@ use crate::stages::i_track_validation::mean_cost::{
     columns_of, mean_cost_failure, no_assignment, over_work_limit,
 };
 use crate::stages::i_track_validation::pairing::{PairLimits, certainly_pass};
-use crate::stages::i_track_validation::pairs::{PairRules, Pairs};
+use crate::stages::i_track_validation::pairs::Pairs;
 use crate::stages::i_track_validation::places::Places;
 
 /// Why stage i fails, if it does.
@@ -28,7 +28,8 @@ pub(crate) fn track_validation(
     scratch: &mut Scratch<'_>,
 ) -> Option<Witness> {
     let places = Places::standing(tracks.items);
-    let limits = PairLimits { theta_tr: cycle.parameters.theta_tr, limit: f64::MAX, spare: 0 };
+    let theta_tr = cycle.parameters.theta_tr;
+    let limits = PairLimits { theta_tr, limit: f64::MAX, spare: 0, may_be_left: |_, _| false };
     let gated = gated_but_not_paired(cycle, &places, detections, limits, scratch)?;
     mean_cost(cycle, places, detections, gated, scratch)
 }
@@ -42,10 +43,9 @@ pub(crate) fn gated_but_not_paired(
     limits: PairLimits,
     scratch: &mut Scratch<'_>,
 ) -> Option<usize> {
-    let (p, rows) = ([cycle.ego.x, cycle.ego.y], &*scratch.rows);
-    let is_backed = |track: usize| rows.get(track).is_some_and(Row::is_backed);
+    let p = [cycle.ego.x, cycle.ego.y];
     let columns = columns_of(scratch.columns, detections.items.len());
-    if certainly_pass(p, places, detections.items, limits, is_backed, columns) {
+    if certainly_pass(p, places, detections.items, limits, (scratch.rows, columns)) {
         return None;
     }
     Some(gated_tracks(p, places, detections.items, scratch.rows))
@@ -54,7 +54,7 @@ pub(crate) fn gated_but_not_paired(
 /// Units of a cost per m: costs are at most 2^20 m.
 const SCALE: f64 = 4_294_967_296.0;
 
-/// The stage of the paper: k = min(gated tracks, detections) pairs, the fewer of the two as rows.
+/// k = min(gated tracks, detections) pairs, the fewer of the two as rows.
 fn mean_cost(
     cycle: &Cycle<'_>,
     places: Places<'_>,
@@ -72,8 +72,7 @@ fn mean_cost(
     }
     let columns = columns_of(scratch.columns, gated.max(detected));
     let swapped = gated > detected;
-    let rules = PairRules { swapped, limit: f64::MAX, left_out: f64::MAX, scale: SCALE };
-    let pairs = Pairs::new((places, detections.items), rules, scratch.rows, columns);
+    let pairs = Pairs::new((places, detections.items), swapped, SCALE, (scratch.rows, columns));
     let assigned = assign(scratch.rows, k, columns, &pairs);
     if assigned < k {
         // Every row may be paired with every column: never, but if so, nothing has been shown.

@@ -1,13 +1,32 @@
 //! Which stages run, in which order, and why the others do not, as a function of a few booleans: no
 //! list and no number of the cycle decides here (`spec/3-stages.md#schedule`).
 
-use crate::hardened::h02_h05_h10_schedule::{
-    has_stage_v_in_plan_remote, no_obstacle_check, others_replace_stage_v,
-};
-use crate::input::profile::Profile;
-use crate::report::{FailedStage, Input, Outcome, Reason, Stage};
+use crate::numbers::time::elapsed_ns;
+use crate::report::{Input, Outcome, Reason, Stage};
 use crate::services::configuration::Configuration;
-use crate::stages::given::Given;
+
+/// Which inputs of a cycle are there. Source: `spec/3-stages.md#schedule`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools, reason = "five independent facts, each asked for by name")]
+pub struct Given {
+    /// There are tracks, whatever their age.
+    pub tracks_of_any_age: bool,
+    /// The tracks are current.
+    pub tracks: bool,
+    /// The trajectory is current.
+    pub trajectory: bool,
+    /// The detections are current.
+    pub detections: bool,
+    /// The grid is current.
+    pub grid: bool,
+}
+
+/// Whether data with this stamp are current: 0 <= now - stamp <= `max_age`, all in ns, `max_age` at
+/// most 60 s. Source: `spec/3-stages.md#schedule`.
+pub fn is_current(stamp_ns: i64, now_ns: i64, max_age_ns: i64) -> bool {
+    let age_ns = elapsed_ns(stamp_ns, now_ns);
+    0 <= age_ns && age_ns <= max_age_ns
+}
 
 /// How a stage stands in the table. Source: `spec/3-stages.md#schedule`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,78 +60,106 @@ impl From<Idle> for Outcome {
     }
 }
 
-/// Whose turn it is, and whether it runs. Source: `spec/3-stages.md#schedule`.
+/// How the stages of a cycle stand to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Turn {
-    /// The stage runs.
-    Run,
-    /// It does not.
-    Rest(Idle),
-    /// It does not, but at its place the gap is compared, where H-04 says so, and H-14 runs.
-    Gap(Idle),
+pub(crate) struct Schedule {
+    /// Of each stage, in their order.
+    pub(crate) stages: [Scheduled; 5],
+    /// Whether stage v is unnecessary where stage iii or iv ran.
+    pub(crate) others_replace_v: bool,
+}
+
+impl Schedule {
+    /// That of a configuration.
+    pub(crate) fn of(configuration: Configuration) -> Self {
+        let stages = Stage::ALL.map(|stage| scheduled(configuration, stage));
+        Self { stages, others_replace_v: true }
+    }
+}
+
+/// The table. Source: `spec/3-stages.md#schedule`.
+const fn scheduled(configuration: Configuration, stage: Stage) -> Scheduled {
+    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
+    use Scheduled::{Always, Conditional, Never};
+    match (stage, configuration) {
+        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
+        (Stage::I, MotRemote | AllRemote)
+        | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
+        | (Stage::Iii, PlanRemote)
+        | (Stage::V, MotRemote) => Always,
+        (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
+            Conditional
+        }
+    }
+}
+
+/// What became of the stages of a cycle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Past {
+    /// Which one failed.
+    pub(crate) failed: Option<Stage>,
+    pub(crate) ran_iii: bool,
+    pub(crate) ran_iv: bool,
+    pub(crate) ran_v: bool,
 }
 
 /// Goes through the stages of a cycle in their order. `fails`: whether the stage that has its turn
-/// finds a safety issue. What makes the cycle unsafe. Source: `spec/3-stages.md#schedule`.
-pub fn in_order(given: Given, mut fails: impl FnMut(Stage, Turn) -> bool) -> Option<FailedStage> {
+/// finds a safety issue; one that does not run is asked, too, with the reason.
+pub(crate) fn in_order(
+    schedule: Schedule,
+    given: Given,
+    mut fails: impl FnMut(Stage, Option<Idle>) -> bool,
+) -> Past {
     let mut past = Past { failed: None, ran_iii: false, ran_iv: false, ran_v: false };
-    for stage in Stage::ALL {
-        let turn = past.turn(given, stage);
-        let runs = turn == Turn::Run;
+    for (stage, scheduled) in Stage::ALL.into_iter().zip(schedule.stages) {
+        let idle = past.idle(schedule.others_replace_v, given, (stage, scheduled));
+        let runs = idle.is_none();
         match stage {
             Stage::I | Stage::Ii => {}
             Stage::Iii => past.ran_iii = runs,
             Stage::Iv => past.ran_iv = runs,
             Stage::V => past.ran_v = runs,
         }
-        if fails(stage, turn) {
+        if fails(stage, idle) {
             past.failed = Some(stage);
         }
     }
-    match past.failed {
-        Some(stage) => Some(FailedStage::Stage(stage)),
-        None => no_obstacle_check(given, [past.ran_iii, past.ran_iv, past.ran_v]),
-    }
-}
-
-/// What became of the stages before.
-#[derive(Clone, Copy)]
-struct Past {
-    failed: Option<Stage>,
-    ran_iii: bool,
-    ran_iv: bool,
-    ran_v: bool,
+    past
 }
 
 impl Past {
-    fn turn(self, given: Given, stage: Stage) -> Turn {
-        let scheduled = scheduled(given.profile, given.configuration, stage);
-        let idle = match (scheduled, missing(given, stage)) {
-            (Scheduled::Never, _) => Idle::NotScheduled,
-            _ if self.failed.is_some() => Idle::Skipped(Reason::AfterFailure),
-            (Scheduled::Conditional, _) if self.replaces(given, stage) => {
-                Idle::Skipped(Reason::OtherStageRan)
+    /// Why a stage does not run, if it does not.
+    fn idle(
+        self,
+        others_replace_v: bool,
+        given: Given,
+        (stage, scheduled): (Stage, Scheduled),
+    ) -> Option<Idle> {
+        match (scheduled, missing(given, stage)) {
+            (Scheduled::Never, _) => Some(Idle::NotScheduled),
+            _ if self.failed.is_some() => Some(Idle::Skipped(Reason::AfterFailure)),
+            (Scheduled::Conditional, _) if self.replaces(others_replace_v, stage) => {
+                Some(Idle::Skipped(Reason::OtherStageRan))
             }
-            (Scheduled::Conditional, Some(input)) => Idle::Skipped(Reason::NoCurrent(input)),
-            (Scheduled::Always, Some(input)) => Idle::NotApplicable(input),
-            (Scheduled::Always | Scheduled::Conditional, None) => return Turn::Run,
-        };
-        if stage == Stage::Iv && self.failed.is_none() { Turn::Gap(idle) } else { Turn::Rest(idle) }
+            (Scheduled::Conditional, Some(input)) => Some(Idle::Skipped(Reason::NoCurrent(input))),
+            (Scheduled::Always, Some(input)) => Some(Idle::NotApplicable(input)),
+            (Scheduled::Always | Scheduled::Conditional, None) => None,
+        }
     }
 
     /// Whether another stage made a conditional one unnecessary.
-    fn replaces(self, given: Given, stage: Stage) -> bool {
+    const fn replaces(self, others_replace_v: bool, stage: Stage) -> bool {
         match stage {
             Stage::I | Stage::Ii | Stage::Iii => false,
             Stage::Iv => self.ran_iii,
-            Stage::V => (self.ran_iii || self.ran_iv) && others_replace_stage_v(given),
+            Stage::V => (self.ran_iii || self.ran_iv) && others_replace_v,
         }
     }
 }
 
 /// The first input that the stage lacks. Tracks go to stage i whatever their age.
 const fn missing(given: Given, stage: Stage) -> Option<Input> {
-    let Given { tracks_of_any_age, tracks, trajectory, detections, grid, .. } = given;
+    let Given { tracks_of_any_age, tracks, trajectory, detections, grid } = given;
     let [first, second] = match stage {
         Stage::I => [(tracks_of_any_age, Input::Tracks), (detections, Input::Detections)],
         Stage::Ii => [(trajectory, Input::Trajectory); 2],
@@ -123,25 +170,5 @@ const fn missing(given: Given, stage: Stage) -> Option<Input> {
     match (first, second) {
         ((false, input), _) | (_, (false, input)) => Some(input),
         ((true, _), (true, _)) => None,
-    }
-}
-
-/// The table. Source: `spec/3-stages.md#schedule`.
-pub fn scheduled(profile: Profile, configuration: Configuration, stage: Stage) -> Scheduled {
-    use Configuration::{AllRemote, Local, MotRemote, PlanRemote};
-    use Scheduled::{Always, Conditional, Never};
-    if !profile.runs(stage) {
-        return Never;
-    }
-    match (stage, configuration) {
-        (Stage::V, PlanRemote) if has_stage_v_in_plan_remote(profile) => Conditional,
-        (_, Local) | (Stage::I | Stage::V, PlanRemote) | (Stage::Iii, MotRemote) => Never,
-        (Stage::I, MotRemote | AllRemote)
-        | (Stage::Ii, MotRemote | AllRemote | PlanRemote)
-        | (Stage::Iii, PlanRemote)
-        | (Stage::V, MotRemote) => Always,
-        (Stage::Iii | Stage::V, AllRemote) | (Stage::Iv, MotRemote | AllRemote | PlanRemote) => {
-            Conditional
-        }
     }
 }

@@ -5,45 +5,49 @@ pub(crate) mod bitmap;
 pub(crate) mod disk;
 pub(crate) mod search;
 
-use crate::hardened::h06_closed_cells::closed_cells;
-use crate::hardened::h14_fail_safe::path::Nodes;
-use crate::input::cycle::{Cycle, DetectionList, Grid, Trajectory, TrajectoryPoint};
-use crate::input::profile::HardenedRule;
+use crate::input::cycle::{Cycle, Grid, Trajectory};
 use crate::report::{Rule, Witness};
 use crate::stages::horizon::{Horizon, points_examined};
 use crate::stages::v_grid_map::band::Band;
 use crate::stages::v_grid_map::bitmap::Bitmap;
-use crate::stages::v_grid_map::disk::{Disk, GridGeometry};
-use crate::stages::v_grid_map::search::{DiskSearch, Places};
+use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
+use crate::stages::v_grid_map::search::DiskSearch;
 
-/// Why stage v fails, if it does. `detections`: the current ones (H-06).
+/// Why stage v fails, if it does: the first disk whose centre may lie in a cell that an occupied one marks.
 pub(crate) fn trajectory_with_grid_map(
     cycle: &Cycle<'_>,
     trajectory: &Trajectory<'_>,
     grid: &Grid<'_>,
-    detections: Option<&DetectionList<'_>>,
 ) -> Option<Witness> {
     let points = points_examined(cycle, trajectory.points, Horizon::Braking);
-    let all = trajectory.points;
-    let places = || (Nodes::new(cycle, all), all.len());
-    let places = cycle.profile.has(HardenedRule::H04).then(places);
-    if cycle.profile.has(HardenedRule::H06) {
-        closed_cells(cycle, grid, (points, places), detections)
-    } else {
-        dilated_cells(cycle, grid, (points, places))
-    }
+    let (search, dilated) = (DiskSearch::new(cycle, grid), DilatedCells::new(grid));
+    search.first(
+        points,
+        Rule::Occupied,
+        |band| dilated.is_free(band),
+        |grid, disk| dilated.hit(grid, disk),
+    )
 }
 
-/// The first disk whose centre may lie in a cell that an occupied one marks.
-fn dilated_cells(
-    cycle: &Cycle<'_>,
-    grid: &Grid<'_>,
-    (points, places): (&[TrajectoryPoint], Option<Places<'_, '_>>),
-) -> Option<Witness> {
-    let occupied = Bitmap { bits: grid.occupied, width: grid.width, height: grid.height };
-    let search = DiskSearch::new(cycle, grid, points);
-    let is_free = |band: &Band| band.is_free(&occupied);
-    let hit = |grid: &GridGeometry, disk: &Disk<'_>| grid.marked(disk, &occupied, grid.dilation());
-    let found = search.first(Rule::Occupied, is_free, hit);
-    found.or_else(|| search.first_place(places?, Rule::Occupied, is_free, hit))
+/// The occupied cells, each of which marks what is as near as the radius.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DilatedCells<'a> {
+    occupied: Bitmap<'a>,
+}
+
+impl<'a> DilatedCells<'a> {
+    pub(crate) const fn new(grid: &Grid<'a>) -> Self {
+        let &Grid { occupied: bits, width, height, .. } = grid;
+        Self { occupied: Bitmap { bits, width, height } }
+    }
+
+    /// Whether certainly no disk in the band is in a marked cell.
+    pub(crate) fn is_free(&self, band: &Band) -> bool {
+        band.is_free(&self.occupied)
+    }
+
+    /// What marks the cell in which the centre of the disk may lie.
+    pub(crate) fn hit(&self, grid: &GridGeometry, disk: &Disk<'_>) -> Option<Hit> {
+        grid.marked(disk, &self.occupied, grid.dilation())
+    }
 }

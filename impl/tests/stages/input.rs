@@ -2,12 +2,12 @@
 //! problem, extreme stamps, the norm to the last bit, and scratch.
 
 use crate::scene::{NOW_NS, scene};
+use mufasa::cycle;
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{InvalidInput, Problem};
 use mufasa::services::configuration::Configuration::{AllRemote, MotRemote};
-use mufasa::stages;
 
 fn invalid(field: &'static str, index: Option<usize>, problem: Problem) -> InvalidInput {
     InvalidInput { field, index, problem }
@@ -82,7 +82,7 @@ fn the_norm_has_no_margin() {
 fn scratch_that_is_too_small_is_an_error() {
     let mut scene = scene(Profile::HARDENED, MotRemote, [0.0, 0.0]);
     scene.change = |cycle| {
-        let small = stages::check(cycle, &mut Scratch::new(&mut [], &mut []));
+        let small = cycle::check(cycle, &mut Scratch::new(&mut [], &mut []));
         assert_eq!(small, Err(invalid("scratch", None, Problem::ScratchTooSmall)));
     };
     assert!(scene.check().is_ok());

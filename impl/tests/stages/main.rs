@@ -1,4 +1,4 @@
-//! The stages and their input, through `stages::check` alone.
+//! The stages and their input, through `cycle::check` alone.
 #![allow(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,

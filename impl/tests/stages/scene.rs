@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use mufasa::cycle::{self, ValidCycle};
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Route, Track, TrackList, Trajectory,
     TrajectoryPoint,
@@ -13,7 +14,6 @@ use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Report, Rule, Stage, Witness};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::{self, ValidCycle};
 
 /// Now, ns.
 pub const NOW_NS: i64 = 1_000_000_000_000;
@@ -85,7 +85,7 @@ impl Scene {
     /// detections and with them.
     #[expect(clippy::redundant_closure, reason = "the function alone has fewer lifetimes")]
     pub fn check(&self) -> Result<Report, InvalidInput> {
-        self.both_ways(|cycle, indexes, scratch| stages::check_with(cycle, indexes, scratch))
+        self.both_ways(|cycle, indexes, scratch| cycle::check_with(cycle, indexes, scratch))
     }
 
     /// Why stage iv fails on its own, if it does.

@@ -1,12 +1,12 @@
 //! The laws of a cycle's report over every configuration, both profiles, and every input missing,
 //! too old, harmless or harmful (`spec/3-stages.md#schedule`).
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::{FailedStage, Report, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use super::{Run, Topic};
 use crate::harness::scene::{Given, cycle};

@@ -2,13 +2,13 @@
 //! always refused and names `s_follow`, and the trajectory points that stage iv examines show
 //! `s_valid`.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{Cycle, DetectionList, Lead, Route, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Scratch};
 use mufasa::report::{Outcome, Report, Witness};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use super::any::within;
 use super::scene::{CROSS_SECTIONS, EGO, NOW_NS, alone};

@@ -1,12 +1,12 @@
 //! The assignment of stage i (`spec/3-stages.md#stage-i-track-validation`) against all there are.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{Cycle, Detection, DetectionList, Route, Track, TrackList};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::Outcome;
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use super::any::{below, index};
 use super::bounds::{COLUMNS, DETECTIONS, ITEMS, PLACES, TRACKS};

@@ -1,6 +1,7 @@
 //! Invalid input (`spec/3-stages.md#invalid-input`): one bad value in a valid cycle is always found
 //! and never safe.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
     Trajectory, TrajectoryPoint,
@@ -9,7 +10,6 @@ use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::{FailedStage, Outcome, Reason};
 use mufasa::services::configuration::{Configuration, Group};
-use mufasa::stages::check;
 
 use super::any::{below, configuration, profile};
 use super::scene::{BESIDE, CROSS_SECTIONS, EGO, FREE, NOW_NS, SEEN_BESIDE, STRAIGHT};

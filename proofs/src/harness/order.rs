@@ -1,10 +1,9 @@
 //! The order of the stages (`spec/3-stages.md#schedule`), with an arbitrary answer for each stage.
 
+use mufasa::cycle::order::{Given, Idle, Turn, decide, is_current};
 use mufasa::input::profile::Profile;
 use mufasa::report::{FailedStage, Input, Reason, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::given::{Given, is_current};
-use mufasa::stages::order::{Idle, Turn, in_order};
 
 use super::any::{below, integer_within, profile, time_ns};
 #[cfg(not(kani))]
@@ -22,24 +21,24 @@ use crate::kani;
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_order_is_the_table() {
     let column = below(4);
+    let configuration = match column {
+        0 => Configuration::MotRemote,
+        1 => Configuration::AllRemote,
+        2 => Configuration::PlanRemote,
+        _ => Configuration::Local,
+    };
+    let profile = profile();
     let given = Given {
-        profile: profile(),
-        configuration: match column {
-            0 => Configuration::MotRemote,
-            1 => Configuration::AllRemote,
-            2 => Configuration::PlanRemote,
-            _ => Configuration::Local,
-        },
         tracks_of_any_age: kani::any(),
         tracks: kani::any(),
         trajectory: kani::any(),
         detections: kani::any(),
         grid: kani::any(),
     };
-    let hardened = given.profile == Profile::HARDENED;
+    let hardened = profile == Profile::HARDENED;
     let answers: [bool; 5] = [kani::any(), kani::any(), kani::any(), kani::any(), kani::any()];
     let (mut at, mut failed, mut ran) = (0, None, [false; 5]);
-    let found = in_order(given, |stage, turn| {
+    let found = decide(profile, configuration, given, |stage, turn| {
         assert!(at < 5 && stage == STAGES[at]);
         let mark = if at == 4 && column == 2 && hardened {
             Conditional

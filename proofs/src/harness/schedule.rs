@@ -1,12 +1,12 @@
 //! The schedule (`spec/3-stages.md#schedule`): its table written a second time, as data, and what
 //! the text says of it, as far as it does not depend on what the stages compare.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::{FailedStage, Input, Outcome, Reason, Report, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use super::any::{configuration, index, profile};
 use super::scene::{Given, cycle};

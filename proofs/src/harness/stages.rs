@@ -1,12 +1,12 @@
 //! The stages on arbitrary numbers, also invalid, NaN and infinite ones: none panics, every loop
 //! ends, and what is reported follows the schedule.
 
+use mufasa::cycle::{ValidCycle, check, check_indexed};
 use mufasa::input::cycle::Cycle;
 use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, Input, InvalidInput, Outcome, Problem, Report, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::{ValidCycle, check, check_indexed};
 
 use super::any::{index, profile};
 use super::bounds::{DETECTIONS, DISKS, TRACKS};

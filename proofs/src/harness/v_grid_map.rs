@@ -1,13 +1,13 @@
 //! Grid cells and their borders in stage v (`spec/3-stages.md#stage-v-trajectory-with-grid-map`)
 //! against integers.
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{Cycle, Ego, Grid, Route, Trajectory, TrajectoryPoint};
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::Scratch;
 use mufasa::report::{Outcome, Report, Rule};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 
 use super::any::below;
 use super::bounds::{GRID, GRID_BYTES};

@@ -325,7 +325,7 @@ fn add_groups(
     let (folder, module) = (parts.next().unwrap_or_default(), parts.next());
     let number = module.and_then(|module| module.split('_').next()).unwrap_or_default();
     match (folder, module) {
-        ("stages", None) | ("input", _) => drop(groups.insert("whole cycle".to_owned())),
+        ("cycle" | "input", _) => drop(groups.insert("whole cycle".to_owned())),
         ("offloading", _) => drop(groups.insert("requester step".to_owned())),
         ("stages", _) if ["i", "ii", "iii", "iv", "v"].contains(&number) => {
             groups.insert(format!("stage {number}"));
@@ -334,7 +334,7 @@ fn add_groups(
             let users: Vec<_> = tree
                 .ending(".rs")
                 .filter(|(file, text)| {
-                    let known = ["impl/src/stages", "impl/src/hardened"];
+                    let known = ["impl/src/stages", "impl/src/hardened", "impl/src/cycle"];
                     known.iter().any(|it| file.starts_with(it))
                         && !is_test(file)
                         && text.contains(&format!("{module}::"))

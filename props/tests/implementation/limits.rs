@@ -135,7 +135,7 @@ fn passed(cycles: &[Owned]) -> [u32; 5] {
     let reports: Vec<_> = on_small_stack(|| {
         let check = |cycle: &Owned| {
             let mut scratch = Scratch::new(&mut rows, &mut columns);
-            mufasa::stages::check(&cycle.borrow(&cycle.history()), &mut scratch)
+            mufasa::cycle::check(&cycle.borrow(&cycle.history()), &mut scratch)
         };
         cycles.iter().map(check).collect()
     });
@@ -173,7 +173,7 @@ fn the_passer_meets_the_cav_unless_it_keeps_beside() {
     let Sizes { rows, columns } = Sizes::MAX;
     let (mut rows, mut columns) = (vec![Row::default(); rows], vec![Column::default(); columns]);
     let mut scratch = Scratch::new(&mut rows, &mut columns);
-    let report = mufasa::stages::check(&cycle.borrow(&cycle.history()), &mut scratch);
+    let report = mufasa::cycle::check(&cycle.borrow(&cycle.history()), &mut scratch);
     let Outcome::Failed(witness) = report.expect("valid").stages[3] else { panic!("it passes") };
     assert_eq!((witness.rule, witness.track), (Rule::FailSafe, Some(0)));
 }
@@ -189,7 +189,7 @@ fn scratch_that_is_one_too_small_is_invalid_input() {
         let check = |rows: usize, columns: usize| {
             let (mut rows, mut columns) =
                 (vec![Row::default(); rows], vec![Column::default(); columns]);
-            mufasa::stages::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
+            mufasa::cycle::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
         };
         assert!(check(rows, columns).is_ok());
         let problem = Problem::ScratchTooSmall;

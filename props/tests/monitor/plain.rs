@@ -1,6 +1,7 @@
 //! What the monitor does, by the plain calls: the requester, the stages without any index, and a list of
 //! lists (`spec/5-interfaces.md#monitor`).
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{
     Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList, Trajectory,
     TrajectoryPoint,
@@ -13,7 +14,6 @@ use mufasa::offloading::requester::{
 };
 use mufasa::report::{InvalidInput, Outcome, Problem, Report};
 use mufasa::services::configuration::{Configuration, Group, Groups};
-use mufasa::stages::check;
 
 use super::kit::{MS, place};
 

@@ -28,7 +28,6 @@ const CIRCLES: &Exceptions = &[];
 const UNEQUAL: &Exceptions = &[
     ("impl/src/input/detection_index", "saves time; no verdict depends on it"),
     ("impl/src/input/indexes", "saves time; no verdict depends on it"),
-    ("impl/src/stages/given", "of order"),
     ("impl/src/stages/order", "a function for the proofs to ask; the model asks in stages/mod"),
     ("impl/src/input/route_index", "saves time; no verdict depends on it"),
     (

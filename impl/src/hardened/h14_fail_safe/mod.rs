@@ -6,6 +6,7 @@ mod cover;
 mod meeting;
 mod motion;
 mod motions;
+mod nearest;
 pub(crate) mod path;
 pub(crate) mod reach;
 pub(crate) mod times;

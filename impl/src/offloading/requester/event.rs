@@ -107,7 +107,7 @@ impl Sessions {
 }
 
 impl EventKind {
-    /// The end of a cycle as an event. `answer`: what `stages::check` said; an error counts as
+    /// The end of a cycle as an event. `answer`: what `cycle::check` said; an error counts as
     /// unsafe. `sessions`: those that the data of the cycle came from. Source: `spec/2-offloading.md#fallback`.
     pub const fn of_cycle(answer: &Result<Report, InvalidInput>, sessions: Sessions) -> Self {
         let safe = match answer {

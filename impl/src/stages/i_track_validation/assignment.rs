@@ -6,7 +6,7 @@
 //! given. With at most 1024 rows and costs of at most 2^52 + 1 no path or potential reaches 2^63: a
 //! path, and a potential, which is that of a path to a column that no row has taken and whose
 //! potential is 0, costs what its edges cost, every second one taken off (where edges are missing,
-//! in the hardened profile, at most 1024 edges of 2^46 + 1; else one edge would do).
+//! at most 1024 edges of 2^46 + 1; else one edge would do).
 
 use core::ops::Range;
 

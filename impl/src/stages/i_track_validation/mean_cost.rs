@@ -1,4 +1,4 @@
-//! The work and the mean cost of an assignment, which both profiles limit
+//! The limits of an assignment: its work and its mean cost
 //! (`spec/3-stages.md#stage-i-track-validation`).
 
 use crate::input::cycle::Cycle;
@@ -40,7 +40,7 @@ pub(crate) fn over_work_limit(cycle: &Cycle<'_>, rows: usize, columns: usize) ->
     (work > limit).then(|| Witness::of(Rule::WorkLimit, compared))
 }
 
-/// Fewer rows got a column than have to; H-01: fewer tracks are paired or left out than gated.
+/// Fewer rows got a column than have to.
 pub(crate) fn no_assignment(assigned: usize, k: usize) -> Witness {
     Witness::of(Rule::NoAssignment, [count(assigned), count(k)])
 }

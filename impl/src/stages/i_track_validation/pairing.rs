@@ -7,7 +7,7 @@
 //! unless many detections share a square.
 
 use crate::input::cycle::Detection;
-use crate::input::scratch::{Column, NONE, short};
+use crate::input::scratch::{Column, NONE, Row, short};
 use crate::stages::i_track_validation::gate::{Gate, apart_squared};
 use crate::stages::i_track_validation::places::Places;
 
@@ -20,23 +20,23 @@ pub(crate) struct PairLimits {
     pub(crate) theta_tr: f64,
     /// So many gated tracks may be left out.
     pub(crate) spare: usize,
+    /// Whether a track may, by its index; what is known of tracks stands in the rows.
+    pub(crate) may_be_left: fn(&[Row], usize) -> bool,
 }
 
 /// More than the distance of a track to a detection errs in plain doubles, m: twice the error of a
 /// place.
 const PLACE_ERROR: f64 = 2e-8;
 
-/// Whether there certainly are pairs of all gated tracks but some that keep the limits; all of those
-/// `may_be_left`, by their index. `p`: the CAV's position. Plain doubles: a distance, or the square
-/// of one, errs by less than 2^-50 of itself, 2^-400 m and twice the error of a place, a sum of at
-/// most 1024 by less than 2^-42 of itself more.
+/// Whether there certainly are pairs of all gated tracks but some that keep the limits. `p`: the CAV's
+/// position. Plain doubles: a distance, or the square of one, errs by less than 2^-50 of itself, 2^-400 m
+/// and twice the error of a place, a sum of at most 1024 by less than 2^-42 of itself more.
 pub(crate) fn certainly_pass(
     p: [f64; 2],
     places: &Places<'_>,
     detections: &[Detection],
     limits: PairLimits,
-    may_be_left: impl Fn(usize) -> bool,
-    columns: &mut [Column],
+    (rows, columns): (&[Row], &mut [Column]),
 ) -> bool {
     let error = if places.ahead_ns == 0 { 0.0 } else { PLACE_ERROR };
     // Farther pairs would hardly keep the mean below the threshold.
@@ -57,7 +57,7 @@ pub(crate) fn certainly_pass(
         }
         let fits = match squares.take(place) {
             Some(squared) => sum.pair(libm::sqrt(squared)),
-            None => sum.leave_out(may_be_left(index), &limits),
+            None => sum.leave_out((limits.may_be_left)(rows, index), &limits),
         };
         if !fits {
             return false;

@@ -1,8 +1,7 @@
-//! Where the tracks are that stage i compares with detections: where the list says, or, by H-01, at
-//! their place when the detections were made
-//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! Where the tracks are that stage i compares with detections: where the list says, or where they are at
+//! another time (`spec/3-stages.md#stage-i-track-validation`).
 
-use crate::input::cycle::{Detection, DetectionList, Track, TrackList};
+use crate::input::cycle::{Detection, Track, TrackList};
 use crate::numbers::plane::{Vector, distance};
 use crate::numbers::rounding::Real;
 use crate::numbers::time::{elapsed_ns, seconds};
@@ -11,16 +10,16 @@ use crate::numbers::time::{elapsed_ns, seconds};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Places<'a> {
     pub(crate) tracks: &'a [Track],
-    /// From the stamp of the tracks to that of the detections, ns; 0 without H-01.
+    /// From the stamp of the tracks to that time, ns.
     pub(crate) ahead_ns: i64,
     /// The same in s.
     ahead: f64,
 }
 
 impl<'a> Places<'a> {
-    /// When the detections were made (H-01).
-    pub(crate) fn then(tracks: &TrackList<'a>, detections: &DetectionList<'_>) -> Self {
-        let ahead_ns = elapsed_ns(tracks.stamp_ns, detections.stamp_ns);
+    /// Where tracks are at that time.
+    pub(crate) fn at(tracks: &TrackList<'a>, time_ns: i64) -> Self {
+        let ahead_ns = elapsed_ns(tracks.stamp_ns, time_ns);
         Self { tracks: tracks.items, ahead_ns, ahead: seconds(ahead_ns) }
     }
 

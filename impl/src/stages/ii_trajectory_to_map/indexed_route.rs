@@ -6,7 +6,7 @@ use core::cmp::Ordering;
 use crate::input::cycle::{CrossSection, Route};
 use crate::input::route_index::{RouteIndex, candidates};
 use crate::numbers::exact::{certain_orientation, orientation};
-use crate::numbers::plane::{Vector, distance_to_segment, same_point, segment_distance};
+use crate::numbers::plane::{same_point, segment_distance};
 use crate::numbers::range::{larger, smaller};
 use crate::numbers::rounding::Real;
 use crate::report::{Rule, Witness};
@@ -22,12 +22,12 @@ pub(crate) struct Segment {
 /// A route, and its index when there is one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IndexedRoute<'c, 'a> {
-    route: &'c Route<'a>,
+    pub(crate) route: &'c Route<'a>,
     index: Option<&'c RouteIndex<'a>>,
 }
 
 /// How far along the route a search goes for the place of the next trajectory point.
-const STEPS: usize = 64;
+pub(crate) const STEPS: usize = 64;
 
 impl<'c, 'a> IndexedRoute<'c, 'a> {
     pub(crate) const fn new(route: &'c Route<'a>, index: Option<&'c RouteIndex<'a>>) -> Self {
@@ -102,116 +102,10 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
         })
     }
 
-    /// The same in plain doubles, which err by less than 2e-6 m.
-    pub(crate) fn about(&self, q: [f64; 2], hint: usize) -> (f64, usize) {
-        let near = self.nearer(q, hint);
-        let start = (self.at_most(q, near), near);
-        self.segments(q, start.0).fold(start, |best, segment| {
-            let away = self.at_most(q, segment.index);
-            if away < best.0 { (away, segment.index) } else { best }
-        })
-    }
-
-    /// The distance of a place to the reference path, and a segment that may be nearest to it.
-    pub(crate) fn nearest(&self, place: Vector, hint: usize) -> (Real, usize) {
-        let (about, hint) = self.about([place.x.value(), place.y.value()], hint);
-        let mut found = (Real::new(f64::MAX), hint);
-        for segment in self.around(place, about) {
-            let away = distance_to_segment(place, segment.from, segment.to);
-            let nearer = (away - found.0).value() < 0.0;
-            found = (away.min(found.0), if nearer { segment.index } else { found.1 });
-        }
-        found
-    }
-
-    /// Calls `ask` for each segment that may be as near as the nearest one.
-    pub(crate) fn each_nearest(
-        &self,
-        place: Vector,
-        (least, _): (Real, usize),
-        mut ask: impl FnMut(&Segment),
-    ) {
-        let is_nearest = |segment: &Segment| {
-            distance_to_segment(place, segment.from, segment.to).possibly_at_most(least)
-        };
-        self.around(place, least.value()).filter(is_nearest).for_each(|segment| ask(&segment));
-    }
-
-    /// The segments so near to a place that is rounded; 1e-3 m more than that errs, and `at_most`.
-    fn around(&self, place: Vector, reach: f64) -> impl Iterator<Item = Segment> {
-        let q = [place.x.value(), place.y.value()];
-        let reach = reach + place.x.off() + place.y.off() + 1e-3;
-        self.segments(q, reach).filter(move |segment| self.at_most(q, segment.index) <= reach)
-    }
-
-    /// Whether a place lies beyond neither end of the reference path, if it has ends; in plain doubles,
-    /// if these tell.
-    pub(crate) fn plainly_has_beside(&self, [x, y]: [f64; 2]) -> Option<bool> {
-        let mut answer = Some(true);
-        for (end, next) in self.ends() {
-            let (u, v) = (next.x - end.x, next.y - end.y);
-            let (along, error) = ((x - end.x) * u + (y - end.y) * v, 1e-6 * (u.abs() + v.abs()));
-            if along < -error {
-                return Some(false);
-            }
-            answer = answer.filter(|_| along > error);
-        }
-        answer
-    }
-
-    /// The same, where it certainly does.
-    pub(crate) fn certainly_has_beside(&self, place: Vector) -> bool {
-        self.ends().all(|(end, next)| {
-            let along = Vector::between([end.x, end.y], [next.x, next.y]);
-            Real::ZERO.certainly_below((place - Vector::new(end.x, end.y)).dot(along))
-        })
-    }
-
-    /// The ends of an open route, each with the reference point next to it.
-    fn ends(&self) -> impl Iterator<Item = (&'a CrossSection, &'a CrossSection)> {
-        let (cross_sections, last) = (self.route.cross_sections, self.pairs());
-        let ends = [[0, 1], [last, last.saturating_sub(1)]];
-        let open = ends.into_iter().take(if self.route.closed { 0 } else { 2 });
-        open.filter_map(move |[end, next]| cross_sections.get(end).zip(cross_sections.get(next)))
-    }
-
     /// The witness that a place is too far from the reference path.
     pub(crate) fn too_far(&self, q: [f64; 2], hint: usize, rule: Rule, limit: f64) -> Witness {
         let (away, segment) = self.path_distance(q, hint);
         Witness { segment: Some(segment), ..Witness::of(rule, [away.value(), limit]) }
-    }
-
-    /// Upper bound on the distance to a segment, and so to the reference path: to a point of it.
-    /// Plain doubles err by less than 2^-22 m.
-    pub(crate) fn at_most(&self, q: [f64; 2], index: usize) -> f64 {
-        let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(index) else {
-            return f64::MAX;
-        };
-        let ([x, y], ux, uy) = (q, bx - ax, by - ay);
-        let part = ((x - ax) * ux + (y - ay) * uy) / (ux * ux + uy * uy);
-        let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
-        let (dx, dy) = (x - ax - part * ux, y - ay - part * uy);
-        libm::sqrt(dx * dx + dy * dy) + 1e-6
-    }
-
-    /// A segment that is at least as near as that of the hint, as far as walking along the route
-    /// leads there. A guess, in plain doubles.
-    pub(crate) fn nearer(&self, q: [f64; 2], hint: usize) -> usize {
-        let mut at = hint;
-        for _ in 0..STEPS {
-            let Some(Segment { from: [ax, ay], to: [bx, by], .. }) = self.segment(at) else {
-                break;
-            };
-            let ([x, y], ux, uy) = (q, bx - ax, by - ay);
-            let along = (x - ax) * ux + (y - ay) * uy;
-            let next = at.saturating_add(1);
-            if along > ux * ux + uy * uy && next < self.pairs() {
-                at = next;
-            } else {
-                break;
-            }
-        }
-        at
     }
 
     /// From the cross sections of the hint forward while the point is beyond the next ones, in plain
@@ -230,7 +124,7 @@ impl<'c, 'a> IndexedRoute<'c, 'a> {
 
     /// How many pairs of consecutive cross sections there are, with the last and the first one of a
     /// closed route.
-    fn pairs(&self) -> usize {
+    pub(crate) fn pairs(&self) -> usize {
         self.route.cross_sections.len().saturating_sub(usize::from(!self.route.closed))
     }
 

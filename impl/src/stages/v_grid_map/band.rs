@@ -1,7 +1,7 @@
 //! Stage v decided for many trajectory points at once: a turned rectangle that contains all their
-//! disks, or the CAV's rectangles where these have to be touched, too (H-06), and by so much more
-//! that a cell whose centre is outside collides in neither profile. When no cell in it is set, none
-//! of these points collides; else half of the points are tried.
+//! disks, or all of the CAV's rectangles, and by so much more that a cell whose centre is outside marks no
+//! place of theirs and shares no point with them. When no cell in it is set, none of these points collides;
+//! else half of the points are tried.
 //!
 //! Plain doubles: within the grid coordinates are below 2^21 cells, and each is rounded less than
 //! 16 times; `MARGIN` is more than that. Farther off, errors stay below 2^-14 cells up to the

@@ -1,8 +1,8 @@
 //! Recorded cycles are those that the monitor decided.
 
+use mufasa::cycle::check;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::services::configuration::Groups;
-use mufasa::stages::check;
 use mufasa_props::bridge;
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;

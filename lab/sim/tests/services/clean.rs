@@ -4,6 +4,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 use std::collections::BTreeMap;
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::{
     CrossSection, Cycle, Detection, DetectionList, Lead, Route, Track, TrackList, Trajectory,
 };
@@ -12,7 +13,6 @@ use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{Outcome, Stage};
 use mufasa::services::configuration::Configuration;
-use mufasa::stages::check;
 use mufasa_sim::path::Path;
 use mufasa_sim::pose::{Point, Pose};
 use mufasa_sim::services::detectors::lead::{Front, measured_lead};

@@ -23,10 +23,9 @@ fn what_is_no_assignment_is_seen() {
             ..Row::default()
         });
         let mut columns = [Column::default(); 3];
-        let rules =
-            PairRules { swapped: false, limit: f64::MAX, left_out: 0.2, scale: 4_294_967_296.0 };
         let places = Places::standing(&tracks);
-        let pairs = Pairs::new((places, &detections), rules, &rows, &mut columns);
+        let pairs =
+            Pairs::new((places, &detections), false, 4_294_967_296.0, (&rows, &mut columns));
         for (column, row) in columns.iter_mut().zip(of_columns) {
             column.row = row;
         }

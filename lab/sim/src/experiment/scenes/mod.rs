@@ -16,11 +16,11 @@ mod way;
 
 use std::collections::BTreeMap;
 
+use mufasa::cycle::check;
 use mufasa::input::cycle::Cycle;
 use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row as Lent, Scratch, Sizes};
-use mufasa::stages::check;
 use mufasa_model::report::Outcome;
 use mufasa_props::bridge;
 use mufasa_records::{names, write};

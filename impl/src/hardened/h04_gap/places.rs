@@ -1,0 +1,74 @@
+//! Stage v where the CAV is until it stops, behind the points that the paper names (H-04 of
+//! `spec/3-stages.md#hardened-profile`).
+
+use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
+use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};
+use crate::report::{Rule, Witness};
+use crate::stages::v_grid_map::DilatedCells;
+use crate::stages::v_grid_map::band::Band;
+use crate::stages::v_grid_map::disk::{Disk, GridGeometry, Hit};
+use crate::stages::v_grid_map::search::DiskSearch;
+
+/// The path whose places are examined behind the points, and how many points the trajectory has.
+pub(crate) type Places<'c, 'a> = (Nodes<'c, 'a>, usize);
+
+/// Those of a trajectory.
+pub(crate) fn places_of<'c, 'a>(
+    cycle: &'c Cycle<'a>,
+    trajectory: &Trajectory<'a>,
+) -> Places<'c, 'a> {
+    (Nodes::new(cycle, trajectory.points), trajectory.points.len())
+}
+
+/// As the paper examines the points.
+pub(crate) fn dilated_at_places(
+    cycle: &Cycle<'_>,
+    grid: &Grid<'_>,
+    places: Places<'_, '_>,
+) -> Option<Witness> {
+    let (search, dilated) = (DiskSearch::new(cycle, grid), DilatedCells::new(grid));
+    search.first_place(
+        places,
+        Rule::Occupied,
+        |band| dilated.is_free(band),
+        |grid, disk| dilated.hit(grid, disk),
+    )
+}
+
+impl DiskSearch<'_, '_> {
+    /// As `first`, at the places of a path, which a witness counts as points behind that many. The
+    /// places of a piece lie on a line with one heading, and are in the band of the first and the last.
+    pub(crate) fn first_place(
+        &self,
+        (nodes, points): Places<'_, '_>,
+        rule: Rule,
+        is_free: impl Fn(&Band) -> bool,
+        hit: impl Fn(&GridGeometry, &Disk<'_>) -> Option<Hit>,
+    ) -> Option<Witness> {
+        if self.lines_are_free(nodes, &is_free) {
+            return None;
+        }
+        Path::new(nodes).pieces().find_map(|piece| {
+            let [cos, sin] = piece.heading();
+            let is_free = |run: [i64; 2]| {
+                let ends = piece.between(run, [0.0; 2]);
+                let ends = ends.map(|[x, y, _]| TrajectoryPoint { t_ns: 0, x, y, cos, sin });
+                is_free(&Band::new(&self.frame, ends.into_iter()))
+            };
+            let find = |place: &Place| self.at_pose(rule, place.point(points), &place.pose, &hit);
+            piece.first_place(is_free, find)
+        })
+    }
+
+    /// Whether nothing along the path can hit, by one band.
+    fn lines_are_free(&self, nodes: Nodes<'_, '_>, is_free: impl Fn(&Band) -> bool) -> bool {
+        let &Ego { x: p_x, y: p_y, .. } = &self.cycle.ego;
+        let ends = nodes.lines().flat_map(|line| {
+            let [cos, sin] = line.heading;
+            let end =
+                |[x, y]: [f64; 2]| TrajectoryPoint { t_ns: 0, x: p_x + x, y: p_y + y, cos, sin };
+            [line.from, line.to].map(end)
+        });
+        is_free(&Band::new(&self.frame, ends))
+    }
+}
