@@ -44,6 +44,16 @@ pub fn circles(graph: &Graph) -> Vec<(String, String)> {
     found.into_iter().collect()
 }
 
+/// Files of the stages, in model and implementation, that know the folder of the rules.
+pub fn stages_that_know_rules(tree: &Tree) -> Vec<(String, String)> {
+    let is_stage = |path: &str| {
+        ["model", "impl"].iter().any(|it| path.starts_with(&format!("{it}/src/stages/")))
+    };
+    let files =
+        tree.ending(".rs").filter(|(path, text)| is_stage(path) && text.contains("hardened::"));
+    files.map(|(path, _)| (path.to_owned(), "a stage knows no rule".to_owned())).collect()
+}
+
 /// Which module knows which, below a folder of sources.
 fn modules(tree: &Tree, folder: &str) -> Graph {
     let mut files = BTreeMap::new();
@@ -214,4 +224,16 @@ mod tests {
         ];
         assert!(found(&files).is_empty());
     }
+}
+
+#[test]
+fn a_stage_that_knows_a_rule_is_seen() {
+    let file = |path: &str, text: &str| (path.to_owned(), text.to_owned());
+    let tree = Tree(BTreeMap::from([
+        file("impl/src/stages/v.rs", "use crate::hardened::h06;"),
+        file("model/src/stages/v.rs", "use crate::stages::llcc;"),
+        file("model/src/cycle.rs", "use crate::hardened::h06;"),
+    ]));
+    let found = stages_that_know_rules(&tree);
+    assert_eq!(found.iter().map(|it| it.0.as_str()).collect::<Vec<_>>(), ["impl/src/stages/v.rs"]);
 }

@@ -76,6 +76,12 @@ fn no_modules_of_a_package_know_each_other_in_a_circle() {
     judge(&circles::of_modules(&Tree::here()), CIRCLES);
 }
 
+/// What a rule changes it changes from outside.
+#[test]
+fn no_stage_knows_a_rule() {
+    judge(&circles::stages_that_know_rules(&Tree::here()), &[]);
+}
+
 /// As above; tests count, since they too have to be built and read.
 #[test]
 fn no_packages_depend_on_each_other_in_a_circle() {
