@@ -56,62 +56,80 @@ pub enum Outcome {
     NotScheduled,
 }
 
-/// The comparison that decided a failure, in the order of `spec/`: first by rule, then by
-/// trajectory point, then by list order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Rule {
-    /// A comparison is too close to call, strict only: of what the CAV saw itself (stage i, in `PlanRemote`
-    /// stage iv), or whether a point is a node (stage ii).
-    Ambiguous,
-    /// Stage i: mean assignment cost < theta_tr.
-    MeanCost,
-    /// Stages i and iv, strict only: the assignment, or H-14, would take more work than work_limit.
-    WorkLimit,
-    /// H-01: fewer pairs closer than theta_track_max than tracks to be matched.
-    NoAssignment,
-    /// Stage ii: farther than theta_map from the reference path and outside the corridor.
-    ThetaMap,
-    /// H-07: time of the first point not within max_age of now.
-    StartTime,
-    /// H-07: first point too far from the CAV.
-    StartPosition,
-    /// H-07: the first heading is not the CAV's.
-    StartHeading,
-    /// H-07: the trajectory starts too far aside.
-    StartOffset,
-    /// H-07: a point outside the corridor.
-    Corridor,
-    /// H-07: heading against the nearest segments of the reference path.
-    Direction,
-    /// H-11: dt > step_max.
-    StepTime,
-    /// H-11: step longer than L.
-    StepLength,
-    /// H-11: step faster than v_max.
-    StepSpeed,
-    /// H-11: step against a heading.
-    StepForward,
-    /// H-11: step sideways by more than W/2.
-    StepLateral,
-    /// H-11: headings of a step differ too much, or more than its length and time allow.
-    StepTurn,
-    /// H-11: the point is not where the headings lead.
-    Slide,
-    /// Stage ii, H-14: a place is not within reach.
-    Reach,
-    /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react.
-    Gap,
-    /// Stages iii and iv: rectangles share a point.
-    Collision,
-    /// Stage iv, H-14: an object meets the CAV, which goes on for tau and brakes.
-    FailSafe,
-    /// Stage v: a disk on an occupied cell.
-    Occupied,
-    /// H-06: a disk on an unknown cell.
-    Unknown,
-    /// H-06: a disk beyond the border of the grid.
-    Outside,
+/// The list of the rules of witnesses with their words, and the only place where they stand on this
+/// side: `witness_rules!(callback)` expands to `callback! { .. }` with one entry for each, in the order
+/// of `spec/`: `/// documentation` `name = word;`.
+#[macro_export]
+macro_rules! witness_rules {
+    ($callback:ident) => {
+        $callback! {
+            /// A comparison is too close to call, strict only: of what the CAV saw itself (stage i, in `PlanRemote`
+            /// stage iv), or whether a point is a node (stage ii).
+            Ambiguous = "ambiguous";
+            /// Stage i: mean assignment cost < theta_tr.
+            MeanCost = "mean_cost";
+            /// Stages i and iv, strict only: the assignment, or H-14, would take more work than work_limit.
+            WorkLimit = "work_limit";
+            /// H-01: fewer pairs closer than theta_track_max than tracks to be matched.
+            NoAssignment = "no_assignment";
+            /// Stage ii: farther than theta_map from the reference path and outside the corridor.
+            ThetaMap = "theta_map";
+            /// H-07: time of the first point not within max_age of now.
+            StartTime = "start_time";
+            /// H-07: first point too far from the CAV.
+            StartPosition = "start_position";
+            /// H-07: the first heading is not the CAV's.
+            StartHeading = "start_heading";
+            /// H-07: the trajectory starts too far aside.
+            StartOffset = "start_offset";
+            /// H-07: a point outside the corridor.
+            Corridor = "corridor";
+            /// H-07: heading against the nearest segments of the reference path.
+            Direction = "direction";
+            /// H-11: dt > step_max.
+            StepTime = "step_time";
+            /// H-11: step longer than L.
+            StepLength = "step_length";
+            /// H-11: step faster than v_max.
+            StepSpeed = "step_speed";
+            /// H-11: step against a heading.
+            StepForward = "step_forward";
+            /// H-11: step sideways by more than W/2.
+            StepLateral = "step_lateral";
+            /// H-11: headings of a step differ too much, or more than its length and time allow.
+            StepTurn = "step_turn";
+            /// H-11: the point is not where the headings lead.
+            Slide = "slide";
+            /// Stage ii, H-14: a place is not within reach.
+            Reach = "reach";
+            /// Stage iv: gap <= s_follow, or where it did not run (H-04) <= s_react.
+            Gap = "gap";
+            /// Stages iii and iv: rectangles share a point.
+            Collision = "collision";
+            /// Stage iv, H-14: an object meets the CAV, which goes on for tau and brakes.
+            FailSafe = "fail_safe";
+            /// Stage v: a disk on an occupied cell.
+            Occupied = "occupied";
+            /// H-06: a disk on an unknown cell.
+            Unknown = "unknown";
+            /// H-06: a disk beyond the border of the grid.
+            Outside = "outside";
+        }
+    };
 }
+
+macro_rules! enumerate {
+    ($($(#[$doc:meta])* $name:ident = $word:literal;)*) => {
+        /// The comparison that decided a failure, in the order of `spec/`: first by rule, then by
+        /// trajectory point, then by list order.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Rule {
+            $($(#[$doc])* $name,)*
+        }
+    };
+}
+
+crate::witness_rules!(enumerate);
 
 /// Why a stage failed: the rule, where, and the two numbers that were compared, as the nearest
 /// doubles. `track` is an id; `point`, `detection`, `item`, `segment` (of the reference path) and `disk`

@@ -123,35 +123,6 @@ words! {
         Reason::NoCurrent(Input::Grid) => "no_current_grid",
     }
 
-    /// The rule of a witness, in the order of spec/3-stages.md.
-    rule(Rule as "Rule") {
-        Rule::Ambiguous => "ambiguous",
-        Rule::MeanCost => "mean_cost",
-        Rule::WorkLimit => "work_limit",
-        Rule::NoAssignment => "no_assignment",
-        Rule::ThetaMap => "theta_map",
-        Rule::StartTime => "start_time",
-        Rule::StartPosition => "start_position",
-        Rule::StartHeading => "start_heading",
-        Rule::StartOffset => "start_offset",
-        Rule::Corridor => "corridor",
-        Rule::Direction => "direction",
-        Rule::StepTime => "step_time",
-        Rule::StepLength => "step_length",
-        Rule::StepSpeed => "step_speed",
-        Rule::StepForward => "step_forward",
-        Rule::StepLateral => "step_lateral",
-        Rule::StepTurn => "step_turn",
-        Rule::Slide => "slide",
-        Rule::Reach => "reach",
-        Rule::Gap => "gap",
-        Rule::Collision => "collision",
-        Rule::FailSafe => "fail_safe",
-        Rule::Occupied => "occupied",
-        Rule::Unknown => "unknown",
-        Rule::Outside => "outside",
-    }
-
     /// A group of services.
     group(Group as "Group") {
         Group::Mot => "mot",
@@ -163,5 +134,35 @@ words! {
         PlacementRule::SameStation => "same_station",
         PlacementRule::LocalOnly => "local_only",
         PlacementRule::Acyclic => "acyclic",
+    }
+}
+
+macro_rules! of_witnesses {
+    ($($(#[$doc:meta])* $name:ident = $word:literal;)*) => { words! {
+        /// The rule of a witness, in the order of spec/3-stages.md.
+        rule(Rule as "Rule") {
+            $(Rule::$name => $word,)*
+        }
+    } };
+}
+
+mufasa_model::witness_rules!(of_witnesses);
+
+#[cfg(test)]
+mod tests {
+    use mufasa_model::input::profile::HardenedRule;
+
+    use super::*;
+
+    #[test]
+    fn rules_name_stages_and_witnesses_by_their_words() {
+        for witness in HardenedRule::ALL.into_iter().flat_map(HardenedRule::witnesses) {
+            let (place, kind) = witness.split_once(' ').unwrap_or((witness, ""));
+            let known = FailedStage::ALL.iter().any(|it| failed_stage(*it) == place);
+            assert!(
+                known && (kind.is_empty() || Rule::ALL.iter().any(|it| rule(*it) == kind)),
+                "{witness}"
+            );
+        }
     }
 }

@@ -21,46 +21,75 @@ impl Stage {
     pub const ALL: [Self; 5] = [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V];
 }
 
-/// A rule of the hardened profile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum HardenedRule {
-    /// Stage i matches every gated track, at its place, closely.
-    H01,
-    /// A stage iii on a list that nothing checked is no obstacle check.
-    H02,
-    /// Stages iv and v look as far as the CAV needs to stop.
-    H04,
-    /// No trajectory without an obstacle check.
-    H05,
-    /// Stage v takes the closed squares of cells, and what is unknown.
-    H06,
-    /// The trajectory starts now and here, and keeps to the route.
-    H07,
-    /// Make before break.
-    H08,
-    /// Stage v runs whatever else ran.
-    H10,
-    /// A vehicle can drive the steps of the trajectory.
-    H11,
-    /// The fail-safe rule.
-    H14,
+/// The list of the rules of the hardened profile, and the only place where they stand on this side:
+/// `hardened_rules!(callback)` expands to `callback! { .. }` with one entry for each, in the order of
+/// the table: `/// documentation` `name = id witnesses [..];`, a witness being the stage that fails and
+/// the word of [`crate::report::Rule`], as `scripts/availability` reads them, too.
+#[macro_export]
+macro_rules! hardened_rules {
+    ($callback:ident) => {
+        $callback! {
+            /// Stage i matches every gated track, at its place, closely.
+            H01 = "H-01" witnesses ["i mean_cost", "i no_assignment", "i work_limit"];
+            /// A stage iii on a list that nothing checked is no obstacle check.
+            H02 = "H-02" witnesses ["no_obstacle_check"];
+            /// Stages iv and v look as far as the CAV needs to stop.
+            H04 = "H-04" witnesses ["iv gap", "v occupied", "v unknown", "v outside"];
+            /// No trajectory without an obstacle check.
+            H05 = "H-05" witnesses ["no_obstacle_check", "v occupied", "v unknown", "v outside"];
+            /// Stage v takes the closed squares of cells, and what is unknown.
+            H06 = "H-06" witnesses ["v occupied", "v unknown", "v outside"];
+            /// The trajectory starts now and here, and keeps to the route.
+            H07 = "H-07" witnesses [
+                "ii start_time", "ii start_position", "ii start_heading", "ii start_offset",
+                "ii corridor", "ii direction"
+            ];
+            /// Make before break.
+            H08 = "H-08" witnesses [];
+            /// Stage v runs whatever else ran.
+            H10 = "H-10" witnesses ["v occupied", "v unknown", "v outside"];
+            /// A vehicle can drive the steps of the trajectory.
+            H11 = "H-11" witnesses [
+                "ii step_time", "ii step_length", "ii step_speed", "ii step_forward",
+                "ii step_lateral", "ii step_turn", "ii slide"
+            ];
+            /// The fail-safe rule.
+            H14 = "H-14" witnesses ["ii reach", "iv fail_safe", "iv work_limit"];
+        }
+    };
 }
 
-impl HardenedRule {
-    /// All rules in the order of the table.
-    pub const ALL: [Self; 10] = [
-        Self::H01,
-        Self::H02,
-        Self::H04,
-        Self::H05,
-        Self::H06,
-        Self::H07,
-        Self::H08,
-        Self::H10,
-        Self::H11,
-        Self::H14,
-    ];
+macro_rules! enumerate {
+    ($($(#[$doc:meta])* $name:ident = $id:literal witnesses [$($witness:literal),*];)*) => {
+        /// A rule of the hardened profile.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum HardenedRule {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl HardenedRule {
+            /// All rules in the order of the table.
+            pub const ALL: [Self; [$($id),*].len()] = [$(Self::$name),*];
+
+            /// As the text names it.
+            pub const fn id(self) -> &'static str {
+                match self {
+                    $(Self::$name => $id,)*
+                }
+            }
+
+            /// What can fail a cycle that the paper accepts: stage and rule of the witness, or
+            /// `no_obstacle_check`.
+            pub const fn witnesses(self) -> &'static [&'static str] {
+                match self {
+                    $(Self::$name => &[$($witness),*],)*
+                }
+            }
+        }
+    };
 }
+
+crate::hardened_rules!(enumerate);
 
 /// A set of rules H-nn beside the published method, read as the interpretations I-nn say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -22,12 +22,14 @@ pub fn profile_from_impl(profile: twin::Profile) -> Profile {
     stages.fold(set, Profile::without_stage)
 }
 
-same_variants! {
-    /// A rule in the implementation's type.
-    pub fn rule_to_impl(HardenedRule) -> twin::HardenedRule {
-        H01, H02, H04, H05, H06, H07, H08, H10, H11, H14,
-    }
+macro_rules! same_rules {
+    ($($(#[$doc:meta])* $name:ident = $id:literal witnesses $witnesses:tt;)*) => { same_variants! {
+        /// A rule in the implementation's type.
+        pub fn rule_to_impl(HardenedRule) -> twin::HardenedRule { $($name,)* }
+    } };
 }
+
+mufasa_model::hardened_rules!(same_rules);
 
 #[cfg(test)]
 mod tests {

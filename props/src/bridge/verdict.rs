@@ -80,13 +80,12 @@ both_ways! {
     }
 
     fn input_from_impl(twin::Input), fn input_to_impl(Input) { Trajectory, Tracks, Detections, Grid, }
-
-    fn rule_from_impl(twin::Rule), fn rule_to_impl(Rule) {
-        Ambiguous, MeanCost, WorkLimit, NoAssignment,
-        ThetaMap, StartTime, StartPosition, StartHeading, StartOffset, Corridor, Direction,
-        StepTime, StepLength, StepSpeed, StepForward, StepLateral, StepTurn, Slide,
-        Reach,
-        Gap, Collision, FailSafe,
-        Occupied, Unknown, Outside,
-    }
 }
+
+macro_rules! same_rules {
+    ($($(#[$doc:meta])* $name:ident = $word:literal;)*) => { both_ways! {
+        fn rule_from_impl(twin::Rule), fn rule_to_impl(Rule) { $($name,)* }
+    } };
+}
+
+mufasa_model::witness_rules!(same_rules);

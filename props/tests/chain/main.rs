@@ -19,6 +19,7 @@ mod tree;
 use std::path::Path;
 use std::sync::OnceLock;
 
+use mufasa_model::input::profile::HardenedRule;
 use rows::{Cell, Row};
 use tree::Tree;
 
@@ -160,7 +161,7 @@ fn no_link_of_the_chain_is_missing_without_a_reason() {
 fn every_requirement_has_a_row() {
     let rows = rows();
     let names: Vec<&str> = rows.iter().map(|row| row.name.as_str()).collect();
-    let rules = [1, 2, 4, 5, 6, 7, 8, 10, 11, 14].map(|n| format!("H-{n:02}"));
+    let rules = HardenedRule::ALL.map(|rule| rule.id().to_owned());
     let numbers = (1..=12).map(|n| format!("I-{n:02}")).chain(rules);
     let symbols =
         ["s_follow", "s_CAV", "s_b", "s_valid", "theta_tr", "theta_map", "theta_obj", "a_b"];
