@@ -37,7 +37,8 @@ pub fn two_points(cycle: &mut Cycle, millis: i64, [x, y]: [f64; 2]) {
 }
 
 /// Strict and lax move each comparison by the margin, towards rejection and towards acceptance, by no
-/// more than the margin, and farther with a larger one.
+/// more than the margin, and farther with a larger one. The interval filter in front of the exact
+/// arithmetic changes no report of them.
 pub fn margins_move(cases: &[Near]) {
     for (name, configuration, profile, with) in cases {
         let at = |offset: f64, delta: f64| {
@@ -52,17 +53,11 @@ pub fn margins_move(cases: &[Near]) {
         assert_eq!(at(3e-6, 1e-6), NO, "{name}: unsafe by three margins");
         assert_eq!(at(-3e-6, 1e-5), NEAR_SAFE, "{name}: a larger delta");
         assert_eq!(at(3e-6, 1e-5), NEAR_UNSAFE, "{name}: a larger delta");
-    }
-}
-
-/// The interval filter in front of the exact arithmetic changes no report.
-pub fn the_filter_changes_nothing(cases: &[Near]) {
-    for (_, configuration, profile, with) in cases {
         for offset in [-1e-6, 0.0, 1e-6] {
             let mut cycle = base(*profile, *configuration);
             with(&mut cycle, offset);
             // Exact arithmetic alone takes its time: a short trajectory will do.
-            points(&mut cycle).truncate(20);
+            cycle.trajectory.iter_mut().for_each(|list| list.points.truncate(20));
             for reading in [Reading::Strict, Reading::Exact, Reading::Lax] {
                 let plain = unfiltered(|| check(&cycle, reading));
                 assert_eq!(check(&cycle, reading), plain);

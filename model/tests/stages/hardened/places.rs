@@ -23,11 +23,6 @@ fn margins_move_what_reaches_a_cell() {
     margins_move(NEAR);
 }
 
-#[test]
-fn the_filter_changes_no_report_of_the_grid() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// H-04: the places of H-14 are examined in the grid, after the points that the paper names.
 #[test]
 fn h_04_the_grid_is_examined_up_to_s_stop() {

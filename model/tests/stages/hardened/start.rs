@@ -38,11 +38,6 @@ fn margins_move_each_bound_of_the_start() {
     }
 }
 
-#[test]
-fn the_filter_changes_no_report_of_the_start() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// The cross product alone would take the opposite for the same.
 #[test]
 fn the_opposite_heading_is_another_one() {

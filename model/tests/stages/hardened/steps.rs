@@ -55,11 +55,6 @@ fn margins_move_each_bound_of_a_step() {
     margins_move(NEAR);
 }
 
-#[test]
-fn the_filter_changes_no_report_of_steps() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// Each case breaks the rule that it is about, the first in the order of the rules.
 #[test]
 fn each_bound_is_that_of_its_rule() {

@@ -173,11 +173,6 @@ fn margins_move_who_goes_along() {
     }
 }
 
-#[test]
-fn the_filter_changes_no_report_of_who_goes_along() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// spec/7-fail-safe.md#meeting.1: who merges or crosses is examined.
 #[test]
 fn who_does_not_go_along_is_examined() {

@@ -103,11 +103,6 @@ fn margins_move_where_and_when_they_meet() {
     }
 }
 
-#[test]
-fn the_filter_changes_no_report_of_meeting() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// Touching is a collision.
 #[test]
 fn touching_is_meeting() {

@@ -46,11 +46,6 @@ fn margins_move_the_reach() {
     }
 }
 
-#[test]
-fn the_filter_changes_no_report_of_the_reach() {
-    the_filter_changes_nothing(NEAR);
-}
-
 fn witness(cycle: &Cycle) -> Option<Witness> {
     match outcome(cycle, Stage::Ii) {
         Outcome::Failed(witness) => Some(witness),

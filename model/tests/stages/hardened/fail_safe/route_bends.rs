@@ -217,11 +217,6 @@ fn margins_move_where_the_route_bends() {
     assert!(found(&cycle).is_some());
 }
 
-#[test]
-fn the_filter_changes_no_report_where_the_route_bends() {
-    the_filter_changes_nothing(NEAR);
-}
-
 /// The longest route there is.
 #[test]
 fn a_long_route_bends_everywhere() {
