@@ -30,7 +30,7 @@ pub fn check(cycle: &Cycle, reading: Reading) -> Result<Report, InvalidInput> {
 /// The reports of the strict, the exact and the lax reading. Every margin moves towards rejection in
 /// the one and towards acceptance in the other, so what strict accepts exact accepts, and what exact
 /// accepts lax accepts, with the same outcome of every stage: a reading is computed only where the one
-/// before rejects (`props/tests/readings.rs` compares). `Err` as of [`check`].
+/// before rejects (`props/tests/stages/readings.rs` compares). `Err` as of [`check`].
 pub fn readings(cycle: &Cycle) -> Result<[Report; 3], InvalidInput> {
     let strict = check(cycle, Reading::Strict)?;
     let next = |before: &Report, reading| match before.failed_stage {

@@ -1,28 +1,11 @@
 //! `spec/2-offloading.md#requester`: confirmations, rejections, deadlines.
 
-use mufasa_model::offloading::requester::Action::Deactivate;
 use mufasa_model::offloading::requester::Group::{Mot, Plan};
 use mufasa_model::offloading::requester::{GroupState, Groups, Parameters};
 
-use crate::{
-    Cav, MOT, PROFILES, Profile, TICK, UNSAFE, confirm, offer, on, reject, release, request,
-    withdraw,
-};
+use crate::{Cav, MOT, PROFILES, TICK, UNSAFE, confirm, offer, reject, release, request, withdraw};
 
 const TIMEOUT_NS: i64 = 500_000_000;
-
-/// `spec/2-offloading.md#requester.4`
-#[test]
-fn a_confirmation_of_the_requested_session_from_its_station_before_its_deadline_moves_to_remote() {
-    for (profile, actions) in [(Profile::PAPER, vec![Deactivate(Mot)]), (Profile::HARDENED, vec![])]
-    {
-        let mut cav = Cav::requested(profile, MOT);
-        let requested = GroupState::Requested { station: 1, session: 1, deadline_ns: TIMEOUT_NS };
-        assert_eq!(cav.model().state(Mot), requested);
-        assert_eq!(cav.at(TIMEOUT_NS - 1, confirm(1, Mot, 1)), actions);
-        assert_eq!(cav.model().state(Mot), on(1, 1));
-    }
-}
 
 /// `spec/2-offloading.md#requester.4`
 #[test]
@@ -53,27 +36,6 @@ fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and
         answered(Cav::remote(profile, Groups::ALL), 1, 2, Mot, 1);
         answered(Cav::new(profile, Parameters::default()), 1, 9, Plan, 4);
     }
-}
-
-/// `spec/2-offloading.md#requester.5`
-#[test]
-fn a_request_not_confirmed_before_its_deadline_returns_at_the_first_tick_that_can_tell() {
-    let mut cav = Cav::requested(Profile::PAPER, MOT);
-    cav.ignores(TIMEOUT_NS - 1, TICK);
-    assert_eq!(cav.at(TIMEOUT_NS, TICK), [release(1, Mot, 1)]);
-    assert_eq!(cav.model().state(Mot), GroupState::Local);
-    assert_eq!(cav.model().hold_until_ns(), None);
-}
-
-/// `spec/2-offloading.md#requester.5`
-#[test]
-fn a_rejection_of_the_requested_session_returns_it_at_once_without_a_release() {
-    let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
-    assert_eq!(cav.at(1, reject(1, Plan, 2)), []);
-    assert_eq!(cav.model().state(Plan), GroupState::Local);
-    assert_eq!(cav.at(TIMEOUT_NS + 1, reject(1, Mot, 1)), [], "the deadline does not matter");
-    assert_eq!(cav.model().state(Mot), GroupState::Local);
-    assert_eq!(cav.at(TIMEOUT_NS + 1, TICK), [request(1, Mot, 3), request(1, Plan, 4)]);
 }
 
 /// `spec/2-offloading.md#requester.5`

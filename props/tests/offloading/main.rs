@@ -3,12 +3,10 @@
 
 mod deadlines;
 mod fallback;
-mod protocol;
 mod provider;
 mod quality_of_service;
-mod recovery;
 mod requester;
-mod stations;
+mod traces;
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::Group::{Mot, Plan};

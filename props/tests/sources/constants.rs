@@ -1,7 +1,10 @@
 //! Model and implementation share no constant; here they are compared: every parameter of the stages
-//! with its default and the ends of its domain, of the requester with its default.
+//! with its default and the ends of its domain, of the requester with its default, and the rules.
 
 use std::fmt::Debug;
+
+use mufasa::input::profile::HardenedRule as Ours;
+use mufasa_model::input::profile::HardenedRule as Model;
 
 /// Name, default, least, greatest; doubles bit for bit.
 type Entry = (&'static str, [String; 3]);
@@ -51,4 +54,9 @@ fn parameters_of_the_requester_have_equal_defaults() {
     let ours = mufasa::offloading::requester::Parameters::default();
     let converted = mufasa_props::bridge::parameters_to_impl(&model);
     assert_eq!(bits(converted), bits(ours));
+}
+
+#[test]
+fn rules_have_equal_ids() {
+    assert_eq!(Model::ALL.map(Model::id), Ours::ALL.map(Ours::id));
 }

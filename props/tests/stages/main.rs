@@ -1,0 +1,24 @@
+//! The implementation against the exact model, stage by stage and in whole cycles; what an
+//! implementation must be besides; and results of others.
+
+mod aim;
+mod detections;
+mod determinism;
+mod distance;
+mod fail_safe;
+mod filter;
+mod grid;
+mod implementation;
+mod indexed;
+mod input;
+mod laws;
+mod map_validation;
+mod one_lie;
+mod peers;
+mod precheck;
+mod readings;
+mod schedule;
+mod track_validation;
+mod tracks;
+mod whole;
+mod witness;
