@@ -94,21 +94,3 @@ fn a_forbidden_dependency_is_seen_in_every_form() {
         assert!(all_dependencies(text).contains("mufasa"), "{text}");
     }
 }
-
-/// A stage file holds the paper: what a rule changes it changes from outside.
-#[test]
-fn the_stages_of_the_model_know_no_rule() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../model/src/stages");
-    let files: Vec<_> = fs::read_dir(&folder).expect("the folder of the stages").collect();
-    assert!(files.len() >= 8, "the stages are gone");
-    for file in files {
-        let path = file.expect("a file").path();
-        let text = fs::read_to_string(&path).expect("a source");
-        // The documentation may say where the rules are.
-        let code = text.lines().filter(|line| !line.trim_start().starts_with("//!"));
-        for line in code {
-            let named = ["hardened", "Hardened", "H-", "crate::cycle"].map(|it| line.contains(it));
-            assert!(!named.contains(&true), "{}: {line}", path.display());
-        }
-    }
-}
