@@ -6,9 +6,9 @@
 
 use std::process::ExitCode;
 
-#[path = "../tests/support/expected.rs"]
+#[path = "../tests/proofs/expected.rs"]
 mod expected;
-#[path = "../tests/support/export.rs"]
+#[path = "../tests/proofs/export.rs"]
 mod export;
 
 fn main() -> ExitCode {

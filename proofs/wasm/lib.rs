@@ -25,34 +25,22 @@ pub mod kani {
         fn any() -> Self;
     }
 
-    impl Arbitrary for u64 {
-        fn any() -> Self {
-            import::any_u64()
-        }
+    macro_rules! arbitrary {
+        ($($Type:ty: $value:expr;)*) => {$(
+            impl Arbitrary for $Type {
+                fn any() -> Self {
+                    $value
+                }
+            }
+        )*};
     }
 
-    impl Arbitrary for i64 {
-        fn any() -> Self {
-            i64::from_ne_bytes(import::any_u64().to_ne_bytes())
-        }
-    }
-
-    impl Arbitrary for u8 {
-        fn any() -> Self {
-            import::any_u64().to_le_bytes()[0]
-        }
-    }
-
-    impl Arbitrary for bool {
-        fn any() -> Self {
-            import::any_u64() & 1 == 1
-        }
-    }
-
-    impl Arbitrary for f64 {
-        fn any() -> Self {
-            import::any_f64()
-        }
+    arbitrary! {
+        u64: import::any_u64();
+        i64: i64::from_ne_bytes(import::any_u64().to_ne_bytes());
+        u8: import::any_u64().to_le_bytes()[0];
+        bool: import::any_u64() & 1 == 1;
+        f64: import::any_f64();
     }
 
     pub fn any<T: Arbitrary>() -> T {

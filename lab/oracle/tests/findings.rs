@@ -10,8 +10,9 @@ use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::report::{FailedStage, Reading, Stage};
 use mufasa_props::bridge;
 use mufasa_records::{self as json, Record};
+use mufasa_theorems::claim::Decision;
 use mufasa_theorems::numbers::real::formula::Formula;
-use mufasa_theorems::prove::{Decision, prove_claim};
+use mufasa_theorems::prove::prove_claim;
 use mufasa_theorems::report::Reading as SymbolicReading;
 use mufasa_theorems::{cycle as symbolic_cycle, theorem, witness};
 
@@ -112,12 +113,12 @@ fn every_file_names_what_exists() {
 
 #[test]
 fn a_witness_that_z3_finds_is_accepted_by_the_paper_profile_alone() {
-    if !mufasa_z3::is_new_enough() {
+    if !mufasa_theorems::solver::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }
-    for search in &witness::SEARCHES {
-        let paper = search.find().expect("z3 answers").expect(search.finding);
+    for search in &witness::searches::SEARCHES {
+        let paper = witness::find(search).expect("z3 answers").expect(search.finding);
         assert!(is_safe(&paper), "{}: {paper:?}", search.finding);
         let hardened = Cycle { profile: Profile::HARDENED, ..paper };
         assert!(!is_safe(&hardened), "{}: {hardened:?}", search.finding);
@@ -157,7 +158,7 @@ const TOO_LONG_FOR_Z3: [&str; 23] = [
 /// The model's source decides with symbolic numbers as it does with exact ones.
 #[test]
 fn symbolic_numbers_decide_every_finding_as_exact_ones_do() {
-    if !mufasa_z3::is_new_enough() {
+    if !mufasa_theorems::solver::is_new_enough() {
         println!("NOT RUN: no z3 4.8 here");
         return;
     }

@@ -3,10 +3,12 @@
 //! The real part is stepped, never a copy of its rules. States that behave alike have the same
 //! [`Part::Likeness`]; one real part per likeness stands for all of them. That they do behave
 //! alike is argued where the likeness is made and tested on pairs of parts that differ in
-//! everything that the likeness leaves out (`proofs/exploration/tests/likeness.rs`).
+//! everything that the likeness leaves out (`proofs/exploration/tests/exploration/likeness.rs`).
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 use std::hash::Hash;
+
+use indexmap::IndexSet;
 
 use super::fit::fitted;
 use mufasa_props::refine::Difference;
@@ -36,50 +38,34 @@ pub trait Part: Clone {
 pub struct Automaton<P: Part> {
     stimuli: Vec<P::Stimulus>,
     places: HashMap<P::Stimulus, usize>,
-    likenesses: Vec<P::Likeness>,
-    ids: HashMap<P::Likeness, u32>,
-    /// By state and stimulus: the next state and the effect, or [`IMPOSSIBLE`].
-    reactions: Vec<(u32, u32)>,
-    effects: Vec<P::Effect>,
+    likenesses: IndexSet<P::Likeness>,
+    /// By state and stimulus: the next state and the effect; `None`: it cannot come.
+    reactions: Vec<Option<(u32, u32)>>,
+    effects: IndexSet<P::Effect>,
 }
-
-const IMPOSSIBLE: (u32, u32) = (u32::MAX, u32::MAX);
 
 impl<P: Part> Automaton<P> {
     /// Runs the part from its start through every sequence of stimuli. The start has the id 0.
     /// Errors: model and implementation differ in one reaction.
     pub fn explore(mut start: P, stimuli: Vec<P::Stimulus>) -> Result<Self, Box<Difference>> {
-        let likeness = start.likeness();
         let mut automaton = Self {
             places: stimuli.iter().copied().zip(0..).collect(),
             stimuli,
-            likenesses: vec![likeness.clone()],
-            ids: HashMap::from([(likeness, 0)]),
+            likenesses: IndexSet::from([start.likeness()]),
             reactions: Vec::new(),
-            effects: Vec::new(),
+            effects: IndexSet::new(),
         };
-        let mut known_effects = HashMap::new();
-        let mut waiting = std::collections::VecDeque::from([start]);
+        let mut waiting = VecDeque::from([start]);
         while let Some(part) = waiting.pop_front() {
             for place in 0..automaton.stimuli.len() {
-                let reaction = match part.react(automaton.stimuli[place])? {
-                    None => IMPOSSIBLE,
-                    Some((mut next, effect)) => {
-                        let likeness = next.likeness();
-                        let new = fitted(automaton.likenesses.len());
-                        let id = *automaton.ids.entry(likeness.clone()).or_insert(new);
-                        if id == new {
-                            automaton.likenesses.push(likeness);
-                            waiting.push_back(next);
-                        }
-                        let effects = &mut automaton.effects;
-                        let effect = *known_effects.entry(effect).or_insert_with_key(|effect| {
-                            effects.push(effect.clone());
-                            fitted(effects.len() - 1)
-                        });
-                        (id, effect)
+                let reaction = part.react(automaton.stimuli[place])?.map(|(mut next, effect)| {
+                    let (id, is_new) = automaton.likenesses.insert_full(next.likeness());
+                    if is_new {
+                        waiting.push_back(next);
                     }
-                };
+                    let (effect, _) = automaton.effects.insert_full(effect);
+                    (fitted(id), fitted(effect))
+                });
                 automaton.reactions.push(reaction);
             }
         }
@@ -87,18 +73,14 @@ impl<P: Part> Automaton<P> {
     }
 
     /// Number of states.
+    #[allow(clippy::len_without_is_empty, reason = "there is always a start")]
     pub fn len(&self) -> usize {
         self.likenesses.len()
     }
 
-    /// Never: there is a start.
-    pub fn is_empty(&self) -> bool {
-        self.likenesses.is_empty()
-    }
-
     /// Number of reactions, each of which was checked.
     pub fn reactions(&self) -> usize {
-        self.reactions.iter().filter(|reaction| **reaction != IMPOSSIBLE).count()
+        self.reactions.iter().flatten().count()
     }
 
     /// All stimuli in order.
@@ -113,7 +95,7 @@ impl<P: Part> Automaton<P> {
 
     /// The state that is like this, if one was reached.
     pub fn id(&self, likeness: &P::Likeness) -> Option<u32> {
-        self.ids.get(likeness).copied()
+        self.likenesses.get_index_of(likeness).map(fitted)
     }
 
     /// What the state is like.
@@ -123,7 +105,7 @@ impl<P: Part> Automaton<P> {
 
     /// The next state and what is done, or `None` when the stimulus cannot come in this state.
     pub fn react(&self, id: u32, place: usize) -> Option<(u32, &P::Effect)> {
-        let (next, effect) = self.reactions[id as usize * self.stimuli.len() + place];
-        ((next, effect) != IMPOSSIBLE).then(|| (next, &self.effects[effect as usize]))
+        let (next, effect) = self.reactions[id as usize * self.stimuli.len() + place]?;
+        Some((next, &self.effects[effect as usize]))
     }
 }

@@ -140,68 +140,71 @@ impl World {
     }
 }
 
+/// A station that runs one group for one CAV.
+const ONE_GROUP: StationBounds = StationBounds { offers: &[MOT], capacity: 1 };
+
+/// A station that offers anything, in a world in which nothing is delivered to it.
+const ANY_OFFER: StationBounds = StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 };
+
+/// Where nothing else is said: one CAV and one station for one group, two messages in flight, and an attacker.
+const BASE: World = World {
+    name: "",
+    why: "",
+    requesters: 1,
+    stations: &[ONE_GROUP],
+    areas: &[],
+    in_flight: 2,
+    ticks: SHORT,
+    qos_hold: false,
+    attacker: true,
+};
+
+/// A CAV to which every message that anybody could send comes at any time: no network, every area.
+const ANYTHING: World = World {
+    stations: &[ANY_OFFER; 2],
+    areas: &[ALL, MOT, PLAN, NONE],
+    in_flight: 0,
+    ticks: LONG,
+    ..BASE
+};
+
 const SMALL: &[World] = &[
     World {
         name: "anything",
         why: "every message that anybody could send arrives at any time, so no network can do \
               worse to a CAV; two stations are enough to be offloaded to two at once, and to be \
               asked in turn",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 2],
-        areas: &[ALL, MOT, PLAN, NONE],
-        in_flight: 0,
-        ticks: LONG,
-        qos_hold: false,
-        attacker: true,
+        ..ANYTHING
     },
     World {
         name: "qos-hold",
         why: "the same with a hold after each violation, which the other group outlives; one \
               station is enough, because a hold does not depend on who is asked",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }],
-        areas: &[ALL, MOT, PLAN, NONE],
-        in_flight: 0,
-        ticks: LONG,
+        stations: &[ANY_OFFER],
         qos_hold: true,
-        attacker: true,
+        ..ANYTHING
     },
     World {
         name: "link",
         why: "one station runs both groups over a bad network; two messages in flight are enough \
               for one to overtake the other, and are what one tick can send",
-        requesters: 1,
         stations: &[StationBounds { offers: &[ALL], capacity: 2 }],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        ..BASE
     },
     World {
         name: "choice",
         why: "two stations compete for one group, so that an old session on one meets a new one \
               on the other, and a station that never confirms could starve the one that does; \
               two messages in flight are a question and an answer",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 2],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        stations: &[ONE_GROUP; 2],
+        ..BASE
     },
     World {
         name: "fleet",
         why: "two CAVs compete for one place on one station; more would only wait; two messages \
               in flight, so that each CAV has one",
         requesters: 2,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        ..BASE
     },
     World {
         name: "shared",
@@ -209,37 +212,27 @@ const SMALL: &[World] = &[
               the session of the other; without an attacker, because nobody forges what a \
               station receives",
         requesters: 2,
-        stations: &[StationBounds { offers: &[MOT], capacity: 2 }],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
+        stations: &[StationBounds { capacity: 2, ..ONE_GROUP }],
         attacker: false,
+        ..BASE
     },
     World {
         name: "honest",
         why: "one station, one group and no attacker, so that what is found needs none and can \
               be drawn as it comes about",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
         attacker: false,
+        ..BASE
     },
     World {
         name: "roam",
         why: "areas, changing offers and holds after violations over a bad network, and a wait \
               that outlives every lease; one station and one group, because what moves them is \
               the world and not each other",
-        requesters: 1,
         stations: &[StationBounds { offers: &[MOT, NONE], capacity: 1 }],
         areas: &[MOT, NONE],
-        in_flight: 2,
         ticks: LONG_WAIT,
         qos_hold: true,
-        attacker: true,
+        ..BASE
     },
 ];
 
@@ -248,81 +241,52 @@ const LARGE: &[World] = &[
         name: "anything-3",
         why: "the small world `anything` with a third station, which is neither asked nor in use \
               while two are; shorter times, because three stations multiply the rest",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 3],
-        areas: &[ALL, MOT, PLAN, NONE],
-        in_flight: 0,
+        stations: &[ANY_OFFER; 3],
         ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        ..ANYTHING
     },
     World {
         name: "qos-hold-2",
         why: "the small world `qos-hold` with a second station, to which a group could escape \
               from a hold",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[ALL, MOT, PLAN], capacity: 0 }; 2],
-        areas: &[ALL, MOT, PLAN, NONE],
-        in_flight: 0,
-        ticks: LONG,
         qos_hold: true,
-        attacker: true,
+        ..ANYTHING
     },
     World {
         name: "link-4",
         why: "one group with four messages in flight, so that one can be overtaken three times \
               and generations of sessions meet",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
-        areas: &[],
         in_flight: 4,
-        ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        ..BASE
     },
     World {
         name: "link-long",
         why: "one group with times of which no two are equal, and a bad network",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }],
-        areas: &[],
-        in_flight: 2,
         ticks: LONG,
-        qos_hold: false,
-        attacker: true,
+        ..BASE
     },
     World {
         name: "choice-3",
         why: "the small world `choice` with three stations",
-        requesters: 1,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 3],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
-        attacker: true,
+        stations: &[ONE_GROUP; 3],
+        ..BASE
     },
     World {
         name: "fleet-2",
         why: "two CAVs and two stations, so that a CAV can lose the place on one to the other and \
               find the second",
         requesters: 2,
-        stations: &[StationBounds { offers: &[MOT], capacity: 1 }; 2],
-        areas: &[],
-        in_flight: 2,
-        ticks: SHORT,
-        qos_hold: false,
+        stations: &[ONE_GROUP; 2],
         attacker: false,
+        ..BASE
     },
     World {
         name: "shared-3",
         why: "the small world `shared` with three messages in flight",
         requesters: 2,
-        stations: &[StationBounds { offers: &[MOT], capacity: 2 }],
-        areas: &[],
+        stations: &[StationBounds { capacity: 2, ..ONE_GROUP }],
         in_flight: 3,
-        ticks: SHORT,
-        qos_hold: false,
         attacker: false,
+        ..BASE
     },
 ];

@@ -1,12 +1,13 @@
 //! An observer who stands outside: follows what is stopped, used and heard, and judges each step
 //! by the properties.
 
+use enumset::EnumSet;
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::offloading::requester::{Group, Groups};
 use mufasa_model::services::configuration::Offloadable;
 
 use super::cav::{CavLikeness, Deed, Use};
-use super::properties::{Property, Set, Sight};
+use super::properties::{Property, Sight};
 use super::state::{Cav, Proof};
 use super::stimulus::{Named, Stimulus};
 
@@ -14,9 +15,25 @@ use super::stimulus::{Named, Stimulus};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Observed {
     /// The properties that it breaks.
-    pub broken: Set<Property>,
+    pub broken: EnumSet<Property>,
     /// What it shows.
-    pub seen: Set<Sight>,
+    pub seen: EnumSet<Sight>,
+}
+
+impl Observed {
+    /// The step breaks the property when the condition holds.
+    pub fn breaks(&mut self, property: Property, condition: bool) {
+        if condition {
+            self.broken.insert(property);
+        }
+    }
+
+    /// The step shows the sight when the condition holds.
+    pub fn shows(&mut self, sight: Sight, condition: bool) {
+        if condition {
+            self.seen.insert(sight);
+        }
+    }
 }
 
 /// A step of a requester.
@@ -48,7 +65,7 @@ impl CavStep<'_> {
         self.judge_results(*cav, barred, found);
         self.judge_requests(barred, found);
         self.judge_sessions(found);
-        found.broken.note(Property::PartsValid, !self.after.valid);
+        found.breaks(Property::PartsValid, !self.after.valid);
         self.see(found);
     }
 
@@ -62,7 +79,7 @@ impl CavStep<'_> {
             };
             for bit in services(group) {
                 let stopped = cav.stopped & bit != 0;
-                found.broken.note(Property::OneSource, stopped == stop);
+                found.breaks(Property::OneSource, stopped == stop);
                 cav.stopped = if stop { cav.stopped | bit } else { cav.stopped & !bit };
             }
         }
@@ -95,7 +112,7 @@ impl CavStep<'_> {
         match self.stimulus {
             Stimulus::TimePasses => {
                 let offered = self.before.offers.iter().any(|offer| *offer != Groups::NONE);
-                found.seen.note(Sight::WaitEnds, cav.blocked == 1 && offered);
+                found.shows(Sight::WaitEnds, cav.blocked == 1 && offered);
                 cav.blocked = cav.blocked.saturating_sub(1);
             }
             Stimulus::Verdict { safe: false, .. } => cav.blocked = self.t_wait,
@@ -112,24 +129,24 @@ impl CavStep<'_> {
                 None => !stopped,
                 Some(station) => stopped && group.remote() == Some(station),
             };
-            found.broken.note(Property::OneSource, !right);
+            found.breaks(Property::OneSource, !right);
             let proven = cav.proof[service.group() as usize] == Proof::Safe;
-            found.broken.note(Property::NoStopBeforeSafeCycle, stopped && !proven);
+            found.breaks(Property::NoStopBeforeSafeCycle, stopped && !proven);
         }
         let [_, env, tpl] = self.after.sources;
         let (env_stopped, tpl_stopped) = (cav.stopped >> 1 & 1, cav.stopped >> 2 & 1);
-        found.broken.note(Property::EnvAndTplTogether, env != tpl || env_stopped != tpl_stopped);
+        found.breaks(Property::EnvAndTplTogether, env != tpl || env_stopped != tpl_stopped);
     }
 
     /// `barred`: whether a safety issue barred remote results before the step.
     fn judge_results(&self, cav: Cav, barred: bool, found: &mut Observed) {
         let property = Property::NoRemoteResultBeforeHoldUntil;
         if let Stimulus::Data(named, _) = self.stimulus {
-            found.broken.note(property, barred && self.is_used(named));
-            found.seen.note(Sight::ResultDuringWait, barred);
+            found.breaks(property, barred && self.is_used(named));
+            found.shows(Sight::ResultDuringWait, barred);
         }
         let remote = self.after.sources.iter().any(Option::is_some);
-        found.broken.note(property, cav.blocked > 0 && remote);
+        found.breaks(property, cav.blocked > 0 && remote);
     }
 
     /// A tick asks for every local group that may be asked for, when no safety issue bars it.
@@ -145,7 +162,7 @@ impl CavStep<'_> {
                 .iter()
                 .any(|deed| matches!(deed, Deed::Request { group: of, .. } if *of == group));
             let may = local && offered && self.before.area.contains(group);
-            found.broken.note(Property::AskedOnceAllowed, may && !asked);
+            found.breaks(Property::AskedOnceAllowed, may && !asked);
         }
     }
 
@@ -159,13 +176,13 @@ impl CavStep<'_> {
             let partner = self.before.groups[named.group as usize].partner();
             if !(named.current && partner == Some(named.station)) {
                 let answers = self.deeds == self.answer().as_slice();
-                found.broken.note(property, !answers || self.before != self.after);
-                found.seen.note(Sight::EndedMeetsLaterAtCav, partner.is_some());
+                found.breaks(property, !answers || self.before != self.after);
+                found.shows(Sight::EndedMeetsLaterAtCav, partner.is_some());
             }
         }
         for deed in self.deeds {
             let stale = matches!(deed, Deed::Request { fresh: false, .. });
-            found.broken.note(property, stale);
+            found.breaks(property, stale);
         }
     }
 
@@ -188,28 +205,28 @@ impl CavStep<'_> {
     fn see(&self, found: &mut Observed) {
         let [mot, env, _] = self.after.sources;
         let two = mot.is_some() && env.is_some() && mot != env;
-        found.seen.note(Sight::TwoStationsAtOnce, two);
+        found.shows(Sight::TwoStationsAtOnce, two);
         let [mot, plan] = self.before.groups;
         let remote = mot.remote().is_some() || plan.remote().is_some();
         let requested = [mot, plan].iter().any(|group| matches!(group, Use::Requested { .. }));
         let beside = |group: &Use| matches!(group, Use::Remote { local_computes: true, .. });
-        found.seen.note(Sight::RemoteBesideLocal, self.after.groups.iter().any(beside));
+        found.shows(Sight::RemoteBesideLocal, self.after.groups.iter().any(beside));
         let stops = self.deeds.iter().any(|deed| matches!(deed, Deed::Deactivate(_)));
         let releases = self.deeds.iter().any(|deed| matches!(deed, Deed::Release { .. }));
         match self.stimulus {
             Stimulus::Verdict { safe: false, .. } => {
-                found.seen.note(Sight::FallbackRemoteAndRequested, remote && requested);
+                found.shows(Sight::FallbackRemoteAndRequested, remote && requested);
                 let was_source = self.before.sources.iter().any(Option::is_some);
-                found.seen.note(Sight::FallbackFromRemote, was_source);
+                found.shows(Sight::FallbackFromRemote, was_source);
             }
             Stimulus::Verdict { safe: true, .. } => {
-                found.seen.note(Sight::StoppedAtSafeVerdict, stops);
+                found.shows(Sight::StoppedAtSafeVerdict, stops);
             }
             Stimulus::Confirm(named) => {
-                found.seen.note(Sight::StoppedAtConfirmation, stops);
+                found.shows(Sight::StoppedAtConfirmation, stops);
                 let group = self.before.groups[named.group as usize];
                 let late = matches!(group, Use::Requested { left: 0, station } if station == named.station);
-                found.seen.note(Sight::ConfirmedAfterTimeout, named.current && late && releases);
+                found.shows(Sight::ConfirmedAfterTimeout, named.current && late && releases);
             }
             Stimulus::Tick | Stimulus::Data(..) => {
                 let left = self.before.groups.iter().zip(&self.after.groups);
@@ -217,7 +234,7 @@ impl CavStep<'_> {
                     .into_iter()
                     .any(|(before, after)| before.remote().is_some() && after.remote().is_none());
                 let held = self.before.is_held();
-                found.seen.note(Sight::ViolationDuringHold, held && violation);
+                found.shows(Sight::ViolationDuringHold, held && violation);
             }
             _ => {}
         }

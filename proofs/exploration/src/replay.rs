@@ -14,7 +14,7 @@ use super::cav::CavPart;
 use super::fit::fitted;
 use super::moves::Move;
 use super::state::{Kind, Letter, Message, State};
-use super::station::StationPart;
+use super::station::{StationPart, provider_event};
 use super::stimulus::Named;
 use super::system::System;
 use mufasa_props::refine::{Difference, Pair};
@@ -301,18 +301,12 @@ impl<'a> Replay<'a> {
     fn arrive(&mut self, post: Post, episode: &mut Episode) -> Result<(), ReplayError> {
         let Post { kind, station, cav, group, session } = post;
         let requester = requester(cav);
-        let kind = match kind {
-            Kind::Confirm => {
-                let kind = EventKind::Confirm { station, group, session };
-                return self.at_cav(cav, kind, Some(post), episode);
-            }
-            Kind::Reject => {
-                let kind = EventKind::Reject { station, group, session };
-                return self.at_cav(cav, kind, Some(post), episode);
-            }
-            Kind::Request => ProviderEventKind::Request { requester, group, session },
-            Kind::Release => ProviderEventKind::Release { requester, group, session },
-            Kind::Alive => ProviderEventKind::Heard { requester, group, session },
+        let Some(kind) = provider_event(kind, requester, group, session) else {
+            let kind = match kind {
+                Kind::Confirm => EventKind::Confirm { station, group, session },
+                _ => EventKind::Reject { station, group, session },
+            };
+            return self.at_cav(cav, kind, Some(post), episode);
         };
         episode.what = What::AtStation(post);
         let provider = &mut self.providers[place(station)];

@@ -7,11 +7,12 @@
 use std::net::ToSocketAddrs;
 use std::sync::Arc;
 
+use enumset::EnumSet;
 use mufasa_model::services::configuration::Offloadable;
 use stateright::{Checker, Model, Path};
 
 use super::moves::Move;
-use super::properties::{Member, Property, Set};
+use super::properties::Property;
 use super::state::State;
 use super::system::System;
 
@@ -29,7 +30,7 @@ pub struct Twin {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Seen {
     state: u128,
-    broken: u32,
+    broken: EnumSet<Property>,
 }
 
 /// What stateright found.
@@ -70,11 +71,14 @@ impl Model for Twin {
     type Action = Move;
 
     fn init_states(&self) -> Vec<Seen> {
-        vec![Seen { state: self.system.layout().pack(&self.system.start()), broken: 0 }]
+        vec![Seen {
+            state: self.system.layout().pack(&self.system.start()),
+            broken: EnumSet::empty(),
+        }]
     }
 
     fn actions(&self, seen: &Seen, actions: &mut Vec<Move>) {
-        if seen.broken == 0 {
+        if seen.broken.is_empty() {
             self.system.moves(&self.state(seen), actions);
         }
     }
@@ -83,7 +87,7 @@ impl Model for Twin {
         let next = self.system.apply(&self.state(seen), by)?;
         let state = self.system.layout().pack(&next.state);
         let broken = claimed(&self.system, next.found.broken);
-        (state != seen.state || broken != 0).then_some(Seen { state, broken })
+        (state != seen.state || !broken.is_empty()).then_some(Seen { state, broken })
     }
 
     fn format_action(&self, by: &Move) -> String {
@@ -110,7 +114,7 @@ impl Model for Twin {
             ($($property:ident),*) => {
                 $(properties.push(stateright::Property::always(
                     Property::$property.name(),
-                    |_: &Self, seen: &Seen| seen.broken >> Property::$property.bit() & 1 == 0,
+                    |_: &Self, seen: &Seen| !seen.broken.contains(Property::$property),
                 ));)*
             };
         }
@@ -136,9 +140,7 @@ impl Twin {
     }
 }
 
-/// The broken properties that the profile claims, as bits.
-fn claimed(system: &System, broken: Set<Property>) -> u32 {
-    let claimed =
-        |property: &Property| broken.contains(*property) && property.is_claimed(system.profile());
-    Property::ALL.into_iter().filter(claimed).fold(0, |bits, property| bits | 1 << property.bit())
+/// The broken properties that the profile claims.
+fn claimed(system: &System, broken: EnumSet<Property>) -> EnumSet<Property> {
+    broken.iter().filter(|property| property.is_claimed(system.profile())).collect()
 }

@@ -11,6 +11,7 @@ use mufasa_model::offloading::requester::Group;
 use super::automaton::Part;
 use super::bounds::{REQUESTERS, World};
 use super::fit::fitted;
+use super::state::Kind;
 use mufasa_props::refine::Difference;
 
 /// A provider of a world at a time.
@@ -45,21 +46,10 @@ pub enum StationStimulus {
         /// Of which group.
         group: Group,
         /// What it says.
-        kind: ToStation,
+        kind: Kind,
         /// How its number is to the one of the running session.
         order: Order,
     },
-}
-
-/// What a requester tells a provider.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ToStation {
-    /// A request.
-    Request,
-    /// A release.
-    Release,
-    /// A sign of life, such as input data.
-    Alive,
 }
 
 /// The number of a message beside that of the running session of its requester and group.
@@ -84,6 +74,21 @@ pub struct StationEffect {
     pub runs: bool,
 }
 
+/// What a message is to a provider; none when it goes to a CAV.
+pub fn provider_event(
+    kind: Kind,
+    requester: i64,
+    group: Group,
+    session: i64,
+) -> Option<ProviderEventKind> {
+    match kind {
+        Kind::Request => Some(ProviderEventKind::Request { requester, group, session }),
+        Kind::Release => Some(ProviderEventKind::Release { requester, group, session }),
+        Kind::Alive => Some(ProviderEventKind::Heard { requester, group, session }),
+        Kind::Confirm | Kind::Reject => None,
+    }
+}
+
 impl StationPart {
     /// A provider without sessions.
     pub fn new(world: &World, capacity: usize) -> Self {
@@ -101,7 +106,7 @@ impl StationPart {
         let mut stimuli = vec![StationStimulus::TimePasses, StationStimulus::Crash];
         for cav in (0..).take(world.requesters) {
             for group in world.groups() {
-                for kind in [ToStation::Request, ToStation::Release, ToStation::Alive] {
+                for kind in [Kind::Request, Kind::Release, Kind::Alive] {
                     let orders = [Order::Free, Order::Older, Order::Same, Order::Newer];
                     let message = |order| StationStimulus::Message { cav, group, kind, order };
                     stimuli.extend(orders.map(message));
@@ -166,11 +171,7 @@ impl Part for StationPart {
         };
         let Some(session) = self.number(cav, group, order) else { return Ok(None) };
         let requester = cav.into();
-        let kind = match kind {
-            ToStation::Request => ProviderEventKind::Request { requester, group, session },
-            ToStation::Release => ProviderEventKind::Release { requester, group, session },
-            ToStation::Alive => ProviderEventKind::Heard { requester, group, session },
-        };
+        let Some(kind) = provider_event(kind, requester, group, session) else { return Ok(None) };
         let confirms = next
             .provider
             .step(&ProviderEvent { t_ns: self.now, kind })

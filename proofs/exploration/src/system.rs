@@ -15,9 +15,7 @@ use super::moves::Move;
 use super::observer::{CavStep, Observed};
 use super::properties::{Property, Sight};
 use super::state::{Kind, Layout, Letter, Message, State};
-use super::station::{
-    Order, StationEffect, StationLikeness, StationPart, StationStimulus, ToStation,
-};
+use super::station::{Order, StationEffect, StationLikeness, StationPart, StationStimulus};
 use super::stimulus::Stimulus;
 use mufasa_props::refine::Difference;
 
@@ -119,7 +117,7 @@ impl System {
                 let Letter { kind, station, cav, group, rank } =
                     take(&mut next.state, message, false)?;
                 let ends = next.state.stations[station].runs[cav][group] == rank + 1;
-                next.found.seen.note(Sight::ReleaseLost, kind == Kind::Release && ends);
+                next.found.shows(Sight::ReleaseLost, kind == Kind::Release && ends);
             }
             Move::Crash { station } => self.crash(&mut next, usize::from(station))?,
             Move::Alive { cav, group } => {
@@ -152,7 +150,7 @@ impl System {
                         *unheard = (*unheard + 1).min(self.lease);
                         let left = memory.runs[cav][group] > 1;
                         let beyond = left && *unheard >= self.lease;
-                        next.found.broken.note(Property::LeftSessionWithinLease, beyond);
+                        next.found.breaks(Property::LeftSessionWithinLease, beyond);
                     }
                 }
             }
@@ -206,21 +204,16 @@ impl System {
 
     /// A message arrives where it was sent to.
     fn deliver(&self, next: &mut Next, letter: Letter) -> Option<()> {
-        let kind = match letter.kind {
-            Kind::Request => ToStation::Request,
-            Kind::Release => ToStation::Release,
-            Kind::Alive => ToStation::Alive,
-            Kind::Confirm | Kind::Reject => {
-                let named = letter.named();
-                let confirms = letter.kind == Kind::Confirm;
-                next.found.seen.note(Sight::ConfirmedAfterLeaving, confirms && !named.current);
-                let stimulus =
-                    if confirms { Stimulus::Confirm(named) } else { Stimulus::Reject(named) };
-                let place = self.requesters.place(&stimulus)?;
-                return self.event(next, letter.cav, place, Some(letter.rank));
-            }
-        };
-        let Letter { station, cav, group, rank, .. } = letter;
+        if !letter.kind.is_to_station() {
+            let named = letter.named();
+            let confirms = letter.kind == Kind::Confirm;
+            next.found.shows(Sight::ConfirmedAfterLeaving, confirms && !named.current);
+            let stimulus =
+                if confirms { Stimulus::Confirm(named) } else { Stimulus::Reject(named) };
+            let place = self.requesters.place(&stimulus)?;
+            return self.event(next, letter.cav, place, Some(letter.rank));
+        }
+        let Letter { kind, station, cav, group, rank } = letter;
         let order = match next.state.stations[station].runs[cav][group].checked_sub(1) {
             None => Order::Free,
             Some(running) if rank > running => Order::Older,
@@ -235,26 +228,26 @@ impl System {
         self.judge_message(next, letter, order, [&before, &after]);
         let memory = &mut next.state.stations[station];
         if effect.runs {
-            let heard = kind == ToStation::Request || order == Order::Same;
+            let heard = kind == Kind::Request || order == Order::Same;
             memory.runs[cav][group] = rank + 1;
             if heard {
-                next.found.seen.note(Sight::LeftSessionKept, order == Order::Same && rank > 0);
+                next.found.shows(Sight::LeftSessionKept, order == Order::Same && rank > 0);
                 memory.unheard[cav][group] = 0;
             }
         }
         let running = memory.runs.iter().flatten().filter(|session| **session > 0).count();
         let full = self.world.stations[station].capacity;
-        next.found.broken.note(Property::NoMoreThanCapacity, running > full);
+        next.found.breaks(Property::NoMoreThanCapacity, running > full);
         if let Some(confirms) = effect.confirms {
-            next.found.broken.note(Property::NoMoreThanCapacity, confirms && !effect.runs);
+            next.found.breaks(Property::NoMoreThanCapacity, confirms && !effect.runs);
             let kind = if confirms { Kind::Confirm } else { Kind::Reject };
             self.send(&mut next.state, Letter { kind, ..letter });
             let others = (0..self.world.requesters)
                 .any(|other| other != cav && after.ages[other].iter().any(Option::is_some));
             let full = !confirms && order == Order::Free;
-            next.found.seen.note(Sight::FullBecauseOfAnother, full && others);
+            next.found.shows(Sight::FullBecauseOfAnother, full && others);
             let replaces = confirms && order == Order::Newer;
-            next.found.seen.note(Sight::LaterReplaces, replaces);
+            next.found.shows(Sight::LaterReplaces, replaces);
         }
         Some(())
     }
@@ -269,20 +262,20 @@ impl System {
     ) {
         let found = &mut next.found;
         let older = order == Order::Older;
-        found.seen.note(Sight::EndedMeetsLaterAtStation, older);
-        found.broken.note(Property::EndedSessionChangesNothing, older && before != after);
+        found.shows(Sight::EndedMeetsLaterAtStation, older);
+        found.breaks(Property::EndedSessionChangesNothing, older && before != after);
         for cav in (0..self.world.requesters).filter(|cav| *cav != letter.cav) {
             let changed = before.ages[cav] != after.ages[cav];
-            found.broken.note(Property::OthersKeepTheirSessions, changed);
+            found.breaks(Property::OthersKeepTheirSessions, changed);
             let runs = |cav: usize| before.ages[cav].iter().any(Option::is_some);
-            found.seen.note(Sight::TwoServedAtOnce, runs(cav) && runs(letter.cav));
+            found.shows(Sight::TwoServedAtOnce, runs(cav) && runs(letter.cav));
         }
     }
 
     fn crash(&self, next: &mut Next, station: usize) -> Option<()> {
         let in_use = next.state.stations[station].runs.iter().flatten().any(|runs| *runs == 1);
         self.provider(next, station, StationStimulus::Crash)?;
-        next.found.seen.note(Sight::CrashWhileRemote, in_use);
+        next.found.shows(Sight::CrashWhileRemote, in_use);
         Some(())
     }
 
@@ -298,7 +291,7 @@ impl System {
         let (id, effect) = provider.react(next.state.stations[station].id, place)?;
         next.state.stations[station].id = id;
         let likeness = provider.likeness(id);
-        next.found.broken.note(Property::PartsValid, !likeness.valid);
+        next.found.breaks(Property::PartsValid, !likeness.valid);
         for (cav, ages) in likeness.ages.iter().enumerate() {
             for (group, age) in ages.iter().enumerate() {
                 let memory = &mut next.state.stations[station];
@@ -308,7 +301,7 @@ impl System {
                 let left = memory.runs[cav][group] > 1;
                 (memory.runs[cav][group], memory.unheard[cav][group]) = (0, 0);
                 let lapsed = stimulus == StationStimulus::TimePasses && left;
-                next.found.seen.note(Sight::LeftSessionLapses, lapsed);
+                next.found.shows(Sight::LeftSessionLapses, lapsed);
             }
         }
         Some(*effect)

@@ -151,16 +151,17 @@ fn collect(list: &[Item], path: &[String], items: &mut Vec<(Vec<String>, Range<u
         path.iter().cloned().chain(names.iter().map(|&name| name.to_owned())).collect()
     };
     for item in list {
-        let bytes = item.span().byte_range();
+        let named = match item {
+            Item::Fn(it) => Some(&it.sig.ident),
+            Item::Const(it) => Some(&it.ident),
+            Item::Static(it) => Some(&it.ident),
+            Item::Struct(it) => Some(&it.ident),
+            Item::Enum(it) => Some(&it.ident),
+            Item::Macro(it) => it.ident.as_ref(),
+            _ => None,
+        };
+        items.extend(named.map(|name| (below(&[&name.to_string()]), item.span().byte_range())));
         match item {
-            Item::Fn(it) => items.push((below(&[&it.sig.ident.to_string()]), bytes)),
-            Item::Const(it) => items.push((below(&[&it.ident.to_string()]), bytes)),
-            Item::Static(it) => items.push((below(&[&it.ident.to_string()]), bytes)),
-            Item::Struct(it) => items.push((below(&[&it.ident.to_string()]), bytes)),
-            Item::Enum(it) => items.push((below(&[&it.ident.to_string()]), bytes)),
-            Item::Macro(it) => {
-                items.extend(it.ident.as_ref().map(|name| (below(&[&name.to_string()]), bytes)));
-            }
             Item::Mod(it) => {
                 if let Some((_, list)) = it.content.as_ref().filter(|_| it.ident != "tests") {
                     collect(list, &below(&[&it.ident.to_string()]), items);

@@ -16,11 +16,7 @@ use crate::kani;
 #[cfg_attr(kani, kani::unwind(5))]
 pub fn verify_limbs_add_like_integers() {
     let any = || [kani::any(), kani::any(), kani::any()];
-    let (total, summand, negative) = (any(), any(), kani::any());
-    let (carry, sign) = adds_like_integers(total, summand, negative);
-    kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
-    kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
-    kani::cover!(sign == Ordering::Equal, "zero");
+    adds_like_integers(any(), any(), kani::any());
 }
 
 /// The same of four limbs.
@@ -30,11 +26,7 @@ pub fn verify_limbs_add_like_integers() {
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_four_limbs_add_like_integers() {
     let any = || [kani::any(), kani::any(), kani::any(), kani::any()];
-    let (total, summand, negative) = (any(), any(), kani::any());
-    let (carry, sign) = adds_like_integers(total, summand, negative);
-    kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
-    kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
-    kani::cover!(sign == Ordering::Equal, "zero");
+    adds_like_integers(any(), any(), kani::any());
 }
 
 /// The product of a power of two and an integer of two limbs is the integer so many bits higher: each limb
@@ -66,13 +58,8 @@ pub fn verify_limbs_multiply_by_powers_of_two() {
     kani::cover!(!is_high && b != 0 && number[1] == 0, "into the next limb");
 }
 
-/// Asserts it of three or four limbs, compared as two integers of 128 bits; whether the lower one had a
-/// carry, and the sign.
-fn adds_like_integers<const N: usize>(
-    total: [u64; N],
-    summand: [u64; N],
-    negative: bool,
-) -> (bool, Ordering) {
+/// Asserts it of three or four limbs, compared as two integers of 128 bits.
+fn adds_like_integers<const N: usize>(total: [u64; N], summand: [u64; N], negative: bool) {
     let (found, sign) = sum_of_limbs(total, &summand, negative);
     let bits = 64 * (N - 2);
     let low = |limbs: [u64; N]| u128::from(limbs[0]) | u128::from(limbs[1]) << 64;
@@ -93,5 +80,7 @@ fn adds_like_integers<const N: usize>(
     let is_zero = expected == 0 && top << above == 0;
     assert!((sign == Ordering::Less) == (top >> (bits - 1) & 1 == 1));
     assert!((sign == Ordering::Equal) == is_zero);
-    (carry, sign)
+    kani::cover!(negative && carry && sign == Ordering::Less, "a borrow");
+    kani::cover!(!negative && carry && sign == Ordering::Greater, "a carry");
+    kani::cover!(sign == Ordering::Equal, "zero");
 }

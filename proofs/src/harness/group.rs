@@ -1,21 +1,21 @@
 //! The groups of the requester (`spec/2-offloading.md`), law by law, from any state at all, even one
 //! that no events lead to. What is done is taken kind by kind; `actions` has the list.
+//!
+//! Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
+//! tables. A harness with another one says so.
 
 use mufasa::offloading::requester::{Action, Event, EventKind, GroupRecord, Parts};
 
-use super::any::{groups, near_integer, time_ns};
+use super::any::{groups, time_ns};
 use super::seen::{
     DROPS, GROUPS, RELEASES, SERVICES, Seen, after, after_in, any_verdict, area, confirm, data,
     data_of, each, in_use, reject, same, tick, verdict,
 };
-use super::states::{any_group, any_record_of, any_state};
+use super::states::{any_group, any_record_of, any_state, withdrawal};
 #[cfg(not(kani))]
 use crate::kani;
 
 /// A change of the area keeps every law of a step: see `keeps_every_law`.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_areas() {
     area(&|step: &Seen| {
@@ -26,9 +26,6 @@ pub fn verify_every_law_at_areas() {
 }
 
 /// A verdict keeps every law of a step: see `keeps_every_law`.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_verdicts() {
     verdict(&|step: &Seen| {
@@ -41,9 +38,6 @@ pub fn verify_every_law_at_verdicts() {
 }
 
 /// A confirmation keeps every law of a step: see `keeps_every_law`.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_confirmations() {
     confirm(&|step: &Seen, _, _| {
@@ -54,9 +48,6 @@ pub fn verify_every_law_at_confirmations() {
 }
 
 /// A rejection keeps every law of a step: see `keeps_every_law`.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_rejections() {
     reject(&|step: &Seen, _, _| {
@@ -67,9 +58,6 @@ pub fn verify_every_law_at_rejections() {
 }
 
 /// Data keep every law of a step: see `keeps_every_law`.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_every_law_at_data() {
     data_of(&|step: &Seen, _, _| {
@@ -81,9 +69,6 @@ pub fn verify_every_law_at_data() {
 
 /// A change of the area leaves exactly the groups outside it: each gets one release of its
 /// session, and nobody else any.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_areas() {
     area(&|step: &Seen| {
@@ -113,9 +98,6 @@ pub fn verify_a_session_left_is_released_at_ticks() {
 }
 
 /// Data leave a group only with one release of its session.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_data() {
     data(&|step: &Seen| {
@@ -127,9 +109,6 @@ pub fn verify_a_session_left_is_released_at_data() {
 
 /// A safety issue leaves every group, a safe verdict none, with one release of the session for
 /// each; after a safety issue all groups are local.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_session_left_is_released_at_verdicts() {
     verdict(&|step: &Seen| {
@@ -146,9 +125,6 @@ pub fn verify_a_session_left_is_released_at_verdicts() {
 
 /// A confirmation of the requested session before its deadline makes the group remote; any other
 /// but that of the running session is answered with a release of what it names.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_group_becomes_remote_by_confirmation() {
     confirm(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -180,9 +156,6 @@ pub fn verify_a_group_becomes_remote_by_confirmation() {
 
 /// The frame: a confirmation of one group leaves the other group, the area, the times and the table as they
 /// are, and nothing is done about the other group.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_confirmations() {
     confirm(&|step: &Seen, at: usize, _| {
@@ -193,9 +166,6 @@ pub fn verify_the_other_group_is_untouched_at_confirmations() {
 
 /// The frame: a rejection of one group leaves the other group, the area, the times and the table as they
 /// are, and nothing is done about the other group.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_rejections() {
     reject(&|step: &Seen, at: usize, _| {
@@ -206,9 +176,6 @@ pub fn verify_the_other_group_is_untouched_at_rejections() {
 
 /// The frame: data of one group leave the other group, the area, the times and the table as they are, and
 /// nothing is done about the other group.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_the_other_group_is_untouched_at_data() {
     data_of(&|step: &Seen, at: usize, _| {
@@ -219,9 +186,6 @@ pub fn verify_the_other_group_is_untouched_at_data() {
 
 /// A rejection of the requested session makes the group local; any other changes nothing; nobody
 /// hears of it.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_rejection_ends_a_request() {
     reject(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -237,9 +201,6 @@ pub fn verify_a_rejection_ends_a_request() {
 }
 
 /// Data of any but the running session are dropped and counted, and change nothing else.
-///
-/// Domain: all states, valid or not, a table of one station, all times of 64 bits. Not covered: larger
-/// tables.
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_data_of_another_session_are_dropped() {
     data_of(&|step: &Seen, at: usize, named: (i64, i64)| {
@@ -308,9 +269,8 @@ fn depends_on_itself(at: usize, kind: EventKind) {
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
 pub fn verify_a_session_left_is_released_at_withdrawals() {
-    let (station, is_loss) = (near_integer(1, 3), kani::any());
-    kani::assume(station >= 1);
-    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    let is_loss = kani::any();
+    let (kind, station) = withdrawal(is_loss);
     let place = any_record_of(station);
     let step = after(kind, &mut [place]);
     let uses = |at: usize| in_use(step.before.groups[at]).is_some_and(|(used, _)| used == station);

@@ -10,7 +10,7 @@ use mufasa::services::configuration::Configuration;
 
 use super::any::{below, index};
 use super::bounds::{COLUMNS, DETECTIONS, ITEMS, PLACES, TRACKS};
-use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS, alone};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -194,22 +194,14 @@ fn passes(profile: Profile, budget: u8, tracks: &[u8], detections: &[u8], items:
         miss_budget: i64::from(budget),
         ..Parameters::default()
     };
+    let list = |items| DetectionList { stamp_ns: NOW_NS, items };
     let cycle = Cycle {
-        profile,
-        parameters,
-        now_ns: NOW_NS,
         configuration: Configuration::MotRemote,
-        ego: EGO,
-        trajectory: None,
         tracks: Some(TrackList { stamp_ns: NOW_NS, items: &track_items[..tracks.len()] }),
-        detections: Some(DetectionList {
-            stamp_ns: NOW_NS,
-            items: &detection_items[..detections.len()],
-        }),
-        lead: None,
+        detections: Some(list(&detection_items[..detections.len()])),
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
-        grid: None,
         detection_history: &history,
+        ..alone(profile, parameters, EGO, NOW_NS)
     };
     let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 5]);
     let report = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));

@@ -3,16 +3,15 @@
 
 use mufasa::cycle::check;
 use mufasa::input::cycle::{
-    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, Track, TrackList,
-    Trajectory, TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Grid, Lead, Route, Track, TrackList, Trajectory,
+    TrajectoryPoint,
 };
-use mufasa::input::parameters::Parameters;
 use mufasa::input::scratch::{Column, Row, Scratch};
 use mufasa::report::{FailedStage, Outcome, Reason};
-use mufasa::services::configuration::{Configuration, Group};
+use mufasa::services::configuration::Group;
 
 use super::any::{below, configuration, profile};
-use super::scene::{BESIDE, CROSS_SECTIONS, EGO, FREE, NOW_NS, SEEN_BESIDE, STRAIGHT};
+use super::scene::{BESIDE, CROSS_SECTIONS, FREE, Given, NOW_NS, SEEN_BESIDE, STRAIGHT, cycle};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -52,14 +51,13 @@ enum Owner {
 }
 
 fn refused(lists: &Lists, single: &Single, owner: Owner) {
-    let configuration = configuration();
     let history = [DetectionList { stamp_ns: single.stamps_ns[2], items: &lists.seen_before }];
-    let cycle = single.cycle(lists, &history, configuration);
+    let cycle = single.cycle(lists, &history);
     let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 4]);
     let answer = check(&cycle, &mut Scratch::new(&mut rows, &mut columns));
     let remote = match owner {
         Owner::Vehicle => false,
-        Owner::Group(group) => configuration.is_remote(group),
+        Owner::Group(group) => cycle.configuration.is_remote(group),
     };
     match answer {
         Err(_) => assert!(!remote),
@@ -103,8 +101,8 @@ impl Lists {
 
 /// Everything else.
 struct Single {
-    parameters: Parameters,
-    ego: Ego,
+    /// Without its lists.
+    cycle: Cycle<'static>,
     lead: Lead,
     grid: Grid<'static>,
     /// Stamps of trajectory, tracks, the list of the history and detections.
@@ -115,41 +113,17 @@ struct Single {
 
 impl Single {
     fn valid() -> Self {
-        Self {
-            parameters: Parameters::default(),
-            ego: EGO,
-            lead: Lead { stamp_ns: NOW_NS, gap: 100.0, speed: 2.0 },
-            grid: Grid {
-                stamp_ns: NOW_NS,
-                x: -20.0,
-                y: -20.0,
-                cos: 1.0,
-                sin: 0.0,
-                resolution: 1.0,
-                width: 40,
-                height: 40,
-                occupied: &FREE,
-                unknown: Some(&FREE),
-            },
-            stamps_ns: [NOW_NS, NOW_NS, NOW_NS - 1, NOW_NS],
-            counts: [4, 3],
-        }
+        let cycle = cycle(profile(), configuration(), [Given::Harmless; 5]);
+        let (Some(lead), Some(grid)) = (cycle.lead, cycle.grid) else { unreachable!("all given") };
+        let grid = Grid { unknown: Some(&FREE), ..grid };
+        let stamps_ns = [NOW_NS, NOW_NS, NOW_NS - 1, NOW_NS];
+        Self { cycle, lead, grid, stamps_ns, counts: [4, 3] }
     }
 
-    fn cycle<'a>(
-        &self,
-        lists: &'a Lists,
-        detection_history: &'a [DetectionList<'a>],
-        configuration: Configuration,
-    ) -> Cycle<'a> {
+    fn cycle<'a>(&self, lists: &'a Lists, detection_history: &'a [DetectionList<'a>]) -> Cycle<'a> {
         let [trajectory, tracks, _, detections] = self.stamps_ns;
         let [points, cross_sections] = self.counts;
         Cycle {
-            profile: profile(),
-            parameters: self.parameters,
-            now_ns: NOW_NS,
-            configuration,
-            ego: self.ego,
             trajectory: Some(Trajectory { stamp_ns: trajectory, points: &lists.points[..points] }),
             tracks: Some(TrackList { stamp_ns: tracks, items: &lists.tracks }),
             detections: Some(DetectionList { stamp_ns: detections, items: &lists.detections }),
@@ -157,6 +131,7 @@ impl Single {
             route: Route { closed: false, cross_sections: &lists.cross_sections[..cross_sections] },
             grid: Some(self.grid),
             detection_history,
+            ..self.cycle
         }
     }
 }
@@ -166,7 +141,7 @@ const NUMBERS: u8 = 57;
 
 /// The number at a place, and whose it is.
 fn number<'a>(lists: &'a mut Lists, single: &'a mut Single, place: u8) -> (&'a mut f64, Owner) {
-    let Single { parameters: p, ego, lead, grid, .. } = single;
+    let Single { cycle: Cycle { parameters: p, ego, .. }, lead, grid, .. } = single;
     let [_, point, ..] = &mut lists.points;
     let [_, track] = &mut lists.tracks;
     let [before] = &mut lists.seen_before;
@@ -246,7 +221,7 @@ const DEFECTS: u8 = 26;
 fn spoil(lists: &mut Lists, single: &mut Single, place: u8) -> Owner {
     const LATER_NS: i64 = NOW_NS + 60_000_000_001;
     const OLDER_NS: i64 = NOW_NS - 60_000_000_001;
-    let Single { parameters, lead, grid, stamps_ns, counts, .. } = single;
+    let Single { cycle: Cycle { parameters, .. }, lead, grid, stamps_ns, counts } = single;
     match place {
         0 => parameters.max_age_ns = -1,
         1 => parameters.max_age_ns = i64::MAX,

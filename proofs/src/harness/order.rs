@@ -20,8 +20,7 @@ use crate::kani;
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(6))]
 pub fn verify_order_is_the_table() {
-    let column = below(4);
-    let configuration = match column {
+    let configuration = match below(4) {
         0 => Configuration::MotRemote,
         1 => Configuration::AllRemote,
         2 => Configuration::PlanRemote,
@@ -35,31 +34,12 @@ pub fn verify_order_is_the_table() {
         detections: kani::any(),
         grid: kani::any(),
     };
-    let hardened = profile == Profile::HARDENED;
+    let asked = Asked { profile, configuration, given };
     let answers: [bool; 5] = [kani::any(), kani::any(), kani::any(), kani::any(), kani::any()];
     let (mut at, mut failed, mut ran) = (0, None, [false; 5]);
     let found = decide(profile, configuration, given, |stage, turn| {
         assert!(at < 5 && stage == STAGES[at]);
-        let mark = if at == 4 && column == 2 && hardened {
-            Conditional
-        } else {
-            TABLE[at][usize::from(column)]
-        };
-        let missing = first_missing(given, at);
-        // H-10: hardened, nothing blocks v.
-        let blocked = match at {
-            3 => ran[2],
-            4 => (ran[2] || ran[3]) && !hardened,
-            _ => false,
-        };
-        let expected = match mark {
-            Dash => Some(Idle::NotScheduled),
-            Always | Conditional if failed.is_some() => Some(Idle::Skipped(Reason::AfterFailure)),
-            Conditional if blocked => Some(Idle::Skipped(Reason::OtherStageRan)),
-            Conditional => missing.map(|input| Idle::Skipped(Reason::NoCurrent(input))),
-            Always => missing.map(Idle::NotApplicable),
-        };
-        let expected = match expected {
+        let expected = match asked.idle(at, ran, failed.is_some()) {
             None => Turn::Run,
             Some(idle) if at == 3 && failed.is_none() => Turn::Gap(idle),
             Some(idle) => Turn::Rest(idle),
@@ -74,10 +54,7 @@ pub fn verify_order_is_the_table() {
         fails
     });
     assert!(at == 5);
-    // H-02: in AllRemote tracks that stage i could not check are no obstacle check.
-    let iii_counts = ran[2] && (column != 1 || given.detections);
-    let unexamined =
-        hardened && column != 3 && given.trajectory && !(iii_counts || ran[3] || ran[4]);
+    let unexamined = asked.is_unexamined(ran);
     assert!(match found {
         None => failed.is_none() && !unexamined,
         Some(FailedStage::Stage(stage)) => failed == Some(stage),
@@ -127,6 +104,54 @@ const TABLE: [[Mark; 4]; 5] = [
 ];
 
 const STAGES: [Stage; 5] = [Stage::I, Stage::Ii, Stage::Iii, Stage::Iv, Stage::V];
+
+/// What the table is asked of.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) profile: Profile,
+    pub(super) configuration: Configuration,
+    pub(super) given: Given,
+}
+
+impl Asked {
+    /// Why the stage at this place does not run, given which of those before ran and whether one failed.
+    pub(super) fn idle(self, at: usize, ran: [bool; 5], failed: bool) -> Option<Idle> {
+        let column = match self.configuration {
+            Configuration::MotRemote => 0,
+            Configuration::AllRemote => 1,
+            Configuration::PlanRemote => 2,
+            Configuration::Local => 3,
+        };
+        let hardened = self.profile == Profile::HARDENED;
+        // H-05: v is conditional in PlanRemote, too.
+        let mark = if at == 4 && column == 2 && hardened { Conditional } else { TABLE[at][column] };
+        let missing = first_missing(self.given, at);
+        // H-10: hardened, nothing blocks v.
+        let blocked = match at {
+            3 => ran[2],
+            4 => (ran[2] || ran[3]) && !hardened,
+            _ => false,
+        };
+        match mark {
+            Dash => Some(Idle::NotScheduled),
+            Always | Conditional if failed => Some(Idle::Skipped(Reason::AfterFailure)),
+            Conditional if blocked => Some(Idle::Skipped(Reason::OtherStageRan)),
+            Conditional => missing.map(|input| Idle::Skipped(Reason::NoCurrent(input))),
+            Always => missing.map(Idle::NotApplicable),
+        }
+    }
+
+    /// Hardened, nothing compared a current trajectory with obstacles. H-02: in `AllRemote` tracks that stage i
+    /// could not check are no obstacle check.
+    pub(super) fn is_unexamined(self, ran: [bool; 5]) -> bool {
+        let all_remote = self.configuration == Configuration::AllRemote;
+        let iii_counts = ran[2] && (!all_remote || self.given.detections);
+        self.profile == Profile::HARDENED
+            && self.configuration != Configuration::Local
+            && self.given.trajectory
+            && !(iii_counts || ran[3] || ran[4])
+    }
+}
 
 /// What the stage reads and is not there. A list goes to stage i whatever its age.
 fn first_missing(given: Given, at: usize) -> Option<Input> {

@@ -19,7 +19,7 @@ const LONGEST_CAV: f64 = 9_000.0;
 ///
 /// Domain: all speeds and `a_b` of `spec/4-arithmetic.md#domain`. Not covered: its value.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_b_is_bounded() {
     let s_b = s_b(&parameters(), speed());
     assert!((0.0..=LONGEST_BRAKING).contains(&s_b));
@@ -31,7 +31,7 @@ pub fn verify_s_b_is_bounded() {
 ///
 /// Domain: all speeds and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its value.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_cav_is_bounded() {
     let s_cav = s_cav(&parameters(), speed());
     assert!((0.0..=LONGEST_CAV).contains(&s_cav));
@@ -43,7 +43,7 @@ pub fn verify_s_cav_is_bounded() {
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its
 /// value.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_follow_is_at_least_s_cav() {
     let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
     let (s_follow, s_cav) = (s_follow(&parameters, v_now, v_lead), s_cav(&parameters, v_now));
@@ -57,7 +57,7 @@ pub fn verify_s_follow_is_at_least_s_cav() {
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: its
 /// value.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_follow_is_bounded() {
     let s_follow = s_follow(&parameters(), speed(), speed());
     assert!((0.0..=LONGEST_BRAKING + LONGEST_CAV).contains(&s_follow));
@@ -69,7 +69,7 @@ pub fn verify_s_follow_is_bounded() {
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered: faster
 /// leads, which need that products of doubles grow: no solver ended, and a theorem says it of reals.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_follow_is_s_cav_at_equal_speeds() {
     let (parameters, v_now) = (parameters(), speed());
     let (s_follow, s_cav) = (s_follow(&parameters, v_now, v_now), s_cav(&parameters, v_now));
@@ -82,7 +82,7 @@ pub fn verify_s_follow_is_s_cav_at_equal_speeds() {
 /// Domain: all speeds, `a_b` and `safety_time` of `spec/4-arithmetic.md#domain`. Not covered:
 /// nothing.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_valid_has_two_cases() {
     let (parameters, v_now, v_lead) = (parameters(), speed(), speed());
     let lead = if kani::any() { Some(v_lead) } else { None };
@@ -100,7 +100,7 @@ pub fn verify_s_valid_has_two_cases() {
 ///
 /// Domain: all speeds, `a_b`, `tau` and `a_max` of `spec/4-arithmetic.md#domain`. Not covered: its value.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::solver(bitwuzla))]
+#[cfg_attr(kani, kani::solver(kissat))]
 pub fn verify_s_stop_is_bounded() {
     let parameters =
         Parameters { tau: within(0.0, 60.0), a_max: within(0.1, 100.0), ..parameters() };

@@ -3,15 +3,16 @@
 
 use mufasa::offloading::requester::{
     Event, EventKind, Group, GroupRecord, GroupState, Groups, Parts, Requester, RequesterError,
-    Sessions, StationRecord, Suspended,
+    Sessions, StationRecord,
 };
-use mufasa::parts::decide;
 use mufasa::report::{FailedStage, InvalidInput, Outcome, Problem, Report, Stage};
 
 use super::any::{below, groups, near_integer, profile, time_ns};
 use super::bounds::CROSS_SECTIONS;
-use super::seen::{GROUPS, REQUESTS, after, after_in, each, in_use, same};
-use super::states::{any_parameters, any_record, any_record_of, any_state, any_state_with};
+use super::seen::{GROUPS, REQUESTS, after, after_in, answered, each, in_use, same};
+use super::states::{
+    any_parameters, any_record, any_record_of, any_state, any_state_with, any_station, withdrawal,
+};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -44,7 +45,6 @@ pub fn verify_requester_starts_valid() {
 #[cfg_attr(kani, kani::proof)]
 pub fn verify_a_station_below_1_is_refused() {
     let before = any_state();
-    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut []);
     let station = near_integer(-1, 1);
     kani::assume(station < 1);
     let (session, generated_ns) = (near_integer(1, 6), time_ns());
@@ -56,9 +56,9 @@ pub fn verify_a_station_below_1_is_refused() {
         4 => EventKind::Reject { station, group: Group::Plan, session },
         _ => EventKind::Data { station, group: Group::Mot, session, generated_ns },
     };
-    let refused = decide(&mut requester, &Event { t_ns: time_ns(), kind });
+    let (refused, after) = answered(&before, Event { t_ns: time_ns(), kind }, &mut []);
     assert!(matches!(refused, Err(RequesterError::Station { station: named }) if named == station));
-    assert!(is_unchanged(&before, &requester.suspend().parts()));
+    assert!(is_unchanged(&before, &after));
     kani::cover!(matches!(kind, EventKind::Withdraw { station: 0 }), "a withdrawal of the CAV");
     kani::cover!(matches!(kind, EventKind::Lost { .. }), "a loss");
     kani::cover!(matches!(kind, EventKind::Offer { .. }), "an offer");
@@ -83,9 +83,8 @@ pub fn verify_every_law_at_ticks() {
 /// Domain: all states, valid or not, a table of one place, free or the station's, all times of 64 bits.
 /// Not covered: larger tables.
 pub fn verify_every_law_at_withdrawals() {
-    let station = any_station();
     let is_loss = kani::any();
-    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    let (kind, station) = withdrawal(is_loss);
     let place = any_record_of(station);
     let step = after(kind, &mut [place]);
     assert!(step.keeps_every_law() && each(|at| step.lists_actions_by_kind(at)));
@@ -134,13 +133,12 @@ pub fn verify_a_refused_offer_changes_nothing() {
     let place = any_record();
     kani::assume(place.station().is_some_and(|other| other != station) && groups != Groups::NONE);
     let mut table = [place];
-    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut table);
     let event = Event { t_ns: time_ns(), kind: EventKind::Offer { station, groups } };
-    let found = decide(&mut requester, &event);
+    let (found, after) = answered(&before, event, &mut table);
     assert!(
         matches!(found, Err(RequesterError::TableFull { station: named, capacity: 1 }) if named == station)
     );
-    assert!(is_unchanged(&before, &requester.suspend().parts()) && table[0] == place);
+    assert!(is_unchanged(&before, &after) && table[0] == place);
     kani::cover!(in_use(before.groups[0]).is_some_and(|(used, _)| used == station), "in use");
 }
 
@@ -182,7 +180,7 @@ pub fn verify_an_error_is_told_as_unsafe() {
 /// Domain: tables of two stations, nothing in use, all times of 64 bits. Not covered: larger tables;
 /// for groups in use see `verify_every_law_at_offers` and `verify_a_refused_offer_changes_nothing`.
 #[cfg_attr(kani, kani::proof)]
-#[cfg_attr(kani, kani::unwind(4))]
+#[cfg_attr(kani, kani::unwind(9))]
 pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
     let records = [any_record(), any_record()];
     let [a, b] = records;
@@ -191,9 +189,8 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
     let known = [a.station() == Some(station), b.station() == Some(station)];
     let full = a.station().is_some() && b.station().is_some() && !known[0] && !known[1];
     let local = any_state_with([GroupRecord::Local; 2]);
-    let mut requester = Requester::resume(Suspended::from_parts(&local), &mut table);
     let event = Event { t_ns: time_ns(), kind: EventKind::Offer { station, groups } };
-    let found = decide(&mut requester, &event);
+    let (found, after) = answered(&local, event, &mut table);
     let refused = full && groups != Groups::NONE;
     assert!(match found {
         Ok(done) => !refused && done.as_flattened().iter().all(Option::is_none),
@@ -202,8 +199,7 @@ pub fn verify_an_offer_is_taken_or_leaves_no_trace() {
         }
         Err(RequesterError::Station { .. } | RequesterError::NegativeParameter { .. }) => false,
     });
-    assert!(requester.sessions() == local.sessions);
-    assert!(requester.hold_until_ns() == local.hold_until_ns);
+    assert!(after.sessions == local.sessions && after.hold_until_ns == local.hold_until_ns);
     let with_offer = |record: StationRecord| {
         let last_request = GROUPS.map(|group| record.last_request(group));
         StationRecord::from_parts(station, groups, last_request)
@@ -272,10 +268,4 @@ fn the_station_asked_last_waits(at: usize) {
     kani::cover!(at == 1 && asked[0] > asked[1] && found.is_some(), "asked for PLAN longer ago");
     kani::cover!(at == 0 && found.is_none(), "after the last session");
     kani::cover!(at == 1 && number == 2 && found.is_none(), "MOT has the last session");
-}
-
-fn any_station() -> i64 {
-    let station = near_integer(1, 3);
-    kani::assume(station >= 1);
-    station
 }

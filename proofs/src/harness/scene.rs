@@ -91,11 +91,7 @@ pub fn cycle(profile: Profile, configuration: Configuration, given: [Given; 5]) 
     };
     let [trajectory, tracks, detections, lead, grid] = given.map(stamp);
     Cycle {
-        profile,
-        parameters: Parameters::default(),
-        now_ns: NOW_NS,
         configuration,
-        ego: EGO,
         trajectory: trajectory.map(|(stamp_ns, harmful)| {
             let points: &[TrajectoryPoint] = if harmful { &OFF_ROAD } else { &STRAIGHT };
             Trajectory { stamp_ns, points }
@@ -125,7 +121,7 @@ pub fn cycle(profile: Profile, configuration: Configuration, given: [Given; 5]) 
             occupied: if harmful { &FULL } else { &FREE },
             unknown: None,
         }),
-        detection_history: &[],
+        ..alone(profile, Parameters::default(), EGO, NOW_NS)
     }
 }
 

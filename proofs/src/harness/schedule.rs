@@ -1,14 +1,14 @@
-//! The schedule (`spec/3-stages.md#schedule`): its table written a second time, as data, and what
-//! the text says of it, as far as it does not depend on what the stages compare.
+//! The schedule (`spec/3-stages.md#schedule`): its table, and what the text says of it, as far as it does not
+//! depend on what the stages compare.
 
 use mufasa::cycle::check;
+use mufasa::cycle::order::{Given as Inputs, Idle};
 use mufasa::input::cycle::Cycle;
-use mufasa::input::profile::Profile;
 use mufasa::input::scratch::{Column, Row, Scratch};
-use mufasa::report::{FailedStage, Input, Outcome, Reason, Report, Stage};
-use mufasa::services::configuration::Configuration;
+use mufasa::report::{FailedStage, Outcome, Report, Stage};
 
 use super::any::{configuration, index, profile};
+use super::order::Asked;
 use super::scene::{Given, cycle};
 #[cfg(not(kani))]
 use crate::kani;
@@ -38,115 +38,51 @@ pub fn verify_schedule_is_the_table() {
 
 /// The laws of a report, and the table.
 pub(super) fn assert_scheduled(cycle: &Cycle<'_>, report: &Report) {
-    assert!(law::no_stage_runs_in_local(cycle, report));
-    assert!(law::only_scheduled_stages_run(cycle, report));
-    assert!(law::nothing_runs_after_a_failure(cycle, report));
-    assert!(law::unsafe_exactly_when_something_failed(cycle, report));
-    assert!(law::nothing_runs_without_its_input(cycle, report));
-    assert!(law::no_trajectory_is_accepted_unexamined(cycle, report));
+    for (name, law) in law::LAWS {
+        assert!(law(cycle, report), "{name}");
+    }
     if report.failed_stage != Some(FailedStage::Input) {
         assert!(follows_the_table(cycle, report));
     }
 }
 
-/// How a stage is marked in the table.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Mark {
-    Always,
-    Conditional,
-    Dash,
-}
-
-use Mark::{Always, Conditional, Dash};
-
-/// The table of the text: a row for each stage; `MotRemote`, `AllRemote`, `PlanRemote`.
-const TABLE: [[Mark; 3]; 5] = [
-    [Always, Always, Dash],
-    [Always, Always, Always],
-    [Dash, Conditional, Always],
-    [Conditional, Conditional, Conditional],
-    [Always, Conditional, Dash],
-];
-
-/// What each stage reads, in the order of the reasons.
-const READS: [&[Input]; 5] = [
-    &[Input::Tracks, Input::Detections],
-    &[Input::Trajectory],
-    &[Input::Trajectory, Input::Tracks],
-    &[Input::Trajectory, Input::Detections],
-    &[Input::Trajectory, Input::Grid],
-];
-
-fn mark(cycle: &Cycle<'_>, stage: usize) -> Mark {
-    let column = match cycle.configuration {
-        Configuration::Local => return Dash,
-        Configuration::MotRemote => 0,
-        Configuration::AllRemote => 1,
-        Configuration::PlanRemote => 2,
+/// What the table is asked of, with what is there of the inputs, and current.
+fn asked(cycle: &Cycle<'_>) -> Asked {
+    let is_current = |stamp_ns: Option<i64>| {
+        stamp_ns.is_some_and(|stamp_ns| {
+            let age_ns = i128::from(cycle.now_ns) - i128::from(stamp_ns);
+            0 <= age_ns && age_ns <= i128::from(cycle.parameters.max_age_ns)
+        })
     };
-    // H-05: conditional in PlanRemote too.
-    let v_in_plan_remote = stage == 4 && column == 2;
-    if v_in_plan_remote && cycle.profile == Profile::HARDENED {
-        Conditional
-    } else {
-        TABLE[stage][column]
-    }
-}
-
-fn is_current(cycle: &Cycle<'_>, input: Input) -> bool {
-    let stamp_ns = match input {
-        Input::Trajectory => cycle.trajectory.map(|list| list.stamp_ns),
-        Input::Tracks => cycle.tracks.map(|list| list.stamp_ns),
-        Input::Detections => cycle.detections.map(|list| list.stamp_ns),
-        Input::Grid => cycle.grid.map(|grid| grid.stamp_ns),
+    let given = Inputs {
+        tracks_of_any_age: cycle.tracks.is_some(),
+        tracks: is_current(cycle.tracks.map(|list| list.stamp_ns)),
+        trajectory: is_current(cycle.trajectory.map(|list| list.stamp_ns)),
+        detections: is_current(cycle.detections.map(|list| list.stamp_ns)),
+        grid: is_current(cycle.grid.map(|grid| grid.stamp_ns)),
     };
-    stamp_ns.is_some_and(|stamp_ns| is_young(cycle, stamp_ns))
+    Asked { profile: cycle.profile, configuration: cycle.configuration, given }
 }
 
-fn is_young(cycle: &Cycle<'_>, stamp_ns: i64) -> bool {
-    let age_ns = i128::from(cycle.now_ns) - i128::from(stamp_ns);
-    0 <= age_ns && age_ns <= i128::from(cycle.parameters.max_age_ns)
-}
-
-/// Stage by stage, what the text says of it, given what became of the stages before.
+/// Stage by stage, what the table of `order` says of it, given what became of the stages before.
 fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
-    let hardened = cycle.profile == Profile::HARDENED;
-    let all_remote = cycle.configuration == Configuration::AllRemote;
+    let asked = asked(cycle);
     let mut ran = [false; 5];
     let mut failed = None;
     for (at, stage) in Stage::ALL.into_iter().enumerate() {
         let outcome = report.stages[at];
-        // H-10: hardened, nothing blocks v.
-        let blocked = match at {
-            3 => ran[2],
-            4 => (ran[2] || ran[3]) && !hardened,
-            _ => false,
-        };
-        let is_there = |input: &Input| match (at, input) {
-            // A received list goes to stage i whatever its age.
-            (0, Input::Tracks) => cycle.tracks.is_some(),
-            _ => is_current(cycle, *input),
-        };
-        let missing = READS[at].iter().find(|&input| !is_there(input));
-        let expected = match (mark(cycle, at), missing) {
-            (Dash, _) => Some(Outcome::NotScheduled),
-            _ if failed.is_some() => Some(Outcome::Skipped(Reason::AfterFailure)),
-            (Conditional, _) if blocked => Some(Outcome::Skipped(Reason::OtherStageRan)),
-            (Conditional, Some(&input)) => Some(Outcome::Skipped(Reason::NoCurrent(input))),
-            (Always, Some(&input)) => Some(Outcome::NotApplicable(input)),
-            (Always | Conditional, None) => None,
-        };
-        ran[at] = expected.is_none();
+        let idle = asked.idle(at, ran, failed.is_some());
+        ran[at] = idle.is_none();
         // H-04, H-14: what is compared at this place although stage iv does not run.
         let instead = at == 3 && law::fails_instead_of_iv(cycle, &outcome);
-        let as_expected = match expected {
+        let as_expected = match idle {
             None => matches!(outcome, Outcome::Passed | Outcome::Failed(_)),
-            Some(_) if instead => {
-                failed.is_none()
-                    && mark(cycle, at) == Conditional
-                    && is_current(cycle, Input::Trajectory)
+            Some(idle) if instead => {
+                failed.is_none() && idle != Idle::NotScheduled && asked.given.trajectory
             }
-            Some(expected) => outcome == expected,
+            Some(Idle::NotScheduled) => outcome == Outcome::NotScheduled,
+            Some(Idle::Skipped(reason)) => outcome == Outcome::Skipped(reason),
+            Some(Idle::NotApplicable(input)) => outcome == Outcome::NotApplicable(input),
         };
         if !as_expected {
             return false;
@@ -155,12 +91,6 @@ fn follows_the_table(cycle: &Cycle<'_>, report: &Report) -> bool {
             failed = Some(FailedStage::Stage(stage));
         }
     }
-    // H-02: tracks that stage i could not check are no obstacle check.
-    let iii_counts = ran[2] && (!all_remote || is_current(cycle, Input::Detections));
-    let unexamined = hardened
-        && cycle.configuration != Configuration::Local
-        && is_current(cycle, Input::Trajectory)
-        && !(iii_counts || ran[3] || ran[4]);
-    let failed = failed.or(unexamined.then_some(FailedStage::NoObstacleCheck));
-    report.failed_stage == failed
+    let unexamined = asked.is_unexamined(ran).then_some(FailedStage::NoObstacleCheck);
+    report.failed_stage == failed.or(unexamined)
 }

@@ -2,13 +2,13 @@
 
 use mufasa::input::profile::Profile;
 use mufasa::offloading::requester::{
-    Action, Event, EventKind, Group, GroupRecord, Groups, Parts, Requester, Running, Sessions,
-    StationRecord, Suspended,
+    Action, Event, EventKind, Group, GroupRecord, Groups, Parts, Requester, RequesterError,
+    Running, Sessions, StationRecord, Suspended,
 };
 use mufasa::parts::decide;
 
 use super::any::{groups, near_integer, option, time_ns};
-use super::states::{any_record, any_state};
+use super::states::{any_record, any_state, any_station};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -350,8 +350,7 @@ pub(super) fn naming(
     see: &impl Fn(&Seen, usize, (i64, i64)),
     kind: impl Fn(i64, Group, i64) -> EventKind,
 ) {
-    let (station, session) = (near_integer(1, 3), near_integer(1, 6));
-    kani::assume(station >= 1);
+    let (station, session) = (any_station(), near_integer(1, 6));
     if kani::any() {
         see(&after_beside_the_table(kind(station, Group::Mot, session)), 0, (station, session));
     } else {
@@ -369,9 +368,24 @@ pub(super) fn after(kind: EventKind, table: &mut [StationRecord]) -> Seen {
 }
 
 pub(super) fn after_in(before: Parts, event: Event, table: &mut [StationRecord]) -> Seen {
-    let mut requester = Requester::resume(Suspended::from_parts(&before), table);
-    let Ok(done) = decide(&mut requester, &event) else { unreachable!("no event is refused") };
-    Seen { event, before, after: requester.suspend().parts(), done, place: None }
+    let (Ok(done), after) = answered(&before, event, table) else {
+        unreachable!("no event is refused")
+    };
+    Seen { event, before, after, done, place: None }
+}
+
+/// Actions by kind and group.
+type Answer = Result<[[Option<Action>; 2]; 4], RequesterError>;
+
+/// What is said of the event, and the state after it.
+pub(super) fn answered(
+    before: &Parts,
+    event: Event,
+    table: &mut [StationRecord],
+) -> (Answer, Parts) {
+    let mut requester = Requester::resume(Suspended::from_parts(before), table);
+    let done = decide(&mut requester, &event);
+    (done, requester.suspend().parts())
 }
 
 /// With one station in the table, with which such an event has nothing to do; a change that looks at what

@@ -24,13 +24,7 @@ const COLUMNS: usize = DETECTIONS + TRACKS;
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `MotRemote`.
 /// Not covered: longer lists, other configurations.
 pub fn verify_stage_i_never_panics() {
-    let world = World::any();
-    let holds = [Input::Tracks, Input::Detections];
-    let cycle = world.cycle(profile(), Configuration::MotRemote, &holds);
-    let outcome = checked(&cycle).map(|report| report.stages[0]);
-    kani::cover!(outcome == Some(Outcome::Passed), "passed");
-    kani::cover!(matches!(outcome, Some(Outcome::Failed(_))), "failed");
-    kani::cover!(outcome.is_none(), "refused");
+    never_panics(Configuration::MotRemote, &[Input::Tracks, Input::Detections], 0);
 }
 
 /// Stage ii, with H-07, H-11 and the reach of H-14, panics at no input, refuses only what is invalid or does
@@ -39,13 +33,7 @@ pub fn verify_stage_i_never_panics() {
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,
 /// `PlanRemote`. Not covered: longer lists, other configurations.
 pub fn verify_stage_ii_never_panics() {
-    let world = World::any();
-    let holds = [Input::Trajectory];
-    let cycle = world.cycle(profile(), Configuration::PlanRemote, &holds);
-    let outcome = checked(&cycle).map(|report| report.stages[1]);
-    kani::cover!(outcome == Some(Outcome::Passed), "passed");
-    kani::cover!(matches!(outcome, Some(Outcome::Failed(_))), "failed");
-    kani::cover!(outcome.is_none(), "refused");
+    never_panics(Configuration::PlanRemote, &[Input::Trajectory], 1);
 }
 
 /// Stage iii panics at no input, refuses only what is invalid or does not fit the scratch, and reports what
@@ -54,13 +42,7 @@ pub fn verify_stage_ii_never_panics() {
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `AllRemote`.
 /// Not covered: longer lists, other configurations.
 pub fn verify_stage_iii_never_panics() {
-    let world = World::any();
-    let holds = [Input::Trajectory, Input::Tracks];
-    let cycle = world.cycle(profile(), Configuration::AllRemote, &holds);
-    let outcome = checked(&cycle).map(|report| report.stages[2]);
-    kani::cover!(outcome == Some(Outcome::Passed), "passed");
-    kani::cover!(matches!(outcome, Some(Outcome::Failed(_))), "failed");
-    kani::cover!(outcome.is_none(), "refused");
+    never_panics(Configuration::AllRemote, &[Input::Trajectory, Input::Tracks], 2);
 }
 
 /// Stage iv, with H-04 and H-14, panics at no input, refuses only what is invalid or does not fit the
@@ -69,13 +51,7 @@ pub fn verify_stage_iii_never_panics() {
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles,
 /// `PlanRemote`. Not covered: longer lists, other configurations.
 pub fn verify_stage_iv_never_panics() {
-    let world = World::any();
-    let holds = [Input::Trajectory, Input::Detections];
-    let cycle = world.cycle(profile(), Configuration::PlanRemote, &holds);
-    let outcome = checked(&cycle).map(|report| report.stages[3]);
-    kani::cover!(outcome == Some(Outcome::Passed), "passed");
-    kani::cover!(matches!(outcome, Some(Outcome::Failed(_))), "failed");
-    kani::cover!(outcome.is_none(), "refused");
+    never_panics(Configuration::PlanRemote, &[Input::Trajectory, Input::Detections], 3);
 }
 
 /// Stage v, with H-06, panics at no input, refuses only what is invalid or does not fit the
@@ -84,11 +60,14 @@ pub fn verify_stage_iv_never_panics() {
 /// Domain: any numbers of 64 bits, lists up to the bounds, any scratch, both profiles, `MotRemote`,
 /// up to two disks. Not covered: longer lists, other configurations.
 pub fn verify_stage_v_never_panics() {
+    never_panics(Configuration::MotRemote, &[Input::Trajectory, Input::Grid], 4);
+}
+
+fn never_panics(configuration: Configuration, holds: &[Input], at: usize) {
     let world = World::any();
-    let holds = [Input::Trajectory, Input::Grid];
-    let cycle = world.cycle(profile(), Configuration::MotRemote, &holds);
-    kani::assume(cycle.parameters.n <= DISKS);
-    let outcome = checked(&cycle).map(|report| report.stages[4]);
+    let cycle = world.cycle(profile(), configuration, holds);
+    kani::assume(at != 4 || cycle.parameters.n <= DISKS);
+    let outcome = checked(&cycle).map(|report| report.stages[at]);
     kani::cover!(outcome == Some(Outcome::Passed), "passed");
     kani::cover!(matches!(outcome, Some(Outcome::Failed(_))), "failed");
     kani::cover!(outcome.is_none(), "refused");

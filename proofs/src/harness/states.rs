@@ -1,10 +1,26 @@
-//! Arbitrary states of the requester and places of its table, valid or not.
+//! Arbitrary states of the requester and places of its table, valid or not, and stations.
 
-use mufasa::offloading::requester::{GroupRecord, Parameters, Parts, Running, StationRecord};
+use mufasa::offloading::requester::{
+    EventKind, GroupRecord, Parameters, Parts, Running, StationRecord,
+};
 
 use super::any::{below, duration_ns, groups, near_integer, option, profile, time_ns};
 #[cfg(not(kani))]
 use crate::kani;
+
+/// Any id that a station can have.
+pub(super) fn any_station() -> i64 {
+    let station = near_integer(1, 3);
+    kani::assume(station >= 1);
+    station
+}
+
+/// A withdrawal or, if told, a loss of any station that there can be, and that station.
+pub(super) fn withdrawal(is_loss: bool) -> (EventKind, i64) {
+    let station = any_station();
+    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    (kind, station)
+}
 
 pub(super) fn any_record() -> StationRecord {
     any_record_of(near_integer(1, 3))

@@ -2,14 +2,11 @@
 //! change it. That the others leave it as it is, is asserted in `group`: `verify_every_law_at_areas` and
 //! `_at_verdicts`, and the three harnesses `verify_the_other_group_is_untouched`.
 
-use mufasa::offloading::requester::{
-    Action, Event, EventKind, GroupRecord, Groups, Requester, StationRecord, Suspended,
-};
-use mufasa::parts::decide;
+use mufasa::offloading::requester::{Action, Event, EventKind, GroupRecord, Groups, StationRecord};
 
-use super::any::{below, groups, near_integer, time_ns};
-use super::seen::{GROUPS, REQUESTS, after, each, in_use};
-use super::states::{any_record, any_state};
+use super::any::{below, groups, time_ns};
+use super::seen::{GROUPS, REQUESTS, after, answered, each, in_use};
+use super::states::{any_record, any_state, any_station, withdrawal};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -22,9 +19,8 @@ use crate::kani;
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_a_withdrawal_forgets_the_offer_alone() {
     let records = two_stations();
-    let (station, is_loss) = (near_integer(1, 3), kani::any());
-    kani::assume(station >= 1);
-    let kind = if is_loss { EventKind::Lost { station } } else { EventKind::Withdraw { station } };
+    let is_loss = kani::any();
+    let (kind, station) = withdrawal(is_loss);
     let mut table = records;
     after(kind, &mut table);
     let expected = |record: StationRecord| {
@@ -115,8 +111,7 @@ fn stays_offered_at_ticks(at: usize) {
 #[cfg_attr(kani, kani::proof)]
 #[cfg_attr(kani, kani::unwind(4))]
 pub fn verify_the_table_stays_valid_at_offers() {
-    let station = near_integer(1, 3);
-    kani::assume(station >= 1);
+    let station = any_station();
     let kind = match below(3) {
         0 => EventKind::Lost { station },
         1 => EventKind::Withdraw { station },
@@ -127,12 +122,8 @@ pub fn verify_the_table_stays_valid_at_offers() {
     kani::assume(before.sessions >= 0 && is_valid(records, before.sessions));
     kani::assume(each(|at| is_offered_and_asked(before.groups[at], at, records)));
     let mut table = records;
-    let mut requester = Requester::resume(Suspended::from_parts(&before), &mut table);
     let event = Event { t_ns: time_ns(), kind };
-    if decide(&mut requester, &event).is_err() {
-        return;
-    }
-    let after = requester.suspend().parts();
+    let (Ok(_), after) = answered(&before, event, &mut table) else { return };
     assert!(is_valid(table, after.sessions));
     assert!(each(|at| is_offered_and_asked(after.groups[at], at, table)));
     kani::cover!(in_use(after.groups[0]).is_some(), "MOT stays in use");

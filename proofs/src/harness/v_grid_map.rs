@@ -11,7 +11,7 @@ use mufasa::services::configuration::Configuration;
 
 use super::any::below;
 use super::bounds::{GRID, GRID_BYTES};
-use super::scene::{CROSS_SECTIONS, EGO, NOW_NS};
+use super::scene::{CROSS_SECTIONS, EGO, NOW_NS, alone};
 #[cfg(not(kani))]
 use crate::kani;
 
@@ -117,15 +117,8 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
     };
     let points = [point];
     let cycle = Cycle {
-        profile,
-        parameters,
-        now_ns: NOW_NS,
         configuration: Configuration::MotRemote,
-        ego,
         trajectory: Some(Trajectory { stamp_ns: NOW_NS, points: &points }),
-        tracks: None,
-        detections: None,
-        lead: None,
         route: Route { closed: false, cross_sections: &CROSS_SECTIONS },
         grid: Some(Grid {
             stamp_ns: NOW_NS,
@@ -139,7 +132,7 @@ fn judged(profile: Profile, [column, row]: [i64; 2], [x, y]: [i64; 2]) -> Report
             occupied: &occupied,
             unknown: None,
         }),
-        detection_history: &[],
+        ..alone(profile, parameters, ego, NOW_NS)
     };
     let Ok(report) = check(&cycle, &mut Scratch::new(&mut [], &mut [])) else {
         unreachable!("the input is valid")

@@ -39,34 +39,22 @@ pub fn near_integer(least: i64, most: i64) -> i64 {
     })
 }
 
-impl Arbitrary for bool {
-    fn any() -> Self {
-        with_tape(|tape| tape.digit(2)) == 1
-    }
+macro_rules! arbitrary {
+    ($($Type:ty: $value:expr;)*) => {$(
+        impl Arbitrary for $Type {
+            fn any() -> Self {
+                $value
+            }
+        }
+    )*};
 }
 
-impl Arbitrary for u8 {
-    fn any() -> Self {
-        with_tape(|tape| tape.digit(256)).to_le_bytes()[0]
-    }
-}
-
-impl Arbitrary for i64 {
-    fn any() -> Self {
-        near_integer(i64::MIN, i64::MAX)
-    }
-}
-
-impl Arbitrary for u64 {
-    fn any() -> Self {
-        u64::from_ne_bytes(i64::any().to_ne_bytes())
-    }
-}
-
-impl Arbitrary for f64 {
-    fn any() -> Self {
-        near(f64::MIN, f64::MAX)
-    }
+arbitrary! {
+    bool: with_tape(|tape| tape.digit(2)) == 1;
+    u8: with_tape(|tape| tape.digit(256)).to_le_bytes()[0];
+    i64: near_integer(i64::MIN, i64::MAX);
+    u64: u64::from_ne_bytes(i64::any().to_ne_bytes());
+    f64: near(f64::MIN, f64::MAX);
 }
 
 const INTEGERS: [i64; 6] = [i64::MIN, i64::MIN + 1, -1, 0, 1, i64::MAX];

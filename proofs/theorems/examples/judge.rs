@@ -2,9 +2,9 @@
 
 use std::io;
 
-use mufasa_theorems::prove::{Decision, prove_claim};
-use mufasa_theorems::theorem;
-use mufasa_theorems::{doubles, gappa};
+use mufasa_theorems::claim::Decision;
+use mufasa_theorems::prove::prove_claim;
+use mufasa_theorems::{doubles, gappa, theorem};
 
 fn main() -> io::Result<()> {
     let name = std::env::args().nth(1).unwrap_or_default();

@@ -3,16 +3,16 @@
 //! The questions are generated from the operations of `model/src/stages/distances.rs`. The implementation
 //! computes in double-doubles.
 
-mod process;
+mod bitwuzla;
 
 use std::io;
 use std::time::Instant;
 
-pub use process::version;
+pub use bitwuzla::version;
 
+use crate::claim::Judgement;
 use crate::numbers::real::Real;
 use crate::numbers::real::program::{Operand, Operator};
-use crate::prove::Judgement;
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
 
 /// A claim about results in doubles.
@@ -54,7 +54,7 @@ pub const RANGES: [Range; 4] = [
     Range {
         id: "s_b_in_doubles_is_finite_and_not_negative",
         statement: "0 <= s_b <= 112500 m, computed in doubles",
-        formulas: || vec![s_b(&v_now(), &a_b())],
+        formulas: || vec![braking()],
         claim: "(and (good $0) (fp.leq $0 (number 112500.0)))",
         wrong: Wrong { statement: "0 < s_b", claim: "(fp.lt (number 0.0) $0)" },
     },
@@ -68,7 +68,7 @@ pub const RANGES: [Range; 4] = [
     Range {
         id: "s_follow_in_doubles_is_never_below_s_cav",
         statement: "s_CAV <= s_follow, both computed in doubles",
-        formulas: || vec![s_cav(&safety_time(), &v_now()), follow()],
+        formulas: || vec![s_cav(&Real::named("safety_time"), &Real::named("v_now")), follow()],
         claim: "(fp.leq $0 $1)",
         wrong: Wrong { statement: "s_CAV < s_follow", claim: "(fp.lt $0 $1)" },
     },
@@ -77,8 +77,9 @@ pub const RANGES: [Range; 4] = [
         statement: "s_valid computed in doubles is finite and at least 0; s_follow behind a leading vehicle, else \
                     s_b(v_now)",
         formulas: || {
-            let valid = |lead| s_valid(&v_now(), lead, &a_b(), &safety_time());
-            vec![valid(Some(&v_lead())), valid(None), follow(), s_b(&v_now(), &a_b())]
+            let [v_now, v_lead, a_b, safety_time] = INPUTS.map(|(name, ..)| Real::named(name));
+            let valid = |lead| s_valid(&v_now, lead, &a_b, &safety_time);
+            vec![valid(Some(&v_lead)), valid(None), follow(), braking()]
         },
         claim: "(and (good $0) (good $1) (fp.eq $0 $2) (fp.eq $1 $3))",
         wrong: Wrong {
@@ -88,24 +89,13 @@ pub const RANGES: [Range; 4] = [
     },
 ];
 
-fn v_now() -> Real {
-    Real::named("v_now")
-}
-
-fn v_lead() -> Real {
-    Real::named("v_lead")
-}
-
-fn a_b() -> Real {
-    Real::named("a_b")
-}
-
-fn safety_time() -> Real {
-    Real::named("safety_time")
-}
-
 fn follow() -> Real {
-    s_follow(&v_now(), &v_lead(), &a_b(), &safety_time())
+    let [v_now, v_lead, a_b, safety_time] = INPUTS.map(|(name, ..)| Real::named(name));
+    s_follow(&v_now, &v_lead, &a_b, &safety_time)
+}
+
+fn braking() -> Real {
+    s_b(&Real::named("v_now"), &Real::named("a_b"))
 }
 
 impl Range {
@@ -113,8 +103,8 @@ impl Range {
     /// be. Errors are those of running bitwuzla.
     pub fn judge(&self) -> io::Result<Judgement> {
         let start = Instant::now();
-        let claim = process::ask(&self.question(self.claim))?;
-        let control = process::ask(&self.question(self.wrong.claim))?;
+        let claim = bitwuzla::ask(&self.question(self.claim))?;
+        let control = bitwuzla::ask(&self.question(self.wrong.claim))?;
         Ok(Judgement { claim, control, paths: 1, time: start.elapsed() })
     }
 

@@ -1,24 +1,27 @@
 //! Bounds of the rounding errors of the distances, by Gappa.
 //!
 //! The scripts are generated from the operations of `model/src/stages/distances.rs`, as a program in doubles
-//! would do them in the order of the source. `tests/rounding.rs` holds the bounds against exact
+//! would do them in the order of the source. `tests/theorems/rounding.rs` holds the bounds against exact
 //! numbers. The implementation computes in double-doubles with bounds of its own.
 
 mod bound;
-mod process;
 mod script;
 
 use std::io;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 pub use bound::Bound;
-pub use process::version;
 
+use crate::claim::Decision;
 use crate::numbers::real::Real;
-use crate::prove::Decision;
+use crate::process;
 use crate::stages::distances::{s_b, s_follow};
 use bound::Known;
 use script::Script;
+
+/// Longest time for a script.
+const LIMIT: Duration = Duration::from_secs(20);
 
 const NOTHING: Known = Known { most: "0", error: "0" };
 
@@ -28,7 +31,7 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_b_in_doubles_relative",
         statement: "abs(s_b in doubles - s_b) <= 2^-52 (1 + 2^-54) s_b",
         domain: "v from 1e-100 to 150 m/s, a_b from 0.1 to 100 m/s^2",
-        formula: || s_b(&v(), &a_b()),
+        formula: || braking("v"),
         inputs: &[("v", "1e-100", "150"), ("a_b", "0.1", "100")],
         relative: true,
         known: &[],
@@ -41,7 +44,7 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_b_in_doubles_absolute",
         statement: "abs(s_b in doubles - s_b) <= 4.6e-13 m",
         domain: "v to 70 m/s, a_b from 1 to 12 m/s^2",
-        formula: || s_b(&v(), &a_b()),
+        formula: || braking("v"),
         inputs: &[("v", "0", "70"), ("a_b", "1", "12")],
         relative: false,
         known: &[],
@@ -54,10 +57,10 @@ pub const BOUNDS: [Bound; 3] = [
         id: "s_follow_in_doubles_absolute",
         statement: "abs(s_follow in doubles - s_follow) <= 1.5e-12 m",
         domain: "speeds to 70 m/s, a_b from 1 to 12 m/s^2, safety_time to 2 s",
-        formula: || s_follow(&v_now(), &v_lead(), &a_b(), &Real::named("safety_time")),
+        formula: follow,
         inputs: &[("v_now", "0", "70"), ("safety_time", "0", "2")],
         relative: false,
-        known: &[|| s_b(&v_now(), &a_b()), || s_b(&v_lead(), &a_b())],
+        known: &[|| braking("v_now"), || braking("v_lead")],
         lemma: Known { most: "2450", error: "4.6e-13" },
         of_max: Known { most: "2450", error: "1.15e-12" },
         limit: "1.5e-12",
@@ -65,20 +68,21 @@ pub const BOUNDS: [Bound; 3] = [
     },
 ];
 
-fn v() -> Real {
-    Real::named("v")
+fn braking(v: &str) -> Real {
+    s_b(&Real::named(v), &Real::named("a_b"))
 }
 
-fn v_now() -> Real {
-    Real::named("v_now")
+fn follow() -> Real {
+    let [v_now, v_lead, a_b, safety_time] =
+        ["v_now", "v_lead", "a_b", "safety_time"].map(Real::named);
+    s_follow(&v_now, &v_lead, &a_b, &safety_time)
 }
 
-fn v_lead() -> Real {
-    Real::named("v_lead")
-}
-
-fn a_b() -> Real {
-    Real::named("a_b")
+/// The version of Gappa, or nothing where there is none.
+pub fn version() -> Option<String> {
+    let output = Command::new("gappa").arg("--version").output().ok()?;
+    let text = [output.stdout, output.stderr].concat();
+    Some(String::from_utf8(text).ok()?.trim().to_owned())
 }
 
 impl Bound {
@@ -98,7 +102,8 @@ impl Bound {
 
     fn are_proved(&self, limit: &str) -> io::Result<bool> {
         for script in self.scripts(limit) {
-            if !process::is_proved(&script)? {
+            let done = process::run(&mut Command::new("gappa"), &script, LIMIT)?;
+            if !done.is_some_and(|done| done.status.success()) {
                 return Ok(false);
             }
         }

@@ -6,11 +6,14 @@
 //! decided by what is known forks the execution. Each path that can be reached becomes one question
 //! to z3: is there a counterexample?
 
+pub mod claim;
 pub mod doubles;
 pub mod gappa;
 pub mod input;
 pub mod numbers;
+mod process;
 pub mod prove;
+pub mod solver;
 pub mod theorem;
 pub mod witness;
 pub mod work;

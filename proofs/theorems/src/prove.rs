@@ -1,67 +1,21 @@
 //! Proves a claim on every path of its execution.
 
-mod side_by_side;
-
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use mufasa_z3::{Effort, Satisfiability, Solver, number};
+use crate::solver::{Effort, Satisfiability, Solver, number};
 
+use crate::claim::{Decision, Judgement, Proof, Theorem};
 use crate::numbers::real::formula::{Formula, not};
 use crate::numbers::real::path;
-use crate::theorem::Theorem;
 
 /// For the claim on one path.
 const CLAIM: Effort = Effort { steps: 100_000_000, limit_ms: 60_000 };
 
-/// What a solver decides of a claim.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Decision {
-    /// True of all numbers of its domain.
-    Proved,
-    /// False of these.
-    Refuted(Vec<(String, f64)>),
-    /// The solver does not know, or took too long.
-    Unknown,
-}
-
-/// A proof or its failure.
-#[derive(Clone, Debug)]
-pub struct Proof {
-    /// How it ended.
-    pub decision: Decision,
-    /// Paths executed.
-    pub paths: usize,
-}
-
-/// A claim judged.
-#[derive(Clone, Debug)]
-pub struct Judgement {
-    /// Of the claim.
-    pub claim: Decision,
-    /// Of its wrong variant, which must be refuted.
-    pub control: Decision,
-    /// Paths of the claim executed, of which ranges of doubles have one.
-    pub paths: usize,
-    /// Time taken.
-    pub time: Duration,
-}
-
-impl Judgement {
-    /// Of the claim; not known when the wrong variant is not refuted, because then the claim may
-    /// be one of nothing.
-    pub fn decision(&self) -> &Decision {
-        match (&self.claim, &self.control) {
-            (Decision::Proved, Decision::Proved | Decision::Unknown) => &Decision::Unknown,
-            (decision, _) => decision,
-        }
-    }
-}
-
 /// Proves a theorem and refutes its wrong variant. Errors are those of talking to the solver.
 pub fn judge(theorem: &Theorem) -> io::Result<Judgement> {
     let start = Instant::now();
-    let Proof { decision: claim, paths } = side_by_side::prove(theorem.claim)?;
+    let Proof { decision: claim, paths } = prove_claim(&theorem.claim)?;
     let control = prove_claim(&theorem.wrong.claim)?.decision;
     Ok(Judgement { claim, control, paths, time: start.elapsed() })
 }

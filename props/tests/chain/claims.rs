@@ -116,7 +116,7 @@ fn laws(tree: &Tree) -> Vec<Claim> {
     found
 }
 
-/// The properties of the exploration, by their names; their requirements stand in a function there.
+/// The properties of the exploration, by the names in their list; their requirements stand in a function there.
 fn properties(tree: &Tree) -> Vec<Claim> {
     let file = "proofs/exploration/src/properties.rs";
     let Some(text) = tree.0.get(file) else { return Vec::new() };
@@ -133,9 +133,12 @@ fn properties(tree: &Tree) -> Vec<Claim> {
         body.match_indices("=>").filter_map(arm).collect()
     };
     let requirements = arms("requirement");
+    let list = text.split_once("    Property {\n").map_or("", |(_, rest)| rest);
+    let list = list.split("\n    }\n").next().unwrap_or_default();
     let mut found = Vec::new();
-    for (variant, name) in arms("name") {
-        let of = |of: &&(Vec<&str>, &str)| of.0.contains(&variant[0]) || of.0.contains(&"_");
+    for (variant, name) in list.lines().filter_map(|line| line.trim().split_once(" = \"")) {
+        let name = name.trim_end_matches("\",");
+        let of = |of: &&(Vec<&str>, &str)| of.0.contains(&variant) || of.0.contains(&"_");
         if let Some((_, requirement)) = requirements.iter().find(of) {
             found.push(claim(tree, Cell::Law, [file, name, requirement]));
         }
@@ -143,9 +146,9 @@ fn properties(tree: &Tree) -> Vec<Claim> {
     found
 }
 
-/// Theorems: what stands between one `id` and the next.
+/// Theorems: what stands between one `id` and the next; of a closure what is said, without its cycle.
 fn theorems(tree: &Tree) -> Vec<Claim> {
-    let folder = "proofs/theorems/src/theorem/";
+    let folder = "proofs/theorems/src/";
     let mut found = Vec::new();
     for (file, text) in tree.ending(".rs").filter(|(file, _)| file.starts_with(folder)) {
         for part in text.split("id: \"").skip(1) {
@@ -155,7 +158,8 @@ fn theorems(tree: &Tree) -> Vec<Claim> {
         for part in text.split("closure!(").skip(1) {
             if let Some(finding) = part.split('"').nth(1).filter(|it| it.starts_with("F-")) {
                 let name = format!("the_hardened_profile_rejects_the_family_of_{finding}");
-                found.push(claim(tree, Cell::Theorem, [file, &name, part]));
+                let said = part.split("|cycle|").next().unwrap_or_default();
+                found.push(claim(tree, Cell::Theorem, [file, &name, said]));
             }
         }
     }

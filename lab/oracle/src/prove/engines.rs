@@ -1,16 +1,11 @@
 //! Where claims come from: each source lists its lines, and asks the engines that judge them.
 
-mod doubles;
 mod exploration;
-mod gappa;
 mod harnesses;
 mod laws;
-mod theorems;
+mod solvers;
 
-use std::collections::BTreeMap;
 use std::io;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::ProgressBar;
 use mufasa_mutants::Engine;
@@ -61,9 +56,9 @@ impl ClaimSource {
     /// Its claims, of which nothing was asked yet. Errors are those of reading the lists of them.
     pub fn claims(self) -> io::Result<Vec<Claim>> {
         let (engines, mut lines): (&[Engine], _) = match self {
-            Self::Theorems => (&[Engine::Z3], theorems::claims()),
-            Self::Gappa => (&[Engine::Gappa], gappa::claims()),
-            Self::Doubles => (&[Engine::Bitwuzla], doubles::claims()),
+            Self::Theorems => (&[Engine::Z3], solvers::theorems()),
+            Self::Gappa => (&[Engine::Gappa], solvers::bounds()),
+            Self::Doubles => (&[Engine::Bitwuzla], solvers::ranges()),
             Self::Exploration => (&[Engine::Exploration], exploration::claims()),
             Self::Laws => (&[Engine::Laws], laws::claims()?),
             Self::Harnesses => (&[Engine::Harnesses, Engine::Cbmc], harnesses::claims()?),
@@ -94,9 +89,7 @@ impl ClaimSource {
         }
         bar.set_length(u64::try_from(claims.len()).unwrap_or(u64::MAX));
         let lines = match self {
-            Self::Theorems => theorems::judge(claims, bar),
-            Self::Gappa => gappa::judge(claims, bar),
-            Self::Doubles => doubles::judge(claims, bar),
+            Self::Theorems | Self::Gappa | Self::Doubles => solvers::judge(claims, bar),
             Self::Exploration => Ok(exploration::judge(claims, bar)),
             Self::Laws => Ok(laws::judge(claims, bar)),
             Self::Harnesses => harnesses::judge(claims, settings, bar),
@@ -104,24 +97,4 @@ impl ClaimSource {
         bar.finish_and_clear();
         lines
     }
-}
-
-/// Applies `f` to every item, in as many threads as there are processors; results in order.
-fn side_by_side<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let (next, results) = (AtomicUsize::new(0), Mutex::new(BTreeMap::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some((place, item)) = {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    items.get(place).map(|item| (place, item))
-                } {
-                    let result = f(item);
-                    results.lock().expect("no thread panics with the lock").insert(place, result);
-                }
-            });
-        }
-    });
-    results.into_inner().expect("no thread panics with the lock").into_values().collect()
 }

@@ -9,12 +9,11 @@ const PARTS: [&str; 5] =
     ["impl/src", "proofs/expected.toml", "proofs/src", "proofs/wasm", "scripts/prove-wasm"];
 
 /// What else decides about the answers of the other engines.
-const OTHERS: [&str; 6] = [
+const OTHERS: [&str; 5] = [
     "model/src",
     "proofs/exploration/src",
     "proofs/laws.toml",
     "proofs/theorems/src",
-    "proofs/z3/src",
     "lab/oracle/src/prove/engines",
 ];
 

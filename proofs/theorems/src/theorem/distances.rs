@@ -1,51 +1,48 @@
-//! The distances (`spec/3-stages.md#distances`), F-04, F-05, and the distance of RSS.
+//! The distances (`spec/3-stages.md#distances`), F-04, F-05, and the distance of RSS. In doubles they move the
+//! same way as over the reals: every operation is rounded, and all that is used of rounding is that it is
+//! monotone and keeps 0.
 
+use crate::claim::{Theorem, Wrong};
 use crate::numbers::real::Real;
-use crate::numbers::real::formula::{Formula, at_most, equal, given, iff, implies, less, not};
+use crate::numbers::real::formula::{
+    Formula, at_most, equal, given, iff, implies, less, not, round_every_result,
+};
 use crate::stages::distances::{s_b, s_cav, s_follow, s_valid};
-use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all speeds >= 0, a_b > 0, safety_time >= 0";
+const ROUNDING: &str = "all speeds >= 0, a_b > 0, safety_time >= 0; operations as in model/src/stages/distances.rs, \
+                        every monotone rounding that keeps 0 and does not turn 2 a_b into it";
 
-/// The theorems of this file.
+/// The theorems of this file over the reals.
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "s_b_grows_with_v",
         statement: "v <= w implies s_b(v) <= s_b(w)",
         domain: DOMAIN,
-        claim: || s_b_grows(&Real::zero()),
-        wrong: Wrong { statement: "s_b(v) + 1 <= s_b(w)", claim: || s_b_grows(&Real::ratio(1, 1)) },
+        claim: || any(|it| at_most(&it.s_b(&it.v), &it.s_b(&it.w))),
+        wrong: Wrong {
+            statement: "s_b(v) + 1 <= s_b(w)",
+            claim: || any(|it| at_most(&(it.s_b(&it.v) + Real::from_integer(1)), &it.s_b(&it.w))),
+        },
     },
     Theorem {
         id: "s_follow_grows_with_v_now",
         statement: "v <= w implies s_follow(v, v_lead) <= s_follow(w, v_lead)",
         domain: DOMAIN,
-        claim: || {
-            let Speeds { v, w, u, a_b, time } = Speeds::new();
-            at_most(&s_follow(&v, &u, &a_b, &time), &s_follow(&w, &u, &a_b, &time))
-        },
+        claim: || any(|it| at_most(&it.follow(&it.v, &it.u), &it.follow(&it.w, &it.u))),
         wrong: Wrong {
             statement: "s_follow(w, v_lead) <= s_follow(v, v_lead)",
-            claim: || {
-                let Speeds { v, w, u, a_b, time } = Speeds::new();
-                at_most(&s_follow(&w, &u, &a_b, &time), &s_follow(&v, &u, &a_b, &time))
-            },
+            claim: || any(|it| at_most(&it.follow(&it.w, &it.u), &it.follow(&it.v, &it.u))),
         },
     },
     Theorem {
         id: "s_follow_falls_with_v_lead",
         statement: "v <= w implies s_follow(v_now, w) <= s_follow(v_now, v)",
         domain: DOMAIN,
-        claim: || {
-            let Speeds { v, w, u, a_b, time } = Speeds::new();
-            at_most(&s_follow(&u, &w, &a_b, &time), &s_follow(&u, &v, &a_b, &time))
-        },
+        claim: || any(|it| at_most(&it.follow(&it.u, &it.w), &it.follow(&it.u, &it.v))),
         wrong: Wrong {
             statement: "s_follow(v_now, w) < s_follow(v_now, v)",
-            claim: || {
-                let Speeds { v, w, u, a_b, time } = Speeds::new();
-                less(&s_follow(&u, &w, &a_b, &time), &s_follow(&u, &v, &a_b, &time))
-            },
+            claim: || any(|it| less(&it.follow(&it.u, &it.w), &it.follow(&it.u, &it.v))),
         },
     },
     Theorem {
@@ -53,42 +50,35 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "v <= w implies s_valid(v) <= s_valid(w), with a leading vehicle and without",
         domain: DOMAIN,
         claim: || {
-            let Speeds { v, w, u, a_b, time } = Speeds::new();
-            let grows = |lead: Option<&Real>| {
-                at_most(&s_valid(&v, lead, &a_b, &time), &s_valid(&w, lead, &a_b, &time))
-            };
-            Formula::All(vec![grows(Some(&u)), grows(None)])
+            any(|it| {
+                let grows = |lead| at_most(&it.valid(&it.v, lead), &it.valid(&it.w, lead));
+                Formula::All(vec![grows(Some(&it.u)), grows(None)])
+            })
         },
         wrong: Wrong {
             statement: "a leading vehicle never makes s_valid shorter",
-            claim: || {
-                let Speeds { v, u, a_b, time, .. } = Speeds::new();
-                at_most(&s_valid(&v, None, &a_b, &time), &s_valid(&v, Some(&u), &a_b, &time))
-            },
+            claim: || any(|it| at_most(&it.valid(&it.v, None), &it.valid(&it.v, Some(&it.u)))),
         },
     },
     Theorem {
         id: "s_follow_is_never_below_s_cav",
         statement: "s_CAV <= s_follow",
         domain: DOMAIN,
-        claim: || {
-            let Speeds { v, u, a_b, time, .. } = Speeds::new();
-            at_most(&s_cav(&time, &v), &s_follow(&v, &u, &a_b, &time))
-        },
+        claim: || any(|it| at_most(&it.s_cav(), &it.follow(&it.v, &it.u))),
         wrong: Wrong {
             statement: "s_b(v_now) <= s_follow",
-            claim: || {
-                let Speeds { v, u, a_b, time, .. } = Speeds::new();
-                at_most(&s_b(&v, &a_b), &s_follow(&v, &u, &a_b, &time))
-            },
+            claim: || any(|it| at_most(&it.s_b(&it.v), &it.follow(&it.v, &it.u))),
         },
     },
     Theorem {
         id: "s_cav_is_below_s_b_exactly_above_the_speed_of_F-04",
         statement: "F-04: s_CAV < s_b exactly when v_now > 2 a_b safety_time",
         domain: DOMAIN,
-        claim: || f_04(2),
-        wrong: Wrong { statement: "exactly when v_now > a_b safety_time", claim: || f_04(1) },
+        claim: || any(|it| iff(&less(&it.s_cav(), &it.s_b(&it.v)), &it.is_above(2))),
+        wrong: Wrong {
+            statement: "exactly when v_now > a_b safety_time",
+            claim: || any(|it| iff(&less(&it.s_cav(), &it.s_b(&it.v)), &it.is_above(1))),
+        },
     },
     Theorem {
         id: "a_leading_vehicle_shortens_the_horizon_exactly_as_F-05_says",
@@ -96,22 +86,22 @@ pub const THEOREMS: &[Theorem] = &[
                     v_lead > v_now exactly when v_now > 2 a_b safety_time",
         domain: DOMAIN,
         claim: || {
-            let Speeds { v, u, a_b, time, .. } = Speeds::new();
-            let shorter = less(&s_follow(&v, &u, &a_b, &time), &s_b(&v, &a_b));
-            let fast_lead = less(&s_cav(&time, &v), &s_b(&u, &a_b));
-            let fast = less(&(Real::from_integer(2) * &a_b * &time), &v);
-            let slower = at_most(&u, &v);
-            Formula::All(vec![
-                implies(slower.clone(), iff(&shorter, &fast_lead)),
-                implies(not(slower), iff(&shorter, &fast)),
-            ])
+            any(|it| {
+                let [shorter, fast_lead] = it.shortened();
+                let slower = at_most(&it.u, &it.v);
+                Formula::All(vec![
+                    implies(slower.clone(), iff(&shorter, &fast_lead)),
+                    implies(not(slower), iff(&shorter, &it.is_above(2))),
+                ])
+            })
         },
         wrong: Wrong {
             statement: "whatever v_lead, exactly when s_b(v_lead) > s_CAV",
             claim: || {
-                let Speeds { v, u, a_b, time, .. } = Speeds::new();
-                let shorter = less(&s_follow(&v, &u, &a_b, &time), &s_b(&v, &a_b));
-                iff(&shorter, &less(&s_cav(&time, &v), &s_b(&u, &a_b)))
+                any(|it| {
+                    let [shorter, fast_lead] = it.shortened();
+                    iff(&shorter, &fast_lead)
+                })
             },
         },
     },
@@ -121,16 +111,19 @@ pub const THEOREMS: &[Theorem] = &[
                     braking; equal when v_now >= v_lead",
         domain: DOMAIN,
         claim: || {
-            let Speeds { v, u, a_b, time, .. } = Speeds::new();
-            let (ours, rss) = (s_follow(&v, &u, &a_b, &time), rss(&v, &u, &time, &a_b, &a_b));
-            let slower_lead = at_most(&u, &v);
-            Formula::All(vec![at_most(&rss, &ours), implies(slower_lead, equal(&ours, &rss))])
+            any(|it| {
+                let (ours, rss) = it.and_rss();
+                let slower_lead = at_most(&it.u, &it.v);
+                Formula::All(vec![at_most(&rss, &ours), implies(slower_lead, equal(&ours, &rss))])
+            })
         },
         wrong: Wrong {
             statement: "equal also when v_now < v_lead",
             claim: || {
-                let Speeds { v, u, a_b, time, .. } = Speeds::new();
-                equal(&s_follow(&v, &u, &a_b, &time), &rss(&v, &u, &time, &a_b, &a_b))
+                any(|it| {
+                    let (ours, rss) = it.and_rss();
+                    equal(&ours, &rss)
+                })
             },
         },
     },
@@ -144,7 +137,43 @@ pub const THEOREMS: &[Theorem] = &[
     },
 ];
 
-/// Speeds v <= w and another u, a_b, safety_time.
+/// Those with every operation rounded.
+pub const ROUNDED: &[Theorem] = &[
+    Theorem {
+        id: "rounded_s_b_grows_with_v",
+        statement: "v <= w implies s_b(v) <= s_b(w), every operation rounded",
+        domain: ROUNDING,
+        claim: || rounded(at_most, |it| [it.s_b(&it.v), it.s_b(&it.w)]),
+        wrong: Wrong {
+            statement: "v < w implies s_b(v) < s_b(w)",
+            claim: || rounded(less, |it| [it.s_b(&it.v), it.s_b(&it.w)]),
+        },
+    },
+    Theorem {
+        id: "rounded_s_follow_grows_with_v_now",
+        statement: "v <= w implies s_follow(v, v_lead) <= s_follow(w, v_lead), every operation rounded",
+        domain: ROUNDING,
+        claim: || rounded(at_most, |it| [it.follow(&it.v, &it.u), it.follow(&it.w, &it.u)]),
+        wrong: Wrong {
+            statement: "v < w implies s_follow(v, v_lead) < s_follow(w, v_lead)",
+            claim: || rounded(less, |it| [it.follow(&it.v, &it.u), it.follow(&it.w, &it.u)]),
+        },
+    },
+    Theorem {
+        id: "rounded_s_follow_falls_with_v_lead",
+        statement: "v <= w implies s_follow(v_now, w) <= s_follow(v_now, v), every operation rounded",
+        domain: ROUNDING,
+        claim: || rounded(at_most, |it| [it.follow(&it.u, &it.w), it.follow(&it.u, &it.v)]),
+        wrong: Wrong {
+            statement: "v <= w implies s_follow(v_now, v) <= s_follow(v_now, w)",
+            claim: || rounded(at_most, |it| [it.follow(&it.u, &it.v), it.follow(&it.u, &it.w)]),
+        },
+    },
+];
+
+type Order = fn(&Real, &Real) -> Formula;
+
+/// Speeds v and w and another u, a_b, safety_time.
 struct Speeds {
     v: Real,
     w: Real,
@@ -154,26 +183,63 @@ struct Speeds {
 }
 
 impl Speeds {
-    fn new() -> Self {
+    fn new(order: Order) -> Self {
         let [v, w, u, a_b, time] = ["v", "w", "u", "a_b", "safety_time"].map(Real::variable);
         given(less(&Real::zero(), &a_b));
         for number in [&v, &u, &time] {
             given(at_most(&Real::zero(), number));
         }
-        given(at_most(&v, &w));
+        given(order(&v, &w));
         Self { v, w, u, a_b, time }
+    }
+
+    fn s_b(&self, v: &Real) -> Real {
+        s_b(v, &self.a_b)
+    }
+
+    fn s_cav(&self) -> Real {
+        s_cav(&self.time, &self.v)
+    }
+
+    fn follow(&self, v: &Real, lead: &Real) -> Real {
+        s_follow(v, lead, &self.a_b, &self.time)
+    }
+
+    fn valid(&self, v: &Real, lead: Option<&Real>) -> Real {
+        s_valid(v, lead, &self.a_b, &self.time)
+    }
+
+    /// v is above so many times a_b safety_time.
+    fn is_above(&self, times: i128) -> Formula {
+        less(&(Real::from_integer(times) * &self.a_b * &self.time), &self.v)
+    }
+
+    /// s_follow < s_b, and s_CAV < s_b(v_lead).
+    fn shortened(&self) -> [Formula; 2] {
+        let shorter = less(&self.follow(&self.v, &self.u), &self.s_b(&self.v));
+        [shorter, less(&self.s_cav(), &self.s_b(&self.u))]
+    }
+
+    /// s_follow, and the distance of RSS.
+    fn and_rss(&self) -> (Real, Real) {
+        let Self { v, u, a_b, time, .. } = self;
+        (self.follow(v, u), rss(v, u, time, a_b, a_b))
     }
 }
 
-fn s_b_grows(by: &Real) -> Formula {
-    let Speeds { v, w, a_b, .. } = Speeds::new();
-    at_most(&(s_b(&v, &a_b) + by), &s_b(&w, &a_b))
+/// Of speeds v <= w.
+fn any(claim: fn(&Speeds) -> Formula) -> Formula {
+    claim(&Speeds::new(at_most))
 }
 
-fn f_04(factor: i128) -> Formula {
-    let Speeds { v, a_b, time, .. } = Speeds::new();
-    let limit = Real::from_integer(factor) * &a_b * &time;
-    iff(&less(&s_cav(&time, &v), &s_b(&v, &a_b)), &less(&limit, &v))
+/// Numbers of speeds in this order are in it, every operation rounded.
+fn rounded(order: Order, numbers: fn(&Speeds) -> [Real; 2]) -> Formula {
+    let speeds = Speeds::new(order);
+    // In doubles 2 a_b is exact.
+    round_every_result();
+    given(less(&Real::zero(), &(Real::from_integer(2) * &speeds.a_b)));
+    let [a, b] = numbers(&speeds);
+    order(&a, &b)
 }
 
 /// The longitudinal distance of RSS without acceleration during the response time

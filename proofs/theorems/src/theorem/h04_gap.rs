@@ -1,11 +1,11 @@
 //! H-04: the gap that a stop needs behind a leading vehicle (`spec/3-stages.md#hardened-profile`).
 
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::h04_gap::s_react;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, iff, implies, less};
 use crate::stages::distances::{s_b, s_cav, s_follow};
 use crate::theorem::h14_fail_safe::times::{Cav, braked, kept};
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -1,5 +1,6 @@
 //! H-11: how far aside a trajectory that keeps it can be, and that a vehicle keeps it.
 
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::h11_steps::slide_failure;
 use crate::input::cycle::Profile;
 use crate::input::scene::Point;
@@ -8,7 +9,6 @@ use crate::numbers::real::formula::{Formula, at_most, given};
 use crate::numbers::vector::{Frame, Vector};
 use crate::theorem::base::{NOW_NS, any_cav, home};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -1,9 +1,9 @@
 //! What the mean of stage i can hide (F-01, H-01).
 
+use crate::claim::{Theorem, Wrong};
 use crate::numbers::assignment::{Costs, costs_less};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, less};
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -1,11 +1,11 @@
 //! Facts of plane geometry that the solver needs one by one: asked for all at once it does not end.
 //! Each is a formula proved of any points here and assumed of particular points elsewhere.
 
+use crate::claim::{Theorem, Wrong};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, implies};
 use crate::numbers::vector::Vector;
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -2,11 +2,11 @@
 //! (`spec/3-stages.md#low-level-collision-check-llcc`). Directions are any vectors but 0: used as
 //! given, they scale the rectangle.
 
+use crate::claim::{Theorem, Wrong};
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, less, same};
 use crate::numbers::rectangle::{Rectangle, is_swept_over, is_swept_over_between, share_a_point};
 use crate::numbers::vector::{Frame, Vector};
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

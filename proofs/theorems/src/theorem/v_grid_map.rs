@@ -1,5 +1,6 @@
 //! Stage v: disks, cells, and what the two ways to compare them can miss (H-06, F-08).
 
+use crate::claim::{Theorem, Wrong};
 use crate::numbers::cells::distance_to_cell;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{
@@ -9,7 +10,6 @@ use crate::numbers::vector::Vector;
 use crate::stages::v_grid_map::{disk_offset, disk_radius};
 use crate::theorem::lemma::{squares_order, triangle};
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[
@@ -37,10 +37,7 @@ pub const THEOREMS: &[Theorem] = &[
                     distance of centre and cell <= r",
         domain: "every cell, all resolutions > 0, centres, r >= 0",
         claim: || {
-            let Cell { resolution, column, row, within } = Cell::new("cell");
-            let (centre, r) = (vector("centre"), Real::variable("r"));
-            given(at_most(&Real::zero(), &r));
-            given(at_most(&(&within - &centre).length(), &r));
+            let (Cell { resolution, column, row, within }, centre, r) = reached();
             let distance = distance_to_cell(&centre, [&column, &row], &resolution);
             given(squares_order(&distance, &(&within - &centre).length()));
             at_most(&distance, &r)
@@ -48,10 +45,7 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong {
             statement: "makes the distance of centre and corner (i, k) <= r",
             claim: || {
-                let Cell { resolution, column, row, within } = Cell::new("cell");
-                let (centre, r) = (vector("centre"), Real::variable("r"));
-                given(at_most(&Real::zero(), &r));
-                given(at_most(&(&within - &centre).length(), &r));
+                let (Cell { resolution, column, row, .. }, centre, r) = reached();
                 let corner = Vector { x: &column * &resolution, y: &row * &resolution };
                 at_most(&(&corner - &centre).length(), &r)
             },
@@ -94,6 +88,14 @@ pub const THEOREMS: &[Theorem] = &[
         wrong: Wrong { statement: "deeper than sqrt(2) widths - d", claim: || missed_by(1) },
     },
 ];
+
+/// A cell of which a point is within r of a centre, the centre and r.
+fn reached() -> (Cell, Vector, Real) {
+    let (cell, centre, r) = (Cell::new("cell"), vector("centre"), Real::variable("r"));
+    given(at_most(&Real::zero(), &r));
+    given(at_most(&(&cell.within - &centre).length(), &r));
+    (cell, centre, r)
+}
 
 fn part_is_covered(share: &Real) -> Formula {
     let [n, i, length, width] = ["n", "i", "L", "W"].map(Real::variable);

@@ -10,9 +10,10 @@ use indicatif::ProgressBar;
 use mufasa_proofs::OVERFLOW_PANICS;
 use mufasa_proofs::harness::ALL;
 use mufasa_proofs::kani::{Evidence as Found, Run, judge_harness as run};
+use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::{laws, side_by_side};
+use super::laws;
 use crate::prove::claim::{Claim, EngineAnswer, Status};
 use crate::prove::settings::Settings;
 use crate::prove::sources;
@@ -79,13 +80,14 @@ pub(super) fn judge(
 ) -> io::Result<Vec<Claim>> {
     let expected = expected()?;
     let mut compiled = compiled(settings)?;
-    let seen = side_by_side(&claims, |line| {
+    let seen = claims.par_iter().with_max_len(1).map(|line| {
         let one = expected.iter().find(|one| one.id == line.id);
         let seen = one.map(stand_in);
         bar.inc(1);
         bar.set_message(line.id.clone());
         seen
     });
+    let seen: Vec<_> = seen.collect();
     let lines = claims.into_iter().zip(seen).map(|(line, seen)| {
         let missing = || EngineAnswer::not_run(COMPILED, "scripts/prove-wasm did not run it");
         let compiled = compiled.remove(&line.id).unwrap_or_else(missing);

@@ -4,9 +4,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+use crate::solver::{Effort, Satisfiability, Solver};
 use dashu_base::{Abs, Signed};
 use dashu_ratio::RBig;
-use mufasa_z3::{Effort, Satisfiability, Solver};
 
 use crate::numbers::real::polynomial::{Polynomial, Rules, Variable};
 use crate::numbers::real::program::{Operand, Operator, Step};
@@ -137,25 +137,6 @@ pub fn first() {
         execution.branches.clear();
         execution.path = Path::default();
     });
-}
-
-/// Starts at the first path that begins with these answers.
-pub fn begin(answers: &[bool]) {
-    first();
-    let given = answers.iter().map(|&answer| Branch { answer, other_remains: false });
-    EXECUTION.with_borrow_mut(|execution| execution.branches.extend(given));
-}
-
-/// The answers with which the paths begin that remain to be tried, of those since `begin`.
-pub fn remaining() -> Vec<Vec<bool>> {
-    EXECUTION.with_borrow(|execution| {
-        let branches = &execution.branches;
-        let open = branches.iter().enumerate().filter(|(_, branch)| branch.other_remains);
-        let other = |(place, branch): (usize, &Branch)| {
-            branches[..place].iter().map(|it| it.answer).chain([!branch.answer]).collect()
-        };
-        open.map(other).collect()
-    })
 }
 
 /// Goes on to the next path; false when there is none.

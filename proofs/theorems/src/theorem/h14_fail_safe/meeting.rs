@@ -1,13 +1,13 @@
 //! H-14: how far along w an object is (`spec/7-fail-safe.md#motions`). What it sweeps over: `theorem::rectangle`.
 
 use super::times::braked;
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::h14_fail_safe::motions::{Motion, Named};
 use crate::input::scene::Object;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, given, less, same};
 use crate::theorem::base::home;
 use crate::theorem::rectangle::vector;
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

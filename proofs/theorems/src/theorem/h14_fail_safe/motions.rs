@@ -1,5 +1,6 @@
 //! H-14: the mean motion of what the CAV saw itself is examined, whatever the remote side says.
 
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::detection_history::{confirmed, origin_limit};
 use crate::hardened::h14_fail_safe::motions::{Named, all_motions};
 use crate::input::cycle::{Detection, DetectionList, Profile, Track, TrackList};
@@ -10,7 +11,6 @@ use crate::numbers::real::hole::open_number;
 use crate::numbers::vector::Vector;
 use crate::services::configuration::Configuration::MotRemote;
 use crate::theorem::base::{self, NOW_NS};
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -1,5 +1,6 @@
 //! H-14: the places of the CAV on its path (`spec/7-fail-safe.md#the-path`).
 
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::h14_fail_safe::path::{Place, places};
 use crate::hardened::h14_fail_safe::times::Driving;
 use crate::input::cycle::Profile;
@@ -10,7 +11,6 @@ use crate::numbers::vector::{Frame, Vector};
 use crate::stages::llcc::cav;
 use crate::theorem::base::{NOW_NS, any_cav};
 use crate::theorem::rectangle::{point_of, vector};
-use crate::theorem::{Theorem, Wrong};
 
 /// The theorems of this file.
 pub const THEOREMS: &[Theorem] = &[

@@ -2,13 +2,13 @@
 //! (`spec/7-fail-safe.md#when-the-cav-is-where`). The way of a CAV is made of pieces of any acceleration that
 //! it can have; what holds of all of them is kept by each, an induction that is not part of the theorems.
 
+use crate::claim::{Theorem, Wrong};
 use crate::hardened::h14_fail_safe::times::{Driving, Window, window};
 use crate::input::cycle::Profile;
 use crate::numbers::real::Real;
 use crate::numbers::real::formula::{Formula, at_most, equal, given, less};
 use crate::stages::distances::s_b;
 use crate::theorem::base::any_cav;
-use crate::theorem::{Theorem, Wrong};
 
 const DOMAIN: &str = "all v, tau >= 0, a_max, a_b > 0";
 
@@ -59,19 +59,8 @@ pub const THEOREMS: &[Theorem] = &[
         id: "first_is_not_after_last",
         statement: "H-14: first(f) <= last(f) for f < s_b(v)",
         domain: "all 0 <= f < s_b(v), v, tau >= 0, a_max, a_b > 0",
-        claim: || {
-            let (cav, f) = (Cav::any(), way("f"));
-            given(less(&f, &cav.s_b()));
-            at_most(&cav.first(&f), &cav.last(&f))
-        },
-        wrong: Wrong {
-            statement: "first(f) < last(f)",
-            claim: || {
-                let (cav, f) = (Cav::any(), way("f"));
-                given(less(&f, &cav.s_b()));
-                less(&cav.first(&f), &cav.last(&f))
-            },
-        },
+        claim: || first_and_last(at_most),
+        wrong: Wrong { statement: "first(f) < last(f)", claim: || first_and_last(less) },
     },
     Theorem {
         id: "what_a_CAV_can_have_done_is_kept_by_any_acceleration",
@@ -89,18 +78,8 @@ pub const THEOREMS: &[Theorem] = &[
         statement: "H-14: whatever it did until some t <= tau, braking with a_b from then on the CAV is at no way f \
                     before first(f)",
         domain: DOMAIN,
-        claim: || {
-            let (cav, done) = done();
-            given(at_most(&done.t, &cav.tau));
-            before_first(&cav, &done)
-        },
-        wrong: Wrong {
-            statement: "until any t",
-            claim: || {
-                let (cav, done) = done();
-                before_first(&cav, &done)
-            },
-        },
+        claim: || before_first(done_before_tau()),
+        wrong: Wrong { statement: "until any t", claim: || before_first(done()) },
     },
     Theorem {
         id: "no_CAV_is_anywhere_after_last",
@@ -115,8 +94,7 @@ pub const THEOREMS: &[Theorem] = &[
                     with a_max for tau",
         domain: DOMAIN,
         claim: || {
-            let (cav, done) = done();
-            given(at_most(&done.t, &cav.tau));
+            let (cav, done) = done_before_tau();
             let Done { way, u, .. } = cav.fastest(&cav.tau);
             let farthest = equal(&(way + s_b(&u, &cav.a_b)), &cav.s_stop());
             Formula::All(vec![kept(&cav, &done), farthest])
@@ -222,32 +200,36 @@ fn way(name: &str) -> Real {
     way
 }
 
-fn ways_in_order() -> [Real; 2] {
-    let [f, g] = ["f", "g"].map(way);
-    given(at_most(&f, &g));
-    [f, g]
+/// A CAV that drives in this way is at f, up to `end`, at the time that this is for f, and not after T.
+fn is_there(
+    end: fn(&Cav) -> Real,
+    time: fn(&Cav, &Real) -> Real,
+    driven: fn(&Cav, &Real) -> Real,
+) -> Formula {
+    let (cav, f) = (Cav::any(), way("f"));
+    given(at_most(&f, &end(&cav)));
+    let time = time(&cav, &f);
+    Formula::All(vec![equal(&driven(&cav, &time), &f), at_most(&time, &cav.driving().t_stop())])
 }
 
 fn is_there_first(end: fn(&Cav) -> Real) -> Formula {
-    let (cav, f) = (Cav::any(), way("f"));
-    given(at_most(&f, &end(&cav)));
-    let first = cav.first(&f);
-    let at = cav.fastest(&first).way;
-    Formula::All(vec![equal(&at, &f), at_most(&first, &cav.driving().t_stop())])
+    is_there(end, Cav::first, |cav, t| cav.fastest(t).way)
 }
 
 fn is_there_last(end: fn(&Cav) -> Real) -> Formula {
-    let (cav, f) = (Cav::any(), way("f"));
-    given(at_most(&f, &end(&cav)));
-    let last = cav.last(&f);
-    let at = braked(&cav.v, &cav.a_b, &last);
-    Formula::All(vec![equal(&at, &f), at_most(&last, &cav.driving().t_stop())])
+    is_there(end, Cav::last, |cav, t| braked(&cav.v, &cav.a_b, t))
 }
 
 fn in_order(a: fn(&Cav, &Real) -> Real, b: fn(&Cav, &Real) -> Real) -> Formula {
-    let cav = Cav::any();
-    let [f, g] = ways_in_order();
+    let (cav, [f, g]) = (Cav::any(), ["f", "g"].map(way));
+    given(at_most(&f, &g));
     at_most(&a(&cav, &f), &b(&cav, &g))
+}
+
+fn first_and_last(order: fn(&Real, &Real) -> Formula) -> Formula {
+    let (cav, f) = (Cav::any(), way("f"));
+    given(less(&f, &cav.s_b()));
+    order(&cav.first(&f), &cav.last(&f))
 }
 
 /// What a CAV has done: at time t its way, and its speed u.
@@ -265,6 +247,13 @@ fn done() -> (Cav, Done) {
     given(at_most(&Real::zero(), &t));
     let done = Done { t, way, u };
     given(can_be(&cav, &done));
+    (cav, done)
+}
+
+/// The same at a time up to tau.
+fn done_before_tau() -> (Cav, Done) {
+    let (cav, done) = done();
+    given(at_most(&done.t, &cav.tau));
     (cav, done)
 }
 
@@ -295,8 +284,8 @@ fn pieces(share: &Real) -> Formula {
     can_be(&cav, &after(&done, &a, &dt))
 }
 
-fn before_first(cav: &Cav, done: &Done) -> Formula {
-    let Done { t, way, .. } = after(done, &-&cav.a_b, &Real::variable("dt"));
+fn before_first((cav, done): (Cav, Done)) -> Formula {
+    let Done { t, way, .. } = after(&done, &-&cav.a_b, &Real::variable("dt"));
     at_most(&cav.first(&way), &t)
 }
 

@@ -1,23 +1,25 @@
 //! Runs every harness on the stand-in for Kani. Where a domain is finite all of it is run; else this
 //! is testing, not proof, and says so.
 //!
-//! `HARNESS=name cargo test -p mufasa-proofs --test harness -- --nocapture` runs those whose path
-//! contains the name.
+//! `HARNESS=name cargo test -p mufasa-proofs --test proofs every_harness -- --nocapture` runs those whose
+//! path contains the name.
 
 use std::collections::BTreeSet;
 use std::panic::catch_unwind;
 
 use mufasa_proofs::harness::ALL;
 use mufasa_proofs::kani::{self, BUDGET, Budget, Evidence, judge_harness, run_harness};
+use rayon::prelude::*;
 
-#[path = "support/expected.rs"]
-mod expected;
+use super::expected::expected;
 
 #[test]
 fn every_harness_holds_and_reaches_its_covers() {
     let only = std::env::var("HARNESS").unwrap_or_default();
     println!("`every`: all values of a finite domain were run. `some`: testing, not proof.");
-    for expected in expected::expected().iter().filter(|one| one.id.contains(&only)) {
+    let mut asked = expected();
+    asked.retain(|one| one.id.contains(&only));
+    asked.par_iter().with_max_len(1).for_each(|expected| {
         let (_, harness) = ALL.iter().find(|(id, _)| *id == expected.id).expect("it is listed");
         let covers: BTreeSet<&str> = expected.covers.iter().map(String::as_str).collect();
         let verdict = judge_harness(*harness, &covers);
@@ -29,7 +31,7 @@ fn every_harness_holds_and_reaches_its_covers() {
         println!("{}: {kind}, {} of {} runs held", expected.id, found.held, found.tried);
         println!("    {:?}", found.covers);
         assert_eq!(kind, expected.stand_in, "{}", expected.id);
-    }
+    });
 }
 
 /// The engine itself: what it enumerates, rejects, counts and finds.

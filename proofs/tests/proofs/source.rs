@@ -34,7 +34,9 @@ pub fn written() -> (Vec<Written>, BTreeMap<String, BTreeSet<String>>) {
     for file in files {
         let module = file.file_stem().and_then(|stem| stem.to_str()).expect("a name").to_owned();
         let text = std::fs::read_to_string(&file).expect("readable");
-        harnesses.extend(functions(&module, &text));
+        let head = text.lines().map_while(|line| line.strip_prefix("//!")).map(str::trim);
+        let (_, domain) = domain_of(&head.collect::<Vec<_>>());
+        harnesses.extend(functions(&module, &text, &domain));
         let names: BTreeSet<String> = text.split("kani::cover!(").skip(1).map(cover).collect();
         if !names.is_empty() {
             covers.insert(module, names);
@@ -43,7 +45,8 @@ pub fn written() -> (Vec<Written>, BTreeMap<String, BTreeSet<String>>) {
     (harnesses, covers)
 }
 
-fn functions(module: &str, text: &str) -> Vec<Written> {
+/// `of_all`: domain, and what is not covered, of harnesses that say none.
+fn functions(module: &str, text: &str, of_all: &[String; 2]) -> Vec<Written> {
     let (mut found, mut doc, mut attributes) = (Vec::new(), Vec::new(), Vec::new());
     for line in text.lines() {
         if let Some(said) = line.strip_prefix("///") {
@@ -53,7 +56,7 @@ fn functions(module: &str, text: &str) -> Vec<Written> {
         } else if let Some(rest) = line.strip_prefix("pub fn ") {
             let name = rest.split('(').next().unwrap_or_default();
             if name.starts_with("verify_") {
-                found.push(harness(format!("{module}::{name}"), &doc, &attributes));
+                found.push(harness(format!("{module}::{name}"), &doc, &attributes, of_all));
             }
             doc.clear();
             attributes.clear();
@@ -65,11 +68,22 @@ fn functions(module: &str, text: &str) -> Vec<Written> {
     found
 }
 
-fn harness(id: String, doc: &[&str], attributes: &[&str]) -> Written {
+/// The first paragraph; domain and what is not covered.
+fn domain_of(doc: &[&str]) -> (String, [String; 2]) {
     let mut paragraphs = doc.split(|line| line.is_empty()).map(|lines| lines.join(" "));
     let statement = paragraphs.next().unwrap_or_default();
     let rest = paragraphs.collect::<Vec<_>>().join(" ");
     let (domain, not_covered) = rest.split_once(" Not covered: ").unwrap_or((&rest, ""));
+    let domain = domain.strip_prefix("Domain: ").unwrap_or_default().to_owned();
+    (
+        statement,
+        [domain, not_covered.split_inclusive(". ").next().unwrap_or_default().trim().to_owned()],
+    )
+}
+
+fn harness(id: String, doc: &[&str], attributes: &[&str], of_all: &[String; 2]) -> Written {
+    let (statement, own) = domain_of(doc);
+    let [domain, not_covered] = if own[0].is_empty() { of_all.clone() } else { own };
     let argument = |name: &str| {
         let found = attributes.iter().find_map(|attribute| attribute.strip_prefix(name));
         found.and_then(|rest| rest.strip_suffix(')')).map(str::to_owned)
@@ -77,8 +91,8 @@ fn harness(id: String, doc: &[&str], attributes: &[&str]) -> Written {
     Written {
         id,
         statement,
-        domain: domain.strip_prefix("Domain: ").unwrap_or_default().to_owned(),
-        not_covered: not_covered.to_owned(),
+        domain,
+        not_covered,
         kani: attributes.contains(&"proof"),
         unwind: argument("unwind("),
         solver: argument("solver("),

@@ -1,16 +1,23 @@
 //! The small worlds, explored by both engines: every property, every sight, and the number of
 //! reachable states, which is pinned so that a change of the protocol is seen.
 //!
-//! Covers `spec/2-offloading.md#properties-of-the-whole-protocol.1` to
-//! `spec/2-offloading.md#properties-of-the-whole-protocol.7`, F-12 and H-08 within the bounds of
-//! `proofs/exploration/src/bounds.rs`, and that model and implementation take every explored step
-//! alike (`System::new` fails at the first difference).
+//! Covers, within the bounds of `proofs/exploration/src/bounds.rs`, F-12 and H-08, that model and implementation
+//! take every explored step alike (`System::new` fails at the first difference), and:
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.1`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.2`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.3`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.4`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.5`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.6`
+//! * `spec/2-offloading.md#properties-of-the-whole-protocol.7`
+
+mod likeness;
+mod walks;
 
 use std::collections::BTreeSet;
 
 use mufasa_exploration::bounds::Bounds;
-use mufasa_exploration::moves::Move;
-use mufasa_exploration::properties::{Property, Sight};
+use mufasa_exploration::properties::Property;
 use mufasa_exploration::replay;
 use mufasa_exploration::run::{self, WorldOutcome};
 use mufasa_model::input::cycle::Profile;
@@ -119,35 +126,6 @@ fn left_sessions_end_within_the_lease(outcome: &WorldOutcome) {
     let finding = outcome.results.iter().find(|it| it.property == Property::LeftSessionEnds);
     if let Some((_, ticks)) = finding.and_then(|it| it.ahead) {
         assert!(i64::from(ticks) <= lease, "{}: {ticks}", outcome.system.world().name);
-    }
-}
-
-/// The companion "lost release ended by the lease" as one trace: the release is lost, and time
-/// alone ends the session.
-#[test]
-fn a_session_whose_release_is_lost_ends_with_its_lease() {
-    let world = Bounds::Small.worlds().iter().find(|world| world.name == "honest").expect("honest");
-    for profile in [Profile::PAPER, Profile::HARDENED] {
-        let outcome = run::explore(world, profile, 0, |_| {}).unwrap_or_else(|it| panic!("{it}"));
-        let mut seen = outcome.seen.iter();
-        let (_, trace) = seen.find(|(it, _)| *it == Sight::ReleaseLost).expect("a lost release");
-        let mut trace = trace.clone();
-        let mut ticks = 0;
-        loop {
-            let mut state = outcome.system.start();
-            for by in &trace {
-                state = outcome.system.apply(&state, *by).expect("it was explored").state;
-            }
-            match state.stations[0].runs[0][0] {
-                0 => break,
-                session => assert!(session > 1, "the CAV has left it"),
-            }
-            trace.push(Move::TimePasses);
-            ticks += 1;
-        }
-        assert!((1..=world.ticks.lease).contains(&ticks), "{ticks} ticks");
-        let walked = replay::walk(&outcome.system, &trace);
-        assert_eq!(walked.map(|it| it.len()), Ok(trace.len()));
     }
 }
 

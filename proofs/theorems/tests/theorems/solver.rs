@@ -1,10 +1,9 @@
 //! What z3 writes is read, and a solver that hangs is not waited for.
-#![cfg(unix)]
 
 use std::os::unix::fs::PermissionsExt;
 use std::time::{Duration, Instant};
 
-use mufasa_z3::{Effort, Satisfiability, Solver, is_version_4_8, number};
+use mufasa_theorems::solver::{Effort, Satisfiability, Solver, is_version_4_8, number};
 
 #[test]
 fn numbers_are_read_as_z3_writes_them() {

@@ -1,5 +1,5 @@
 //! A faulty step refutes each law of the requester: none holds of nothing. That they hold is shown by
-//! `tests/laws.rs`.
+//! `tests/proofs/laws.rs`.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,5 @@
-//! The laws over complete finite domains; and `proofs/laws.toml` and the sources list the same. `LAW=name cargo test -p mufasa-proofs --test laws` asks one law.
+//! The laws over complete finite domains; and `proofs/laws.toml` and the sources list the same. `LAW=name cargo
+//! test -p mufasa-proofs --test proofs every_law_holds` asks one law.
 
 use std::collections::BTreeSet;
 

@@ -1,8 +1,10 @@
-//! The record of the changes under CBMC has every one of them as it is, none survived, and
-//! `proofs/HARNESSES.md` says how many were run.
+//! Every mutant still applies; and the record of the changes under CBMC has every one of them as it is, none
+//! survived, and `proofs/HARNESSES.md` says how many were run.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
+use mufasa_mutants::place::{Sources, Span};
 use mufasa_mutants::{Engine, Mutant, Seen};
 
 const HARNESSES: &str = include_str!("../../HARNESSES.md");
@@ -38,4 +40,30 @@ fn none_survived_and_the_number_of_runs_is_said() {
     }
     let number = format!("Of {} such pairs {} ", seen.len(), seen.iter().filter(was_run).count());
     assert!(HARNESSES.contains(&number), "proofs/HARNESSES.md does not say: {number}");
+}
+
+/// Its item is there, and `from` stands in it once.
+#[test]
+fn every_mutant_applies() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let sources = Sources::read(&root).expect("the sources are Rust");
+    let mutants = mufasa_mutants::all().expect("the list is read");
+    let mut problems = Vec::new();
+    for mutant in &mutants {
+        assert!(!mutant.at.is_empty() && !mutant.refutes.is_empty(), "{}", mutant.change);
+        let mut taken: Vec<Span<'_>> = Vec::new();
+        for place in &mutant.at {
+            assert_ne!(place.from, place.to, "{}", mutant.change);
+            match sources.find(place) {
+                Ok(found) if taken.iter().any(|other| other.overlaps(&found)) => {
+                    problems.push(format!("{}: two places overlap", mutant.change));
+                }
+                Ok(found) => taken.push(found),
+                Err(problem) => problems.push(problem),
+            }
+        }
+    }
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+    let changes: BTreeSet<&str> = mutants.iter().map(|mutant| mutant.change.as_str()).collect();
+    assert_eq!(changes.len(), mutants.len(), "a sentence names one mutant");
 }

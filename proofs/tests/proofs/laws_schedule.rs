@@ -1,5 +1,5 @@
-//! A wrong report refutes each law of the schedule: none holds of nothing. That they hold is shown by
-//! `tests/laws.rs`.
+//! A wrong report refutes each law of the schedule and of the distances: none holds of nothing. That they hold is
+//! shown by `tests/proofs/laws.rs` and the harnesses of `distances`.
 
 use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
@@ -7,6 +7,10 @@ use mufasa::report::{FailedStage, Outcome, Reason, Report, Stage};
 use mufasa::services::configuration::Configuration;
 use mufasa_proofs::exhaust::schedule::{every_cycle, report};
 use mufasa_proofs::harness::scene::{Given, cycle};
+use mufasa_proofs::law::distances::{
+    a_larger_gap_is_never_worse, failed_by_gap, s_follow_falls_with_v_lead,
+    s_follow_is_never_below_s_cav,
+};
 use mufasa_proofs::law::schedule::{LAWS, hardened_accepts_nothing_that_paper_rejects};
 
 /// One wrong report for each law: what a schedule with one fault would have said.
@@ -53,4 +57,19 @@ fn every_law_is_refuted_by_a_wrong_report() {
     let mut wrong = safe;
     wrong.failed_stage = Some(FailedStage::Stage(Stage::Ii));
     assert!(!hardened_accepts_nothing_that_paper_rejects(&wrong, &safe));
+}
+
+#[test]
+fn every_law_of_the_gap_is_refuted_by_a_wrong_report() {
+    use Given::{Harmful, Harmless, Missing};
+    let behind = |lead| {
+        let given = [Harmless, Missing, Harmless, lead, Missing];
+        cycle(Profile::PAPER, Configuration::PlanRemote, given)
+    };
+    let (near, far) = (behind(Harmful), behind(Harmless));
+    let (fails, passes) = (report(&near), report(&far));
+    assert!(failed_by_gap(&fails) && s_follow_is_never_below_s_cav(&near, &fails));
+    assert!(!s_follow_is_never_below_s_cav(&near, &passes));
+    assert!(!a_larger_gap_is_never_worse(&passes, &fails));
+    assert!(!s_follow_falls_with_v_lead(&passes, &fails));
 }

@@ -1,11 +1,12 @@
 //! bitwuzla as a process: the library of the Python package, which reads SMT-LIB.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
-use crate::prove::Decision;
+use crate::claim::Decision;
+use crate::process;
 
 /// Longest time for a question.
 const LIMIT: Duration = Duration::from_mins(2);
@@ -26,20 +27,12 @@ pub fn version() -> Option<String> {
 
 /// Proved when there is no counterexample. Errors are those of running it.
 pub(super) fn ask(question: &str) -> io::Result<Decision> {
-    let mut process = python(ASK)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        // Without a counterexample it has no values to give, and complains.
-        .stderr(Stdio::null())
-        .spawn()?;
-    // Dropped at once, so that it sees the end of its input. Its answer is a few lines.
-    process.stdin.take().map_or(Ok(()), |mut input| input.write_all(question.as_bytes()))?;
-    if !ends(&mut process)? {
+    let Some(output) = process::run(&mut python(ASK), question, LIMIT)? else {
         return Ok(Decision::Unknown);
-    }
-    let output = process.wait_with_output()?;
+    };
     let text = String::from_utf8_lossy(&output.stdout);
     let mut lines = text.lines();
+    // Without a counterexample it has no values to give, and ends with an error.
     match (lines.next(), output.status.success()) {
         (Some("unsat"), _) => Ok(Decision::Proved),
         (Some("sat"), true) => Ok(Decision::Refuted(lines.filter_map(value).collect())),
@@ -55,20 +48,6 @@ fn python(code: &str) -> Command {
         command.env("PYTHONPATH", PACKAGES);
     }
     command
-}
-
-/// Whether it ends in time; if not, it is ended.
-fn ends(process: &mut Child) -> io::Result<bool> {
-    let end = Instant::now() + LIMIT;
-    while process.try_wait()?.is_none() {
-        if Instant::now() > end {
-            process.kill()?;
-            process.wait()?;
-            return Ok(false);
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    Ok(true)
 }
 
 /// Name and value of `((v_now (fp #b0 #b01111111111 #b00...)))`.
