@@ -1,5 +1,5 @@
 //! A period of the monitor, tick and cycle, beside the same by the plain calls: the stages, and a tick and the verdict to
-//! the requester (`spec/5-interfaces.md#monitor`). The plain side keeps no detections for later cycles.
+//! the requester (`spec/monitor.md#monitor`). The plain side keeps no detections for later cycles.
 
 use std::hint::black_box;
 use std::time::Duration;

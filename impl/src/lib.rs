@@ -132,7 +132,7 @@
 //!
 //! | `spec/` | here |
 //! |---|---|
-//! | `5-interfaces.md#monitor` | [`monitor`] |
+//! | `monitor.md#monitor` | [`monitor`] |
 //! | `5-interfaces.md#precheck` | [`provider`] |
 //! | `3-stages.md#schedule` | [`cycle`] |
 //! | stage i to stage v, without a rule | `stages::{i_track_validation, .., v_grid_map}` |

@@ -146,7 +146,7 @@ pub struct Detection {
 }
 
 impl Detection {
-    /// All zero: a place to be lent, and no valid detection. Source: `spec/5-interfaces.md#monitor`.
+    /// All zero: a place to be lent, and no valid detection. Source: `spec/monitor.md#monitor`.
     pub const EMPTY: Self = Self { x: 0.0, y: 0.0, cos: 0.0, sin: 0.0, length: 0.0, width: 0.0 };
 }
 
@@ -185,7 +185,7 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// All zero: a place to be lent. Source: `spec/5-interfaces.md#monitor`.
+    /// All zero: a place to be lent. Source: `spec/monitor.md#monitor`.
     pub const EMPTY: Self = Self { x: 0.0, y: 0.0, left: [0.0; 2], right: [0.0; 2] };
 }
 

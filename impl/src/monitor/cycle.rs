@@ -1,4 +1,4 @@
-//! One cycle: choose, check, tell the requester, keep what was seen (`spec/5-interfaces.md#monitor`).
+//! One cycle: choose, check, tell the requester, keep what was seen (`spec/monitor.md#monitor`).
 
 use super::Monitor;
 use super::decision::{Decision, Verified};
@@ -115,7 +115,7 @@ impl Monitor<'_> {
     /// }
     /// ```
     ///
-    /// Source: `spec/5-interfaces.md#monitor`.
+    /// Source: `spec/monitor.md#monitor`.
     pub fn cycle<'m>(&'m mut self, inputs: &Inputs<'m>) -> (Decision<'m>, Actions) {
         let now_ns = inputs.now.as_nanoseconds();
         let remote = Group::ALL.map(|group| self.requester.session_of(group));

@@ -1,4 +1,4 @@
-//! What a cycle ends in (`spec/5-interfaces.md#monitor`).
+//! What a cycle ends in (`spec/monitor.md#monitor`).
 
 use core::marker::PhantomData;
 use core::ops::Deref;
@@ -10,7 +10,7 @@ use crate::report::{FailedStage, InvalidInput, Report, Witness};
 
 /// The end of a cycle. Only the safe one holds data, and as long as it is looked at the monitor takes
 /// neither event nor cycle. What has to be done comes beside it ([`Monitor::cycle`](super::Monitor::cycle)).
-/// Source: `spec/5-interfaces.md#monitor`.
+/// Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use = "an unsafe cycle has to be left for the local services"]
 #[allow(clippy::large_enum_variant, reason = "no heap, and one of them a cycle")]
@@ -47,7 +47,7 @@ pub enum Decision<'m> {
 
 /// Why control has to brake fully, with `a_b`, from this cycle on until one says nothing of the kind: with
 /// [`supervise_local`](super::Settings::supervise_local) the monitor asks in `Local` of the CAV's own plan what it asks
-/// of a station's (F-48). Source: `spec/5-interfaces.md#monitor`.
+/// of a station's (F-48). Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Brake {
     /// The CAV has no current plan of its own.
@@ -92,7 +92,7 @@ pub enum Brake {
 /// }
 /// ```
 ///
-/// Source: `spec/5-interfaces.md#monitor`.
+/// Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use = "verified data are for the services that need them"]
 pub struct Verified<'m, T> {
@@ -118,7 +118,7 @@ impl Verified<'_, Trajectory<'_>> {
     /// The time by which control has to brake along it, with `a_b`, unless a later cycle has given a
     /// trajectory or there is a plan of the CAV's own: that of the cycle plus `tau`. What was examined
     /// covers no more (H-14), and a safe cycle without a trajectory has examined nothing (F-47). `None` in
-    /// the paper profile, which has no `tau`. Source: `spec/5-interfaces.md#monitor`.
+    /// the paper profile, which has no `tau`. Source: `spec/monitor.md#monitor`.
     pub const fn brake_by(&self) -> Option<Time> {
         self.brake_by
     }

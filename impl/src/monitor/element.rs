@@ -1,12 +1,12 @@
 //! What a station sends, and the token of what the requester used of it
-//! (`spec/5-interfaces.md#monitor`).
+//! (`spec/monitor.md#monitor`).
 
 use core::fmt;
 
 use super::time::Time;
 
 /// A message of a station with a result: tracks, or the points of a trajectory, in any holder of a
-/// slice (`Vec`, an array, `&[Track]`). Source: `spec/5-interfaces.md#monitor`.
+/// slice (`Vec`, an array, `&[Track]`). Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug)]
 pub struct Message<L> {
     /// The station's id, >= 1.
@@ -40,7 +40,7 @@ pub struct Message<L> {
 /// }
 /// ```
 ///
-/// Source: `spec/5-interfaces.md#monitor`.
+/// Source: `spec/monitor.md#monitor`.
 #[must_use = "an element that was accepted has to be checked in a cycle"]
 pub struct Accepted<L> {
     pub(super) station: i64,
@@ -58,7 +58,7 @@ impl<L> fmt::Debug for Accepted<L> {
     }
 }
 
-/// What became of a message; what has to be done about it comes beside it. Source: `spec/5-interfaces.md#monitor`.
+/// What became of a message; what has to be done about it comes beside it. Source: `spec/monitor.md#monitor`.
 #[derive(Debug)]
 #[must_use = "an element that is accepted is for the next cycle"]
 pub enum Arrival<L> {
@@ -72,7 +72,7 @@ pub enum Arrival<L> {
 }
 
 /// Why a message is of no use; of several reasons the first in this order. Source:
-/// `spec/5-interfaces.md#monitor`, `spec/2-offloading.md#quality-of-service`.
+/// `spec/monitor.md#monitor`, `spec/2-offloading.md#quality-of-service`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DropReason {
     /// It has more tracks than the memory that was lent (`rows`) is for. It is no arrival: a station
@@ -96,7 +96,7 @@ pub enum DropReason {
 }
 
 impl DropReason {
-    /// In words. Source: `spec/5-interfaces.md#monitor`.
+    /// In words. Source: `spec/monitor.md#monitor`.
     pub const fn message(self) -> &'static str {
         match self {
             Self::TooLong => "more tracks than the lent memory is for",

@@ -117,7 +117,7 @@ impl Monitor<'_> {
     }
 
     /// When planning was last given back because the CAV got nowhere (F-45): at a tick that names a release of PLAN.
-    /// `None`: never. Source: `spec/5-interfaces.md#monitor`.
+    /// `None`: never. Source: `spec/monitor.md#monitor`.
     pub const fn given_back(&self) -> Option<Time> {
         self.progress.given_back
     }

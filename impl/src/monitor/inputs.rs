@@ -1,4 +1,4 @@
-//! What the CAV knows when a cycle begins (`spec/5-interfaces.md#monitor`).
+//! What the CAV knows when a cycle begins (`spec/monitor.md#monitor`).
 
 use super::element::{Accepted, Element};
 use super::time::Time;
@@ -11,7 +11,7 @@ use crate::input::cycle::{
 ///
 /// All places are in one right-handed frame of the road plane, any that stands still; a direction is
 /// (cos, sin) of the angle from x towards y, left of it is (-sin, cos). Units are m, m/s and s
-/// (`spec/5-interfaces.md#cycle`). Source: `spec/5-interfaces.md#monitor`.
+/// (`spec/5-interfaces.md#cycle`). Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug)]
 #[must_use = "inputs are for a cycle"]
 pub struct Inputs<'c> {
@@ -27,7 +27,7 @@ pub struct Inputs<'c> {
 }
 
 impl<'c> Inputs<'c> {
-    /// Nothing but the time and the CAV itself. Source: `spec/5-interfaces.md#monitor`.
+    /// Nothing but the time and the CAV itself. Source: `spec/monitor.md#monitor`.
     pub const fn new(now: Time, ego: Ego) -> Self {
         Self {
             now,
@@ -68,7 +68,7 @@ impl<'c> Inputs<'c> {
     }
 
     /// With the tracks of the CAV's own MOT, valid for `stamp`: used while MOT is not remote. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub const fn local_tracks(mut self, stamp: Time, items: &'c [Track]) -> Self {
         self.local_tracks = Some(TrackList { stamp_ns: stamp.as_nanoseconds(), items });
         self
@@ -77,7 +77,7 @@ impl<'c> Inputs<'c> {
     /// With the trajectory of the CAV's own planner, made at `stamp`: used while PLAN is not remote. In
     /// MotRemote one that is not current is not checked, and does not come out: do not drive it. What
     /// its points have to be like: as of [`Self::remote_trajectory`].
-    /// Source: `spec/5-interfaces.md#monitor`.
+    /// Source: `spec/monitor.md#monitor`.
     pub const fn local_trajectory(mut self, stamp: Time, points: &'c [TrajectoryPoint]) -> Self {
         self.local_trajectory = Some(Trajectory { stamp_ns: stamp.as_nanoseconds(), points });
         self
@@ -94,7 +94,7 @@ impl<'c> Inputs<'c> {
     /// }
     /// ```
     ///
-    /// Source: `spec/5-interfaces.md#monitor`.
+    /// Source: `spec/monitor.md#monitor`.
     pub fn remote_tracks<L: AsRef<[Track]>>(mut self, tracks: &'c Accepted<L>) -> Self {
         self.remote_tracks = Some(tracks.element());
         self
@@ -114,7 +114,7 @@ impl<'c> Inputs<'c> {
     ///   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
     ///   go on and stop.
     ///
-    /// Source: `spec/5-interfaces.md#monitor`, `spec/3-stages.md#hardened-profile`.
+    /// Source: `spec/monitor.md#monitor`, `spec/3-stages.md#hardened-profile`.
     pub fn remote_trajectory<L: AsRef<[TrajectoryPoint]>>(
         mut self,
         trajectory: &'c Accepted<L>,

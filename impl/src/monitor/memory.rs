@@ -1,4 +1,4 @@
-//! The memory that a monitor is lent for its life (`spec/5-interfaces.md#monitor`).
+//! The memory that a monitor is lent for its life (`spec/monitor.md#monitor`).
 
 use crate::input::cycle::{CrossSection, Detection};
 use crate::input::detection_index::Slot;
@@ -76,7 +76,7 @@ pub(super) const PLACES: usize = 12;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Source: `spec/5-interfaces.md#monitor`.
+/// Source: `spec/monitor.md#monitor`.
 #[derive(Debug)]
 pub struct Memory<'a> {
     /// A place for each station that ever offers something; at least one.
@@ -98,13 +98,13 @@ pub struct Memory<'a> {
 
 impl Memory<'_> {
     /// How many detections have to be lent so that lists of at most so many can be kept. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub const fn detections_for(most: usize) -> usize {
         most.saturating_mul(PLACES)
     }
 
     /// How many slots have to be lent so that lists of at most so many can be indexed: those kept, and
-    /// the current one. Source: `spec/5-interfaces.md#monitor`.
+    /// the current one. Source: `spec/monitor.md#monitor`.
     pub const fn slots_for(most: usize) -> usize {
         most.saturating_add(Self::detections_for(most))
     }

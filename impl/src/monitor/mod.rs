@@ -1,4 +1,4 @@
-//! The monitor: the one way to use offloaded results (`spec/5-interfaces.md#monitor`).
+//! The monitor: the one way to use offloaded results (`spec/monitor.md#monitor`).
 //!
 //! [`Monitor`] owns what has to live between cycles: the requester, the CAV's own earlier detections,
 //! the route with its index, scratch. Events go in, and actions come out; remote data come out of
@@ -47,7 +47,7 @@ use crate::report::InvalidInput;
 use crate::services::configuration::{Configuration, Group};
 
 /// The monitor of one CAV; see the [module](self), and the [crate] for a whole vehicle loop. Source:
-/// `spec/5-interfaces.md#monitor`.
+/// `spec/monitor.md#monitor`.
 #[derive(Debug)]
 pub struct Monitor<'a> {
     settings: Settings,
@@ -69,7 +69,7 @@ impl<'a> Monitor<'a> {
     /// until the first `area`.
     ///
     /// Errors: settings that no monitor can keep, such as a `dt_max` that is not above the period; too
-    /// little memory. Source: `spec/5-interfaces.md#monitor`.
+    /// little memory. Source: `spec/monitor.md#monitor`.
     pub fn new(settings: Settings, memory: Memory<'a>) -> Result<Self, MonitorError> {
         settings.check()?;
         let Memory { stations, rows, columns, detections, slots, cross_sections, blocks } = memory;

@@ -1,4 +1,4 @@
-//! The CAV's own plan in `Local`, examined as a station's (`spec/5-interfaces.md#monitor`, F-48).
+//! The CAV's own plan in `Local`, examined as a station's (`spec/monitor.md#monitor`, F-48).
 
 use super::Monitor;
 use super::cycle::named;

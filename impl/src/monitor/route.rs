@@ -1,4 +1,4 @@
-//! The route of the CAV with its index, in lent memory (`spec/5-interfaces.md#monitor`).
+//! The route of the CAV with its index, in lent memory (`spec/monitor.md#monitor`).
 
 use crate::input::cycle::{CrossSection, Route};
 use crate::input::domain::route::check_route;

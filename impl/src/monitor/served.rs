@@ -1,4 +1,4 @@
-//! Whether control gets anything of a remote group (`spec/5-interfaces.md#monitor`).
+//! Whether control gets anything of a remote group (`spec/monitor.md#monitor`).
 
 /// What the cycles of the running session of a group could use.
 #[derive(Clone, Copy, Debug, Default)]

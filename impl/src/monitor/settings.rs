@@ -1,4 +1,4 @@
-//! What a monitor is made with, and why it may be refused (`spec/5-interfaces.md#monitor`).
+//! What a monitor is made with, and why it may be refused (`spec/monitor.md#monitor`).
 
 use core::fmt;
 use core::time::Duration;
@@ -18,7 +18,7 @@ const LEAST_NS: i64 = 1_000_000;
 /// milliseconds are less, up to 10^6 s and 1000 s.
 const LEAST_WAIT_NS: i64 = 1_000_000_000;
 
-/// What a monitor is made with. Source: `spec/5-interfaces.md#monitor`.
+/// What a monitor is made with. Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Profile in force.
@@ -45,7 +45,7 @@ pub struct Settings {
 impl Settings {
     /// The hardened profile and the defaults of the paper, in a first life. The default of
     /// `dt_max_ns`, 100 ms, is for periods below it; for others choose a larger one. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub fn new(period: Duration) -> Self {
         Self {
             profile: Profile::HARDENED,
@@ -61,7 +61,7 @@ impl Settings {
     /// Whether a monitor may be made with it, apart from its memory.
     ///
     /// Errors: the first of these settings that no monitor keeps. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub fn check(&self) -> Result<(), MonitorError> {
         check_parameters(&self.stages).map_err(MonitorError::Stages)?;
         let dt_max_ns = self.requester.dt_max_ns;
@@ -134,7 +134,7 @@ fn least_ns(field: &str) -> i64 {
     if field == "requester.t_wait_ns" { LEAST_WAIT_NS } else { LEAST_NS }
 }
 
-/// Why a monitor could not be made. Source: `spec/5-interfaces.md#monitor`.
+/// Why a monitor could not be made. Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MonitorError {
     /// A parameter of the stages is outside its domain.

@@ -1,11 +1,11 @@
-//! Planning that gets nowhere (`spec/5-interfaces.md#monitor`, F-45).
+//! Planning that gets nowhere (`spec/monitor.md#monitor`, F-45).
 
 use core::time::Duration;
 
 use super::time::Time;
 use crate::input::cycle::Ego;
 
-/// When a station's planning gets nowhere. Source: `spec/5-interfaces.md#monitor`.
+/// When a station's planning gets nowhere. Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stall {
     /// How far the CAV's reference point has to get, m, at least 0.
@@ -16,7 +16,7 @@ pub struct Stall {
 
 impl Default for Stall {
     /// 1 m in 30 s: longer than most wait at a junction; at a red light that is longer planning is given back, and
-    /// asked for again after t_wait. Source: `spec/5-interfaces.md#monitor`.
+    /// asked for again after t_wait. Source: `spec/monitor.md#monitor`.
     fn default() -> Self {
         Self { way_m: 1.0, time: Duration::from_secs(30) }
     }

@@ -1,4 +1,4 @@
-//! Points in time (`spec/5-interfaces.md#monitor`).
+//! Points in time (`spec/monitor.md#monitor`).
 
 use core::fmt;
 use core::time::Duration;
@@ -12,14 +12,14 @@ use core::time::Duration;
 /// let now: mufasa::monitor::Time = 5_000_000_i64;
 /// ```
 ///
-/// Source: `spec/5-interfaces.md#monitor`.
+/// Source: `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Time {
     ns: i64,
 }
 
 /// A time that does not fit into 64 bits of nanoseconds, or is no number. Source:
-/// `spec/5-interfaces.md#monitor`.
+/// `spec/monitor.md#monitor`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TimeError {
     /// The unit in which it was given.
@@ -36,14 +36,14 @@ impl fmt::Display for TimeError {
 impl core::error::Error for TimeError {}
 
 impl Time {
-    /// So many nanoseconds after the clock's start. Source: `spec/5-interfaces.md#monitor`.
+    /// So many nanoseconds after the clock's start. Source: `spec/monitor.md#monitor`.
     pub const fn from_nanoseconds(ns: i64) -> Self {
         Self { ns }
     }
 
     /// So many microseconds after the clock's start.
     ///
-    /// Errors: beyond 64 bits of nanoseconds. Source: `spec/5-interfaces.md#monitor`.
+    /// Errors: beyond 64 bits of nanoseconds. Source: `spec/monitor.md#monitor`.
     pub const fn from_microseconds(us: i64) -> Result<Self, TimeError> {
         match us.checked_mul(1_000) {
             Some(ns) => Ok(Self { ns }),
@@ -53,7 +53,7 @@ impl Time {
 
     /// So many milliseconds after the clock's start.
     ///
-    /// Errors: beyond 64 bits of nanoseconds. Source: `spec/5-interfaces.md#monitor`.
+    /// Errors: beyond 64 bits of nanoseconds. Source: `spec/monitor.md#monitor`.
     pub const fn from_milliseconds(ms: i64) -> Result<Self, TimeError> {
         match ms.checked_mul(1_000_000) {
             Some(ns) => Ok(Self { ns }),
@@ -65,7 +65,7 @@ impl Time {
     /// than that from 2^53 ns (104 days) on.
     ///
     /// Errors: NaN, infinite, or beyond 64 bits of nanoseconds. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub fn from_seconds(seconds: f64) -> Result<Self, TimeError> {
         const BEYOND: f64 = 9_223_372_036_854_775_808.0;
         let ns = libm::floor(seconds * 1e9 + 0.5);
@@ -77,13 +77,13 @@ impl Time {
         Err(TimeError { unit: "seconds" })
     }
 
-    /// Nanoseconds after the clock's start. Source: `spec/5-interfaces.md#monitor`.
+    /// Nanoseconds after the clock's start. Source: `spec/monitor.md#monitor`.
     pub const fn as_nanoseconds(self) -> i64 {
         self.ns
     }
 
     /// The time so much later; `None` beyond 64 bits of nanoseconds. Source:
-    /// `spec/5-interfaces.md#monitor`.
+    /// `spec/monitor.md#monitor`.
     pub fn checked_add(self, span: Duration) -> Option<Self> {
         let span_ns = i64::try_from(span.as_nanos()).ok()?;
         self.ns.checked_add(span_ns).map(Self::from_nanoseconds)

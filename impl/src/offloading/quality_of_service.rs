@@ -125,7 +125,7 @@ mod tests {
 
     const LIMITS: Limits = Limits { l_max_ns: 50, dt_max_ns: 100 };
 
-    /// `spec/2-offloading.md#quality-of-service.2`: "`l > l_max` or `dt > dt_max` MUST be a
+    /// QOS-03: "`l > l_max` or `dt > dt_max` MUST be a
     /// violation; equality MUST NOT."
     #[test]
     fn beyond_l_max_or_dt_max_is_a_violation_and_equality_is_not() {
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(arrivals.silence(101, LIMITS), Some(Violation::InterArrival));
     }
 
-    /// `spec/2-offloading.md#quality-of-service.4`: "A generation time later than the arrival time
+    /// QOS-05: "A generation time later than the arrival time
     /// MUST be a violation". Equal times are not later.
     #[test]
     fn generated_later_than_arrived_is_a_violation() {
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(latency_violation(7, 7, LIMITS), None);
     }
 
-    /// `spec/2-offloading.md#quality-of-service.1`: "Every element of the running session is an
+    /// QOS-01, QOS-02: "Every element of the running session is an
     /// arrival, and MUST be checked for latency and inter-arrival time first and for its order
     /// then".
     #[test]
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(arrivals.arrive(181, 180, LIMITS), Element::Violating(Violation::InterArrival));
     }
 
-    /// `spec/2-offloading.md#quality-of-service.6`: "An element whose generation time is not later
+    /// QOS-08: "An element whose generation time is not later
     /// than that of the last one used since the activation MUST be dropped." The last one that
     /// arrived does not matter.
     #[test]
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(Arrivals::since_activation(30).arrive(31, 0, LIMITS), Element::Used);
     }
 
-    /// `spec/2-offloading.md#fallback.5`: "differences are exact".
+    /// FALL-10: "differences are exact".
     #[test]
     fn differences_are_exact_at_the_limits_of_64_bits() {
         let widest = Limits { l_max_ns: i64::MAX, dt_max_ns: i64::MAX };

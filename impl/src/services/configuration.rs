@@ -181,7 +181,7 @@ mod tests {
         assert_eq!(table.map(|(configuration, ..)| configuration), Configuration::ALL);
     }
 
-    /// `spec/1-services.md#configuration.1`: "Every group MUST have exactly one source at any
+    /// CONF-01: "Every group MUST have exactly one source at any
     /// time."
     #[test]
     fn every_group_has_exactly_one_source() {

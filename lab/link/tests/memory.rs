@@ -109,7 +109,7 @@ fn crowded_cpm() -> Vec<u8> {
     bytes(&[head, &[1], &bits(&length), &object.repeat(count), &[1; 8]].concat())
 }
 
-/// `spec/6-link.md#limits.4`: the largest messages; every byte of them set to claim the most; messages of the
+/// LINK-24, LINK-23: the largest messages; every byte of them set to claim the most; messages of the
 /// largest size that are nothing but claims; and one crowded with the shortest objects.
 #[test]
 fn a_decoder_needs_less_than_a_mebibyte() {

@@ -331,7 +331,7 @@ fn standard_input_is_checked_from_its_first_byte() {
     }
 }
 
-/// `spec/5-interfaces.md#programs-under-test.1`
+/// TOOL-01
 #[test]
 fn the_oracle_answers_standard_input() {
     let folder = folder("oracle");

@@ -1,4 +1,4 @@
-//! `mufasa::monitor::Monitor` as a Python object (`spec/5-interfaces.md#monitor`).
+//! `mufasa::monitor::Monitor` as a Python object (`spec/monitor.md#monitor`).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Times and gaps: bare numbers are neither (`spec/5-interfaces.md#monitor`).
+//! Times and gaps: bare numbers are neither (`spec/monitor.md#monitor`).
 
 use mufasa::monitor::{Gap as NativeGap, Time as NativeTime, TimeError};
 use pyo3::prelude::*;

@@ -60,7 +60,7 @@ fn a_composition_picks_exactly_one_provider_for_every_requirement() {
     assert!(!is_choice(&set, &of(&["near detections mot"])), "mot is no member");
 }
 
-/// `spec/1-services.md#composition.1`
+/// COMP-01
 #[test]
 fn a_composition_is_closed() {
     let set = chain_set();
@@ -72,7 +72,7 @@ fn a_composition_is_closed() {
     assert!(!is_closed(&set, &without_provider));
 }
 
-/// `spec/1-services.md#composition.2`
+/// COMP-02
 #[test]
 fn a_composition_is_minimal() {
     let mut composition = of(&["mot tracks goal", "far detections mot"]);
@@ -84,7 +84,7 @@ fn a_composition_is_minimal() {
     }
 }
 
-/// `spec/1-services.md#composition.3`
+/// COMP-03
 #[test]
 fn a_composition_is_acyclic_over_its_chosen_links() {
     assert!(is_acyclic(&of(&["mot tracks goal", "far detections mot"])));
@@ -94,7 +94,7 @@ fn a_composition_is_acyclic_over_its_chosen_links() {
     assert!(is_acyclic(&of(&["a x b", "a y c", "b x d", "c x d"])), "a diamond is no cycle");
 }
 
-/// `spec/1-services.md#composition.4`
+/// COMP-04
 #[test]
 fn the_device_switches_of_a_composition_are_the_chosen_links_whose_stations_differ() {
     let set = chain_set();
@@ -105,7 +105,7 @@ fn the_device_switches_of_a_composition_are_the_chosen_links_whose_stations_diff
     assert!(!names_its_switches(&set, &hidden));
 }
 
-/// `spec/1-services.md#composition.4`
+/// COMP-05
 #[test]
 fn a_composition_is_called_distributed_exactly_when_it_has_a_device_switch() {
     let set = chain_set();
@@ -124,7 +124,7 @@ fn each_switch_is_named_once() {
     assert_eq!(compositions[0].switches, [("far".to_owned(), "goal".to_owned())]);
 }
 
-/// `spec/1-services.md#composition.5`
+/// COMP-06
 #[test]
 fn members_named_in_one_same_station_list_run_on_one_station() {
     let set = chain_set();
@@ -139,7 +139,7 @@ fn members_named_in_one_same_station_list_run_on_one_station() {
     assert!(keeps(&["near far nobody"]), "near is no member");
 }
 
-/// `spec/1-services.md#composition.6`
+/// COMP-07
 #[test]
 fn members_named_in_local_only_run_on_station_0() {
     let set = chain_set();
@@ -150,7 +150,7 @@ fn members_named_in_local_only_run_on_station_0() {
     assert!(keeps_local_only(&set, &names("far"), &near), "far is no member");
 }
 
-/// `spec/1-services.md#composition.7`; against brute force in `figure_2` and `random_sets`.
+/// COMP-09; against brute force in `figure_2` and `random_sets`.
 #[test]
 fn the_orchestrator_enumerates_every_composition_once_and_no_other() {
     let answer = answer(&task(chain(), "goal"));
@@ -172,7 +172,7 @@ fn fan(providers: &[usize]) -> Vec<Service> {
     services
 }
 
-/// `spec/1-services.md#composition.7`: 10,000 are answered, 10,001 = 73 * 137 are not, and 2^64 are
+/// COMP-10: 10,000 are answered, 10,001 = 73 * 137 are not, and 2^64 are
 /// refused without being counted to the end.
 #[test]
 fn more_than_ten_thousand_closed_choices_are_an_error() {
@@ -182,7 +182,7 @@ fn more_than_ten_thousand_closed_choices_are_an_error() {
     assert_eq!(compose(&task(fan(&[2; 64]), "goal")), Err(TaskError::TooManyChoices));
 }
 
-/// `spec/1-services.md#composition.7`: placement rules that leave one composition do not help.
+/// COMP-10: placement rules that leave one composition do not help.
 #[test]
 fn closed_choices_are_counted_before_the_placement_rules_and_acyclicity() {
     let mut placed = task(fan(&[73, 137]), "goal");
@@ -200,7 +200,7 @@ fn closed_choices_are_counted_before_the_placement_rules_and_acyclicity() {
     assert_eq!(compose(&cyclic), Err(TaskError::TooManyChoices));
 }
 
-/// `spec/1-services.md#composition.7`: a provider that nobody can complete is no closed choice,
+/// COMP-10: a provider that nobody can complete is no closed choice,
 /// although its other requirements could be met in 2^64 ways.
 #[test]
 fn choices_that_cannot_be_closed_are_not_counted() {
@@ -215,7 +215,7 @@ fn choices_that_cannot_be_closed_are_not_counted() {
     assert_eq!(compositions[0].members, ["alive", "goal"]);
 }
 
-/// `spec/1-services.md#composition.8`
+/// COMP-11
 #[test]
 fn no_composition_names_a_requirement_that_nobody_guarantees_bytewise_first() {
     let missing = |requirement: &str, service: &str| NoComposition::Requirement {
@@ -235,7 +235,7 @@ fn no_composition_names_a_requirement_that_nobody_guarantees_bytewise_first() {
     assert_eq!(none(&task(only_x, "goal")), missing("x", "a"));
 }
 
-/// `spec/1-services.md#composition.8`: a reachable requirement that nobody guarantees is named
+/// COMP-11: a reachable requirement that nobody guarantees is named
 /// although what stands in the way of the only closed choice is a rule.
 #[test]
 fn a_requirement_is_named_before_a_rule() {
@@ -251,7 +251,7 @@ fn a_requirement_is_named_before_a_rule() {
     assert_eq!(none(&blocked), NoComposition::Rule(Rule::LocalOnly));
 }
 
-/// `spec/1-services.md#composition.8`: two closed choices, one that breaks a rule alone and one
+/// COMP-11: two closed choices, one that breaks a rule alone and one
 /// that breaks the other two; the rule that is enough alone is named, whatever its place in the
 /// order.
 #[test]
@@ -271,7 +271,7 @@ fn no_composition_names_the_first_rule_without_which_alone_there_would_be_one() 
     assert_eq!(none(&blocked), NoComposition::Rule(Rule::LocalOnly), "before acyclic");
 }
 
-/// `spec/1-services.md#composition.8`
+/// COMP-11
 #[test]
 fn no_composition_names_else_the_first_rule_that_some_closed_choice_breaks() {
     let list = vec![service("goal", "a", "g", 0), service("far", "g", "a", 1)];

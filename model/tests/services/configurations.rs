@@ -121,7 +121,7 @@ const DATA: EventKind =
 const SAFE: EventKind =
     EventKind::Verdict { safe: true, sessions: Sessions { mot: Some(1), plan: None } };
 
-/// `spec/1-services.md#configuration.1`
+/// CONF-01
 #[test]
 fn the_source_is_the_local_services_while_they_compute_else_the_remote_station() {
     for profile in [Profile::PAPER, Profile::HARDENED] {
@@ -142,7 +142,7 @@ fn the_source_is_the_local_services_while_they_compute_else_the_remote_station()
     }
 }
 
-/// `spec/1-services.md#configuration.2`
+/// CONF-02
 #[test]
 fn local_services_stop_at_the_confirmation_in_the_paper_profile() {
     let mut requester = requested(Profile::PAPER);
@@ -152,7 +152,7 @@ fn local_services_stop_at_the_confirmation_in_the_paper_profile() {
     assert_eq!(requester.step(&Event { t_ns: 3, kind: SAFE }), []);
 }
 
-/// `spec/1-services.md#configuration.2` (H-08)
+/// CONF-03 (H-08)
 #[test]
 fn local_services_stop_at_the_first_safe_verdict_after_a_used_result_in_the_hardened_profile() {
     let mut requester = requested(Profile::HARDENED);

@@ -79,7 +79,7 @@ fn figure_2_has_the_arrows_of_the_figure() {
     assert_eq!(arrows, figure);
 }
 
-/// `spec/1-services.md#composition.7`: all 2^19 subsets of its links.
+/// COMP-08, COMP-09: all 2^19 subsets of its links.
 #[test]
 fn figure_2_agrees_with_brute_force() {
     let task = figure_2();

@@ -52,7 +52,7 @@ fn random_task(numbers: &mut Numbers) -> Task {
     task
 }
 
-/// `spec/1-services.md#composition.7`, `spec/1-services.md#composition.8`: every subset of links
+/// COMP-09, COMP-11: every subset of links
 /// with every subset of members, for 3,000 sets with at most 12 links.
 #[test]
 fn the_orchestrator_agrees_with_brute_force_on_random_sets() {

@@ -12,14 +12,14 @@ fn error(service: &str, index: Option<usize>, rule: ServiceRule) -> ServiceError
     ServiceError { service: Some(service.to_owned()), index, rule }
 }
 
-/// `spec/1-services.md#service.1`
+/// SVC-01
 #[test]
 fn required_and_guaranteed_interfaces_are_finite_sets_possibly_empty() {
     assert!(ServiceSet::new(vec![service("a", "", "", 0)]).is_ok());
     assert!(ServiceSet::new(vec![service("a", "x y", "x y z", 0)]).is_ok());
 }
 
-/// `spec/1-services.md#service.1`
+/// SVC-02
 #[test]
 fn a_name_listed_twice_is_an_error() {
     let twice = refused(vec![service("a", "", "", 0), service("b", "x y x", "", 0)]);
@@ -28,14 +28,14 @@ fn a_name_listed_twice_is_an_error() {
     assert_eq!(twice, error("a", Some(0), ServiceRule::GuaranteeTwice("z".into())));
 }
 
-/// `spec/1-services.md#service.2`
+/// SVC-03
 #[test]
 fn a_service_set_holds_at_least_one_service() {
     let empty = refused(vec![]);
     assert_eq!(empty, ServiceError { service: None, index: None, rule: ServiceRule::EmptySet });
 }
 
-/// `spec/1-services.md#service.2`
+/// SVC-04
 #[test]
 fn a_service_set_does_not_hold_two_services_with_the_same_id() {
     let twice =
@@ -53,7 +53,7 @@ fn a_station_is_not_negative() {
     );
 }
 
-/// `spec/1-services.md#service.3`
+/// SVC-05
 #[test]
 fn when_a_set_changes_the_services_of_station_0_stay() {
     let local = || service("mot", "detections", "tracks extra", 0);
@@ -70,7 +70,7 @@ fn when_a_set_changes_the_services_of_station_0_stay() {
     assert!(reordered.is_ok(), "guarantees are a set");
 }
 
-/// `spec/1-services.md#service.3`
+/// SVC-05
 #[test]
 fn only_the_services_of_other_stations_come_and_go() {
     let local = || service("mot", "", "", 0);
@@ -87,7 +87,7 @@ fn only_the_services_of_other_stations_come_and_go() {
     assert_eq!(became_local, Err(error("far", Some(1), ServiceRule::LocalServiceCame)));
 }
 
-/// `spec/1-services.md#service.4`
+/// SVC-06
 #[test]
 fn a_refused_set_names_the_service_and_the_rule() {
     for (list, service_id, rule) in [
@@ -115,7 +115,7 @@ fn a_service_feeds_another_when_an_interface_is_guaranteed_and_required() {
     assert!(mot.feeds(&env) && !env.feeds(&mot) && !mot.feeds(&mot));
 }
 
-/// `spec/1-services.md#device-switch.1`: every pair of feeding or not, same station or not.
+/// SWITCH-01: every pair of feeding or not, same station or not.
 #[test]
 fn a_device_switch_is_reported_exactly_when_one_feeds_the_other_and_stations_differ() {
     for (guarantee, feeds) in [("tracks", true), ("lanes", false)] {

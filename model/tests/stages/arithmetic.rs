@@ -9,7 +9,7 @@ use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote,
 use crate::base::*;
 use crate::near::*;
 
-/// spec/4-arithmetic.md#domain.1, I-12: defaults are the doubles nearest to the decimals of spec/.
+/// DOM-02, I-12: defaults are the doubles nearest to the decimals of spec/.
 #[test]
 fn defaults_are_the_nearest_doubles() {
     let text = include_str!("../../../spec/3-stages.md");
@@ -45,7 +45,7 @@ macro_rules! all_defaults {
 
 mufasa_model::parameters!(all_defaults);
 
-/// spec/4-arithmetic.md#domain.2: directions are used as given, not normalised.
+/// DOM-03: directions are used as given, not normalised.
 #[test]
 fn directions_are_used_as_given() {
     let with = |cos: f64| {
@@ -59,8 +59,8 @@ fn directions_are_used_as_given() {
     assert!(check(&with(1.000_000_4), Reading::Exact).expect("valid").failed_stage.is_some());
 }
 
-/// spec/4-arithmetic.md#the-model-is-exact.1, spec/4-arithmetic.md#the-model-is-exact.2,
-/// spec/4-arithmetic.md#the-model-is-exact.3: far from the origin, where doubles are 2^-29 m apart,
+/// EXACT-01, EXACT-02, EXACT-03, EXACT-04,
+/// EXACT-05: far from the origin, where doubles are 2^-29 m apart,
 /// a difference of one of them decides.
 #[test]
 fn the_last_bit_decides_far_away() {
@@ -155,13 +155,13 @@ fn narrow(cycle: &mut Cycle, half_width: f64) {
     }
 }
 
-/// Strict and lax move each comparison by the margin.
+/// Strict and lax move each comparison by the margin. MARGIN-01, MARGIN-05, MARGIN-06.
 #[test]
 fn margins_move_each_comparison() {
     margins_move(NEAR);
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.3: a track on the edge of the field of view counts both
+/// MARGIN-07: a track on the edge of the field of view counts both
 /// ways; with more than six of them strict rejects and lax accepts.
 #[test]
 fn tracks_on_the_edge_count_both_ways() {
@@ -227,7 +227,7 @@ fn a_step_of_length_zero_passes_in_every_reading() {
     assert_eq!(safe(&cycle), YES);
 }
 
-/// Counts, ages and times never move.
+/// Counts, ages and times never move. MARGIN-13.
 #[test]
 fn ages_never_move() {
     let mut cycle = base(Profile::HARDENED, AllRemote);
@@ -241,7 +241,7 @@ fn ages_never_move() {
     assert_eq!(safe(&cycle), NO);
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.4: two gated tracks and three detections are 2^2 * 3 steps, with
+/// MARGIN-08: two gated tracks and three detections are 2^2 * 3 steps, with
 /// one more column for a backed track that may be left out 2^2 * 4; a limit below fails the strict
 /// reading alone, and nothing where no track has to be assigned.
 #[test]

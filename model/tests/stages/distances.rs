@@ -7,7 +7,7 @@ fn r(value: f64) -> Real {
     Real::from_double(value)
 }
 
-/// spec/3-stages.md#distances.1: the formulas on speeds >= 0, against values worked out by hand.
+/// DIST-01, DIST-02: the formulas on speeds >= 0, against values worked out by hand.
 #[test]
 fn distances_are_the_formulas() {
     assert_eq!(s_b(&r(16.0), &r(8.0)), r(16.0));

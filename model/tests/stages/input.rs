@@ -31,7 +31,7 @@ macro_rules! list {
     };
 }
 
-/// spec/3-stages.md#invalid-input.2: lists and numbers beyond the domain that no vector is.
+/// INPUT-04, DOM-01: lists and numbers beyond the domain that no vector is.
 #[test]
 fn values_beyond_the_domain_are_invalid() {
     let cases: &[(Change, &str)] = &[
@@ -47,7 +47,7 @@ fn values_beyond_the_domain_are_invalid() {
     }
 }
 
-/// spec/4-arithmetic.md#domain.1: the ends of the domains are inside, and the norm check is exact.
+/// DOM-02: the ends of the domains are inside, and the norm check is exact.
 #[test]
 fn the_ends_of_the_domains_are_valid() {
     let cases: &[Change] = &[
@@ -75,7 +75,7 @@ fn the_ends_of_the_domains_are_valid() {
     }
 }
 
-/// spec/3-stages.md#schedule.6: a local list older than 60 s counts as missing, but its values are
+/// SCHED-13: a local list older than 60 s counts as missing, but its values are
 /// still checked; a remote one is invalid.
 #[test]
 fn old_local_data_are_missing_old_remote_data_invalid() {

@@ -21,7 +21,7 @@ fn without(mut cycle: Cycle, inputs: &str) -> Cycle {
     cycle
 }
 
-/// spec/3-stages.md#schedule.7, spec/3-stages.md#schedule.8: every scheduled stage has an outcome,
+/// SCHED-14, SCHED-17: every scheduled stage has an outcome,
 /// and the verdict is unsafe exactly when one failed or H-05 applies.
 #[test]
 fn unsafe_exactly_when_a_stage_failed() {

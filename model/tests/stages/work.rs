@@ -24,6 +24,7 @@ fn crowded(others: usize) -> Cycle {
     cycle
 }
 
+/// MARGIN-09.
 #[test]
 fn more_than_ten_to_the_ten_comparisons_are_an_error() {
     let strict = check(&crowded(412), Reading::Strict).expect("not too much work");

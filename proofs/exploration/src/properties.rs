@@ -26,27 +26,27 @@ macro_rules! named {
 named! {
     /// A property that holds in every reachable state or in every endless run.
     Property {
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.1`
+        /// PROTO-01
         OneSource = "each_group_has_exactly_one_source",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.2`
+        /// PROTO-02
         NoRemoteResultBeforeHoldUntil = "no_remote_result_before_hold_until",
-        /// `spec/2-offloading.md#fallback.3`
+        /// FALL-05
         AskedOnceAllowed = "stations_are_asked_at_hold_until",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.3`
+        /// PROTO-03
         EnvAndTplTogether = "env_and_tpl_have_the_same_source",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.4`
+        /// PROTO-04
         OffloadingReachedAgain = "offloading_is_reached_again",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.5`
+        /// PROTO-05
         LeftSessionWithinLease = "a_left_session_is_not_held_beyond_the_lease",
         /// The same as an end that always comes, once nothing is heard any more.
         LeftSessionEnds = "a_left_session_ends",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.6`; F-12 when it fails.
+        /// PROTO-08; F-12 when it fails.
         NoStopBeforeSafeCycle = "local_services_stop_only_after_a_safe_cycle",
-        /// `spec/2-offloading.md#properties-of-the-whole-protocol.7`
+        /// PROTO-11
         EndedSessionChangesNothing = "an_ended_session_changes_no_later_one",
-        /// `spec/2-offloading.md#provider.1`
+        /// PROV-01
         NoMoreThanCapacity = "no_station_runs_more_than_its_capacity",
-        /// `spec/2-offloading.md#provider.3`
+        /// PROV-08
         OthersKeepTheirSessions = "no_requester_changes_anothers_session",
         /// What `is_valid` of the parts says of every reachable state.
         PartsValid = "requester_and_provider_stay_valid",

@@ -1,6 +1,6 @@
 //! The endless runs of which the "eventually" properties speak, and what they have to come to.
 //!
-//! * A **calm** run is one without faults (`spec/2-offloading.md#properties-of-the-whole-protocol.4`):
+//! * A **calm** run is one without faults (PROTO-04):
 //!   offers and areas stay, every message arrives once, in any order and before time passes, no
 //!   cycle is unsafe, running sessions deliver in time. Each station keeps to one [`Manner`].
 //!   It may start in every reachable state, with whatever network, attacker and crashes left.

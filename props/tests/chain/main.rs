@@ -94,11 +94,11 @@ const EMPTY: &[(&str, Cell, &str)] = &[
     ("spec/5-interfaces.md#vectors", Cell::Vector, "about all of them"),
     ("spec/5-interfaces.md#vectors", Cell::Bench, "of the tools"),
     (
-        "spec/5-interfaces.md#monitor",
+        "spec/monitor.md#monitor",
         Cell::Model,
         "adds no verdict: its parts are the model's, each by itself",
     ),
-    ("spec/5-interfaces.md#monitor", Cell::Vector, "no record drives events and cycles together"),
+    ("spec/monitor.md#monitor", Cell::Vector, "no record drives events and cycles together"),
     ("spec/5-interfaces.md#precheck", Cell::Model, "has no rule: it asks the stages"),
     ("spec/5-interfaces.md#precheck", Cell::Vector, "of a station: nothing that a CAV answers"),
     ("spec/5-interfaces.md#precheck", Cell::Bench, "a few cycles of the stages"),

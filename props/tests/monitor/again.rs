@@ -1,5 +1,5 @@
 //! A station that is of no use again and again takes the plan away for a tenth of the time at most
-//! (`spec/5-interfaces.md#monitor.10`, finding F-43), and one whose session was of use for long is asked
+//! (MON-34, finding F-43), and one whose session was of use for long is asked
 //! again at once.
 
 use mufasa::input::profile::Profile;
@@ -28,7 +28,7 @@ fn first_good(good: usize, end: &[Deed]) -> Habit {
 }
 
 /// The bound of the rule, and that sessions begin again at all. Some are of use for less than nine times
-/// as long as they are not then, some for as long, some for longer.
+/// as long as they are not then, some for as long, some for longer. MON-34, MON-35.
 #[test]
 fn a_station_of_no_use_takes_the_plan_for_a_tenth_of_the_time_at_most() {
     for profile in [Profile::PAPER, Profile::HARDENED] {
@@ -111,7 +111,7 @@ fn ask(monitor: &mut Monitor<'_>, station: &mut Station, now_ns: i64, requests: 
 }
 
 /// Of use for 1 s, and then 100 ms without: no wait; for exactly nine times as long: none; 1 ns less: 1 ns.
-/// Less than a period without counts as a period.
+/// Less than a period without counts as a period. MON-36.
 #[test]
 fn the_time_of_use_is_taken_from_the_wait_to_the_nanosecond() {
     for (used_ns, unused_ns, left_ns) in [
@@ -132,7 +132,7 @@ fn the_time_of_use_is_taken_from_the_wait_to_the_nanosecond() {
     }
 }
 
-/// A clock set back takes from the time of use what it takes back, and that without counts from there.
+/// A clock set back takes from the time of use what it takes back, and that without counts from there. MON-37.
 #[test]
 fn a_clock_set_back_loses_time_of_use() {
     let (used_ns, whole_ns) = (1_000 * MS, 900 * MS);

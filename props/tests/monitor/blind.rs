@@ -1,4 +1,4 @@
-//! Tracks that nothing was compared with do not come out (`spec/5-interfaces.md#monitor.1`, finding F-18).
+//! Tracks that nothing was compared with do not come out (MON-02, finding F-18).
 
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Decision, Inputs, Settings};
@@ -50,6 +50,7 @@ fn tracks_out(profile: Profile, sees: &[Option<i64>]) -> Vec<(bool, bool)> {
     ends
 }
 
+/// MON-02.
 #[test]
 fn tracks_come_out_only_of_cycles_in_which_they_were_compared() {
     let (now, old, none) = (Some(0), Some(101 * MS), None);

@@ -1,4 +1,4 @@
-//! By when control has to brake (`spec/5-interfaces.md#monitor.11`, finding F-47): what each trajectory that comes out
+//! By when control has to brake (MON-40, finding F-47): what each trajectory that comes out
 //! names, and that a CAV which obeys it stands before what stands ahead, one that does not hits it.
 
 use std::cell::RefCell;
@@ -105,7 +105,7 @@ const TAUS: [f64; 8] = [0.100_000_001, 0.25, 0.3, 0.290_000_000_9, 1.1, 6.499_99
 const GROUPS: [fn() -> Groups; 3] =
     [|| Groups::ALL, || Groups::from(Group::Mot), || Groups::from(Group::Plan)];
 
-/// Whoever made the trajectory, the station or the CAV itself.
+/// Whoever made the trajectory, the station or the CAV itself. MON-40, MON-41.
 #[test]
 fn a_trajectory_names_the_time_of_its_cycle_plus_tau() {
     let saturated = RefCell::new(0);
@@ -269,7 +269,7 @@ fn end_of(it: Drive, draw: &mut Draw<'_>, obeys: bool) -> End {
 }
 
 /// Domain: 2 to 14 m/s, up to a_max, a car that stands up to 45 m ahead and is seen from where it matters at the
-/// latest, no lead measured, tracks emptied or none. Not covered: objects that move, bends.
+/// latest, no lead measured, tracks emptied or none. Not covered: objects that move, bends. MON-42.
 #[test]
 fn who_brakes_by_then_hits_nothing_and_who_does_not_hits_what_stands() {
     let hits = RefCell::new([0; 4]);

@@ -1,4 +1,4 @@
-//! Why a message is of no use (`spec/5-interfaces.md#monitor.2`, `.5`, `.8`).
+//! Why a message is of no use (MON-09, `.5`, `.8`).
 
 use mufasa::input::cycle::Track;
 use mufasa::monitor::{Arrival, DropReason, Inputs, Message, Monitor, Time};
@@ -33,7 +33,7 @@ fn answer(
     (why(&arrival), monitor.source(Group::Mot) != Source::Local)
 }
 
-/// Each reason, and whether MOT stays remote; the last cycle and the last message were at 200 ms.
+/// Each reason, and whether MOT stays remote; the last cycle and the last message were at 200 ms. MON-09, MON-30.
 #[test]
 fn a_message_that_is_dropped_says_why() {
     let earlier = |now: Time, ms: i64| at(now.as_nanoseconds() - ms * MS);
@@ -72,7 +72,7 @@ fn a_message_that_is_dropped_says_why() {
 }
 
 /// What is stamped ahead of every cycle is accepted until a cycle has found nothing current for more than
-/// `dt_max` = 150 ms; from then on it is dropped.
+/// `dt_max` = 150 ms; from then on it is dropped. MON-32.
 #[test]
 fn a_message_of_a_starved_group_says_so() {
     let cross_sections = road();
@@ -95,7 +95,7 @@ fn a_message_of_a_starved_group_says_so() {
 }
 
 /// More tracks than rows were lent are dropped when they come, and no cycle is unsafe by them; a
-/// station that goes on so is silent.
+/// station that goes on so is silent. MON-20.
 #[test]
 fn a_list_too_long_for_the_lent_memory_is_no_arrival() {
     let cross_sections = road();

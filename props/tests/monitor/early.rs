@@ -1,4 +1,4 @@
-//! Before the history reaches back no station is asked (`spec/5-interfaces.md#monitor.12`).
+//! Before the history reaches back no station is asked (MON-43).
 
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{Inputs, Monitor, Settings};
@@ -27,7 +27,7 @@ fn asked(monitor: &mut Monitor<'_>, now_ns: i64) -> usize {
 }
 
 /// With scans that are 30 ms old the first list reaches back half a second at 470 ms; in the paper profile
-/// nothing is kept and nothing is waited for.
+/// nothing is kept and nothing is waited for. MON-43, MON-44.
 #[test]
 fn a_station_is_asked_when_half_a_second_was_seen() {
     let cross_sections = road();

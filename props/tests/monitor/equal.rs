@@ -306,8 +306,8 @@ impl Keeps<TrajectoryPoint> for Pair<'_, '_, '_> {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.1`, `spec/5-interfaces.md#monitor.2`,
-/// `spec/5-interfaces.md#monitor.3`, `spec/5-interfaces.md#monitor.4`.
+/// MON-01, MON-02, MON-04, MON-05, MON-06, MON-07, MON-08,
+/// MON-10, MON-11, PROTO-07, MON-12, MON-13, MON-14, MON-15, MON-16, MON-17, MON-39.
 fn as_the_plain_calls(profile: Profile) {
     let seen = RefCell::new(Seen::default());
     let result = runner().run(&(tape(), long_tape()), |(scene, steps)| {

@@ -1,4 +1,4 @@
-//! Who could game the wait after a session (`spec/5-interfaces.md#monitor.10`): a search over habits.
+//! Who could game the wait after a session (MON-34): a search over habits.
 
 use mufasa::input::profile::Profile;
 
@@ -44,7 +44,7 @@ fn habits() -> Vec<Habit> {
 
 /// Until its sessions' ends no group is without anything for more than a tenth of the time and what one
 /// session costs, whatever the habit. Of gaps that end before their session does the wait says nothing: only
-/// the bound of `spec/5-interfaces.md#monitor.9` holds for each.
+/// the bound of MON-33 holds for each.
 #[test]
 fn no_habit_takes_the_plan_for_more_than_a_tenth_of_the_time() {
     let of_session_ns = 2 * settings().requester.dt_max_ns + 2 * PERIOD_NS;

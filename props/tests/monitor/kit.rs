@@ -63,7 +63,7 @@ impl Buffers {
 }
 
 /// The cycles of the half second before a time, in which the CAV sees what is around: before that no station
-/// is asked (`spec/5-interfaces.md#monitor.12`).
+/// is asked (MON-43).
 pub fn look_around(monitor: &mut Monitor<'_>, until_ns: i64, world: impl Fn(i64) -> World) {
     for i in (1..=5).rev() {
         let world = world(until_ns - 100 * i * MS);

@@ -17,7 +17,7 @@ fn refused(settings: Settings) -> (MonitorError, String) {
     (error, error.to_string())
 }
 
-/// `spec/5-interfaces.md#monitor.6`: equality is refused, and so is the default at 10 Hz.
+/// MON-22: equality is refused, and so is the default at 10 Hz.
 #[test]
 fn a_dt_max_that_is_not_above_the_period_is_refused() {
     let period = Duration::from_millis(100);
@@ -35,7 +35,7 @@ fn a_dt_max_that_is_not_above_the_period_is_refused() {
     assert_eq!(refused(Settings::new(Duration::MAX)).0, forever);
 }
 
-/// `spec/5-interfaces.md#monitor.6`: equality is refused, in the hardened profile alone.
+/// MON-27: equality is refused, in the hardened profile alone.
 #[test]
 fn a_tau_that_is_not_above_the_period_is_refused() {
     let period = Duration::from_millis(100);
@@ -55,7 +55,7 @@ fn a_tau_that_is_not_above_the_period_is_refused() {
     assert!(Buffers::new(16, 40).monitor(default).is_ok());
 }
 
-/// `spec/5-interfaces.md#monitor.6`: "or a parameter outside its domain".
+/// MON-23, MON-29: "or a parameter outside its domain".
 #[test]
 fn parameters_outside_of_their_domain_are_refused() {
     let mut wrong = settings();
@@ -76,7 +76,7 @@ fn parameters_outside_of_their_domain_are_refused() {
     assert!(Buffers::new(16, 40).monitor(last).is_ok());
 }
 
-/// `spec/5-interfaces.md#monitor.6`: equality is no error, and the defaults are far from it.
+/// MON-26: equality is no error, and the defaults are far from it.
 #[test]
 fn a_max_age_below_l_max_is_refused() {
     let with = |max_age_ns, l_max_ns| {
@@ -97,7 +97,7 @@ fn a_max_age_below_l_max_is_refused() {
 /// Sets a time, ns.
 type Change = fn(&mut Settings, i64);
 
-/// `spec/5-interfaces.md#monitor.6`: milliseconds given for nanoseconds; 0 is no slip.
+/// MON-24, MON-25: milliseconds given for nanoseconds; 0 is no slip.
 #[test]
 fn times_below_a_millisecond_are_refused_and_zero_is_not() {
     let changes: [(&str, Change); 6] = [
@@ -134,7 +134,7 @@ fn times_below_a_millisecond_are_refused_and_zero_is_not() {
     assert_eq!(refused(Settings { period, ..settings() }).0, short);
 }
 
-/// `spec/5-interfaces.md#monitor.5`: memory that can never be enough is refused at once.
+/// MON-21: memory that can never be enough is refused at once.
 #[test]
 fn too_little_memory_is_refused_by_name() {
     let without = |change: fn(&mut Buffers), profile| {
@@ -164,7 +164,7 @@ fn too_little_memory_is_refused_by_name() {
     assert_eq!(without(nothing, Profile::PAPER), None, "nothing is kept in this profile");
 }
 
-/// `spec/5-interfaces.md#monitor.5`: a list of detections that could not be kept makes its own cycle
+/// MON-19: a list of detections that could not be kept makes its own cycle
 /// unsafe, and one item fewer does not.
 #[test]
 fn a_list_of_detections_that_does_not_fit_is_an_error() {
@@ -187,7 +187,7 @@ fn a_list_of_detections_that_does_not_fit_is_an_error() {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.5`: the route before stays; without any no cycle is safe.
+/// MON-18: the route before stays; without any no cycle is safe.
 #[test]
 fn a_route_that_does_not_fit_or_is_invalid_changes_nothing() {
     let cross_sections = road();
@@ -270,7 +270,7 @@ fn comes_out(monitor: &mut Monitor<'_>, now_ns: i64, stamp_ns: i64) -> bool {
     true
 }
 
-/// `spec/5-interfaces.md#monitor.8`: results that are made in time and that no cycle can use, because they
+/// MON-30: results that are made in time and that no cycle can use, because they
 /// are too old, end their session like silence; at the bound they are used.
 #[test]
 fn results_that_no_cycle_can_use_end_their_session() {

@@ -1,4 +1,4 @@
-//! The monitor (`spec/5-interfaces.md#monitor`): as the plain calls on any sequence of events and cycles,
+//! The monitor (`spec/monitor.md#monitor`): as the plain calls on any sequence of events and cycles,
 //! and each mistake that those leave to the caller is an error or does not compile (what does not compile
 //! stands in the documentation of `impl/src/monitor`).
 

@@ -79,7 +79,7 @@ fn forged(now_ns: i64) -> World {
 }
 
 /// `check(..)?` and `is_ok()` accept an unsafe cycle; a decision has no such answer, and what was
-/// checked is not in the unsafe branch. `spec/5-interfaces.md#monitor.1`.
+/// checked is not in the unsafe branch. MON-01, FALL-03, SCHED-18.
 #[test]
 fn an_unsafe_cycle_is_not_taken_for_a_safe_one() {
     let cross_sections = road();
@@ -95,7 +95,7 @@ fn an_unsafe_cycle_is_not_taken_for_a_safe_one() {
 }
 
 /// `step(&verdict).unwrap();` throws the fallback away, or nobody calls it; after `cycle` the requester
-/// has fallen back, whatever is done with the decision. `spec/5-interfaces.md#monitor.3`.
+/// has fallen back, whatever is done with the decision. MON-10.
 #[test]
 fn a_fallback_cannot_be_thrown_away() {
     let cross_sections = road();
@@ -124,7 +124,7 @@ fn a_fallback_cannot_be_thrown_away() {
 }
 
 /// With `Configuration::Local` every record is safe; the monitor knows which groups are remote.
-/// `spec/5-interfaces.md#monitor.2`.
+/// MON-06.
 #[test]
 fn a_wrong_configuration_cannot_be_given() {
     let (cross_sections, world) = (road(), forged(1_000 * MS));
@@ -145,7 +145,7 @@ fn crossing(now_ns: i64, end_ns: i64) -> World {
 
 /// A car crosses at 5 m/s, and the remote says that it stands: without the lists kept between cycles
 /// that is safe in every cycle, and the monitor, which has them, sees the car move.
-/// `spec/5-interfaces.md#monitor.4`.
+/// MON-15.
 #[test]
 fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
     let (end_ns, cross_sections) = (1_500 * MS, road());
@@ -163,7 +163,7 @@ fn forged_velocities_are_not_accepted_for_lack_of_a_history() {
 }
 
 /// Detections that were not current are no history: in the same drive with late scans until its last cycle
-/// no station is asked. `spec/5-interfaces.md#monitor.4`, `spec/5-interfaces.md#monitor.12`.
+/// no station is asked. MON-12, MON-43.
 #[test]
 fn detections_that_were_not_current_are_not_kept() {
     let (end_ns, cross_sections) = (1_100 * MS, road());
@@ -195,7 +195,7 @@ fn detections_that_were_not_current_are_not_kept() {
 }
 
 /// Microseconds for nanoseconds: data five seconds old are 5 ms old to the plain requester. A bare number
-/// is no `Time`, and one that says its unit is right. `spec/5-interfaces.md#monitor.2`.
+/// is no `Time`, and one that says its unit is right. MON-07.
 #[test]
 fn data_five_seconds_old_are_not_fresh_in_microseconds() {
     let (now_us, generated_us) = (10_000_000, 5_000_000);
@@ -246,7 +246,7 @@ fn a_gap_from_the_rear_axle_is_not_taken_for_one_between_bumpers() {
 }
 
 /// Late, repeated, of another session, of an older element, empty: what becomes of each.
-/// `spec/5-interfaces.md#monitor.2`.
+/// MON-07, MON-08.
 #[test]
 fn what_was_dropped_or_passed_over_is_missing_in_a_cycle() {
     let cross_sections = road();

@@ -1,5 +1,5 @@
-//! The CAV's own plan in `Local` (`spec/5-interfaces.md#monitor.14`, `spec/5-interfaces.md#monitor.15`, finding
-//! F-48), and planning that gets nowhere (`spec/5-interfaces.md#monitor.16`, finding F-45).
+//! The CAV's own plan in `Local` (MON-47, MON-51, finding
+//! F-48), and planning that gets nowhere (MON-54, finding F-45).
 
 use std::time::Duration;
 
@@ -53,6 +53,7 @@ fn own(world: &World, stamp_ns: i64) -> Inputs<'_> {
         .local_trajectory(at(stamp_ns), &world.points)
 }
 
+/// MON-50, MON-53.
 #[test]
 fn an_own_plan_that_fails_has_to_be_braked_for_until_one_passes() {
     on_road(supervised(), |mut monitor| {
@@ -70,6 +71,7 @@ fn an_own_plan_that_fails_has_to_be_braked_for_until_one_passes() {
     });
 }
 
+/// MON-50, MON-51.
 #[test]
 fn who_has_no_current_plan_or_invalid_input_brakes() {
     on_road(supervised(), |mut monitor| {
@@ -87,6 +89,7 @@ fn who_has_no_current_plan_or_invalid_input_brakes() {
     });
 }
 
+/// MON-49.
 #[test]
 fn nothing_is_said_where_nothing_was_asked_for() {
     on_road(settings(), |mut monitor| {
@@ -97,7 +100,7 @@ fn nothing_is_said_where_nothing_was_asked_for() {
 }
 
 /// F-48: the plan that stage iv has just rejected in MotRemote. And what is braked for lasts over a session until a
-/// trajectory comes out.
+/// trajectory comes out. MON-47, MON-48, MON-52.
 #[test]
 fn the_plan_that_was_rejected_is_examined_in_the_same_cycle() {
     let mut settings = supervised();
@@ -181,7 +184,7 @@ fn given_back(stall: Option<Stall>, groups: Groups, step_m: f64, cycles: i64) ->
 
 const STALL: Option<Stall> = Some(Stall { way_m: 1.0, time: Duration::from_secs(3) });
 
-/// Confirmed in the second cycle, 3 s after it it is given back; asked again 10 s later, confirmed in the cycle after.
+/// Confirmed in the second cycle, 3 s after it it is given back; asked again 10 s later, confirmed in the cycle after. MON-54, MON-58, MON-59.
 #[test]
 fn planning_that_gets_nowhere_is_given_back_and_asked_for_again_after_the_wait() {
     for groups in [Groups::ALL, Groups::from(Group::Plan)] {
@@ -189,6 +192,7 @@ fn planning_that_gets_nowhere_is_given_back_and_asked_for_again_after_the_wait()
     }
 }
 
+/// MON-55, MON-56.
 #[test]
 fn planning_that_gets_on_is_not_given_back_nor_that_of_the_cav_itself() {
     assert_eq!(given_back(STALL, Groups::ALL, 0.05, 200), [0; 0]);
@@ -198,6 +202,7 @@ fn planning_that_gets_on_is_not_given_back_nor_that_of_the_cav_itself() {
     assert_eq!(given_back(STALL, Groups::ALL, 0.033, 70), [61]);
 }
 
+/// MON-60.
 #[test]
 fn what_is_no_way_or_no_time_is_refused() {
     let with = |way_m, ms| {
@@ -213,7 +218,7 @@ fn what_is_no_way_or_no_time_is_refused() {
     assert_eq!(Settings::new(Duration::from_millis(50)).stall, None);
 }
 
-/// The release and the start of the local planner come out of the tick, MOT's own silence after them.
+/// The release and the start of the local planner come out of the tick, MOT's own silence after them. MON-57.
 #[test]
 fn the_tick_names_release_and_start() {
     let stands = |now_ns: i64| creeping(now_ns, 0.0);

@@ -1,5 +1,5 @@
 //! What the monitor does, by the plain calls: the requester, the stages without any index, and a list of
-//! lists (`spec/5-interfaces.md#monitor`).
+//! lists (`spec/monitor.md#monitor`).
 
 use mufasa::cycle::check;
 use mufasa::input::cycle::{

@@ -94,7 +94,7 @@ impl Left {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.7`, and `spec/5-interfaces.md#monitor.1`: killed at each ms of a period, and
+/// MON-28, and MON-01: killed at each ms of a period, and
 /// again in the same way, each life reaches offloading as soon as the first: asked at its tick after
 /// half a second was seen, confirmed in the next period.
 #[test]

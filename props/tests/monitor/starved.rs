@@ -1,4 +1,4 @@
-//! A station whose results come in time and are current in no cycle is left (`spec/5-interfaces.md#monitor.9`,
+//! A station whose results come in time and are current in no cycle is left (MON-31,
 //! finding F-43); one that any cycle can use is kept.
 
 use mufasa::monitor::{Decision, Inputs, Message, Monitor, Time};
@@ -115,7 +115,7 @@ fn begin(monitor: &mut Monitor<'_>, station: &mut Station, start_ns: i64) -> i64
     start_ns + 4 * PERIOD_NS
 }
 
-/// The bound of `spec/5-interfaces.md#monitor.9`: 2 dt_max and two periods.
+/// The bound of MON-31: 2 dt_max and two periods.
 #[test]
 fn results_that_are_current_in_no_cycle_end_their_session() {
     let dt_max_ns = settings().requester.dt_max_ns;
@@ -143,7 +143,7 @@ fn results_that_are_current_in_no_cycle_end_their_session() {
 
 /// A stamp ahead of its arrival and not of the cycle, a bound of age that is met exactly, an honest
 /// station whose messages are now quick and now slow, and one that is useless for as long as dt_max and
-/// no longer: each keeps its session.
+/// no longer: each keeps its session. MON-33.
 #[test]
 fn results_that_cycles_can_use_keep_their_session() {
     let l_max_ns = settings().requester.l_max_ns;
@@ -170,7 +170,7 @@ fn results_that_cycles_can_use_keep_their_session() {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.10`: the hold that begins when a tick finds silence bars the requests of that
+/// MON-38: the hold that begins when a tick finds silence bars the requests of that
 /// tick, and ends to the nanosecond.
 #[test]
 fn the_tick_that_ends_a_session_asks_nobody() {
@@ -198,7 +198,7 @@ fn the_tick_that_ends_a_session_asks_nobody() {
 /// Something that returns groups to local at a time.
 type End = fn(&mut Monitor<'_>, Time) -> Actions;
 
-/// `spec/5-interfaces.md#monitor.10`: withdrawn, lost, out of the area, late: after each no station is asked
+/// MON-34, MON-35, MON-36: withdrawn, lost, out of the area, late: after each no station is asked
 /// for nine periods, as the last cycle had what it needs, less the time from the first such cycle to that one.
 #[test]
 fn after_every_end_of_a_session_nine_periods_less_its_use_are_waited() {
@@ -242,7 +242,7 @@ fn after_every_end_of_a_session_nine_periods_less_its_use_are_waited() {
     }
 }
 
-/// `spec/5-interfaces.md#monitor.13`: a loop that ticks only when something came would never notice that a station
+/// MON-45, MON-46: a loop that ticks only when something came would never notice that a station
 /// is silent. With ticks the session ends; without, the next cycle says what was forgotten.
 #[test]
 fn who_ticks_only_when_something_came_is_told() {
@@ -267,7 +267,7 @@ fn who_ticks_only_when_something_came_is_told() {
     assert_eq!(silent(&mut monitor, last_ns + 2 * PERIOD_NS), None);
 }
 
-/// `spec/5-interfaces.md#monitor.13`: a tick whose time is not that of the cycle notices no silence in time.
+/// MON-45: a tick whose time is not that of the cycle notices no silence in time.
 #[test]
 fn a_tick_of_another_time_is_none() {
     let dt_max_ns = settings().requester.dt_max_ns;

@@ -7,7 +7,7 @@ use crate::{Cav, MOT, PROFILES, TICK, UNSAFE, confirm, offer, reject, release, r
 
 const TIMEOUT_NS: i64 = 500_000_000;
 
-/// `spec/2-offloading.md#requester.4`
+/// REQ-11
 #[test]
 fn a_confirmation_of_the_running_session_is_ignored() {
     for profile in PROFILES {
@@ -17,7 +17,7 @@ fn a_confirmation_of_the_running_session_is_ignored() {
     }
 }
 
-/// `spec/2-offloading.md#requester.4`: too late, another session, station or group; requested,
+/// REQ-12, REQ-13: too late, another session, station or group; requested,
 /// remote or local.
 #[test]
 fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and_nothing_else() {
@@ -38,7 +38,7 @@ fn any_other_confirmation_is_answered_with_a_release_of_the_session_it_names_and
     }
 }
 
-/// `spec/2-offloading.md#requester.5`
+/// REQ-16
 #[test]
 fn any_other_rejection_is_ignored() {
     for profile in PROFILES {
@@ -51,7 +51,7 @@ fn any_other_rejection_is_ignored() {
     }
 }
 
-/// `spec/2-offloading.md#fallback.5`
+/// FALL-09
 #[test]
 fn deadlines_saturate_at_the_limits_of_64_bits() {
     let mut cav = Cav::paper();
@@ -64,7 +64,7 @@ fn deadlines_saturate_at_the_limits_of_64_bits() {
     assert_eq!(cav.at(i64::MAX, TICK), [release(1, Mot, 1)]);
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol.7`: session 1 ended in each possible way,
+/// PROTO-11: session 1 ended in each possible way,
 /// session 2 is requested or runs, and every message of session 1 arrives late.
 #[test]
 fn a_message_of_an_ended_session_does_not_change_a_later_one() {

@@ -14,7 +14,7 @@ use crate::{
 
 const T_WAIT_NS: i64 = 10_000_000_000;
 
-/// `spec/2-offloading.md#fallback.1`: the groups that an unsafe verdict names do not matter (I-10).
+/// FALL-01, PROTO-10: the groups that an unsafe verdict names do not matter (I-10).
 #[test]
 fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used() {
     for groups in [Groups::NONE, MOT, PLAN, Groups::ALL] {
@@ -29,7 +29,7 @@ fn a_safety_issue_ends_all_remote_and_requested_services_whatever_the_cycle_used
     }
 }
 
-/// `spec/2-offloading.md#fallback.5`
+/// FALL-08
 #[test]
 fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
     let mut cav = Cav::paper();
@@ -43,7 +43,7 @@ fn time_that_does_not_advance_or_runs_backwards_does_not_shorten_a_hold() {
     assert_eq!(cav.model().hold_until_ns(), Some(100 + T_WAIT_NS));
 }
 
-/// `spec/2-offloading.md#fallback.6`
+/// FALL-11
 #[test]
 fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     let stages = [const { Outcome::NotScheduled }; 5];
@@ -62,7 +62,7 @@ fn a_cycle_that_ends_in_error_is_handed_to_the_requester_as_unsafe() {
     }
 }
 
-/// `spec/2-offloading.md#fallback.7`: PLAN is overdue, MOT silent, and the order is by kind first.
+/// FALL-12, FALL-13: PLAN is overdue, MOT silent, and the order is by kind first.
 #[test]
 fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_plan_within_each() {
     let mut cav = Cav::requested(Profile::PAPER, Groups::ALL);
@@ -87,7 +87,7 @@ fn actions_of_one_event_are_drops_releases_activations_requests_and_mot_before_p
     assert_eq!(cav.at(100_000_001, TICK), tick);
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol.6` (H-08)
+/// PROTO-08 (H-08)
 #[test]
 fn local_services_are_not_stopped_while_no_result_of_the_running_session_was_in_a_safe_cycle() {
     let mut cav = Cav::remote(Profile::HARDENED, MOT);

@@ -37,7 +37,7 @@ fn heard(requester: i64, group: Group, session: i64) -> ProviderEventKind {
     ProviderEventKind::Heard { requester, group, session }
 }
 
-/// `spec/2-offloading.md#provider.1`
+/// PROV-01
 #[test]
 fn a_request_is_confirmed_only_while_there_is_capacity_and_rejected_otherwise() {
     for capacity in 0..4 {
@@ -53,7 +53,7 @@ fn a_request_is_confirmed_only_while_there_is_capacity_and_rejected_otherwise() 
     assert!(mec.grants(3, 2, Mot, 2), "there is capacity again");
 }
 
-/// `spec/2-offloading.md#provider.1`: also when the capacity is used up.
+/// PROV-02: also when the capacity is used up.
 #[test]
 fn a_repeated_request_of_a_running_session_is_confirmed_again() {
     let mut mec = Mec::new(1);
@@ -61,7 +61,7 @@ fn a_repeated_request_of_a_running_session_is_confirmed_again() {
     assert_eq!(mec.0.load(), 1);
 }
 
-/// `spec/2-offloading.md#provider.1`: also when the capacity is used up.
+/// PROV-03: also when the capacity is used up.
 #[test]
 fn a_request_with_a_higher_session_number_replaces_the_earlier_session_for_that_group() {
     let mut mec = Mec::new(2);
@@ -71,7 +71,7 @@ fn a_request_with_a_higher_session_number_replaces_the_earlier_session_for_that_
     assert_eq!(mec.0.load(), 2);
 }
 
-/// `spec/2-offloading.md#provider.1`
+/// PROV-04
 #[test]
 fn lower_session_numbers_are_rejected_while_a_session_runs() {
     let mut mec = Mec::new(9);
@@ -80,7 +80,7 @@ fn lower_session_numbers_are_rejected_while_a_session_runs() {
     assert!(mec.grants(0, 1, Plan, 3), "lower than that of another group");
 }
 
-/// `spec/2-offloading.md#provider.2`
+/// PROV-05
 #[test]
 fn a_session_ends_at_a_release() {
     let mut mec = Mec::new(1);
@@ -93,7 +93,7 @@ fn a_session_ends_at_a_release() {
     assert_eq!(mec.0.session(1, Mot), None);
 }
 
-/// `spec/2-offloading.md#provider.2`: whatever event comes at that time.
+/// PROV-06: whatever event comes at that time.
 #[test]
 fn a_session_ends_when_nothing_was_heard_for_the_lease_time() {
     for event in [ProviderEventKind::Tick, heard(1, Mot, 4), heard(2, Mot, 1)] {
@@ -106,7 +106,7 @@ fn a_session_ends_when_nothing_was_heard_for_the_lease_time() {
     }
 }
 
-/// `spec/2-offloading.md#provider.2`: data or a repeated request of the session.
+/// PROV-06, PROTO-06: data or a repeated request of the session.
 #[test]
 fn a_session_that_is_heard_of_keeps_running() {
     let mut mec = Mec::new(1);
@@ -118,7 +118,7 @@ fn a_session_that_is_heard_of_keeps_running() {
     assert_eq!(mec.0.session(1, Mot), Some(4));
 }
 
-/// `spec/2-offloading.md#properties-of-the-whole-protocol.5`: the requester left MOT, the release
+/// PROTO-05, PROTO-06: the requester left MOT, the release
 /// was lost, and it goes on with PLAN.
 #[test]
 fn a_session_that_the_requester_has_left_ends_within_the_lease() {
@@ -131,7 +131,7 @@ fn a_session_that_the_requester_has_left_ends_within_the_lease() {
     assert_eq!((mec.0.session(1, Mot), mec.0.session(1, Plan)), (None, Some(2)));
 }
 
-/// `spec/2-offloading.md#provider.3`
+/// PROV-07
 #[test]
 fn one_provider_serves_several_requesters() {
     let mut mec = Mec::new(6);
@@ -141,7 +141,7 @@ fn one_provider_serves_several_requesters() {
     assert_eq!(mec.0.load(), 6);
 }
 
-/// `spec/2-offloading.md#provider.3`: every message of requester 2, with the numbers of requester
+/// PROV-08: every message of requester 2, with the numbers of requester
 /// 1.
 #[test]
 fn what_one_requester_does_does_not_change_another_ones_session() {
@@ -162,7 +162,7 @@ fn what_one_requester_does_does_not_change_another_ones_session() {
     }
 }
 
-/// `spec/2-offloading.md#provider.2`: the lease is exact and time may run backwards.
+/// PROV-06: the lease is exact and time may run backwards.
 #[test]
 fn a_lease_survives_any_time() {
     let mut mec = Mec::new(1);

@@ -16,7 +16,7 @@ const LEFT: [mufasa_model::offloading::requester::Action; 3] = [
     Activate(Mot),
 ];
 
-/// `spec/2-offloading.md#quality-of-service.5`
+/// QOS-06, QOS-07
 #[test]
 fn a_violation_returns_that_group_and_no_other_with_a_release_and_the_element_is_dropped() {
     for profile in PROFILES {
@@ -30,7 +30,7 @@ fn a_violation_returns_that_group_and_no_other_with_a_release_and_the_element_is
     }
 }
 
-/// `spec/2-offloading.md#fallback.5`: over the whole range of 64 bits.
+/// FALL-10: over the whole range of 64 bits.
 #[test]
 fn differences_are_exact() {
     assert_eq!(latency_ns(i64::MAX, i64::MIN), i128::from(u64::MAX));
@@ -44,7 +44,7 @@ fn differences_are_exact() {
     assert!(is_silent(&parameters, i64::MAX, -1) && !is_silent(&parameters, i64::MIN, i64::MAX));
 }
 
-/// `spec/2-offloading.md#quality-of-service.5` with H-08: services that never stopped do not start.
+/// QOS-06 with H-08: services that never stopped do not start.
 #[test]
 fn a_violation_activates_the_local_services_exactly_when_they_stopped() {
     let mut cav = Cav::remote(Profile::HARDENED, MOT);

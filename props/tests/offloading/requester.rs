@@ -21,7 +21,7 @@ fn requests_are_numbered_over_all_groups_and_every_message_carries_the_number() 
     assert_eq!(cav.at(4, TICK), [request(1, Plan, 4)]);
 }
 
-/// `spec/2-offloading.md#requester.2`: no event but a tick sends a request.
+/// REQ-04: no event but a tick sends a request.
 #[test]
 fn requests_are_decided_at_ticks_only() {
     for kind in [
@@ -43,7 +43,7 @@ fn requests_are_decided_at_ticks_only() {
     }
 }
 
-/// `spec/2-offloading.md#requester.7`: one thing wrong at a time.
+/// REQ-20: one thing wrong at a time.
 #[test]
 fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_running_ones() {
     for profile in PROFILES {
@@ -60,7 +60,7 @@ fn data_are_used_only_when_the_group_is_remote_and_station_and_session_are_the_r
     }
 }
 
-/// `spec/2-offloading.md#requester.7`
+/// REQ-21
 #[test]
 fn all_other_data_are_dropped_and_counted() {
     let mut cav = Cav::remote(crate::Profile::PAPER, MOT);
@@ -98,7 +98,7 @@ fn ask(cav: &mut Cav, t_ns: i64, wanted: Group) -> Option<i64> {
     asked
 }
 
-/// `spec/2-offloading.md#requester.3`
+/// REQ-07, REQ-08
 #[test]
 fn a_station_that_always_rejects_starves_nobody() {
     let mut cav = Cav::paper();

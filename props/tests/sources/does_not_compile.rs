@@ -13,6 +13,7 @@ struct Snippet {
     code: String,
 }
 
+/// MON-03.
 #[test]
 fn each_snippet_fails_for_the_reason_that_it_names() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("does_not_compile");

@@ -1,4 +1,4 @@
-//! `spec/4-arithmetic.md#conformance-of-an-implementation.5`: the same input gives the same
+//! IMPL-06: the same input gives the same
 //! verdict and witness, bit for bit, whatever scratch memory held before and where lists lie.
 
 use mufasa::input::scratch::{Column, Row, Scratch, Sizes};

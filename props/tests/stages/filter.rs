@@ -1,5 +1,5 @@
 //! The intervals in front of the model's exact arithmetic only save time
-//! (`spec/4-arithmetic.md#the-model-is-exact.1`): without them every report is the same, down to
+//! (EXACT-01, EXACT-02): without them every report is the same, down to
 //! the numbers of its witnesses.
 
 use std::collections::BTreeMap;

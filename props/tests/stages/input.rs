@@ -1,6 +1,6 @@
 //! Invalid input: the implementation names the same field and index as the model, and neither
 //! panics (`spec/3-stages.md#invalid-input`,
-//! `spec/4-arithmetic.md#conformance-of-an-implementation.4`).
+//! IMPL-05).
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::agree;

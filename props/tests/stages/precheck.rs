@@ -74,7 +74,7 @@ fn said(what: &str, cycle: &Cycle) -> String {
     format!("{what}: {cycle:#?}")
 }
 
-/// `spec/5-interfaces.md#precheck.2`, `spec/5-interfaces.md#precheck.3`: what is kept passes stage i, by the
+/// PRE-02, PRE-04: what is kept passes stage i, by the
 /// implementation and by the exact model, together and each alone; every other track is named once, with a
 /// failure that is one of cycles with it.
 #[test]
@@ -131,7 +131,7 @@ fn kept(cycle: &Cycle) -> Result<[bool; 3], String> {
     })
 }
 
-/// `spec/5-interfaces.md#precheck.1`, `spec/5-interfaces.md#precheck.4`: the first candidate that passes is chosen, and what is said of those before it is what
+/// PRE-01, PRE-05, PRE-06, PRE-07: the first candidate that passes is chosen, and what is said of those before it is what
 /// the stages say.
 #[test]
 fn the_first_candidate_that_passes_is_chosen() {
@@ -216,7 +216,7 @@ fn three() -> Cycle {
         .expect("there is one")
 }
 
-/// `spec/5-interfaces.md#precheck.5`: memory that is too small is an error, whatever would have been kept; nothing
+/// PRE-08: memory that is too small is an error, whatever would have been kept; nothing
 /// is cut.
 #[test]
 fn too_little_memory_is_an_error() {
@@ -241,7 +241,7 @@ fn too_little_memory_is_an_error() {
     }
 }
 
-/// `spec/5-interfaces.md#precheck.2`: where not even an empty list passes, none is sent.
+/// PRE-03: where not even an empty list passes, none is sent.
 #[test]
 fn no_list_is_sent_where_no_list_passes() {
     let cycle = three();

@@ -18,7 +18,7 @@ fn hardened() {
         .assert_aimed(&["i", "safe"]);
 }
 
-/// `spec/3-stages.md#stage-i-track-validation.5`: with limits that many assignments exceed.
+/// S1-08: with limits that many assignments exceed.
 #[test]
 fn limited() {
     for profile in [Profile::PAPER, Profile::HARDENED] {

@@ -1,8 +1,8 @@
 //! A whole cycle of the implementation against the exact model: soundness
-//! (`spec/4-arithmetic.md#conformance-of-an-implementation.1`), completeness (`.2`) and failing
+//! (IMPL-01), completeness (`.2`) and failing
 //! stage (`.3`), as `conformance::conforms` has them:
-//! `spec/4-arithmetic.md#conformance-of-an-implementation.2`,
-//! `spec/4-arithmetic.md#conformance-of-an-implementation.3`.
+//! IMPL-02,
+//! IMPL-03, IMPL-04.
 
 use std::collections::BTreeSet;
 

@@ -5,6 +5,7 @@ use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{hold, near_threshold, same_witness};
 use mufasa_props::strategy::whole;
 
+/// SCHED-19.
 #[test]
 fn paper() {
     hold("witness", Profile::PAPER, whole::cycle, near_threshold, same_witness)

@@ -44,7 +44,7 @@ pub fn requirements(tree: &Tree) -> (Vec<Requirement>, Vec<String>) {
                     continue;
                 } else {
                     let is_below = line.starts_with(' ') || trimmed.starts_with('|');
-                    open &= is_below || (!blank && !trimmed.starts_with("* "));
+                    open &= is_below || (!blank && !trimmed.starts_with(['*', '-']));
                     reason |= trimmed.trim_start_matches("* ").starts_with("Why:");
                     if let Some(last) = found.last_mut().filter(|_| open && !reason) {
                         last.text = format!("{} {trimmed}", last.text);

@@ -224,7 +224,7 @@ impl TryFrom<Cycle> for model::Cycle {
     type Error = InvalidInput;
 
     /// Errors: times of the protocol outside their domain, bitmaps that do not fit the grid, or what
-    /// is wrong before these in the order of `spec/3-stages.md#invalid-input.2`.
+    /// is wrong before these in the order of INPUT-02.
     fn try_from(record: Cycle) -> Result<Self, InvalidInput> {
         record.parameters.check()?;
         let misfit = record.grid.as_ref().and_then(|grid| {

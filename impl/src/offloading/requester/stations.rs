@@ -154,7 +154,7 @@ mod tests {
     use super::{StationRecord, Stations};
     use crate::services::configuration::{Group, Groups};
 
-    /// `spec/2-offloading.md#requester.3`: "Among the stations that offer a group, one never asked
+    /// REQ-07, REQ-08: "Among the stations that offer a group, one never asked
     /// for this group MUST be taken first (the smallest id), then the one whose last request for
     /// this group is the oldest".
     #[test]

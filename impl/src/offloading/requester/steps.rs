@@ -24,7 +24,7 @@ impl Requester<'_> {
 
     /// Bars requests until a time: `hold_until` becomes the later of its old value and this one, in ns.
     /// What is requested or remote stays so. To be called before a tick that is not to send them any more.
-    /// Source: `spec/2-offloading.md#fallback`, `spec/5-interfaces.md#monitor`.
+    /// Source: `spec/2-offloading.md#fallback`, `spec/monitor.md#monitor`.
     pub const fn hold(&mut self, until_ns: i64) {
         self.hold_until_ns = match self.hold_until_ns {
             Some(old_ns) if old_ns > until_ns => Some(old_ns),

@@ -52,7 +52,7 @@ fn an_event_of_a_station_below_1_is_an_error_that_changes_nothing() -> TestResul
     Ok(())
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: an offer that the table has no place
+/// IMPL-09: an offer that the table has no place
 /// for is an error and changes nothing; other events go on.
 #[test]
 fn an_offer_beyond_the_table_is_an_error_that_changes_nothing() -> TestResult {
@@ -105,7 +105,7 @@ fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult 
 }
 
 /// `spec/3-stages.md#hardened-profile`, H-08: a verdict stops local services only when it names the
-/// running session of the group, and only after a result of that session was used.
+/// running session of the group, and only after a result of that session was used. PROTO-09.
 #[test]
 fn a_verdict_of_another_session_stops_nothing() -> TestResult {
     let mut table = [StationRecord::FREE; 2];

@@ -10,7 +10,7 @@ use crate::common::{COMPOSITION, CYCLE, Random, TRACE};
 const LINES: usize = 100_000;
 const SEED: u64 = 5;
 
-/// `spec/5-interfaces.md#cycle.2`
+/// CYCLE-07, CYCLE-08
 #[test]
 fn each_of_100_000_damaged_lines_has_one_answer_in_order() {
     let mut random = Random::new(SEED);

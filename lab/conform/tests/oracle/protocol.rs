@@ -14,7 +14,7 @@ fn an_empty_input_has_no_answer() {
     assert!(answers(b"").is_empty());
 }
 
-/// `spec/5-interfaces.md#cycle.2`
+/// CYCLE-07, CYCLE-08
 #[test]
 fn every_line_is_answered_in_order_and_errors_name_their_line() {
     let answers = answers(format!("{CYCLE}\nnothing\n{TRACE}\r\n\n{COMPOSITION}\n").as_bytes());

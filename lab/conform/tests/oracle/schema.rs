@@ -62,7 +62,7 @@ fn a_number_beyond_the_range_of_doubles_is_infinite_hence_invalid() {
     assert_eq!(remote["failed_stage"], "input");
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn fractions_and_exponents_are_errors_where_an_integer_is_asked_for() {
     for wrong in ["1000.0", "1e3", "1E3", "1000.5", "1e0", "\"1000\"", "\"nan\"", "true", "null"] {
@@ -84,7 +84,7 @@ fn an_integer_outside_64_bits_breaks_the_schema() {
     }
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn unknown_fields_are_an_error() {
     for (text, before, path, index) in [
@@ -129,7 +129,7 @@ fn fields_of_another_type_of_event_are_unknown() {
     }
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn duplicate_keys_are_an_error() {
     for (text, pair, path, index) in [
@@ -186,7 +186,7 @@ fn parameters_of_a_trace_are_in_force() {
     assert_eq!(hold(&with(TRACE, "10000000000", "5")), 9);
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn an_unknown_type_of_event_is_an_error_with_its_index() {
     refused(&with(TRACE, "\"tick\"", "\"tock\""), "events.type", Some(2));
@@ -194,7 +194,7 @@ fn an_unknown_type_of_event_is_an_error_with_its_index() {
     refused(&with(TRACE, ", \"type\": \"tick\"", ""), "events.type", Some(2));
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn an_unknown_group_is_an_error() {
     for wrong in ["\"MOT\"", "\"env\"", "0", "null", "[]"] {

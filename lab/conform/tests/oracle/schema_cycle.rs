@@ -42,7 +42,7 @@ fn objects_are_no_lists_and_words_no_objects() {
     refused(&with(CYCLE, "\"kind\": \"cycle\"", "\"kind\": {\"cycle\": null}"), "kind", None);
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn kind_is_one_of_the_three() {
     refused(&with(CYCLE, "\"kind\": \"cycle\"", "\"kind\": \"cycles\""), "kind", None);
@@ -50,7 +50,7 @@ fn kind_is_one_of_the_three() {
     refused(&with(CYCLE, "\"kind\": \"cycle\", ", ""), "kind", None);
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn id_is_a_string() {
     refused(&with(CYCLE, "\"id\": \"c\"", "\"id\": 1"), "id", None);
@@ -61,7 +61,7 @@ fn id_is_a_string() {
     assert_eq!(accepted(&escaped)["id"], "\u{e9}\"\n");
 }
 
-/// `spec/5-interfaces.md#cycle.1`
+/// CYCLE-03
 #[test]
 fn the_id_of_an_error_is_null_when_it_could_not_be_read() {
     for line in ["{\"id\": \"a\"", "{\"id\": 1}", "{\"id\": \"a\", \"id\": \"a\"}", "[\"id\"]"] {
@@ -123,7 +123,7 @@ fn parameters_override_single_defaults_by_name() {
     assert_eq!(cycle(CYCLE).parameters, Parameters::default());
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn an_unknown_parameter_is_an_error() {
     for name in ["theta", "qos_hold", "theta_tr ", "max_age", "lease_ns"] {
@@ -179,7 +179,7 @@ fn a_missing_input_is_named_by_its_key() {
     }
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn every_other_field_is_required_and_not_null() {
     let value: Value = serde_json::from_str(CYCLE).unwrap();
@@ -232,7 +232,7 @@ fn profile_and_parameters_may_be_absent_but_not_null() {
     refused(&with(CYCLE, "\"parameters\": {}", "\"parameters\": null"), "parameters", None);
 }
 
-/// `spec/3-stages.md#invalid-input.1`
+/// INPUT-01
 #[test]
 fn a_station_has_two_numbers_on_each_side() {
     for wrong in ["[]", "[-10]", "[-10, 2, 0]", "[-10, \"x\"]", "[[-10, 2]]", "null", "{}"] {
@@ -268,7 +268,7 @@ fn unused_bits_of_a_bitmap_are_ignored() {
     assert_eq!(answer["stages"].take(), accepted(CYCLE)["stages"]);
 }
 
-/// `spec/3-stages.md#invalid-input.2`: what is checked before the grid is named before it.
+/// INPUT-02: what is checked before the grid is named before it.
 #[test]
 fn what_is_wrong_before_a_bitmap_that_does_not_fit_is_named_first() {
     let short = with(CYCLE, "AAAAAA==", "AAAA");
@@ -298,7 +298,7 @@ fn a_grid_outside_the_domain_is_invalid_at_its_size() {
     assert_ne!(answer(&large)["error"]["field"], "grid.occupied");
 }
 
-/// `spec/5-interfaces.md#cycle.1`
+/// CYCLE-05, INPUT-07
 #[test]
 fn remote_data_outside_the_domain_is_unsafe_at_stage_input() {
     let answer = accepted(&with(CYCLE, "\"vx\": 10", "\"vx\": 1000"));

@@ -24,7 +24,7 @@ fn put(record: &mut Value, list: &str, x: f64, y: f64) {
     record[list]["items"][0]["y"] = json!(y);
 }
 
-/// `spec/5-interfaces.md#cycle.1`: an answer of every kind, and which members it has.
+/// CYCLE-01, CYCLE-02: an answer of every kind, and which members it has.
 #[test]
 fn a_verdict_is_safe_unsafe_or_error_and_a_failed_stage_has_its_name() {
     let unsafe_at = |stage: &str, answer: Value| (json!("unsafe"), json!(stage), answer);
@@ -76,7 +76,7 @@ fn a_verdict_is_safe_unsafe_or_error_and_a_failed_stage_has_its_name() {
     }
 }
 
-/// `spec/5-interfaces.md#cycle.1`: field, index and message.
+/// CYCLE-03: field, index and message.
 #[test]
 fn an_error_has_field_index_and_message() {
     let answer = changed(|record| record["route"]["stations"][1]["left"][0] = json!("inf"));
@@ -85,7 +85,7 @@ fn an_error_has_field_index_and_message() {
     assert!(error["message"].as_str().is_some_and(|message| !message.is_empty()));
 }
 
-/// `spec/5-interfaces.md#cycle.1`: the mean distance is the root of 2, whose nearest double this
+/// CYCLE-04: the mean distance is the root of 2, whose nearest double this
 /// is, and `theta_tr` the double nearest to 0.2, which is not 0.2.
 #[test]
 fn compared_numbers_are_shortest_decimals_of_the_nearest_doubles() {

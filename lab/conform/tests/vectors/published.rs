@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use crate::{ALL, folder, published};
 
-/// `spec/5-interfaces.md#vectors.1`: a change of a vector, of its id or of an answer is seen here.
+/// VEC-01: a change of a vector, of its id or of an answer is seen here.
 /// `mufasa vectors --out vectors` writes them anew.
 #[test]
 fn the_published_files_are_those_that_are_made_today() {
@@ -42,73 +42,40 @@ fn the_oracle_gives_every_published_answer() {
 }
 
 /// Requirements that no vector shows, each with the reason.
-const NOT_SHOWN: [(&str, &str); 4] = [
-    ("spec/1-services.md#service.3", "changes of a service set have no record"),
-    ("spec/2-offloading.md#fallback.6", "joins cycles and traces: the program's own wiring"),
-    (
-        "spec/7-fail-safe.md#when-the-cav-is-where.2",
-        "when pose and speed were measured is in no record",
-    ),
+const NOT_SHOWN: [(&str, &str); 8] = [
+    ("SVC-05", "changes of a service set have no record"),
+    ("FALL-10", "differences of the whole range are in no trace of allowed times"),
+    ("FALL-11", "joins cycles and traces: the program's own wiring"),
+    ("SCHED-18", "what reaches control is in no record"),
+    ("SCHED-19", "every vector with a failed stage"),
+    ("INPUT-07", "every vector with invalid input"),
+    ("INPUT-08", "every vector with invalid input"),
     ("F-19", "what the remote ENV used is in no record"),
 ];
 
-/// Names of the requirements of the headings that vectors have to cover.
+/// Prefixes of the requirements that vectors have to cover.
+const COVERED: [&str; 14] = [
+    "SVC", "COMP", "REQ", "QOS", "FALL", "SCHED", "DIST", "S1", "S2", "LLCC", "S3", "S4", "S5",
+    "INPUT",
+];
+
+/// Names of the requirements that vectors have to cover.
 fn requirements() -> BTreeSet<String> {
-    let headings = [
-        ("1-services.md", ["service", "composition"].as_slice()),
-        ("2-offloading.md", &["requester", "quality-of-service", "fallback"]),
-        (
-            "3-stages.md",
-            &[
-                "schedule",
-                "distances",
-                "stage-i-track-validation",
-                "stage-ii-trajectory-to-map",
-                "low-level-collision-check-llcc",
-                "stage-iii-trajectory-with-tracks",
-                "stage-iv-trajectory-with-detections",
-                "stage-v-trajectory-with-grid-map",
-                "invalid-input",
-            ],
-        ),
-        (
-            "7-fail-safe.md",
-            &[
-                "the-fail-safe-rule-h-14",
-                "the-path",
-                "when-the-cav-is-where",
-                "reach",
-                "motions",
-                "meeting",
-            ],
-        ),
-    ];
     let mut names = BTreeSet::new();
-    for (file, anchors) in headings {
+    for file in ["1-services.md", "2-offloading.md", "3-stages.md"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec").join(file);
         let text = fs::read_to_string(path).expect("spec/ is there");
-        let (mut anchor, mut count) = (String::new(), 0);
-        for line in text.lines() {
-            if let Some(heading) = line.strip_prefix("## ").or_else(|| line.strip_prefix("# ")) {
-                let plain = |c: char| c.is_alphanumeric() || c == ' ' || c == '-';
-                let kept: String = heading.to_lowercase().chars().filter(|c| plain(*c)).collect();
-                (anchor, count) = (kept.replace(' ', "-"), 0);
-            }
-            if line.contains("MUST") {
-                count += 1;
-                if anchors.contains(&anchor.as_str()) {
-                    names.insert(format!("spec/{file}#{anchor}.{count}"));
-                }
-            }
-        }
+        let ids = text.split("**[").skip(1).filter_map(|it| it.split("]**").next());
+        let covered = |id: &&str| id.split('-').next().is_some_and(|it| COVERED.contains(&it));
+        names.extend(ids.filter(covered).map(str::to_owned));
     }
     names.extend([1, 2, 4, 5, 6, 7, 8, 10, 11, 14].map(|n| format!("H-{n:02}")));
     names.extend((1..=48).map(|n| format!("F-{n:02}")));
     names
 }
 
-/// Every MUST of stages, schedule, distances, protocol, composition and fail-safe rule has vectors, each with at
-/// least two answers if it has several; every rule, every finding, every interpretation.
+/// Every requirement of stages, schedule, distances, protocol and composition has a vector; every rule and finding has
+/// two answers, every interpretation one that decides.
 #[test]
 fn every_requirement_rule_finding_and_interpretation_has_vectors() {
     let mut answers: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
@@ -122,7 +89,9 @@ fn every_requirement_rule_finding_and_interpretation_has_vectors() {
     for name in &known {
         let is_excused = NOT_SHOWN.iter().any(|(excused, _)| excused == name);
         let count = answers.get(name.as_str()).map_or(0, BTreeSet::len);
-        if is_excused != (count == 0) || count == 1 {
+        let least =
+            if COVERED.contains(&name.split('-').next().unwrap_or_default()) { 1 } else { 2 };
+        if is_excused != (count == 0) || (!is_excused && count < least) {
             few.push(format!("{name}: {count}"));
         }
     }

@@ -14,7 +14,7 @@ fn validator(name: &str) -> Validator {
     jsonschema::validator_for(&schema).expect("a valid schema")
 }
 
-/// `spec/5-interfaces.md#vectors.1`
+/// VEC-01 CYCLE-06.
 #[test]
 fn every_published_line_validates() {
     let vector = validator("vector");

@@ -7,7 +7,7 @@ use mufasa_link::message::encode;
 
 use crate::common::{frame, messages};
 
-/// `spec/6-link.md#our-module.1`; `UPDATE_HEX=1` writes the file.
+/// LINK-01; `UPDATE_HEX=1` writes the file.
 #[test]
 fn the_bytes_are_those_of_the_file() {
     let mut text = String::new();

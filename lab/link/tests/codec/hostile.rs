@@ -81,7 +81,7 @@ fn good() -> Vec<Vec<u8>> {
     messages().iter().map(|message| encode(message, &frame()).unwrap()).collect()
 }
 
-/// `spec/6-link.md#limits.3`: spoiled messages reach every error there is but `Missing`, of which the tests of
+/// LINK-20, LINK-21: spoiled messages reach every error there is but `Missing`, of which the tests of
 /// the codec have an example of each. `HOSTILE_SECONDS` goes on with other seeds for that long.
 #[test]
 fn spoiled_messages() {
@@ -128,13 +128,13 @@ fn spoiled_messages() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    // spec/6-link.md#limits.3
+    // LINK-22
     #[test]
     fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         outcome(&bytes, &frame());
     }
 
-    // spec/6-link.md#limits.3
+    // LINK-22
     #[test]
     fn any_bytes_after_a_good_start(start in 0..12_usize, bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         let mut whole = good().swap_remove(start);

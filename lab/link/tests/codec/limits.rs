@@ -66,7 +66,7 @@ fn edge<T: Copy>(kind: usize, place: &str, change: impl Fn(&mut Message, T), fit
     assert!(expected, "{error}");
 }
 
-// spec/6-link.md#limits.1
+// LINK-18
 #[test]
 fn envelope() {
     edge(0, "message.sender", |it, value| it.sender = value, 1, 0);
@@ -80,7 +80,7 @@ fn envelope() {
     edge(0, "message.session", session, i64::MAX, i64::MIN);
 }
 
-// spec/6-link.md#limits.1 spec/6-link.md#times.2
+// LINK-18 LINK-05, LINK-06, LINK-07
 #[test]
 fn times() {
     let generated_ns = messages()[0].generated_ns;
@@ -102,7 +102,7 @@ fn times() {
     edge(TRAJECTORY, "points[50].t_ns", last, 0, i64::MAX);
 }
 
-// spec/6-link.md#limits.1 spec/6-link.md#limits.2
+// LINK-18 LINK-19
 #[test]
 fn tracks() {
     let [x, y] = frame().point();
@@ -123,7 +123,7 @@ fn tracks() {
     edge(TRACKS, "message.tracks", count, 128, 129);
 }
 
-// spec/6-link.md#limits.1
+// LINK-18
 #[test]
 fn vehicle() {
     let [x, y] = frame().point();
@@ -157,7 +157,7 @@ fn vehicle() {
     encode(&message, &frame).unwrap();
 }
 
-// spec/6-link.md#limits.1
+// LINK-18
 #[test]
 fn trajectory() {
     let [x, y] = frame().point();
@@ -170,7 +170,7 @@ fn trajectory() {
     edge(TRAJECTORY, "trajectory.points", count, 1024, 1025);
 }
 
-/// `spec/6-link.md#limits.1`: NaN, infinities and what is no direction.
+/// LINK-18: NaN, infinities and what is no direction.
 #[test]
 fn what_is_no_number_is_not_sent() {
     type Change = fn(&mut Message, f64);
@@ -217,7 +217,7 @@ fn what_is_no_number_is_not_sent() {
     }
 }
 
-/// `spec/6-link.md#frame.1`
+/// LINK-02
 #[test]
 fn a_frame_is_near_a_place_on_the_earth() {
     for (latitude, longitude, point, place) in [

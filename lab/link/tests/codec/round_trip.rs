@@ -211,14 +211,14 @@ fn a_message_of_every_kind_arrives() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    // spec/6-link.md#rounding.1 spec/6-link.md#rounding.2 spec/6-link.md#times.1
+    // LINK-15, LINK-16 LINK-17 LINK-04
     #[test]
     fn messages_arrive_to_within_the_rounding(message in message()) {
         arrives(&message, &frame()).map_err(TestCaseError::fail)?;
     }
 }
 
-/// `spec/6-link.md#frame.1`: anywhere on the earth but near the poles, and on maps whose coordinates are
+/// LINK-02: anywhere on the earth but near the poles, and on maps whose coordinates are
 /// large.
 #[test]
 fn every_reference_position_will_do() {

@@ -1,4 +1,4 @@
-//! Programs that do not answer (`spec/5-interfaces.md#programs-under-test.2`).
+//! Programs that do not answer (TOOL-07).
 
 use std::time::Instant;
 

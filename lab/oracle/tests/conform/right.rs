@@ -4,6 +4,7 @@ use mufasa_conform::Kind;
 
 use crate::{MUFASA, conform, folder, summary, text, with_vectors};
 
+/// TOOL-02, TOOL-03, TOOL-05.
 #[test]
 fn the_model_conforms_in_both_profiles() {
     for profile in ["paper", "hardened"] {

@@ -4,6 +4,7 @@ use mufasa_conform::{Breach, Found, Scale};
 
 use crate::{EACH, MUFASA, SAFE, names_iv_for_iii, script};
 
+/// TOOL-04.
 #[test]
 fn who_always_says_safe_is_unsound() {
     let options = ["--kinds", "cycle", "--cases", "150", "--profile", "paper"];
@@ -108,7 +109,7 @@ fn a_tolerance_lets_only_what_it_explains_pass() {
     assert_eq!(clear.classes.len(), of(Scale::Clear).count(), "{told}");
 }
 
-/// What only the tolerance lets pass is no conformance, of vectors and of cases.
+/// What only the tolerance lets pass is no conformance, of vectors and of cases. TOOL-05, TOOL-06.
 #[test]
 fn what_only_a_tolerance_lets_pass_is_said_not_to_conform() {
     // It accepts what the lax model accepts: with margins of at most 1e-2 m.
@@ -136,7 +137,7 @@ fn what_only_a_tolerance_lets_pass_is_said_not_to_conform() {
     assert!(!told.contains("conforms"), "{told}");
 }
 
-/// `spec/3-stages.md#invalid-input.1`, `spec/5-interfaces.md#cycle.2`
+/// INPUT-01, CYCLE-08
 #[test]
 fn who_takes_a_line_that_is_no_record_for_one_is_found() {
     let program = format!(r#""{MUFASA}" oracle | sed -u 's/"verdict":"error"/"verdict":"safe"/'"#);
@@ -152,7 +153,7 @@ fn who_takes_a_line_that_is_no_record_for_one_is_found() {
     assert!(summary.classes.iter().any(|it| it.class.breach == Breach::Input), "{told}");
 }
 
-/// `spec/5-interfaces.md#cycle.1`
+/// CYCLE-03
 #[test]
 fn who_names_another_place_in_a_line_is_found() {
     let program = format!(r#""{MUFASA}" oracle | sed -u 's/"index":0/"index":null/'"#);
@@ -165,7 +166,7 @@ fn who_names_another_place_in_a_line_is_found() {
     }
 }
 
-/// `spec/3-stages.md#invalid-input.3`
+/// INPUT-06
 #[test]
 fn who_names_another_place_of_invalid_input_is_found() {
     let program = format!(r#""{MUFASA}" oracle | sed -u 's/"field":"[a-z]*/"field":"elsewhere/'"#);

@@ -191,7 +191,7 @@ _Verified = TypeVar("_Verified", bound=VerifiedTracks | VerifiedTrajectory | Dec
 
 @final
 class Monitor:
-    """The monitor of one CAV (``spec/5-interfaces.md#monitor``): events go in, actions come out; remote
+    """The monitor of one CAV (``spec/monitor.md#monitor``): events go in, actions come out; remote
     data are handed in and are out of reach until ``cycle`` has checked them.
 
     ``period``: the nominal period of the cycles and of the remote's results. ``parameters``: overrides of single defaults

@@ -1,7 +1,7 @@
 //! Keeps cycles that the monitor is asked about as the model has them: to be checked by it, and for logs.
 //!
 //! The monitor lets nobody look at its cycle. So it is put together a second time, by rules of the same
-//! text (`spec/5-interfaces.md#monitor`); that both are one is tested by their verdicts
+//! text (`spec/monitor.md#monitor`); that both are one is tested by their verdicts
 //! (`lab/sim/tests/loop/records.rs`).
 
 use mufasa::input::cycle::{Ego, Route};

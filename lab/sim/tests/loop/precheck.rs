@@ -35,7 +35,7 @@ fn drives(
     (alarms, remote, detected)
 }
 
-/// `spec/5-interfaces.md#precheck.2`, `spec/5-interfaces.md#precheck.4`.
+/// PRE-02, PRE-05.
 #[test]
 fn who_asks_is_turned_down_less_and_computes_more() {
     for variant in [Variant::Paper, Variant::Hardened] {
@@ -53,7 +53,7 @@ fn who_asks_is_turned_down_less_and_computes_more() {
     }
 }
 
-/// `spec/5-interfaces.md#precheck.6`: with remote tracks alone it is the CAV's own planner that asks.
+/// PRE-09, PRE-10: with remote tracks alone it is the CAV's own planner that asks.
 #[test]
 fn the_own_planner_asks_beside_remote_tracks() {
     for variant in [Variant::Paper, Variant::Hardened] {
@@ -65,7 +65,7 @@ fn the_own_planner_asks_beside_remote_tracks() {
     }
 }
 
-/// `spec/5-interfaces.md#precheck.7`: an attack comes after it, and is found as without.
+/// PRE-11: an attack comes after it, and is found as without.
 #[test]
 fn an_attack_comes_after_it_and_is_found() {
     for kind in [Kind::Ghosts, Kind::MapReplaced] {

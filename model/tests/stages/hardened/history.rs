@@ -280,7 +280,7 @@ fn only_current_tracks_confirm() {
     assert_eq!(count(&cycle), 1);
 }
 
-/// `spec/4-arithmetic.md#strict-and-lax.5`: the strict reading asks only when stage i runs, and of every received track.
+/// MARGIN-10, MARGIN-11: the strict reading asks only when stage i runs, and of every received track.
 #[test]
 fn ambiguity_fails_stage_i_and_no_other() {
     let mut cycle = driving(&[250, 500]);

@@ -3,13 +3,13 @@
 //!
 //! Covers, within the bounds of `proofs/exploration/src/bounds.rs`, F-12 and H-08, that model and implementation
 //! take every explored step alike (`System::new` fails at the first difference), and:
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.1`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.2`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.3`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.4`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.5`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.6`
-//! * `spec/2-offloading.md#properties-of-the-whole-protocol.7`
+//! * PROTO-01
+//! * PROTO-02
+//! * PROTO-03
+//! * PROTO-04
+//! * PROTO-05, PROTO-06
+//! * PROTO-08
+//! * PROTO-11
 
 mod likeness;
 mod walks;

@@ -142,7 +142,7 @@ fn current(pair: &Pair, group: Group) -> Option<(i64, i64)> {
     }
 }
 
-/// `spec/2-offloading.md#fallback.6`, `spec/2-offloading.md#properties-of-the-whole-protocol.1`,
+/// FALL-11, PROTO-01,
 /// `.2`, `.6` and `.7`. The walks do what they are for: groups are remote, and local services stand still.
 #[test]
 fn walks_at_any_time_keep_the_properties() {

@@ -207,7 +207,7 @@ pub fn cycle(tape: &[u32]) -> Cycle {
     }
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: whatever the numbers are, there is an
+/// IMPL-07, INPUT-08: whatever the numbers are, there is an
 /// answer and no panic (overflow of integers panics in tests too).
 #[test]
 fn no_numbers_panic() {

@@ -158,7 +158,7 @@ fn on_small_stack<T: Send>(run: impl FnOnce() -> T + Send) -> T {
     })
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: the largest cycles are decided on
+/// IMPL-07: the largest cycles are decided on
 /// the stack that small ones need; recursion that grows with the input would overflow it.
 #[test]
 fn the_largest_cycles_need_no_more_stack_than_small_ones() {
@@ -178,7 +178,7 @@ fn the_passer_meets_the_cav_unless_it_keeps_beside() {
     assert_eq!((witness.rule, witness.track), (Rule::FailSafe, Some(0)));
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: scratch that is one element too small
+/// IMPL-08, IMPL-09: scratch that is one element too small
 /// is invalid input, whatever the rest; a truncated check would pass.
 #[test]
 fn scratch_that_is_one_too_small_is_invalid_input() {

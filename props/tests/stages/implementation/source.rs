@@ -112,7 +112,7 @@ fn tests_are_told_from_what_is_shipped() {
     assert!(!shipped.iter().any(|(file, text)| file.contains("tests") || text.contains("#[test]")));
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: neither heap nor clock are within
+/// IMPL-07: neither heap nor clock are within
 /// reach of a crate without `std` and `alloc`; `dependencies` sees to it that it needs no other.
 #[test]
 fn there_is_no_heap_and_no_clock() {
@@ -122,7 +122,7 @@ fn there_is_no_heap_and_no_clock() {
     assert!(!Path::new(env!("CARGO_MANIFEST_DIR")).join("../impl/build.rs").exists());
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: `forbid` cannot be lifted below.
+/// IMPL-07: `forbid` cannot be lifted below.
 #[test]
 fn unsafe_is_forbidden() {
     let forbidden = "unsafe_code = \"forbid\"".to_owned();
@@ -130,7 +130,7 @@ fn unsafe_is_forbidden() {
     assert_eq!(table(&read("impl/Cargo.toml"), "lints"), ["workspace = true"]);
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.6`: overflow, division by zero, indices
+/// IMPL-07: overflow, division by zero, indices
 /// and unwrapping are lints that are denied and nowhere allowed; other ways to panic are not used.
 #[test]
 fn what_panics_is_denied_or_absent() {
@@ -179,7 +179,7 @@ fn what_panics_is_denied_or_absent() {
     assert_eq!(uses(&methods), [""; 0]);
 }
 
-/// `spec/4-arithmetic.md#conformance-of-an-implementation.5`: floating point is the arithmetic of
+/// IMPL-06: floating point is the arithmetic of
 /// Rust, which is that of IEEE 754, and `sqrt` and `floor`, which are exact or correctly rounded on
 /// every platform; no code depends on the platform, and nothing is remembered between calls.
 #[test]

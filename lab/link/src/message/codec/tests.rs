@@ -95,7 +95,7 @@ fn unchanged_they_are_read() {
     spoil::<CPM>(Pdu::Cpm, detections(), |_| {}).unwrap();
 }
 
-/// `spec/6-link.md#limits.3`
+/// LINK-20
 #[test]
 fn envelopes() {
     let change = |change: fn(&mut asn1::Message)| {
@@ -111,7 +111,7 @@ fn envelopes() {
     assert!(error.is_err(), "{error:?}");
 }
 
-/// `spec/6-link.md#limits.3`: a byte too many, after the message and after what is in it.
+/// LINK-20: a byte too many, after the message and after what is in it.
 #[test]
 fn trailing_bytes() {
     let mut written = bytes::encode(&tracks()).unwrap();
@@ -127,7 +127,7 @@ fn trailing_bytes() {
     assert_eq!(error, DecodeError::Trailing { pdu: Pdu::Cpm, bytes: 1 });
 }
 
-/// `spec/6-link.md#frame.2`
+/// LINK-03
 #[test]
 fn other_frames() {
     let point = TrajectoryPoint { t_ns: 5_000_000_000, x: 1_010.0, y: -490.0, cos: 1.0, sin: 0.0 };
@@ -140,7 +140,7 @@ fn other_frames() {
     assert_eq!(decode(&bytes::encode(&tracks()).unwrap(), &other), Err(wrong));
 }
 
-/// `spec/6-link.md#header.1`
+/// LINK-08
 #[test]
 fn headers() {
     assert!(cam(|it| it.header.message_id = 1).starts_with("the header is not that of a CAM"));
@@ -154,7 +154,7 @@ fn headers() {
     assert_eq!(station(late), "generation delta time 5001 is not that of the message");
 }
 
-/// `spec/6-link.md#cam.1`
+/// LINK-09
 #[test]
 fn cams() {
     type Fast = c_its_parser::standards::cam_1_4_1::cam_pdu_descriptions::BasicVehicleContainerHighFrequency;
@@ -188,7 +188,7 @@ fn cams() {
     assert_eq!(cam(road_side), missing);
 }
 
-/// `spec/6-link.md#cpm.1` `spec/6-link.md#cpm.3`
+/// LINK-10 LINK-12
 #[test]
 fn cpms_of_stations() {
     let car = |it: &mut CPM| {
@@ -218,7 +218,7 @@ fn cpms_of_stations() {
     );
 }
 
-/// `spec/6-link.md#cpm.2`
+/// LINK-11
 #[test]
 fn cpms_of_vehicles() {
     let none = |it: &mut CPM| it.cpm.cpm_parameters.station_data_container = None;
@@ -235,7 +235,7 @@ fn cpms_of_vehicles() {
     assert_eq!(vehicle(length), "stationDataContainer.vehicleLength is missing");
 }
 
-/// `spec/6-link.md#objects.1` `spec/6-link.md#objects.2`
+/// LINK-13 LINK-14
 #[test]
 fn objects() {
     let corner = |it: &mut CPM| second(it).object_ref_point = ObjectRefPoint(1);

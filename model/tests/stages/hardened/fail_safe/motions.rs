@@ -334,7 +334,7 @@ fn a_crossing_car_that_the_remote_side_hides_is_seen() {
     }
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.5: what is too close to call of the CAV's own tracks fails stage iv of
+/// MARGIN-12: what is too close to call of the CAV's own tracks fails stage iv of
 /// the strict reading in PlanRemote, with current tracks and detections, before anything meets.
 #[test]
 fn own_tracks_too_close_to_call_fail_stage_iv() {

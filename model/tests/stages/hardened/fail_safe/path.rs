@@ -152,7 +152,7 @@ fn the_last_place_is_at_s_stop() {
     assert_eq!(exact(&sideways).len(), 2, "0.1875 along y is a way");
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.1: strictly what is no farther than delta beyond s_stop is examined, too,
+/// MARGIN-02, MARGIN-03: strictly what is no farther than delta beyond s_stop is examined, too,
 /// before the last place and in its window; laxly nothing that is nearer than delta to it, but p.
 #[test]
 fn the_readings_end_before_and_behind_s_stop() {

@@ -91,7 +91,7 @@ fn reach_counts_from_the_heading_of_the_cav() {
     assert_eq!(rule(&standing, Stage::Ii), None);
 }
 
-/// spec/4-arithmetic.md#strict-and-lax.2: whether a point is 1/8 m ahead is asked of the first that is, and of
+/// MARGIN-04: whether a point is 1/8 m ahead is asked of the first that is, and of
 /// those before it, after `reach`.
 #[test]
 fn a_point_at_an_eighth_of_a_metre_is_ambiguous() {
