@@ -20,14 +20,11 @@ mod tree;
 use std::collections::BTreeSet;
 
 use citations::{Citations, citations, strangers};
-use ids::{Requirement, prefix, requirements, rule};
+use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
 use lock::Lock;
 use tree::Tree;
 
 const LOCK: &str = "spec/requirements.lock";
-
-/// Says which prefix stands for which heading.
-const PREFIXES: &str = "spec/README.md";
 
 /// Texts whose requirements have no ids yet.
 const WITHOUT: &[&str] = &["spec/3-stages.md#what-the-cav-saw-itself", "spec/7-fail-safe.md"];
@@ -61,18 +58,6 @@ fn ill_named(tree: &Tree) -> Vec<String> {
         }
     }
     wrong
-}
-
-/// The rows `| DIST | [words](3-stages.md#distances) |`.
-fn prefixes(tree: &Tree) -> Vec<(&str, String)> {
-    let text = tree.0.get(PREFIXES).map(String::as_str).unwrap_or_default();
-    text.lines().filter_map(prefix_of_row).collect()
-}
-
-fn prefix_of_row(line: &str) -> Option<(&str, String)> {
-    let (name, rest) = line.strip_prefix("| ")?.split_once(" | ")?;
-    let target = rest.split_once("](")?.1.split_once(')')?.0;
-    Some((name.trim_matches('`'), format!("spec/{target}")))
 }
 
 /// Requirements that no test, vector or proof cites. A vector of a rule cites all that it asks for.

@@ -69,13 +69,13 @@ pub fn dilated(scene: &Scene, grid: &Grid, disk: &Disk) -> Option<Hit> {
     mark_at(&scene.reads, disk.centre, &grid.resolution, mark)
 }
 
-/// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m.
+/// (2i+1) L/(2n) - L/2: from the rectangle's centre to that of the disk i of n, m (S5-01).
 pub fn disk_offset(i: &Real, n: &Real, length: &Real) -> Real {
     let two = Real::from_integer(2);
     (&two * i + Real::from_integer(1)) * length / (&two * n) - length / two
 }
 
-/// r = sqrt((L/n)^2 + W^2) / 2, m.
+/// r = sqrt((L/n)^2 + W^2) / 2, m (S5-02).
 pub fn disk_radius(length: &Real, width: &Real, n: &Real) -> Real {
     ((length / n).square() + width.square()).sqrt() / Real::from_integer(2)
 }

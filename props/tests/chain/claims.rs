@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use toml::{Table, Value};
 
 use super::comments::{mentions, names};
-use super::lines::{Place, item};
+use super::lines::{Place, item, lines};
 use super::rows::{Cell, Link};
 use super::symbols::has_word;
 use super::tree::{Tree, sections};
@@ -67,7 +67,7 @@ fn place_of(tree: &Tree, place: &Table) -> (BTreeSet<String>, String) {
     let function = path.last().copied().unwrap_or_default();
     let mut about = BTreeSet::new();
     for (file, source) in tree.ending(".rs").filter(|(file, _)| file.starts_with(folder)) {
-        let here = source.lines().any(|line| item(line.trim_start()) == Some(function));
+        let here = lines(source).iter().any(|line| item(line.code) == Some(function));
         let owner = path.len() < 2 || source.contains(path[0]) || file.contains(path[0]);
         if here && owner {
             let all = mentions(source);

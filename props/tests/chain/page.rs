@@ -18,24 +18,30 @@ const CELLS: [(Cell, &str); 9] = [
     (Cell::Bench, "bench"),
 ];
 
-/// Cells that every row has to have.
+/// Cells that every row has to have; a symbol leads on by its headings, and needs the first two alone.
 const NEEDED: [(Cell, &str); 6] = [
+    (Cell::Proof, "law, theorem or harness"),
+    (Cell::Vector, "vector"),
     (Cell::Model, "model"),
     (Cell::Impl, "impl"),
-    (Cell::Proof, "law, theorem or harness"),
     (Cell::Test, "test"),
-    (Cell::Vector, "vector"),
     (Cell::Bench, "bench"),
 ];
 
 type Reasons = [(&'static str, Cell, &'static str)];
 
 /// How many names of a file are shown.
-const NAMES: usize = 6;
+const NAMES: usize = 3;
+
+fn needed(row: &Row) -> &'static [(Cell, &'static str)] {
+    if row.is_symbol() { &NEEDED[..2] } else { &NEEDED }
+}
 
 fn has(row: &Row, cell: Cell) -> bool {
     let of: &[Cell] = match &cell {
         Cell::Proof => &[Cell::Law, Cell::Theorem, Cell::Harness],
+        // One test holds model and implementation to every vector.
+        Cell::Test => &[Cell::Test, Cell::Vector],
         cell => std::slice::from_ref(cell),
     };
     of.iter().any(|cell| row.cells.contains_key(cell))
@@ -45,14 +51,15 @@ fn has(row: &Row, cell: Cell) -> bool {
 pub fn missing(rows: &[Row], reasons: &Reasons) -> Vec<String> {
     let mut wrong = Vec::new();
     for row in rows {
-        for (cell, name) in NEEDED {
+        for &(cell, name) in needed(row) {
             if !has(row, cell) && reason(row, cell, reasons).is_none() {
                 wrong.push(format!("{}: no {name}", row.name));
             }
         }
     }
     for (start, cell, why) in reasons {
-        if !rows.iter().any(|row| is_about(row, start) && !has(row, *cell)) {
+        let needs = |row: &&Row| needed(row).iter().any(|(it, _)| it == cell) && !has(row, *cell);
+        if !rows.iter().filter(|row| is_about(row, start)).any(|row| needs(&row)) {
             let name = NEEDED.iter().find(|(it, _)| it == cell).map_or("", |(_, name)| name);
             wrong.push(format!("{start}: {name}: is there now, strike out the reason ({why})"));
         }
@@ -77,6 +84,7 @@ pub fn write(rows: &[Row], reasons: &Reasons) -> String {
          From the paper to the code and what is known of it, by `UPDATE_CHAIN=1 cargo test -p mufasa-props --test chain` \
          from what the sources say: headings and rules in comments, requirements of vectors, claims and the changes \
          that refute them. A test fails when this page is old, or a place is missing without a reason.\n\n\
+         [One test](../lab/conform/tests/vectors/main.rs) holds model and implementation to every vector. \
          `law` has the laws of `proofs/src/law` and the properties of the exploration. What is a claim and what is only \
          tested: [proofs.md](proofs.md).\n\n\
          ## By the paper\n\n| paper | here |\n|---|---|\n",
@@ -87,7 +95,7 @@ pub fn write(rows: &[Row], reasons: &Reasons) -> String {
     for row in headings.iter().filter(|row| row.paper.starts_with("Paper ")) {
         let _ = writeln!(out, "| {} | {} |", row.paper.trim_start_matches("Paper "), link(row));
     }
-    let is_rule = |row: &&&Row| row.title.starts_with("H-") || row.title.starts_with("I-");
+    let is_rule = |row: &&&Row| !row.is_symbol();
     let list = |of: Vec<&&Row>| of.into_iter().map(|row| link(row)).collect::<Vec<_>>().join(" · ");
     let _ =
         writeln!(out, "\nSymbols: {}\n", list(others.iter().filter(|row| !is_rule(row)).collect()));
@@ -122,7 +130,7 @@ fn section(row: &Row, reasons: &Reasons) -> String {
             let _ = writeln!(out, "* **{name}** {}", files.join("; "));
         }
     }
-    for (cell, name) in NEEDED {
+    for &(cell, name) in needed(row) {
         if let Some(why) = reason(row, cell, reasons).filter(|_| !has(row, cell)) {
             let _ = writeln!(out, "* no {name}: {why}");
         }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::claims::{self, Claim};
 use super::comments::{Mention, mentions, names};
-use super::ids::{Requirement, is_normative, prefix, requirements, rule};
+use super::ids::{Requirement, prefix, prefixes, requirements, rule};
 use super::lines::{Place, item};
 use super::symbols;
 use super::tree::{Tree, sections};
@@ -37,9 +37,6 @@ pub enum Cell {
 /// Tests that read the names of all rows.
 pub const BOOKS: [&str; 4] =
     ["props/tests/chain", "props/tests/requirements", "props/tests/tidy", "props/tests/tree"];
-
-/// It holds model and implementation to every vector.
-const EVERY_VECTOR: &str = "lab/conform/tests/vectors/main.rs";
 
 /// A place in a file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,9 +78,15 @@ impl Row {
         row
     }
 
-    /// Whether a name is the row's, or of a requirement of it.
+    /// Whether a name is the row's, of a heading of its file, or of a requirement of it.
     pub fn is_named(&self, name: &str) -> bool {
-        self.name == name || self.ids.contains(name)
+        let file = name.split('#').next().unwrap_or_default();
+        self.name == name || self.name == file || self.ids.contains(name)
+    }
+
+    /// Neither a heading nor a rule.
+    pub fn is_symbol(&self) -> bool {
+        !self.name.starts_with("spec/") && !is_of_rule(&self.name)
     }
 
     /// Adds a link.
@@ -109,7 +112,12 @@ pub fn all(tree: &Tree) -> Vec<Row> {
         add_benches(tree, row);
     }
     as_their_headings(&mut rows);
-    let symbols = symbols::all(tree, &claims, &rows);
+    let mut symbols = symbols::all(tree, &claims, &rows);
+    for row in symbols.iter_mut().filter(|row| !row.ids.is_empty()) {
+        add_code(&sources, row);
+        add_tests(&sources, row);
+        add_benches(tree, row);
+    }
     rows.extend(symbols);
     rows
 }
@@ -129,45 +137,39 @@ impl Source<'_> {
     }
 }
 
+/// A row for each prefix of `spec/README.md`; of rules and interpretations one for each.
 fn headings_and_rules(tree: &Tree) -> Vec<Row> {
     let (asked, _) = requirements(tree);
-    let ids = |of: &dyn Fn(&Requirement) -> bool| {
-        asked.iter().filter(|it| of(it)).map(|it| it.id.clone()).collect::<BTreeSet<_>>()
-    };
-    let (mut headings, mut rules) = (Vec::new(), Vec::new());
-    for (file, text) in tree.ending(".md").filter(|(file, _)| is_normative(file)) {
-        let name = file.trim_start_matches("spec/").trim_end_matches(".md");
-        let number = name.split('-').next().unwrap_or_default();
-        for section in sections(text) {
-            let place = format!("{file}#{}", section.anchor);
-            let title = section.lines[0].trim_start_matches(['#', ' ']);
-            let paper = section
-                .lines
-                .iter()
-                .find(|line| line.starts_with("Paper ") || line.starts_with("Not in "));
-            let own = ids(&|it| it.place == place && !is_of_rule(&it.id));
-            if !own.is_empty() || section.lines.iter().any(|line| line.contains("MUST")) {
-                let title = format!("{number} {title}");
-                let mut row = Row::new(&place, &title, paper.unwrap_or(&""), &place);
-                row.ids = own;
-                row.readings.extend(section.lines.iter().flat_map(|line| names(line)));
-                headings.push(row);
-            }
-        }
+    let mut rows: Vec<Row> = Vec::new();
+    for (name, target) in prefixes(tree).into_iter().filter(|(name, _)| !is_of_rule(name)) {
+        let (file, anchor) = target.split_once('#').unwrap_or((&target, ""));
+        let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
+        let here = sections(text).into_iter().filter(|it| anchor.is_empty() || it.anchor == anchor);
+        let lines: Vec<&str> = here.flat_map(|it| it.lines).collect();
+        let heading = lines.first().unwrap_or(&"").trim_start_matches(['#', ' ']);
+        let paper =
+            lines.iter().find(|line| line.starts_with("Paper ") || line.starts_with("Not in "));
+        let number = file.trim_start_matches("spec/").split('-').next().unwrap_or_default();
+        let title =
+            if anchor.is_empty() { heading.to_owned() } else { format!("{number} {heading}") };
+        let mut row = Row::new(&target, &title, paper.unwrap_or(&""), &target);
+        row.ids =
+            asked.iter().filter(|it| prefix(&it.id) == name).map(|it| it.id.clone()).collect();
+        row.readings.extend(lines.iter().flat_map(|line| names(line)));
+        rows.push(row);
     }
+    let mut rules: BTreeMap<&str, Row> = BTreeMap::new();
     for Requirement { id, place, text } in asked.iter().filter(|it| is_of_rule(&it.id)) {
         let page = place.split('#').next().unwrap_or_default();
         let place = if page.starts_with("spec/hardened/") { page } else { place };
         let words: String =
             text.split(" | ").next().unwrap_or_default().chars().take(100).collect();
-        let mut row = Row::new(rule(id), rule(id), &words, place);
-        row.ids = ids(&|it| rule(&it.id) == rule(id));
-        rules.push(row);
+        let row =
+            rules.entry(rule(id)).or_insert_with(|| Row::new(rule(id), rule(id), &words, place));
+        row.ids.insert(id.clone());
     }
-    rules.sort_by(|a: &Row, b: &Row| a.name.cmp(&b.name));
-    rules.dedup_by(|a, b| a.name == b.name);
-    headings.extend(rules);
-    headings
+    rows.extend(rules.into_values());
+    rows
 }
 
 /// A rule H-nn or an interpretation I-nn has a row of its own.
@@ -275,75 +277,33 @@ fn add_vectors(tree: &Tree, row: &mut Row) {
         let is_it = |line: &str| {
             let of =
                 line.split_once("\"requirement\": \"").and_then(|(_, it)| it.split('"').next());
-            let heading = |of: &str| of.rsplit_once('.').is_some_and(|(it, _)| it == row.name);
-            of.is_some_and(|of| row.is_named(of) || heading(of)) || line.contains(&flag)
+            of.is_some_and(|of| row.is_named(of)) || line.contains(&flag)
         };
         if text.lines().any(is_it) {
             row.add(Cell::Vector, file, "");
-            if tree.0.contains_key(EVERY_VECTOR) {
-                row.add(Cell::Test, EVERY_VECTOR, "");
-            }
         }
     }
 }
 
-/// The benches of the stages in which the row's modules of the implementation are used.
+/// The benches of the folders in which the row's implementation is.
 pub fn add_benches(tree: &Tree, row: &mut Row) {
-    let mut groups = BTreeSet::new();
-    for link in row.cells.get(&Cell::Impl).into_iter().flatten() {
-        let word = if row.name == *row.title { link.name.as_str() } else { "" };
-        add_groups(tree, (&link.file, word), &mut BTreeSet::new(), &mut groups);
-    }
-    // What is named nowhere else on the way has another name there.
-    if groups.is_empty() {
-        for link in row.cells.get(&Cell::Impl).into_iter().flatten() {
-            add_groups(tree, (&link.file, ""), &mut BTreeSet::new(), &mut groups);
-        }
-    }
     let file = "benches/benches/stages.rs";
-    let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
-    for group in groups {
-        let begins = group.split(' ').next().unwrap_or_default();
-        let named = [format!("format!(\"{begins} "), format!("(\"{group}\")")];
-        if named.iter().any(|name| text.contains(name)) {
-            row.add(Cell::Bench, file, &group);
-        }
+    if !tree.0.contains_key(file) {
+        return;
     }
+    let links = row.cells.get(&Cell::Impl).into_iter().flatten();
+    let groups: BTreeSet<String> = links.filter_map(|link| bench(&link.file)).collect();
+    groups.iter().for_each(|group| row.add(Cell::Bench, file, group));
 }
 
-/// Stages that a file of the implementation is a part of, or that use it; with a word: that use it
-/// and name the word.
-fn add_groups(
-    tree: &Tree,
-    (file, word): (&str, &str),
-    seen: &mut BTreeSet<String>,
-    groups: &mut BTreeSet<String>,
-) {
-    let below = file.strip_prefix("impl/src/").filter(|_| seen.insert(file.to_owned()));
-    let Some(below) = below else { return };
-    let mut parts = below.trim_end_matches(".rs").split('/').filter(|part| *part != "mod");
-    let (folder, module) = (parts.next().unwrap_or_default(), parts.next());
-    let number = module.and_then(|module| module.split('_').next()).unwrap_or_default();
-    match (folder, module) {
-        ("cycle" | "input", _) => drop(groups.insert("whole cycle".to_owned())),
-        ("offloading", _) => drop(groups.insert("requester step".to_owned())),
-        ("stages", _) if ["i", "ii", "iii", "iv", "v"].contains(&number) => {
-            groups.insert(format!("stage {number}"));
-        }
-        ("stages" | "hardened" | "numbers", Some(module)) => {
-            let users: Vec<_> = tree
-                .ending(".rs")
-                .filter(|(file, text)| {
-                    let known = ["impl/src/stages", "impl/src/hardened", "impl/src/cycle"];
-                    known.iter().any(|it| file.starts_with(it))
-                        && !is_test(file)
-                        && text.contains(&format!("{module}::"))
-                })
-                .collect();
-            for (user, _) in users.iter().filter(|(_, text)| text.contains(word)) {
-                add_groups(tree, (user, word), seen, groups);
-            }
-        }
-        _ => {}
-    }
+/// That of a stage for its own folder, of the requester for its; else the whole cycle.
+fn bench(file: &str) -> Option<String> {
+    let mut parts = file.strip_prefix("impl/src/")?.split('/');
+    let (folder, module) = (parts.next()?, parts.next().unwrap_or_default());
+    let number = module.split('_').next().unwrap_or_default();
+    Some(match folder {
+        "stages" if ["i", "ii", "iii", "iv", "v"].contains(&number) => format!("stage {number}"),
+        "offloading" => "requester step".to_owned(),
+        _ => "whole cycle".to_owned(),
+    })
 }

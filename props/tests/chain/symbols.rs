@@ -1,58 +1,50 @@
 //! The symbols of the paper and of the spec: distances, parameters of the stages and of the requester.
 
-use std::collections::BTreeSet;
-
 use super::claims::Claim;
-use super::lines::{Place, item, lines};
-use super::rows::{BOOKS, Cell, Row, add_benches, is_test};
+use super::ids::requirements;
+use super::lines::item;
+use super::rows::{Cell, Row};
 use super::tree::{Tree, sections};
 
-/// A row for each symbol. `rows`: those of the headings.
+/// A row for each symbol. `rows`: those of the headings, which lead on.
 pub fn all(tree: &Tree, claims: &[Claim], rows: &[Row]) -> Vec<Row> {
     let text = |file: &str| tree.0.get(file).map(String::as_str).unwrap_or_default();
-    let stages = "spec/3-stages.md";
+    let (stages, offloading) = ("spec/3-stages.md", "spec/2-offloading.md");
+    let (asked, _) = requirements(tree);
     let mut found = Vec::new();
+    let mut add = |symbol: &str, paper: &str, file: &str, anchor: &str| {
+        found.push(Row::new(symbol, symbol, paper, &format!("{file}#{anchor}")));
+    };
     for section in sections(text(stages)) {
-        let place = format!("{stages}#{}", section.anchor);
-        // s_CAV = ... (3)
-        for line in
-            section.lines.iter().filter(|line| line.starts_with("    ") && line.contains(" = "))
-        {
-            let symbol = line.trim_start().split(['(', ' ']).next().unwrap_or_default();
-            let number = line.rsplit(' ').next().unwrap_or_default();
-            found.push(Row::new(symbol, symbol, &format!("Paper eq. {number}."), &place));
-        }
-        // Parameters: theta_tr = 0.2 m, ...
-        for line in section.lines.iter().filter(|line| line.starts_with("Parameters ")) {
-            for (at, _) in line.match_indices(" = ") {
+        for line in section.lines {
+            // s_CAV = ... (3)
+            if line.starts_with("    ") && line.contains(" = ") {
+                let symbol = line.trim_start().split(['(', ' ']).next().unwrap_or_default();
+                let number = line.rsplit(' ').next().filter(|it| it.len() == 3);
+                let paper =
+                    number.map_or("Paper Sec. IV-F.".to_owned(), |it| format!("Paper eq. {it}."));
+                add(symbol, &paper, stages, &section.anchor);
+            }
+            // Parameters: theta_tr = 0.2 m, ...
+            for (at, _) in line.match_indices(" = ").filter(|_| line.starts_with("Parameters ")) {
                 let symbol = line[..at].rsplit(' ').next().unwrap_or_default();
-                let profile =
-                    match (line[..at].contains("Both:"), line[..at].contains("Hardened only:")) {
-                        (true, _) => "both profiles",
-                        (_, true) => "the hardened profile",
-                        _ => "the paper profile",
-                    };
-                let words = format!("A parameter of {profile}.");
-                found.push(Row::new(symbol, symbol, &words, &place));
+                add(symbol, "A parameter of the stages.", stages, &section.anchor);
             }
         }
     }
-    let offloading = "spec/2-offloading.md";
     for section in sections(text(offloading)) {
-        let place = format!("{offloading}#{}", section.anchor);
-        for line in section.lines {
-            let Some((_, defaults)) = line.split_once("Defaults: ") else { continue };
-            for default in defaults.split(", ").filter_map(|it| it.split(' ').next()) {
-                found.push(Row::new(
-                    default,
-                    default,
-                    "A time of the requester or provider.",
-                    &place,
-                ));
-            }
+        let defaults = section.lines.iter().filter_map(|line| line.split_once("Defaults: "));
+        for symbol in
+            defaults.flat_map(|(_, it)| it.split(", ")).filter_map(|it| it.split(' ').next())
+        {
+            add(symbol, "A time of the requester or provider.", offloading, &section.anchor);
         }
     }
     for row in &mut found {
+        // A letter is found by the requirement that defines it.
+        let formula = format!(" {} = ", row.name);
+        let of = asked.iter().filter(|it| row.name.len() == 1 && it.text.contains(&formula));
+        row.ids = of.map(|it| it.id.clone()).collect();
         complete(tree, claims, rows, row);
     }
     found
@@ -64,75 +56,38 @@ fn complete(tree: &Tree, claims: &[Claim], rows: &[Row], row: &mut Row) {
     let is_named = |text: &str| {
         has_word(text, &symbol) || has_word(text, &code) || has_word(text, &format!("{code}_ns"))
     };
-    for (file, text) in tree
-        .ending(".md")
-        .filter(|(file, _)| file.starts_with("spec/") && !file.ends_with("CHANGES.md"))
-    {
-        let with = sections(text)
-            .into_iter()
-            .filter(|section| section.lines.iter().any(|line| is_named(line)));
-        for section in with.filter(|section| section.lines.iter().any(|line| line.contains("MUST")))
-        {
-            row.add(Cell::Spec, &format!("{file}#{}", section.anchor), "");
+    for other in rows {
+        let (file, anchor) = other.name.split_once('#').unwrap_or((&other.name, ""));
+        let text = tree.0.get(file).map(String::as_str).unwrap_or_default();
+        let here = sections(text).into_iter().filter(|it| anchor.is_empty() || it.anchor == anchor);
+        if here.flat_map(|it| it.lines).any(&is_named) {
+            row.add(Cell::Spec, &other.name, "");
         }
     }
-    for (cell, folder) in [(Cell::Model, "model/src/"), (Cell::Impl, "impl/src/")] {
-        let files =
-            || tree.ending(".rs").filter(|(file, _)| file.starts_with(folder) && !is_test(file));
-        let mut functions = BTreeSet::new();
-        for (file, text) in files() {
-            functions.extend(functions_with(text, &code).into_iter().map(|name| (file, name)));
-        }
-        let is_own = functions.iter().any(|(_, name)| *name == code);
-        for (file, name) in functions.iter().filter(|(_, name)| !is_own || *name == code) {
-            row.add(cell, file, name);
-        }
-    }
-    for claim in claims.iter().filter(|claim| is_named(&claim.words)) {
-        row.cells.entry(claim.cell).or_default().insert(claim.link.clone());
-    }
-    let tests = || tree.ending(".rs").filter(|(_, text)| text.contains("#[test]"));
-    for (file, text) in tests().filter(|(file, _)| !BOOKS.iter().any(|it| file.starts_with(it))) {
-        for name in text.lines().filter_map(|line| item(line.trim_start())) {
-            if text.contains(&format!("fn {name}()")) && has_word(name, &code) {
-                row.add(Cell::Test, file, name);
+    for (file, text) in tree.ending(".rs") {
+        for (cell, folder) in [(Cell::Model, "model/src/"), (Cell::Impl, "impl/src/")] {
+            let functions = text.lines().filter_map(|line| item(line.trim_start()));
+            for name in functions.filter(|it| file.starts_with(folder) && *it == code) {
+                row.add(cell, file, name);
             }
         }
     }
-    if !row.cells.contains_key(&Cell::Test) {
-        for (file, _) in tests().filter(|(file, text)| is_test(file) && is_named(text)) {
-            row.add(Cell::Test, file, "");
+    for claim in claims {
+        if is_named(&claim.words) || claim.about.iter().any(|it| row.ids.contains(it)) {
+            row.cells.entry(claim.cell).or_default().insert(claim.link.clone());
         }
     }
     for (file, text) in tree.ending(".jsonl").filter(|(file, _)| file.starts_with("vectors/")) {
-        if is_named(text) && !file.contains("random") {
+        let cites = |id: &String| text.contains(&format!("\"requirement\": \"{id}\""));
+        if (is_named(text) && !file.contains("random")) || row.ids.iter().any(cites) {
             row.add(Cell::Vector, file, "");
         }
     }
-    let places: BTreeSet<_> = row.cells[&Cell::Spec].iter().map(|link| link.file.clone()).collect();
-    let headings = || rows.iter().filter(|other| places.contains(&other.name));
-    if !row.cells.contains_key(&Cell::Vector) {
-        let links =
-            headings().filter_map(|other| other.cells.get(&Cell::Vector)).flatten().cloned();
-        row.cells.entry(Cell::Vector).or_default().extend(links);
-    }
-    if let Some(heading) = headings().find(|other| is_named(&other.paper)) {
+    let places = &row.cells[&Cell::Spec];
+    let headings = rows.iter().filter(|it| places.iter().any(|link| link.file == it.name));
+    if let Some(heading) = headings.into_iter().find(|it| is_named(&it.paper)) {
         row.paper.clone_from(&heading.paper);
     }
-    add_benches(tree, row);
-    row.cells.retain(|_, links| !links.is_empty());
-}
-
-/// The functions in which a word stands, and a function of this name.
-fn functions_with(text: &str, word: &str) -> BTreeSet<String> {
-    let timed = format!("{word}_ns");
-    let lines = lines(text).into_iter();
-    let with = lines.filter(|line| has_word(line.code, word) || has_word(line.code, &timed));
-    let items = with.filter_map(|line| match line.at {
-        Place::Item(name) => Some(name.to_owned()),
-        Place::Head => None,
-    });
-    items.collect()
 }
 
 /// Whether a word stands in a text, also as a part of a name with underscores. A single letter has

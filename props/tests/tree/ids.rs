@@ -17,8 +17,23 @@ pub struct Requirement {
     pub text: String,
 }
 
+/// Says which prefix stands for which heading.
+pub const PREFIXES: &str = "spec/README.md";
+
+/// The rows `| DIST | [words](3-stages.md#distances) |`.
+pub fn prefixes(tree: &Tree) -> Vec<(&str, String)> {
+    let text = tree.0.get(PREFIXES).map(String::as_str).unwrap_or_default();
+    text.lines().filter_map(prefix_of_row).collect()
+}
+
+fn prefix_of_row(line: &str) -> Option<(&str, String)> {
+    let (name, rest) = line.strip_prefix("| ")?.split_once(" | ")?;
+    let target = rest.split_once("](")?.1.split_once(')')?.0;
+    Some((name.trim_matches('`'), format!("spec/{target}")))
+}
+
 /// The files that say what is asked for.
-pub fn is_normative(path: &str) -> bool {
+fn is_normative(path: &str) -> bool {
     let name = path.strip_prefix("spec/").and_then(|name| name.strip_suffix(".md"));
     name.is_some_and(|name| {
         let begins = name.starts_with(|c: char| c.is_ascii_digit());

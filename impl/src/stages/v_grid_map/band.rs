@@ -29,6 +29,7 @@ pub(crate) struct CellFrame {
 }
 
 impl CellFrame {
+    /// With the radius of S5-02.
     pub(crate) fn new(cycle: &Cycle<'_>, grid: &Grid<'_>) -> Self {
         let ego = &cycle.ego;
         let disks = f64::from(i32::try_from(cycle.parameters.n).unwrap_or(i32::MAX));

@@ -33,6 +33,7 @@ pub(crate) struct GridGeometry {
 }
 
 impl GridGeometry {
+    /// With the radius of S5-02.
     pub(crate) fn new(cycle: &Cycle<'_>, grid: &Grid<'_>) -> Self {
         let direction = Vector::new(grid.cos, grid.sin);
         let part = Real::new(cycle.ego.length).over(Real::integer(cycle.parameters.n));

@@ -15,6 +15,7 @@ use crate::theorem::rectangle::vector;
 pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "a_disk_covers_its_part_of_the_footprint",
+        // S5-01, S5-02.
         statement: "a point of the footprint between i L/n and (i+1) L/n from its rear is in disk i",
         domain: "every real n > 0 and i, all L, W > 0",
         claim: || part_is_covered(&Real::from_integer(1)),
