@@ -125,8 +125,7 @@ mod tests {
 
     const LIMITS: Limits = Limits { l_max_ns: 50, dt_max_ns: 100 };
 
-    /// QOS-03: "`l > l_max` or `dt > dt_max` MUST be a
-    /// violation; equality MUST NOT."
+    /// QOS-03
     #[test]
     fn beyond_l_max_or_dt_max_is_a_violation_and_equality_is_not() {
         assert_eq!(latency_violation(50, 0, LIMITS), None);
@@ -136,17 +135,14 @@ mod tests {
         assert_eq!(arrivals.silence(101, LIMITS), Some(Violation::InterArrival));
     }
 
-    /// QOS-05: "A generation time later than the arrival time
-    /// MUST be a violation". Equal times are not later.
+    /// QOS-05
     #[test]
     fn generated_later_than_arrived_is_a_violation() {
         assert_eq!(latency_violation(7, 8, LIMITS), Some(Violation::FromTheFuture));
         assert_eq!(latency_violation(7, 7, LIMITS), None);
     }
 
-    /// QOS-01, QOS-02: "Every element of the running session is an
-    /// arrival, and MUST be checked for latency and inter-arrival time first and for its order
-    /// then".
+    /// QOS-01, QOS-02
     #[test]
     fn an_element_out_of_order_is_an_arrival_but_is_checked_for_latency_first() {
         let mut arrivals = Arrivals::since_activation(0);
@@ -157,9 +153,7 @@ mod tests {
         assert_eq!(arrivals.arrive(181, 180, LIMITS), Element::Violating(Violation::InterArrival));
     }
 
-    /// QOS-08: "An element whose generation time is not later
-    /// than that of the last one used since the activation MUST be dropped." The last one that
-    /// arrived does not matter.
+    /// QOS-08
     #[test]
     fn order_is_that_of_the_last_element_used() {
         let mut arrivals = Arrivals::since_activation(0);
@@ -172,7 +166,7 @@ mod tests {
         assert_eq!(Arrivals::since_activation(30).arrive(31, 0, LIMITS), Element::Used);
     }
 
-    /// FALL-10: "differences are exact".
+    /// FALL-10
     #[test]
     fn differences_are_exact_at_the_limits_of_64_bits() {
         let widest = Limits { l_max_ns: i64::MAX, dt_max_ns: i64::MAX };

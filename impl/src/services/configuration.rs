@@ -181,8 +181,7 @@ mod tests {
         assert_eq!(table.map(|(configuration, ..)| configuration), Configuration::ALL);
     }
 
-    /// CONF-01: "Every group MUST have exactly one source at any
-    /// time."
+    /// CONF-01
     #[test]
     fn every_group_has_exactly_one_source() {
         assert_eq!(Source::of(true, None), Source::Local);

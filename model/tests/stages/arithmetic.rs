@@ -45,7 +45,7 @@ macro_rules! all_defaults {
 
 mufasa_model::parameters!(all_defaults);
 
-/// DOM-03: directions are used as given, not normalised.
+/// DOM-03, DOM-04: directions are used as given, not normalised.
 #[test]
 fn directions_are_used_as_given() {
     let with = |cos: f64| {

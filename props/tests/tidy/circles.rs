@@ -1,5 +1,6 @@
-//! Circles of modules. A module is a file; it knows another when a path in its code leads there.
-//! A `pub use` hands on and is not counted, nor are tests.
+//! Circles of modules. A module is a file; it knows another when a path in its code leads there. What a
+//! `pub use` hands on is looked for where it comes from. A path that begins with a child counts where
+//! the circle has others than the child's parent and what is below it. Tests are not counted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +13,20 @@ pub type Graph = BTreeMap<String, BTreeSet<String>>;
 pub fn of_modules(tree: &Tree) -> Vec<(String, String)> {
     let manifests = tree.ending("Cargo.toml").filter(|(_, text)| text.contains("[package]"));
     let packages = manifests.map(|(path, _)| path.trim_end_matches("Cargo.toml"));
-    packages.flat_map(|package| circles(&modules(tree, &format!("{package}src/")))).collect()
+    let found = packages.flat_map(|package| {
+        let folder = format!("{package}src/");
+        let [by_name, by_child] = modules(tree, &folder);
+        let is_family = |circle: &str| {
+            let all: Vec<&str> = circle.split(" <-> ").collect();
+            all.iter().all(|it| {
+                all[0] == folder || *it == all[0] || it.starts_with(&format!("{}::", all[0]))
+            })
+        };
+        let further = circles(&by_child).into_iter().filter(|(_, circle)| !is_family(circle));
+        let all: BTreeMap<_, _> = circles(&by_name).into_iter().chain(further).collect();
+        all
+    });
+    found.collect()
 }
 
 /// The parts of a graph in which each reaches each, of two nodes or more.
@@ -54,8 +68,9 @@ pub fn stages_that_know_rules(tree: &Tree) -> Vec<(String, String)> {
     files.map(|(path, _)| (path.to_owned(), "a stage knows no rule".to_owned())).collect()
 }
 
-/// Which module knows which, below a folder of sources.
-fn modules(tree: &Tree, folder: &str) -> Graph {
+/// Which module knows which, below a folder of sources: by paths that are imported or begin with
+/// `crate`, `self` or `super`, and by these and paths that begin with a child.
+fn modules(tree: &Tree, folder: &str) -> [Graph; 2] {
     let mut files = BTreeMap::new();
     for (path, text) in tree.ending(".rs") {
         if let Some(below) = path.strip_prefix(folder) {
@@ -64,33 +79,67 @@ fn modules(tree: &Tree, folder: &str) -> Graph {
                 name.pop();
             }
             if !name.contains(&"tests") {
-                files.insert(name, (path, text));
+                files.insert(name, paths(text));
             }
         }
     }
     let name = |module: &[&str]| format!("{folder}{}", module.join("::"));
-    let mut graph = Graph::new();
-    for (module, (_, text)) in &files {
-        let mut known = BTreeSet::new();
-        for path in paths(text) {
+    let mut graphs = [Graph::new(), Graph::new()];
+    for (module, paths) in &files {
+        let mut known = [BTreeSet::new(), BTreeSet::new()];
+        for (path, how) in paths.iter().filter(|(_, how)| *how != How::HandedOn) {
             let path: Vec<&str> = path.split("::").map(str::trim).collect();
-            let (start, mut rest) = start(module, &path, &files);
-            let Some(mut full) = start else { continue };
-            while let Some((first, more)) = rest.split_first() {
-                full.push(first);
-                if !files.contains_key(&full) {
-                    full.pop();
-                    break;
-                }
-                rest = more;
-            }
-            if full != *module {
-                known.insert(name(&full));
-            }
+            let Some(full) = leads_to(module, &path, &files, 8).filter(|it| it != module) else {
+                continue;
+            };
+            let is_bare = *how == How::Elsewhere && !["crate", "self", "super"].contains(&path[0]);
+            known[usize::from(is_bare)].insert(name(&full));
         }
-        graph.insert(name(module), known);
+        let [by_name, by_child] = known;
+        graphs[1].insert(name(module), &by_name | &by_child);
+        graphs[0].insert(name(module), by_name);
     }
-    graph
+    graphs
+}
+
+/// How a path stands in a file.
+#[derive(Clone, Copy, PartialEq)]
+enum How {
+    /// By `use`.
+    Imported,
+    /// By `pub use`.
+    HandedOn,
+    /// In the code.
+    Elsewhere,
+}
+
+/// Files by their modules, with their paths.
+type Files<'a> = BTreeMap<Vec<&'a str>, Vec<(String, How)>>;
+
+/// The module that a path leads to, over at most so many that hand it on.
+fn leads_to<'a>(
+    module: &[&'a str],
+    path: &[&'a str],
+    files: &'a Files<'a>,
+    most: usize,
+) -> Option<Vec<&'a str>> {
+    let (start, mut rest) = start(module, path, files);
+    let mut full = start?;
+    while let Some((first, more)) = rest.split_first() {
+        full.push(first);
+        if !files.contains_key(&full) {
+            full.pop();
+            break;
+        }
+        rest = more;
+    }
+    let handed = |(path, how): &&(String, How)| {
+        *how == How::HandedOn && path.rsplit("::").next() == rest.first().copied()
+    };
+    let source = files.get(&full).and_then(|paths| paths.iter().find(handed));
+    let (Some((path, _)), true) = (source, most > 0) else { return Some(full) };
+    let path: Vec<&str> = path.split("::").map(str::trim).collect();
+    leads_to(&full, &path, files, most - 1).or(Some(full))
 }
 
 /// Where a path begins, and what is left of it; `None` outside of the crate.
@@ -115,9 +164,8 @@ fn start<'a, 'b, T>(
     }
 }
 
-/// The paths in the code of a file: each of a `use`, and those that begin with `crate`, `self` or
-/// `super` elsewhere.
-fn paths(text: &str) -> Vec<String> {
+/// The paths in the code of a file.
+fn paths(text: &str) -> Vec<(String, How)> {
     let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     let code: Vec<&str> =
         text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
@@ -134,20 +182,20 @@ fn paths(text: &str) -> Vec<String> {
             continue;
         };
         elsewhere += before;
-        if !begins.contains("pub") {
-            expand("", tree.trim(), &mut found);
-        }
+        let mut here = Vec::new();
+        expand("", tree.trim(), &mut here);
+        let how = if begins.contains("pub") { How::HandedOn } else { How::Imported };
+        found.extend(here.into_iter().map(|path| (path, how)));
         rest = more;
     }
     elsewhere += rest;
-    for start in ["crate::", "super::", "self::"] {
-        for (at, _) in elsewhere.match_indices(start) {
-            if elsewhere[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
-                continue;
-            }
-            let path = &elsewhere[at..];
-            let end = path.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
-            found.push(path[..end.unwrap_or(path.len())].trim_end_matches(':').to_owned());
+    let part = |c: char| c.is_alphanumeric() || c == '_';
+    for (at, _) in elsewhere.match_indices("::") {
+        let start = elsewhere[..at].trim_end_matches(part).len();
+        if start < at && !elsewhere[..start].ends_with(':') {
+            let path = &elsewhere[start..];
+            let end = path.find(|c| !(part(c) || c == ':')).unwrap_or(path.len());
+            found.push((path[..end].trim_end_matches(':').to_owned(), How::Elsewhere));
         }
     }
     found
@@ -209,6 +257,22 @@ mod tests {
         let child =
             [lib, ("a/src/b.rs", "mod d;\nuse d::D;\n"), ("a/src/b/d.rs", "use super::B;\n")];
         assert_eq!(found(&child), ["a/src/b <-> a/src/b::d"]);
+    }
+
+    #[test]
+    fn a_circle_is_seen_through_what_hands_on_and_through_a_bare_child() {
+        let lib = ("a/src/lib.rs", "mod b;\nmod c;\npub use c::C;\n");
+        let handed = [lib, ("a/src/b.rs", "use crate::C;\n"), ("a/src/c.rs", "use crate::b::B;\n")];
+        assert_eq!(found(&handed), ["a/src/b <-> a/src/c"]);
+        let bare = [
+            lib,
+            ("a/src/b.rs", "mod d;\nfn f() { d::g() }\n"),
+            ("a/src/b/d.rs", "use crate::c::C;\n"),
+            ("a/src/c.rs", "use crate::b::B;\n"),
+        ];
+        assert_eq!(found(&bare), ["a/src/b <-> a/src/b::d <-> a/src/c"]);
+        let family = [lib, bare[1], ("a/src/b/d.rs", "use super::B;\n"), ("a/src/c.rs", "")];
+        assert!(found(&family).is_empty());
     }
 
     #[test]

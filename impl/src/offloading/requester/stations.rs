@@ -154,9 +154,7 @@ mod tests {
     use super::{StationRecord, Stations};
     use crate::services::configuration::{Group, Groups};
 
-    /// REQ-07, REQ-08: "Among the stations that offer a group, one never asked
-    /// for this group MUST be taken first (the smallest id), then the one whose last request for
-    /// this group is the oldest".
+    /// REQ-07, REQ-08
     #[test]
     fn one_never_asked_first_then_the_oldest_request() {
         let mut table = [StationRecord::FREE; 3];
