@@ -126,6 +126,12 @@ const NEAR: &[Near] = &[
         mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 5.5);
         c.grid.as_mut().expect("there is a grid").y -= e;
     }),
+    ("half width of the CAV at a cell + m", PlanRemote, Profile::HARDENED, |c, e| {
+        // The cell begins at y = 1, and disks reach it.
+        mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
+        c.tracks = None;
+        c.ego.width = 2.0 + 2.0 * e;
+    }),
     ("disk centre in a marked cell", MotRemote, Profile::PAPER, |c, e| {
         mark(&mut c.grid.as_mut().expect("there is a grid").occupied, 3.5, 1.5);
         for point in points(c) {

@@ -3,7 +3,7 @@
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::numbers::real::unfiltered;
-use mufasa_model::report::Reading;
+use mufasa_model::report::{Reading, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
 
 use crate::base::*;
@@ -63,5 +63,16 @@ pub fn margins_move(cases: &[Near]) {
                 assert_eq!(check(&cycle, reading), plain);
             }
         }
+    }
+}
+
+/// The same, and beyond the margin each case breaks the rule of stage ii that it is about.
+pub fn margins_move_rules(cases: &[Near], rules: &[Rule]) {
+    margins_move(cases);
+    assert_eq!(cases.len(), rules.len());
+    for ((name, configuration, profile, with), expected) in cases.iter().zip(rules) {
+        let mut cycle = base(*profile, *configuration);
+        with(&mut cycle, 3e-6);
+        assert_eq!(rule(&cycle, Stage::Ii), Some(*expected), "{name}");
     }
 }

@@ -5,10 +5,8 @@ mod goes_along;
 mod meeting;
 mod motions;
 mod path;
-mod random;
 mod reach;
 mod route_bends;
-mod schedule;
 mod times;
 
 use mufasa_model::input::cycle::{Cycle, Track};
@@ -17,6 +15,7 @@ use mufasa_model::report::{Outcome, Reading, Rule, Stage, Witness};
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use crate::base::*;
+use crate::near::*;
 
 /// A track of a current list is the only object; stage iv does not run. The CAV at 8 m/s takes 0.5 s and
 /// 4.5 m before it brakes, at 10 m/s, and stands after 1.75 s and 10.75 m; s_b(8) = 4.
@@ -44,5 +43,15 @@ fn found(cycle: &Cycle) -> Option<Witness> {
             Some(witness)
         }
         _ => None,
+    }
+}
+
+/// Cases that move by the margin, and beyond it H-14 fails.
+fn margins_move_meetings(cases: &[Near]) {
+    margins_move(cases);
+    for (name, configuration, profile, with) in cases {
+        let mut cycle = base(*profile, *configuration);
+        with(&mut cycle, 3e-6);
+        assert!(found(&cycle).is_some(), "{name}");
     }
 }

@@ -28,14 +28,8 @@ const NEAR: &[Near] = &[
 
 #[test]
 fn margins_move_each_bound_of_the_start() {
-    margins_move(NEAR);
-    let rules = [Rule::StartPosition, Rule::StartHeading, Rule::StartHeading];
-    let rules = rules.into_iter().chain([Rule::StartOffset; 2]);
-    for ((name, configuration, profile, with), expected) in NEAR.iter().zip(rules) {
-        let mut cycle = base(*profile, *configuration);
-        with(&mut cycle, 3e-6);
-        assert_eq!(rule(&cycle, Stage::Ii), Some(expected), "{name}");
-    }
+    let [position, heading, offset] = [Rule::StartPosition, Rule::StartHeading, Rule::StartOffset];
+    margins_move_rules(NEAR, &[position, heading, heading, offset, offset]);
 }
 
 /// The cross product alone would take the opposite for the same.
@@ -49,12 +43,4 @@ fn the_opposite_heading_is_another_one() {
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartHeading));
     cycle.ego.y = 2.1;
     assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartPosition));
-}
-
-/// F-37: the CAV is 2 m beside a trajectory that goes past what stands ahead of it.
-#[test]
-fn a_trajectory_does_not_start_beside_the_cav() {
-    let mut cycle = base(Profile::HARDENED, PlanRemote);
-    cycle.ego.y = -1.9;
-    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::StartOffset));
 }

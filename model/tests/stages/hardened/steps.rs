@@ -1,7 +1,7 @@
 //! H-11: steps and ways aside on both sides of each bound.
 
-use mufasa_model::input::cycle::{Profile, Trajectory, TrajectoryPoint};
-use mufasa_model::report::{Outcome, Rule, Stage};
+use mufasa_model::input::cycle::{Profile, TrajectoryPoint};
+use mufasa_model::report::Rule;
 use mufasa_model::services::configuration::Configuration::PlanRemote;
 
 use crate::base::*;
@@ -52,12 +52,6 @@ fn turn(cycle: &mut mufasa_model::input::cycle::Cycle, cos: f64) {
 
 #[test]
 fn margins_move_each_bound_of_a_step() {
-    margins_move(NEAR);
-}
-
-/// Each case breaks the rule that it is about, the first in the order of the rules.
-#[test]
-fn each_bound_is_that_of_its_rule() {
     let rules = [
         Rule::StepLength,
         Rule::StepSpeed,
@@ -68,47 +62,5 @@ fn each_bound_is_that_of_its_rule() {
         Rule::Slide,
         Rule::Slide,
     ];
-    assert_eq!(NEAR.len(), rules.len());
-    for ((name, configuration, profile, with), expected) in NEAR.iter().zip(rules) {
-        let mut cycle = base(*profile, *configuration);
-        with(&mut cycle, 3e-6);
-        assert_eq!(rule(&cycle, Stage::Ii), Some(expected), "{name}");
-    }
-}
-
-/// H-11, F-35: 2.7 m to the side within 60 ms, as points of a straight drive.
-#[test]
-fn a_slide_is_no_step_along_its_headings() {
-    let mut cycle = base(HARDENED, PlanRemote);
-    let points = points(&mut cycle);
-    points.truncate(4);
-    for (i, aside) in [(1, 0.9), (2, 1.8), (3, 2.7)] {
-        (points[i].t_ns, points[i].y) =
-            (NOW + 20_000_000 * i64::try_from(i).expect("small"), aside);
-    }
-    assert_eq!(rule(&cycle, Stage::Ii), Some(Rule::Slide));
-}
-
-/// H-11, F-41: turns of 0.05 rad to the right and back, each way back 0.05 m to the left.
-#[test]
-fn ways_aside_of_turns_to_and_fro_add_up() {
-    let fails_at = |turns: i32| {
-        let mut cycle = base(HARDENED, PlanRemote);
-        let turned = TrajectoryPoint { cos: 0.998_749, sin: -0.05, ..at_time(0, 0.0, 0.0) };
-        let point = |i: i32| TrajectoryPoint {
-            t_ns: NOW + i64::from(i) * 10_000_000,
-            x: 0.01 * f64::from(i),
-            y: 0.05 * f64::from(i / 2),
-            ..if i % 2 == 1 { turned.clone() } else { at_time(0, 0.0, 0.0) }
-        };
-        let points = (0..=2 * turns).map(point).collect();
-        cycle.trajectory = Some(Trajectory { stamp_ns: NOW, points });
-        match outcome(&cycle, Stage::Ii) {
-            Outcome::Failed(witness) if witness.rule == Rule::Slide => witness.point,
-            _ => None,
-        }
-    };
-    // 2 y is 0.1 m of 0.104 m after one turn, 0.2 m of 0.109 m after two.
-    assert_eq!(fails_at(1), None);
-    assert_eq!(fails_at(2), Some(4));
+    margins_move_rules(NEAR, &rules);
 }

@@ -8,7 +8,7 @@ use mufasa_model::report::Stage;
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use super::following::{READINGS, beside, cycle, is_follower, keeps_beside, moves};
-use super::{alone, found, scene};
+use super::{alone, found, margins_move_meetings, scene};
 use crate::base::*;
 use crate::near::*;
 
@@ -165,12 +165,7 @@ const NEAR: &[Near] =
 
 #[test]
 fn margins_move_who_goes_along() {
-    margins_move(NEAR);
-    for (name, configuration, profile, with) in NEAR {
-        let mut cycle = base(*profile, *configuration);
-        with(&mut cycle, 3e-6);
-        assert!(found(&cycle).is_some(), "{name}");
-    }
+    margins_move_meetings(NEAR);
 }
 
 /// spec/7-fail-safe.md#meeting.1: who merges or crosses is examined.

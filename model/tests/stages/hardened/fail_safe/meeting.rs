@@ -3,7 +3,7 @@
 use mufasa_model::input::cycle::{Cycle, Profile, Track};
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
-use super::{alone, crossing, found};
+use super::{alone, crossing, found, margins_move_meetings};
 use crate::base::*;
 use crate::near::*;
 
@@ -95,12 +95,7 @@ const NEAR: &[Near] = &[
 
 #[test]
 fn margins_move_where_and_when_they_meet() {
-    margins_move(NEAR);
-    for (name, configuration, profile, with) in NEAR {
-        let mut cycle = base(*profile, *configuration);
-        with(&mut cycle, 3e-6);
-        assert!(found(&cycle).is_some(), "{name}");
-    }
+    margins_move_meetings(NEAR);
 }
 
 /// Touching is a collision.

@@ -5,7 +5,7 @@ use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use super::following::{beside, keeps_beside, moves};
-use super::{alone, found};
+use super::{alone, margins_move_meetings};
 use crate::base::*;
 use crate::near::*;
 
@@ -211,10 +211,7 @@ const NEAR: &[Near] =
 /// spec/7-fail-safe.md#meeting.1: who passes a CAV that is about to change lanes is examined.
 #[test]
 fn margins_move_where_the_route_bends() {
-    margins_move(NEAR);
-    let mut cycle = base(Profile::HARDENED, MotRemote);
-    (NEAR[0].3)(&mut cycle, 3e-6);
-    assert!(found(&cycle).is_some());
+    margins_move_meetings(NEAR);
 }
 
 /// The longest route there is.
