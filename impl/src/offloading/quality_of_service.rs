@@ -135,7 +135,7 @@ mod tests {
         assert_eq!(arrivals.silence(101, LIMITS), Some(Violation::InterArrival));
     }
 
-    /// QOS-05
+    /// QOS-05: equal times are not later.
     #[test]
     fn generated_later_than_arrived_is_a_violation() {
         assert_eq!(latency_violation(7, 8, LIMITS), Some(Violation::FromTheFuture));
@@ -153,7 +153,7 @@ mod tests {
         assert_eq!(arrivals.arrive(181, 180, LIMITS), Element::Violating(Violation::InterArrival));
     }
 
-    /// QOS-08
+    /// QOS-08: the last one that arrived does not matter.
     #[test]
     fn order_is_that_of_the_last_element_used() {
         let mut arrivals = Arrivals::since_activation(0);

@@ -44,7 +44,7 @@ fn has(row: &Row, cell: Cell) -> bool {
         Cell::Test => &[Cell::Test, Cell::Vector],
         cell => std::slice::from_ref(cell),
     };
-    of.iter().any(|cell| row.cells.contains_key(cell))
+    of.iter().any(|cell| row.cells.contains_key(cell) || row.elsewhere.contains(cell))
 }
 
 /// Needed cells that are empty without a reason, and reasons that nothing needs.

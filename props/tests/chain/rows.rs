@@ -59,6 +59,8 @@ pub struct Row {
     pub ids: BTreeSet<String>,
     /// Interpretations that the lines of a heading name.
     pub readings: BTreeSet<String>,
+    /// What the rows of those headings have.
+    pub elsewhere: BTreeSet<Cell>,
     /// What stands where.
     pub cells: BTreeMap<Cell, BTreeSet<Link>>,
 }
@@ -72,6 +74,7 @@ impl Row {
             paper: paper.to_owned(),
             ids: BTreeSet::new(),
             readings: BTreeSet::new(),
+            elsewhere: BTreeSet::new(),
             cells: BTreeMap::new(),
         };
         row.add(Cell::Spec, spec, "");
@@ -177,19 +180,16 @@ fn is_of_rule(id: &str) -> bool {
     ["H", "I"].contains(&prefix(id))
 }
 
-/// An interpretation says how a requirement is read: what it has no link of its own for is what that
-/// requirement has.
+/// An interpretation says how a requirement is read: for what it has no link of its own it leads to the
+/// row of that requirement.
 fn as_their_headings(rows: &mut [Row]) {
     let (headings, rules): (Vec<&mut Row>, Vec<_>) =
         rows.iter_mut().partition(|row| row.name.starts_with("spec/"));
     for row in rules.into_iter().filter(|row| row.name.starts_with("I-")) {
-        let own: BTreeSet<Cell> = row.cells.keys().copied().collect();
         let name = row.name.clone();
         for heading in headings.iter().filter(|heading| heading.readings.contains(&name)) {
             row.add(Cell::Spec, &heading.name, "");
-            for (cell, links) in heading.cells.iter().filter(|(cell, _)| !own.contains(cell)) {
-                row.cells.entry(*cell).or_default().extend(links.iter().cloned());
-            }
+            row.elsewhere.extend(heading.cells.keys().copied());
         }
     }
 }
