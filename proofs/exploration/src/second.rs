@@ -84,10 +84,11 @@ impl Model for Twin {
     }
 
     fn next_state(&self, seen: &Seen, by: Move) -> Option<Seen> {
-        let next = self.system.apply(&self.state(seen), by)?;
-        let state = self.system.layout().pack(&next.state);
+        let state = self.state(seen);
+        let next = self.system.apply(&state, by)?;
         let broken = claimed(&self.system, next.found.broken);
-        (state != seen.state || !broken.is_empty()).then_some(Seen { state, broken })
+        let changes = next.state != state || !broken.is_empty();
+        changes.then(|| Seen { state: self.system.layout().pack(&next.state), broken })
     }
 
     fn format_action(&self, by: &Move) -> String {
