@@ -13,9 +13,10 @@ pub mod readers;
 mod recording;
 mod temporary;
 
+pub use attacks::catalogue::Attack;
 pub use attacks::error::InjectError;
 pub use attacks::inject;
-pub use attacks::injection::{Attack, Injection, ParseInjectionError};
+pub use attacks::injection::{Injection, ParseInjectionError};
 pub use counts::counted;
 pub use drive::{Drive, DriveCycle, Stream};
 pub use options::{GridSize, Options, Sensor, Tail};

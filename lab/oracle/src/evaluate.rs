@@ -28,16 +28,10 @@ use mufasa_drives::check::complain;
 use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::attacks::Attacks;
-use mufasa_sim::experiment::availability::Availability;
 use mufasa_sim::experiment::checks::Checks;
-use mufasa_sim::experiment::combinations::Combinations;
-use mufasa_sim::experiment::failures::Failures;
-use mufasa_sim::experiment::job::{Campaign, Job, Options};
-use mufasa_sim::experiment::left_out::LeftOuts;
-use mufasa_sim::experiment::readings::Readings;
-use mufasa_sim::experiment::select::Select;
-use mufasa_sim::experiment::stages::Stages;
+use mufasa_sim::experiment::job::Job;
+use mufasa_sim::experiment::made::{Campaign, Run};
+use mufasa_sim::experiment::select::{Options, Select};
 use mufasa_sim::map::Town;
 use mufasa_sim::map::id::MapId;
 
@@ -45,7 +39,7 @@ use self::arguments::{EvaluateArguments, Experiment};
 use self::codes::{BAD_INPUT, DISAGREES, FAILED};
 use self::plots::figures::Figure;
 use self::report::{FailedRun, REPLAYS, Section};
-use self::shown::{Failed, Shown};
+use self::shown::{Shown, named};
 use self::tables::Rows;
 use self::text::{csv, json, said};
 use crate::document;
@@ -63,7 +57,7 @@ struct Results {
     /// The rows of the table, and the runs, as CSV.
     csv: [String; 2],
     figures: Vec<Figure>,
-    failed: Vec<Failed>,
+    failed: Vec<Run>,
 }
 
 /// Makes an experiment, writes its table to `out` and its files into the folder, if one is given. A search ends when
@@ -74,18 +68,18 @@ pub fn run(
     out: &mut impl Write,
     err: &mut impl Write,
 ) -> io::Result<u8> {
-    let (size, Named { name, make, .. }) = match &arguments.experiment {
+    let (size, name) = match &arguments.experiment {
         Some(Experiment::Replay(it)) => return replay::run(it, jobs, out, err),
         Some(Experiment::Falsify(it)) => return falsify::run(it, stop, out, err),
         Some(Experiment::Scenes(it)) => return scenes::run(it, out, err),
-        None => (&arguments.size, named::<Failures>()),
-        Some(Experiment::Failures(size)) => (size, named::<Failures>()),
-        Some(Experiment::Readings(size)) => (size, named::<Readings>()),
-        Some(Experiment::Stages(size)) => (size, named::<Stages>()),
-        Some(Experiment::Attacks(size)) => (size, named::<Attacks>()),
-        Some(Experiment::Combinations(size)) => (size, named::<Combinations>()),
-        Some(Experiment::Availability(size)) => (size, named::<Availability>()),
-        Some(Experiment::LeftOut(size)) => (size, named::<LeftOuts>()),
+        None => (&arguments.size, "failures"),
+        Some(Experiment::Failures(size)) => (size, "failures"),
+        Some(Experiment::Readings(size)) => (size, "readings"),
+        Some(Experiment::Stages(size)) => (size, "stages"),
+        Some(Experiment::Attacks(size)) => (size, "attacks"),
+        Some(Experiment::Combinations(size)) => (size, "combinations"),
+        Some(Experiment::Availability(size)) => (size, "availability"),
+        Some(Experiment::LeftOut(size)) => (size, "left-out"),
     };
     let select = Select {
         shard: size.shard,
@@ -97,7 +91,8 @@ pub fn run(
     let prepared = prepared(size.out.as_deref()).and_then(|()| maps::of(size.map.as_deref()));
     let made = prepared.and_then(|town| {
         document::has_place(size.into.as_deref(), &table_name(name, town.id))?;
-        in_threads(size.threads, &town, &task, make)
+        let shown = named(name).ok_or_else(|| format!("{name}: no experiment"))?;
+        in_threads(size.threads, &town, &task, shown)
     });
     match (made, size.shard, &size.out) {
         (Ok(results), Some(shard), Some(folder)) => {
@@ -172,7 +167,7 @@ fn code(results: &Results, checks: &Checks) -> u8 {
     if !checks.disagreements.is_empty() {
         return DISAGREES;
     }
-    let is_hardened = |run: &Failed| run.variant == Variant::Hardened;
+    let is_hardened = |run: &Run| run.variant == Variant::Hardened;
     if results.failed.iter().any(is_hardened) { FAILED } else { 0 }
 }
 
@@ -184,36 +179,12 @@ struct Task<'t> {
     select: &'t Select<'t>,
 }
 
-type Make = fn(&Task<'_>, &Town) -> Made;
-
-/// An experiment by its name, how it is made, its size, and its runs.
-struct Named {
-    name: &'static str,
-    make: Make,
-    options: Options,
-    jobs: fn(&Town, Options) -> Vec<Job<()>>,
-}
-
-const fn named<E: Shown>() -> Named {
-    Named { name: E::NAME, make: made::<E>, options: E::OPTIONS, jobs: E::jobs }
-}
-
-/// The experiments.
-const EXPERIMENTS: [Named; 7] = [
-    named::<Failures>(),
-    named::<Readings>(),
-    named::<Stages>(),
-    named::<Attacks>(),
-    named::<Combinations>(),
-    named::<Availability>(),
-    named::<LeftOuts>(),
-];
-
 /// The runs of an experiment; none, if there is no such one.
-fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job<()>> {
-    let named = EXPERIMENTS.iter().find(|it| it.name == name);
+fn jobs(name: &str, sized: &dyn Fn(Options) -> Options, town: &Town) -> Vec<Job> {
     let on = |options| Options { map: town.id, ..sized(options) };
-    named.map_or_else(Vec::new, |it| (it.jobs)(town, on(it.options)))
+    named(name).map_or_else(Vec::new, |Shown { experiment, .. }| {
+        experiment.jobs(town, on(experiment.options))
+    })
 }
 
 /// Whether files can be written into the folder.
@@ -224,14 +195,14 @@ fn prepared(folder: Option<&Path>) -> Result<(), String> {
 }
 
 /// In a pool of so many threads.
-fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, make: Make) -> Made {
+fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, shown: &Shown) -> Made {
     let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let results = pool.map_err(said)?.install(|| make(task, town))?;
+    let results = pool.map_err(said)?.install(|| made(shown, task, town))?;
     if let (0, Some(only)) = (results.runs, task.select.only) {
         return Err(format!(
             "{only}: no run of {} has such an id; one is its experiment, variant, what is special, route \
-             and scenario, such as failures/paper/tracks-empty/{}/3",
+             and scenario, such as failures/paper/empty-tracks/{}/3",
             results.name,
             town.id.route(0)
         ));
@@ -239,22 +210,24 @@ fn in_threads(threads: Option<u16>, town: &Town, task: &Task<'_>, make: Make) ->
     Ok(results)
 }
 
-fn made<E: Shown>(task: &Task<'_>, town: &Town) -> Made {
-    let options = Options { map: town.id, ..(task.sized)(E::OPTIONS) };
-    let bar = bar(E::NAME);
+fn made(shown: &Shown, task: &Task<'_>, town: &Town) -> Made {
+    let Shown { experiment, columns, figures, names_failures } = shown;
+    let options = Options { map: town.id, ..(task.sized)(experiment.options) };
+    let bar = bar(experiment.name);
     let done = |of| step(&bar, of);
-    let made = E::make(&Campaign { town, options, select: task.select, done: &done });
+    let made = experiment.make(&Campaign { town, options, select: task.select, done: &done });
     bar.finish_and_clear();
     let made = made.map_err(said)?;
+    let failed = made.runs.iter().filter(|run| *names_failures && run.end.is_failure());
     Ok(Results {
-        name: E::NAME,
-        table: made.table(),
+        name: experiment.name,
+        table: tables::rows(&made.rows, columns),
         options,
-        runs: made.runs().len(),
+        runs: made.runs.len(),
         json: json(&made)?,
-        csv: [csv(made.rows())?, csv(made.runs())?],
-        figures: made.figures(),
-        failed: made.failed(),
+        csv: [csv(&made.rows)?, csv(&made.runs)?],
+        figures: figures(&made),
+        failed: failed.cloned().collect(),
     })
 }
 
@@ -299,7 +272,7 @@ fn write_report(folder: &Path, results: &Results, checks: &Checks) -> io::Result
     let on = maps::option(map);
     let asks = if without_precheck { " --without-precheck" } else { "" };
     let size = format!("--scenarios {scenarios} --vehicles {vehicles} --seed {seed}{on}{asks}");
-    let failed = |run: &Failed| {
+    let failed = |run: &Run| {
         let page = page_of(&run.id);
         let page = folder.join(&page).exists().then(|| page.display().to_string());
         let command = format!("mufasa evaluate replay --run {} {size}", run.id);

@@ -332,7 +332,7 @@ mod tests {
     fn a_station_that_attacks_offers_the_whole_drive_and_the_clean_one_after_each_attack() {
         let drive = demo(&Options::default()).unwrap().collect().unwrap();
         let count = drive.cycles.len();
-        for attack in Attack::ALL {
+        for attack in Attack::ON_DRIVES {
             let injections =
                 [[5.0, 6.0], [8.0, 9.0]].map(|[from_s, to_s]| Injection { attack, from_s, to_s });
             let offered = attacked(drive.clone(), &injections);

@@ -8,10 +8,9 @@ use mufasa_drives::check;
 use mufasa_link::station::StationSummary;
 use mufasa_link::vehicle;
 use mufasa_records::{files, schema};
+use mufasa_sim::experiment::made::Made;
 use mufasa_sim::experiment::select::Part;
-use mufasa_sim::experiment::{
-    attacks, availability, combinations, failures, falsify, left_out, readings, scenes, stages,
-};
+use mufasa_sim::experiment::{falsify, scenes};
 use serde_json::Value;
 
 use crate::explore::report::ExplorationReport;
@@ -57,15 +56,18 @@ pub fn all() -> Vec<(&'static str, Value)> {
     schemas.push(("vehicle-log", schema::written::<vehicle::log::Entry>()));
     schemas.push(("station-summary", schema::written::<StationSummary>()));
     schemas.push(("exploration", schema::written::<Vec<ExplorationReport>>()));
-    schemas.push(("evaluation-failures", schema::written::<failures::Failures>()));
-    schemas.push(("evaluation-readings", schema::written::<readings::Readings>()));
-    schemas.push(("evaluation-stages", schema::written::<stages::Stages>()));
-    schemas.push(("evaluation-attacks", schema::written::<attacks::Attacks>()));
-    schemas.push(("evaluation-combinations", schema::written::<combinations::Combinations>()));
-    schemas.push(("evaluation-availability", schema::written::<availability::Availability>()));
+    let made = [
+        "evaluation-failures",
+        "evaluation-readings",
+        "evaluation-stages",
+        "evaluation-attacks",
+        "evaluation-combinations",
+        "evaluation-availability",
+        "evaluation-left-out",
+    ];
+    schemas.extend(made.map(|name| (name, schema::written::<Made>())));
     schemas.push(("evaluation-scenes", schema::written::<scenes::Scenes>()));
     schemas.push(("evaluation-part", schema::written::<Part>()));
-    schemas.push(("evaluation-left-out", schema::written::<left_out::LeftOuts>()));
     schemas.push(("evaluation-falsify", schema::written::<falsify::Falsified>()));
     let part = schema::written::<Part<falsify::Options>>();
     schemas.push(("evaluation-falsify-part", part));

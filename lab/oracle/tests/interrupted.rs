@@ -19,7 +19,7 @@ use serde_json::Value;
 fn interrupted(folder: &Path, signal: &str, more: &[&str]) -> String {
     let search = ["--verbose", "evaluate", "falsify", "--profile", "sofof", "--vehicles", "8"];
     let mut command = Command::new(env!("CARGO_BIN_EXE_mufasa"));
-    command.args(search).args(["--attack", "tracks-empty"]).args(more).current_dir(folder);
+    command.args(search).args(["--attack", "empty-tracks"]).args(more).current_dir(folder);
     let mut running =
         command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs");
     let mut said = BufReader::new(running.stderr.take().expect("it is piped")).lines();
@@ -46,14 +46,14 @@ fn an_interrupted_search_leaves_what_it_found_and_is_put_into_no_document() {
     fs::write(folder.join("page.md"), place).expect("it can be written");
     let told =
         interrupted(&folder, "-INT", &["--minutes", "60", "--out", "left", "--into", "page.md"]);
-    assert!(told.contains(" tracks-empty "), "{told}");
+    assert!(told.contains(" empty-tracks "), "{told}");
     assert_eq!(fs::read_to_string(folder.join("page.md")).expect("it is there"), place);
     let text = |name: &str| fs::read_to_string(folder.join("left").join(name)).expect("written");
     let made: Value = serde_json::from_str(&text("falsify.json")).expect("JSON");
     assert_eq!(made["interrupted"], true);
     assert!(made["collided"].as_u64().expect("a count") > 0, "{told}");
     assert!(text("report.html").contains("interrupted: yes"), "{}", text("report.html"));
-    assert!(text("falsify.csv").contains("tracks-empty"));
+    assert!(text("falsify.csv").contains("empty-tracks"));
     let found = fs::read_dir(folder.join("left/found")).expect("a folder");
     let found = found.map(|it| it.expect("an entry").path());
     let kept = found.filter(|it| it.extension().is_some_and(|it| it == "json"));

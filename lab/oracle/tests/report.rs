@@ -86,7 +86,7 @@ fn every_experiment_has_charts_that_are_svg() {
         [&["evaluate", id.split('/').next().unwrap_or_default(), "--only", id], &size[..]].concat()
     };
     // Where the CAV detects nothing its tracks are compared with nothing (F-39): it stops for ghosts, and is late.
-    done(&folder, 1, &only("attacks/hardened/ghosts"));
+    done(&folder, 1, &only("attacks/hardened/ghost-tracks"));
     let ids = ["availability/paper", "combinations/sofof/both"];
     for id in ids {
         done(&folder, 0, &only(id));
@@ -132,8 +132,14 @@ fn every_experiment_has_charts_that_are_svg() {
 fn all_cycles_are_checked_where_that_is_asked_for() {
     let folder = folder("checked");
     let ask = |more: &[&str]| {
-        let only =
-            ["evaluate", "failures", "--only", "failures/hardened/ghosts", "--scenarios", "1"];
+        let only = [
+            "evaluate",
+            "failures",
+            "--only",
+            "failures/hardened/ghost-tracks",
+            "--scenarios",
+            "1",
+        ];
         let said = done(&folder, 0, &[&only[..], more].concat());
         let line =
             said.lines().find(|it| it.contains("checked by the model")).expect("a line").to_owned();
@@ -149,16 +155,8 @@ fn all_cycles_are_checked_where_that_is_asked_for() {
 #[test]
 fn a_run_as_a_log_is_read_back() {
     let folder = folder("log");
-    let replay = [
-        "evaluate",
-        "replay",
-        "--attack",
-        "map-replaced",
-        "--variant",
-        "hardened",
-        "--scenario",
-        "0",
-    ];
+    let replay =
+        ["evaluate", "replay", "--attack", "wrong-map", "--variant", "hardened", "--scenario", "0"];
     done(&folder, 0, &[&replay[..], &["--out", "run.html", "--mcap", "run.mcap"]].concat());
     let bytes = fs::read(folder.join("run.mcap")).expect("a log");
     let mut counts = std::collections::BTreeMap::new();
@@ -210,15 +208,15 @@ fn a_run_as_a_log_is_read_back() {
 #[test]
 fn a_run_is_drawn_by_its_id() {
     let folder = folder("id");
-    let id = "failures/sofof/tracks-empty/0/0";
+    let id = "failures/sofof/empty-tracks/0/0";
     let replay = ["evaluate", "replay", "--run", id, "--vehicles", "8"];
     let told = String::from_utf8(run(&folder, &replay).stderr).expect("UTF-8");
-    let file = "failures-sofof-tracks-empty-0-0.html";
+    let file = "failures-sofof-empty-tracks-0-0.html";
     assert!(told.contains(&format!("writes into {file}; --out names another file")), "{told}");
     let said = done(&folder, 0, &replay);
     assert!(said.starts_with(&format!("{id}: ")), "{said}");
     assert!(text(&folder, file).contains(id));
-    for wrong in ["failures/sofof/tracks-empty/0/99", "nothing", "failures/sofof"] {
+    for wrong in ["failures/sofof/empty-tracks/0/99", "nothing", "failures/sofof"] {
         let output = run(&folder, &["evaluate", "replay", "--run", wrong]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && said.contains("no run of"), "{said}");

@@ -148,7 +148,7 @@ fn the_summary_of_a_vehicle_is_what_its_schema_says() {
 fn evaluations_are_what_their_schemas_say_and_csv_has_as_many_runs() {
     let (validators, folder) = (validators(), folder("evaluate"));
     for (name, only) in [
-        ("failures", "failures/hardened/map-replaced/0"),
+        ("failures", "failures/hardened/wrong-map/0"),
         ("readings", "readings/paper/both+farthest+none/0"),
         ("left-out", "left-out/hardened/blind+grid+none+mot/0"),
         ("stages", "stages/paper/random/1"),
@@ -191,7 +191,7 @@ fn scenes_and_their_collisions_are_what_their_schemas_say() {
 #[test]
 fn a_collision_that_was_found_is_what_its_schema_says_and_is_made_again() {
     let (validators, folder) = (validators(), folder("falsify"));
-    let arguments = ["evaluate", "falsify", "--profile", "paper", "--attack", "tracks-empty"];
+    let arguments = ["evaluate", "falsify", "--profile", "paper", "--attack", "empty-tracks"];
     let size = ["--runs", "56", "--seed", "1", "--out", "files"];
     run(&folder, &[&arguments[..], &size[..]].concat());
     let text = fs::read_to_string(folder.join("files/falsify.json")).expect("it was written");

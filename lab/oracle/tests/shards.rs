@@ -184,7 +184,7 @@ fn a_search_in_parts_is_byte_for_byte_the_search() {
     let folder = folder("falsify");
     // Nothing is checked, so that searches end soon.
     let size =
-        ["--profile", "sofof", "--attack", "tracks-empty", "--vehicles", "8", "--rounds", "2"];
+        ["--profile", "sofof", "--attack", "empty-tracks", "--vehicles", "8", "--rounds", "2"];
     let search = |more: &[&str]| {
         let done = run(&folder, &[&["evaluate", "falsify"], &size[..], more].concat());
         assert_eq!(done.status.code(), Some(0), "{done:?}");

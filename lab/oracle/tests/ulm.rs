@@ -63,11 +63,11 @@ fn parts_are_of_one_map_and_make_the_whole() {
 fn a_run_is_drawn_by_its_id_and_its_map() {
     let Some(map) = on_map() else { return };
     let folder = folder("replay");
-    let only = ["--only", "failures/sofof/tracks-empty", "--out", "out", "--map", &map];
+    let only = ["--only", "failures/sofof/empty-tracks", "--out", "out", "--map", &map];
     said(&folder, &[&["evaluate"], &SIZE[..], &only].concat(), 0);
     let text = fs::read_to_string(folder.join("out/failures.json")).expect("it is there");
     let made: Value = serde_json::from_str(&text).expect("JSON");
-    let id = "failures/sofof/tracks-empty/lehr-1/0";
+    let id = "failures/sofof/empty-tracks/lehr-1/0";
     let runs = made["runs"].as_array().expect("runs");
     let run = runs.iter().find(|it| it["id"] == id).expect("it is one of them");
     let replay = ["evaluate", "replay", "--scenarios", "1", "--vehicles", "4", "--run", id];
@@ -75,7 +75,7 @@ fn a_run_is_drawn_by_its_id_and_its_map() {
     let time = format!("{:.2} s", run["t_s"].as_f64().expect("a time"));
     let end = run["end"].as_str().expect("an end");
     assert!(again.to_lowercase().contains(end) && again.contains(&time), "{again} {run}");
-    assert!(folder.join("failures-sofof-tracks-empty-lehr-1-0.html").exists());
+    assert!(folder.join("failures-sofof-empty-tracks-lehr-1-0.html").exists());
     let town = said(&folder, &replay, 2);
     assert!(town.contains("on town has such an id"), "{town}");
 }
@@ -84,7 +84,7 @@ fn a_run_is_drawn_by_its_id_and_its_map() {
 fn a_collision_names_its_map() {
     let Some(map) = on_map() else { return };
     let folder = folder("found");
-    let search = ["evaluate", "falsify", "--profile", "sofof", "--attack", "tracks-empty"];
+    let search = ["evaluate", "falsify", "--profile", "sofof", "--attack", "empty-tracks"];
     let size = ["--runs", "30", "--map", &map, "--out", "out"];
     said(&folder, &[&search[..], &size].concat(), 0);
     let found = fs::read_dir(folder.join("out/found")).expect("a folder");

@@ -27,13 +27,11 @@ use crate::services::detectors::Errors;
 use crate::services::way::seconds;
 use crate::snapshot::Snapshot;
 use crate::station::Station;
+use crate::vehicle::TAU_S;
 use crate::world::World;
 
 /// Time between two cycles, ns.
 pub const PERIOD_NS: i64 = 100_000_000;
-/// `tau` as A-07 of `docs/assumptions.md` asks for it here, s: 0.1 until the next cycle, 0.04 until it is decided, 0.1
-/// until the CAV's own planner answers.
-pub const TAU_S: f64 = 0.25;
 /// Most detections of a list, and cross sections of a route.
 const MOST: (usize, usize) = (128, 2048);
 

@@ -1,8 +1,6 @@
 //! The ego's body: circles, stops, limits, commands that are no numbers; and that runs repeat themselves.
 #![allow(clippy::float_cmp, reason = "what is held to a limit is that limit")]
 
-mod common;
-
 use mufasa_sim::map::streets;
 use mufasa_sim::pose::{Point, Pose};
 use mufasa_sim::scenario::Scenario;
@@ -95,7 +93,7 @@ fn digest(seed: u64) -> u64 {
     let mut sum = 0xcbf2_9ce4_8422_2325_u64;
     let mut take = |bits: u64| sum = (sum ^ bits).wrapping_mul(0x0100_0000_01b3);
     for _ in 0..3000 {
-        let command = common::drive(&world);
+        let command = crate::common::drive(&world);
         world.step(command);
         for agent in world.agents() {
             let pose = agent.rectangle.pose;

@@ -4,15 +4,18 @@ use std::collections::BTreeSet;
 
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::failures::{Failures, Row};
-use mufasa_sim::experiment::job::{self, Campaign, Options};
-use mufasa_sim::experiment::left_out::{Detectors, LeftOut};
-use mufasa_sim::experiment::select::Select;
+use mufasa_sim::experiment::attacks::ATTACKS;
+use mufasa_sim::experiment::availability::AVAILABILITY;
+use mufasa_sim::experiment::axes::{Detectors, Factor, LeftOut};
+use mufasa_sim::experiment::combinations;
+use mufasa_sim::experiment::failures::FAILURES;
+use mufasa_sim::experiment::falsify::genome::KINDS;
+use mufasa_sim::experiment::left_out::LEFT_OUT;
+use mufasa_sim::experiment::made::{Campaign, Experiment, Made, Row};
+use mufasa_sim::experiment::readings::READINGS;
+use mufasa_sim::experiment::select::{Options, Select};
+use mufasa_sim::experiment::stages::STAGES;
 use mufasa_sim::experiment::watch::{By, First, Watch};
-use mufasa_sim::experiment::{
-    attacks, availability, combinations, failures, falsify, left_out, readings, stages,
-};
-use mufasa_sim::map::Town;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::Cycle;
 use serde::Serialize;
@@ -20,9 +23,11 @@ use serde::Serialize;
 /// Fewer scenarios than of the real ones: this is compiled without all optimisation.
 const SMALL: Options = Options::town(2, 15, 0);
 
-/// Nobody is told how far it is.
-fn campaign<'a>(town: &'a Town, options: Options, select: &'a Select<'a>) -> Campaign<'a> {
-    Campaign { town, options, select, done: &|_| () }
+/// Those of its runs whose ids begin so.
+fn made(experiment: &Experiment, options: Options, only: Option<&str>) -> Made {
+    let (town, select) = (town(), Select::only(only));
+    let campaign = Campaign { town: &town, options, select: &select, done: &|_| () };
+    experiment.make(&campaign).expect("the town can be")
 }
 
 /// As JSON, made by so many threads.
@@ -31,50 +36,34 @@ fn json<T: Serialize + Send>(threads: usize, make: impl Fn() -> T + Send + Sync)
     serde_json::to_string_pretty(&pool.install(make)).expect("it is JSON")
 }
 
-fn small() -> Failures {
-    failures::experiment(&campaign(&town(), SMALL, &Select::default())).expect("the town can be")
-}
-
-fn row(of: &Failures, attack: Option<Kind>, variant: Variant) -> Row {
+fn row(of: &Made, attack: Option<Kind>, variant: Variant) -> &Row {
     let is_it = |row: &&Row| (row.attack, row.variant) == (attack, variant);
-    *of.rows.iter().find(is_it).expect("there is a row")
+    of.rows.iter().find(is_it).expect("there is a row")
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bytes() {
-    let town = town();
-    let size = Options::town(2, 8, 3);
-    let only = Some("failures/hardened/ghosts");
-    let make = || {
-        failures::experiment(&campaign(&town, size, &Select::only(only))).expect("the town can be")
-    };
-    let one = json(1, make);
-    assert_eq!(one, json(4, make));
-    assert_eq!(make().runs.len(), 4, "{one}");
-    let one = Options { scenarios: 2, ..size };
-    let only = Some("stages/paper");
-    let make =
-        || stages::experiment(&campaign(&town, one, &Select::only(only))).expect("the town can be");
-    assert_eq!(json(1, make), json(4, make));
+    for (experiment, only, runs) in
+        [(&FAILURES, "failures/hardened/ghost-tracks", 4), (&STAGES, "stages/paper", 2)]
+    {
+        let make = || made(experiment, Options::town(2, 8, 3), Some(only));
+        assert_eq!(json(1, make), json(4, make));
+        assert_eq!(make().runs.len(), runs, "{only}");
+    }
 }
 
 #[test]
 fn a_run_is_repeated_alone_by_its_id() {
-    let town = town();
-    let size = Options::town(2, 8, 3);
-    let make = |only| {
-        failures::experiment(&campaign(&town, size, &Select::only(Some(only))))
-            .expect("the town can be")
-    };
-    let all = make("failures/sofof/tracks-empty");
-    let alone = make("failures/sofof/tracks-empty/1/1");
+    let make = |only| made(&FAILURES, Options::town(2, 8, 3), Some(only));
+    let all = make("failures/sofof/empty-tracks");
+    let alone = make("failures/sofof/empty-tracks/1/1");
     assert_eq!(alone.runs, [all.runs[3].clone()]);
     assert_eq!(make("failures/sofof/tracks").runs, [], "no part of a part");
 }
 
 #[test]
 fn the_stages_save_what_quality_of_service_alone_loses() {
-    let made = small();
+    let made = made(&FAILURES, SMALL, None);
     let runs = 4;
     for variant in Variant::ALL {
         let control = row(&made, None, variant);
@@ -86,7 +75,7 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
             assert_eq!((checked.runs, checked.failures), (runs, 0), "{checked:?}");
         }
     }
-    for kind in [Kind::MapReplaced, Kind::TracksEmpty] {
+    for kind in [Kind::WrongMap, Kind::EmptyTracks] {
         let sofof = row(&made, Some(kind), Variant::Sofof);
         assert!(2 * sofof.failures > runs, "{sofof:?}");
     }
@@ -95,8 +84,7 @@ fn the_stages_save_what_quality_of_service_alone_loses() {
 }
 
 fn collided(only: &str) -> (usize, usize) {
-    let select = Select::only(Some(only));
-    let made = readings::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be");
+    let made = made(&READINGS, SMALL, Some(only));
     (made.rows.iter().map(|row| row.collided).sum(), made.runs.len())
 }
 
@@ -113,9 +101,8 @@ fn empty_lists_within_the_station_alone_are_found_and_those_for_both_are_not() {
 }
 
 /// The rows of these runs.
-fn rows(only: &str) -> Vec<left_out::Row> {
-    let select = Select::only(Some(only));
-    left_out::experiment(&campaign(&town(), SMALL, &select)).expect("the town can be").rows
+fn rows(only: &str) -> Vec<Row> {
+    made(&LEFT_OUT, SMALL, Some(only)).rows
 }
 
 #[test]
@@ -123,8 +110,8 @@ fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
     let with = rows("left-out/hardened/blind+nothing+none+both");
     let without = rows("left-out/hardened/blind+grid+none+both");
     assert_eq!((with.len(), without.len(), with[0].runs), (1, 1, 4));
-    assert!(with[0].executions_v > 100, "{with:?}");
-    assert_eq!((without[0].executions_v, without[0].detections_v), (0, 0), "{without:?}");
+    assert!(with[0].executions > 100, "{with:?}");
+    assert_eq!((without[0].executions, without[0].detections), (0, 0), "{without:?}");
     let noisy = rows("left-out/hardened/noisy+nothing+none+both");
     assert!((noisy[0].share_plan - with[0].share_plan).abs() > 1e-9, "{noisy:?} {with:?}");
 }
@@ -134,8 +121,8 @@ fn without_a_grid_stage_v_never_runs_and_a_blind_detector_is_blind_for_some() {
 fn a_rule_that_is_left_out_is_not_asked() {
     let with = rows("left-out/hardened/noisy+nothing+none+both");
     let without = rows("left-out/hardened/noisy+H-10+none+both");
-    assert!(with[0].executions_v > 100, "{with:?}");
-    assert!(without[0].executions_v < with[0].executions_v / 2, "{without:?}");
+    assert!(with[0].executions > 100, "{with:?}");
+    assert!(without[0].executions < with[0].executions / 2, "{without:?}");
     let names: Vec<String> =
         LeftOut::all(Variant::Hardened, Detectors::Noisy).into_iter().map(String::from).collect();
     let read = |name: &String| LeftOut::try_from(name.clone()).map(String::from);
@@ -144,9 +131,7 @@ fn a_rule_that_is_left_out_is_not_asked() {
 
 #[test]
 fn every_stage_runs_and_the_hardened_profile_arrives() {
-    let size = Options::town(2, 30, 0);
-    let made =
-        stages::experiment(&campaign(&town(), size, &Select::default())).expect("the town can be");
+    let made = made(&STAGES, Options::town(2, 30, 0), None);
     let vehicles: Vec<usize> = made.runs.iter().map(|run| run.vehicles).collect();
     assert_eq!(vehicles, [15, 30, 15, 30]);
     assert!(made.rows.iter().all(|row| row.executions > 0), "{:?}", made.rows);
@@ -162,17 +147,14 @@ fn every_stage_runs_and_the_hardened_profile_arrives() {
 fn ids_differ_and_every_combination_is_there() {
     let town = town();
     let size = Options::town(2, 15, 0);
-    let mut ids: Vec<String> = failures::jobs(&town, size).into_iter().map(|it| it.id).collect();
-    ids.extend(stages::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(attacks::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(availability::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(readings::jobs(&town, size).into_iter().map(|it| it.id));
-    ids.extend(left_out::jobs(&town, size).into_iter().map(|it| it.id));
-    let (all, kinds) = (ids.len(), Kind::ALL.len());
+    let all = [&FAILURES, &STAGES, &ATTACKS, &AVAILABILITY, &READINGS, &LEFT_OUT];
+    let jobs = all.iter().flat_map(|it| it.jobs(&town, size));
+    let mut ids: Vec<String> = jobs.map(|it| it.id).collect();
+    let (all, kinds) = (ids.len(), Kind::IN_THE_LOOP.len());
     let of_left_out = (4 * 2 * 3 + 2 * (2 * 4 + 10)) * (7 + 1) * 3 * 4;
     let others = 2 * 2 + (kinds + 1) * 3 * 3 * 4 + 23 * 2 * 4;
     assert_eq!(all, 4 * 3 * 4 + others + 9 * (3 + 1) * 4 + of_left_out);
-    assert!(ids.contains(&String::from("failures/paper/tracks-empty/0/1")));
+    assert!(ids.contains(&String::from("failures/paper/empty-tracks/0/1")));
     ids.sort();
     ids.dedup();
     assert_eq!(ids.len(), all);
@@ -180,7 +162,7 @@ fn ids_differ_and_every_combination_is_there() {
 
 #[test]
 fn the_default_of_each_setting_is_among_its_values() {
-    for factor in availability::Factor::ALL {
+    for factor in Factor::ALL {
         let (default, values) = (factor.of_default(), factor.values());
         assert!(values.iter().any(|it| (it - default).abs() < 1e-12), "{factor:?}: {default}");
     }
@@ -191,8 +173,8 @@ fn the_default_of_each_setting_is_among_its_values() {
 fn combinations_draw_the_kinds_that_they_had() {
     let attacks = (0..40).flat_map(|seed| combinations::attacks(seed, 0));
     let drawn: BTreeSet<Kind> = attacks.map(|it| it.kind).collect();
-    let left_out = [Kind::Flood, Kind::Slow, Kind::StampsAhead, Kind::Silent, Kind::Late];
-    let kept = Kind::ALL.into_iter().filter(|kind| !left_out.contains(kind));
+    let left_out = [Kind::Flood, Kind::Slow, Kind::StampsAhead, Kind::Silent, Kind::HeldBack];
+    let kept = Kind::IN_THE_LOOP.into_iter().filter(|kind| !left_out.contains(kind));
     assert_eq!(drawn, kept.collect());
     // Those of `combinations/hardened/plan/0/76` with `--seed 1000` (F-45).
     let first = combinations::attacks(1076, 0);
@@ -202,9 +184,8 @@ fn combinations_draw_the_kinds_that_they_had() {
 
 #[test]
 fn the_seed_of_a_scenario_does_not_depend_on_variant_or_attack() {
-    let town = town();
-    let jobs = failures::jobs(&town, SMALL);
-    for (route, scenario) in job::starts(&town, SMALL) {
+    let jobs = FAILURES.jobs(&town(), SMALL);
+    for (route, scenario) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let of = jobs.iter().filter(|job| (job.route, job.scenario) == (route, scenario));
         assert!(of.clone().all(|job| job.settings.seed == scenario), "{route} {scenario}");
         assert_eq!(of.count(), 12);
@@ -223,7 +204,7 @@ fn the_watch_counts_from_the_attack_on_while_something_is_remote() {
         attacked: true,
         off_road: false,
     };
-    let mut watch = Watch::new(5.0);
+    let mut watch = Watch::new(5.0, &[]);
     // Before the time: a fallback, but not the first detection.
     watch.see(&cycle(4.0, 1, 1));
     // Late data: both groups were remote and are no longer, after a safe cycle.
@@ -252,7 +233,7 @@ fn attacks_are_combined_at_random_and_again_the_same() {
         |is_it: fn(&&usize) -> bool| counts.iter().filter(is_it).count() * 100 / counts.len();
     let [none, several, more] = [share(|it| **it == 0), share(|it| **it > 1), share(|it| **it > 2)];
     assert!(none > 15 && several > 25 && more > 5, "{none} {several} {more} of 100");
-    for &kind in &falsify::genome::KINDS[..combinations::DRAWN] {
+    for &kind in &KINDS[..combinations::DRAWN] {
         assert!(all.iter().flatten().any(|it| it.kind == kind), "{kind:?}");
     }
     assert_eq!(combinations::attacks(3, 0), all[3]);

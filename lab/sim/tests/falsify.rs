@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use mufasa_sim::attack::means::{Lists, Means};
 use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::attacks::Offered;
+use mufasa_sim::experiment::axes::Offered;
 use mufasa_sim::experiment::falsify::cma::{Cma, anywhere};
 use mufasa_sim::experiment::falsify::danger::{Danger, FREE_S};
 use mufasa_sim::experiment::falsify::found::{Case, Found};
@@ -15,7 +15,8 @@ use mufasa_sim::experiment::falsify::shrink::shrunk;
 use mufasa_sim::experiment::falsify::{Caller, Falsified, Options, Progress, experiment};
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::streets::town;
-use mufasa_sim::run::{End, TAU_S};
+use mufasa_sim::run::End;
+use mufasa_sim::vehicle::TAU_S;
 
 /// Looks for much time left instead of little.
 struct Backwards;
@@ -43,7 +44,7 @@ impl Caller for Interrupts {
 
 /// Empty lists in the paper's profile (F-14): the random points of one round, and one generation.
 fn known_hole() -> Options {
-    let kinds = vec![Kind::TracksEmpty];
+    let kinds = vec![Kind::EmptyTracks];
     let (runs, rounds) = (Some(96), None);
     Options {
         variant: Variant::Paper,
@@ -105,30 +106,34 @@ fn an_interrupt_ends_the_search_and_leaves_what_was_found() {
     }
 }
 
+fn case(variant: Variant, offered: Offered, attacks: Vec<Attack>) -> Case {
+    Case {
+        variant,
+        tau_s: TAU_S,
+        drives_on: false,
+        has_no_lead: false,
+        offered,
+        route: 0,
+        scenario: 0,
+        vehicles: 15,
+        attacks,
+        map: MapId::Town,
+    }
+}
+
 #[test]
 fn what_is_found_is_shrunk_to_what_matters() {
     let town = town();
     let attack = |kind, means| Attack { kind, from: 3.0, until: 100.0, seed: 0, means };
     let moved = Means { speed_mps: 0.001, ..Means::of(Kind::Drift) };
     let attacks =
-        vec![attack(Kind::Drift, moved), attack(Kind::OneRemoved, Means::of(Kind::OneRemoved))];
-    let case = Case {
-        variant: Variant::Sofof,
-        tau_s: TAU_S,
-        drives_on: false,
-        has_no_lead: false,
-        offered: Offered::Both,
-        route: 0,
-        scenario: 0,
-        vehicles: 15,
-        attacks,
-        map: MapId::Town,
-    };
+        vec![attack(Kind::Drift, moved), attack(Kind::MissingTrack, Means::of(Kind::MissingTrack))];
+    let case = case(Variant::Sofof, Offered::Both, attacks);
     let found = case.collision(&town).expect("it can be").expect("a collision");
     let (small, runs) = shrunk(&town, &found, &()).expect("it can be");
     assert!(runs > 3);
     let [attack] = &small.case.attacks[..] else { panic!("{small:?}") };
-    assert_eq!(attack.kind, Kind::OneRemoved);
+    assert_eq!(attack.kind, Kind::MissingTrack);
     assert!(attack.until - attack.from < 30.0, "{attack:?}");
     let text = serde_json::to_string(&small).expect("it is JSON");
     assert_eq!(serde_json::from_str::<Found>(&text).expect("it is one"), small);
@@ -190,18 +195,7 @@ fn cma_goes_to_the_least() {
 #[test]
 fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     let town = town();
-    let mut case = Case {
-        variant: Variant::Sofof,
-        tau_s: TAU_S,
-        drives_on: false,
-        has_no_lead: false,
-        offered: Offered::Both,
-        route: 0,
-        scenario: 0,
-        vehicles: 15,
-        attacks: Vec::new(),
-        map: MapId::Town,
-    };
+    let mut case = case(Variant::Sofof, Offered::Both, Vec::new());
     let time_left = |case: &Case| {
         let mut danger = Danger::default();
         let outcome = case.run(&town, &mut danger).expect("it can be");
@@ -210,7 +204,7 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
     let (end, clean) = time_left(&case);
     assert_eq!(end, End::Arrived);
     assert!((1.0..=FREE_S).contains(&clean), "{clean}");
-    case.attacks.push(Attack::new(Kind::TracksEmpty, 5.0, 1e3, 0));
+    case.attacks.push(Attack::new(Kind::EmptyTracks, 5.0, 1e3, 0));
     let (end, attacked) = time_left(&case);
     assert_eq!(end, End::Collided);
     assert!(attacked < 0.3, "{attacked}");
@@ -220,18 +214,8 @@ fn a_run_that_collides_had_little_time_left_and_a_clean_one_much() {
 #[test]
 fn a_cycle_in_which_nothing_is_current_is_no_use() {
     let town = town();
-    let case = Case {
-        variant: Variant::Hardened,
-        tau_s: TAU_S,
-        offered: Offered::Plan,
-        route: 0,
-        scenario: 0,
-        vehicles: 15,
-        attacks: vec![Attack::new(Kind::StampsAhead, 5.0, 1e3, 0)],
-        drives_on: false,
-        has_no_lead: false,
-        map: MapId::Town,
-    };
+    let attacks = vec![Attack::new(Kind::StampsAhead, 5.0, 1e3, 0)];
+    let case = case(Variant::Hardened, Offered::Plan, attacks);
     let mut danger = Danger::default();
     case.run(&town, &mut danger).expect("it can be");
     let last = danger.last_use().expect("one before the attack").t_s;

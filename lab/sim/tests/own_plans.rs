@@ -42,10 +42,8 @@ fn what_came_of_the_own_planner_does_not_collide_when_its_plans_are_examined() {
         let text = std::fs::read_to_string(file).expect(name);
         let found: Found = serde_json::from_str(&text).expect(name);
         let mut job = found.case.job();
+        // That it collides without is tested in `falsify`.
         let mut examined = Examined::default();
-        let outcome = job.run(&town, &mut examined).expect(name);
-        assert_eq!(outcome.end, End::Collided, "{name}");
-        assert_eq!(examined.0, [0, 0], "{name}");
         job.settings.supervise_local = Some(found_s);
         let outcome = job.run(&town, &mut examined).expect(name);
         assert_eq!(outcome.end, End::Arrived, "{name}");

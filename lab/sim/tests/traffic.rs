@@ -1,8 +1,6 @@
 //! Many random runs with a stand-in ego: nobody collides, nobody enters what was not granted, traffic
 //! flows, and most egos arrive.
 
-mod common;
-
 use mufasa_sim::collision::overlap;
 use mufasa_sim::map::given::Given;
 use mufasa_sim::map::route::{Route, RouteKind};
@@ -41,7 +39,7 @@ fn run(town: &Town, route: usize, seed: u64, outcome: &mut Outcome) {
     let mut arrived = false;
     // The first tenth runs until the ego has arrived, and it must.
     for step in 0..if seed < 10 { 12000 } else { 6000 } {
-        let command = common::drive(&world);
+        let command = crate::common::drive(&world);
         world.step(command);
         outcome.way += world.agents()[1..].iter().map(|a| a.speed * 0.01).sum::<f64>();
         arrived |= world.has_arrived();

@@ -1,12 +1,8 @@
 //! The junction of Ulm-Lehr, read where it lies; says so when it does not.
 
-mod common;
-#[path = "common/maps.rs"]
-mod maps;
-
 use std::path::PathBuf;
 
-use maps::maps;
+use crate::common::maps::maps;
 use mufasa_sim::map::id::MapId;
 use mufasa_sim::map::ulm::lehr;
 use mufasa_sim::scenario::Scenario;
@@ -200,7 +196,7 @@ fn nobody_collides_at_lehr() {
         let mut world = World::new(&town, &scenario, seed);
         let mut there = false;
         for step in 0..12000 {
-            let command = common::drive(&world);
+            let command = crate::common::drive(&world);
             world.step(command);
             there |= world.has_arrived();
             assert!(there || !world.is_off_road(), "seed {seed} step {step}");

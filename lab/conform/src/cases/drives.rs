@@ -19,7 +19,7 @@ const CONFIGURATIONS: [Option<Configuration>; 3] =
     [None, Some(Configuration::MotRemote), Some(Configuration::PlanRemote)];
 
 /// Variants of every cycle: in each configuration, under each attack.
-const VARIANTS: usize = CONFIGURATIONS.len() + Attack::ALL.len();
+const VARIANTS: usize = CONFIGURATIONS.len() + Attack::ON_DRIVES.len();
 
 /// The cycles of drives, in an order that depends on the seed.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ impl Ride {
         match variant.checked_sub(CONFIGURATIONS.len()) {
             None => (name, self.clean(index, variant)),
             Some(attack) => {
-                let attack = Attack::ALL[attack];
+                let attack = Attack::ON_DRIVES[attack];
                 let from = index.saturating_sub(ATTACKED_BEFORE);
                 let mut part = Drive {
                     name: name.clone(),
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn an_attack_leaves_the_history_of_the_clean_drive() {
         let ride = Ride { drive: demo() };
-        let ghosts = Attack::ALL.iter().position(|it| *it == Attack::GhostTracks);
+        let ghosts = Attack::ON_DRIVES.iter().position(|it| *it == Attack::GhostTracks);
         let variant = CONFIGURATIONS.len() + ghosts.expect("an attack");
         let (name, attacked) = ride.variant(40, variant);
         let clean = ride.clean(40, 0);

@@ -2,7 +2,7 @@
 
 use mufasa_model::input::cycle::{Cycle, Track, Trajectory, TrajectoryPoint};
 
-use super::injection::Attack;
+use super::catalogue::Attack;
 use super::objects;
 use super::planner::Planner;
 use super::time::seconds;
@@ -139,6 +139,8 @@ fn change(cycle: &mut Cycle, attack: Attack, onset: &Onset, target: Option<i64>)
             objects::blind(cycle, onset.scan_ns);
         }
         Attack::Slide => slide(cycle),
+        // Of the closed loop alone.
+        _ => {}
     }
     None
 }

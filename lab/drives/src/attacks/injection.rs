@@ -1,102 +1,13 @@
-//! Attacks by name, and the time in which they take place.
+//! Attacks on a drive, and the time in which they take place.
 
 use std::fmt;
 use std::str::FromStr;
 
 use mufasa_model::input::cycle::Cycle;
 
-/// What an attacker does to the received data.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Attack {
-    /// The planner is given another map: its trajectory leads off to the left by the width of
-    /// the corridor (the paper's first attack).
-    WrongMap,
-    /// Track lists are emptied, and the trajectory, planned without them wherever the planner is,
-    /// goes on at speed (the paper's second attack).
-    EmptyTracks,
-    /// Three tracks of objects that are not there, ahead on the path and on both sides (the
-    /// paper's third attack).
-    GhostTracks,
-    /// True positions, velocities 10 m/s too fast forwards, and a trajectory that believes them
-    /// (F-13).
-    FalseVelocities,
-    /// True positions, sizes of a hand, and a trajectory that believes them (F-15).
-    FalseSizes,
-    /// The trajectory leads backwards along the path (F-10).
-    Backwards,
-    /// The trajectory of the first attacked cycle again and again, under fresh stamps (F-16).
-    Frozen,
-    /// Trajectory and tracks, as far as they are remote, arrive 300 ms late, with true stamps.
-    Late,
-    /// The points of the trajectory come three times too soon (F-22).
-    TooFast,
-    /// The object nearest to the CAV's path is left out of the tracks (F-31).
-    MissingTrack,
-    /// Objects that cross the reference path are said to stand (F-30).
-    CrossingStands,
-    /// The object nearest to the CAV's path and the one nearest to it are given velocities as if
-    /// each had come from where the other was 0.5 s ago (F-30, F-38).
-    ExchangedPasts,
-    /// The object nearest to the CAV's path is given a velocity as if it had come from where the one
-    /// nearest to it was 0.5 s ago, and that one is left out (F-42).
-    TakenPast,
-    /// Objects that move are said to be 3 m/s faster, which their pasts allow (F-30).
-    VelocityBias,
-    /// An object more: it stands where the one nearest to the CAV's path of those that drive was
-    /// 0.5 s ago (F-01, F-38).
-    PastGhost,
-    /// Track lists are emptied, and the CAV's own detectors see nothing any more: the one attack
-    /// that needs a defect of the CAV (F-34).
-    BlindDetectors,
-    /// The trajectory slides to the left, half a width a point, headings as before (F-35).
-    Slide,
-}
+use super::catalogue::Attack;
 
 impl Attack {
-    /// All attacks.
-    pub const ALL: [Self; 17] = [
-        Self::WrongMap,
-        Self::EmptyTracks,
-        Self::GhostTracks,
-        Self::FalseVelocities,
-        Self::FalseSizes,
-        Self::Backwards,
-        Self::Frozen,
-        Self::Late,
-        Self::TooFast,
-        Self::MissingTrack,
-        Self::CrossingStands,
-        Self::ExchangedPasts,
-        Self::TakenPast,
-        Self::VelocityBias,
-        Self::PastGhost,
-        Self::BlindDetectors,
-        Self::Slide,
-    ];
-
-    /// The name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::WrongMap => "wrong-map",
-            Self::EmptyTracks => "empty-tracks",
-            Self::GhostTracks => "ghost-tracks",
-            Self::FalseVelocities => "false-velocities",
-            Self::FalseSizes => "false-sizes",
-            Self::Backwards => "backwards",
-            Self::Frozen => "frozen",
-            Self::Late => "late",
-            Self::TooFast => "too-fast",
-            Self::MissingTrack => "missing-track",
-            Self::CrossingStands => "crossing-stands",
-            Self::ExchangedPasts => "exchanged-pasts",
-            Self::TakenPast => "taken-past",
-            Self::VelocityBias => "velocity-bias",
-            Self::PastGhost => "past-ghost",
-            Self::BlindDetectors => "blind-detectors",
-            Self::Slide => "slide",
-        }
-    }
-
     /// What it changes, in words.
     pub fn data(self) -> &'static str {
         match (self.is_on_tracks(), self.is_on_trajectory()) {
@@ -108,21 +19,7 @@ impl Attack {
 
     /// Whether it changes received tracks.
     fn is_on_tracks(self) -> bool {
-        match self {
-            Self::EmptyTracks
-            | Self::GhostTracks
-            | Self::FalseVelocities
-            | Self::FalseSizes
-            | Self::Late
-            | Self::MissingTrack
-            | Self::CrossingStands
-            | Self::ExchangedPasts
-            | Self::TakenPast
-            | Self::VelocityBias
-            | Self::PastGhost
-            | Self::BlindDetectors => true,
-            Self::WrongMap | Self::Backwards | Self::Frozen | Self::TooFast | Self::Slide => false,
-        }
+        self.is_driven() || matches!(self, Self::GhostTracks | Self::Late | Self::PastGhost)
     }
 
     /// Whether it changes received trajectories, other than by way of the tracks.
@@ -145,25 +42,18 @@ impl Attack {
 
     /// Whether the CAV is shown driving what the attack makes of the trajectory.
     pub(super) fn is_driven(self) -> bool {
-        match self {
+        matches!(
+            self,
             Self::EmptyTracks
-            | Self::FalseVelocities
-            | Self::FalseSizes
-            | Self::MissingTrack
-            | Self::CrossingStands
-            | Self::ExchangedPasts
-            | Self::TakenPast
-            | Self::VelocityBias
-            | Self::BlindDetectors => true,
-            Self::WrongMap
-            | Self::GhostTracks
-            | Self::Backwards
-            | Self::Frozen
-            | Self::Late
-            | Self::TooFast
-            | Self::PastGhost
-            | Self::Slide => false,
-        }
+                | Self::FalseVelocities
+                | Self::FalseSizes
+                | Self::MissingTrack
+                | Self::CrossingStands
+                | Self::ExchangedPasts
+                | Self::TakenPast
+                | Self::VelocityBias
+                | Self::BlindDetectors
+        )
     }
 }
 
@@ -172,7 +62,7 @@ impl FromStr for Attack {
 
     fn from_str(text: &str) -> Result<Self, ParseInjectionError> {
         let unknown = || ParseInjectionError::UnknownAttack(text.to_owned());
-        Self::ALL.into_iter().find(|a| a.name() == text).ok_or_else(unknown)
+        Self::named(text, &Self::ON_DRIVES).ok_or_else(unknown)
     }
 }
 
@@ -223,7 +113,7 @@ impl fmt::Display for Injection {
 /// Why a text is no injection.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParseInjectionError {
-    /// The name is none of [`Attack::ALL`].
+    /// The name is none of [`Attack::ON_DRIVES`].
     UnknownAttack(String),
     /// The span is not of the form `FROM..TO`.
     Form(String),
@@ -242,7 +132,7 @@ impl fmt::Display for ParseInjectionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownAttack(name) => {
-                let names = Attack::ALL.map(Attack::name).join(", ");
+                let names = Attack::ON_DRIVES.map(Attack::name).join(", ");
                 write!(f, "`{name}` is no attack; known are {names}")
             }
             Self::Form(span) => write!(f, "`{span}` is not of the form FROM..TO, in seconds"),

@@ -1,7 +1,7 @@
 //! Attacks on the remote services, injected into a drive (paper Sec. V-B, and the findings of
 //! `spec/3-stages.md#findings`). An attack changes what the CAV receives, never what it measures
 //! itself: detections and their history, route and grid stay as they are (but for
-//! [`injection::Attack::BlindDetectors`]), and so do ego and lead unless the CAV is shown driving what it is
+//! [`catalogue::Attack::BlindDetectors`]), and so do ego and lead unless the CAV is shown driving what it is
 //! sent.
 //!
 //! Data are received where the configuration of the cycle says that their group is remote: tracks
@@ -10,6 +10,7 @@
 //! tracks, so where those hide objects the local trajectory believes them, too. In `PlanRemote`
 //! the tracks are the CAV's own, and an attack on tracks is none.
 
+pub mod catalogue;
 mod change;
 mod course;
 pub mod error;

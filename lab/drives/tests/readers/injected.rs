@@ -64,7 +64,7 @@ fn every_attack_on_the_demo_is_found_where_it_should_be() {
         (Attack::Slide, None, Some(At(Stage::Ii))),
     ];
     // Nothing crosses; see `crossing.rs`.
-    assert_eq!(cases.len() + 1, Attack::ALL.len());
+    assert_eq!(cases.len() + 1, Attack::ON_DRIVES.len());
     let [paper, hardened] = [Profile::PAPER, Profile::HARDENED].map(|p| demo(&options(p)));
     for (attack, in_paper, in_hardened) in cases {
         let injection = Injection { attack, from_s: 2.0, to_s: f64::INFINITY };
@@ -144,7 +144,7 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
 #[test]
 fn an_injection_changes_what_is_received_in_its_time_and_nothing_else() {
     let clean = crossed(demo(&Options::default()));
-    for attack in Attack::ALL {
+    for attack in Attack::ON_DRIVES {
         let attacked = inject(&clean, &Injection { attack, from_s: 3.0, to_s: 4.0 }).unwrap();
         for (i, (a, c)) in attacked.cycles.iter().zip(&clean.cycles).enumerate() {
             // A frozen trajectory is the true one the first time.
@@ -168,7 +168,7 @@ fn injections_are_written_as_they_are_read() {
         assert_eq!(Injection::from_str(text).unwrap().to_string(), text);
     }
     assert_eq!(Injection::from_str("frozen").unwrap().to_string(), "frozen@0..");
-    for attack in Attack::ALL {
+    for attack in Attack::ON_DRIVES {
         assert_eq!(attack.name().parse(), Ok(attack));
     }
     for text in ["", "wrongmap", "late@1", "late@-1..2", "late@a..b", "late@nan..", "late@2..x"] {
@@ -218,7 +218,7 @@ fn attacks_change_remote_data_only() {
     ] {
         let clean = crossed(demo(&Options { configuration, ..Options::default() }));
         let remote = configuration.remote();
-        for attack in Attack::ALL {
+        for attack in Attack::ON_DRIVES {
             let [on_tracks, on_trajectory] = match attack {
                 WrongMap | Backwards | Frozen | TooFast | Slide => [false, remote.plan],
                 GhostTracks | PastGhost => [remote.mot, false],

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use mufasa_link::message::encode;
 
-use crate::common::{frame, messages};
+use super::common::{frame, messages};
 
 /// LINK-01; `UPDATE_HEX=1` writes the file.
 #[test]

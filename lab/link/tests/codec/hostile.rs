@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::common::{frame, messages};
+use super::common::{frame, messages};
 
 /// The name of an error; without a catch-all, so that a new one is counted.
 fn kind(error: &DecodeError) -> String {

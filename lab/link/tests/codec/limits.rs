@@ -4,7 +4,7 @@ use mufasa::input::cycle::{Detection, Ego, Track, TrajectoryPoint};
 use mufasa::services::configuration::Group;
 use mufasa_link::message::{Frame, Message, Payload, Problem, decode, encode};
 
-use crate::common::{frame, messages};
+use super::common::{frame, messages};
 
 fn tracks_of(message: &mut Message) -> &mut Vec<Track> {
     match &mut message.payload {

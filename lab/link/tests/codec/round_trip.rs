@@ -5,7 +5,7 @@ use mufasa::services::configuration::{Group, Groups};
 use mufasa_link::message::{Frame, Message, Payload, decode, encode};
 use proptest::prelude::*;
 
-use crate::common::{frame, messages};
+use super::common::{frame, messages};
 
 /// What doubles add to a rounding, m.
 const DOUBLES: f64 = 1e-8;

@@ -11,7 +11,7 @@ use mufasa_link::vehicle::memory::lent;
 use mufasa_link::vehicle::summary::Tally;
 use mufasa_model::input::cycle::Profile;
 
-use crate::world::{MS, START_NS, World};
+use super::world::{MS, START_NS, World};
 
 #[test]
 fn a_clean_drive_is_offloaded_from_its_first_second_to_its_end() {

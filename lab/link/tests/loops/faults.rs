@@ -8,7 +8,7 @@ use mufasa_link::message::{Payload, decode};
 use mufasa_link::transport::{Address, Transport};
 use mufasa_model::offloading::requester::Parameters;
 
-use crate::world::{MS, Seen, Somebody, World};
+use super::world::{MS, Seen, Somebody, World};
 
 /// What must hold whatever happens.
 fn holds(seen: &Seen) {

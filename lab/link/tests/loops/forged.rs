@@ -11,7 +11,7 @@ use mufasa_link::message::{Message, Payload, decode};
 use mufasa_link::transport::{Address, MESSAGE_MAX, Transport};
 use mufasa_model::offloading::requester::Parameters;
 
-use crate::world::{MS, START_NS, Seen, Somebody, World};
+use super::world::{MS, START_NS, Seen, Somebody, World};
 
 const VEHICLE: Address = Address::Vehicle(1);
 

@@ -10,7 +10,7 @@ use mufasa_model::input::cycle::Profile;
 use mufasa_model::services::configuration::Configuration;
 
 use mufasa_drives::check::complain;
-use mufasa_drives::{GridSize, Injection, Options, Sensor, Tail};
+use mufasa_drives::{Attack, GridSize, Injection, Options, Sensor, Tail};
 use mufasa_records::names;
 
 use crate::limits::{number, whole};
@@ -34,12 +34,7 @@ pub(super) struct CheckArguments {
     /// Which groups of a recorded drive are remote.
     #[arg(long, default_value = "AllRemote", value_parser = configuration(), ignore_case = true)]
     pub(super) configuration: Configuration,
-    /// Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again.
-    /// It must change some cycle of every drive.
-    /// Names: wrong-map, empty-tracks, ghost-tracks, false-velocities, false-sizes, backwards,
-    /// frozen, late, too-fast, missing-track, crossing-stands, exchanged-pasts, taken-past,
-    /// velocity-bias, past-ghost, blind-detectors, slide.
-    #[arg(long, value_name = "ATTACK")]
+    #[arg(long, value_name = "ATTACK", help = inject_help())]
     pub(super) inject: Vec<Injection>,
     /// Write JSON Lines: the answer to every cycle, a record per drive, a last one.
     #[arg(long, conflicts_with = "summary")]
@@ -52,6 +47,14 @@ pub(super) struct CheckArguments {
     pub(super) svg: Option<PathBuf>,
     #[command(flatten)]
     pub(super) recording: RecordingArguments,
+}
+
+fn inject_help() -> String {
+    format!(
+        "Attack the remote data: NAME@FROM..TO, such as wrong-map@2..3.5 (s); may be given again. It must change some \
+         cycle of every drive. Names: {}",
+        Attack::ON_DRIVES.map(Attack::name).join(", ")
+    )
 }
 
 /// What a recording does not say.

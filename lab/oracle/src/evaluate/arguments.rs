@@ -3,12 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use mufasa_sim::experiment::job::Options;
-use mufasa_sim::experiment::select::Shard;
+use mufasa_sim::experiment::select::{Options, Shard};
 
 use super::falsify::FalsifyArguments;
 use super::parts::shard;
-use super::replay::ReplayArguments;
+use super::replay::{ReplayArguments, run_id};
 use super::scenes::ScenesArguments;
 use crate::limits::whole;
 
@@ -87,8 +86,8 @@ pub struct SizeArguments {
     /// before, of tracks and of a few plans.
     #[arg(long)]
     pub without_precheck: bool,
-    /// Only runs whose id is this or begins with these parts, such as failures/paper/tracks-empty/0/3.
-    #[arg(long, value_name = "ID")]
+    /// Only runs whose id is this or begins with these parts, such as failures/paper/empty-tracks/0/3.
+    #[arg(long, value_name = "ID", value_parser = run_id)]
     pub only: Option<String>,
     /// Only one of N parts of the runs, such as 2/8, for other machines to make the others; `mufasa merge` puts
     /// the parts together.

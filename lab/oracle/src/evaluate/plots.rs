@@ -7,6 +7,7 @@
 pub(super) mod bars;
 mod chart;
 pub(super) mod dots;
+mod failed;
 pub(super) mod figures;
 mod left_out;
 pub(super) mod lines;

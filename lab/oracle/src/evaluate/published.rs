@@ -17,7 +17,7 @@ pub(super) const fn failures(attack: Option<Kind>, variant: Variant) -> Publishe
     match (attack, variant) {
         (None, _) => Published { number: None, words: "not said" },
         (Some(_), Variant::Paper) => Published { number: Some(0.0), words: "0" },
-        (Some(Kind::MapReplaced | Kind::TracksEmpty), Variant::Sofof) => {
+        (Some(Kind::WrongMap | Kind::EmptyTracks), Variant::Sofof) => {
             Published { number: None, words: "several" }
         }
         (Some(_), Variant::Sofof) => Published { number: None, words: "in its figure" },

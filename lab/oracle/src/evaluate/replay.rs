@@ -1,10 +1,11 @@
 //! One run as a page (`mufasa_sim::replay`).
 
+use std::convert::Infallible;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use mufasa::input::profile::Profile;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
@@ -12,8 +13,10 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::cav::recorder::Share;
+use mufasa_sim::experiment::axes::Axes;
 use mufasa_sim::experiment::falsify::found::Found;
-use mufasa_sim::experiment::job::{Job, Options, kind_name};
+use mufasa_sim::experiment::job::{Job, kind_name};
+use mufasa_sim::experiment::select::Options;
 use mufasa_sim::map::Town;
 use mufasa_sim::replay::Replay;
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
@@ -36,9 +39,9 @@ pub struct ReplayArguments {
     /// A collision that `mufasa evaluate falsify` found; it says which run it is.
     #[arg(value_name = "FILE", conflicts_with_all = ["run", "attack", "variant", "route", "scenario", "vehicles", "from"])]
     pub found: Option<PathBuf>,
-    /// A run of an experiment by its id, such as failures/paper/tracks-empty/0/3. With `--scenarios`,
+    /// A run of an experiment by its id, such as failures/paper/empty-tracks/0/3. With `--scenarios`,
     /// `--vehicles` and `--seed` as they were given to the experiment.
-    #[arg(long, value_name = "ID", conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
+    #[arg(long, value_name = "ID", value_parser = run_id, conflicts_with_all = ["attack", "variant", "route", "scenario", "from"])]
     pub run: Option<String>,
     /// Scenarios of the experiment [default: that of the experiment].
     #[arg(long, value_name = "N", requires = "run", value_parser = whole(1_u64, 10_000), allow_negative_numbers = true)]
@@ -79,7 +82,7 @@ pub struct ReplayArguments {
 }
 
 /// The runs of an experiment by its name and its size, which is made of its defaults; none, if there is no such one.
-pub(super) type Jobs = fn(&str, &dyn Fn(Options) -> Options, &Town) -> Vec<Job<()>>;
+pub(super) type Jobs = fn(&str, &dyn Fn(Options) -> Options, &Town) -> Vec<Job>;
 
 /// Makes the run and writes its page, and its log. Returns the exit code. Errors: those of writing to `out`.
 pub fn run(
@@ -104,7 +107,7 @@ pub fn run(
 }
 
 /// The run that is meant, and its map. Errors: there is none.
-fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job<()>), String> {
+fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job), String> {
     let &ReplayArguments { attack: attack_of, variant, route, scenario, vehicles, from, .. } =
         arguments;
     let folder = arguments.map.as_deref();
@@ -124,7 +127,7 @@ fn job(arguments: &ReplayArguments, jobs: Jobs) -> Result<(Town, Job<()>), Strin
             let vehicles = vehicles.map_or(VEHICLES, usize::from);
             let without_precheck = arguments.without_precheck;
             let of = Options { map: town.id, without_precheck, ..Options::town(1, vehicles, 0) };
-            let mut job = Job::new("replay", (kind_name(attack_of), ()), place, of);
+            let mut job = Job::new("replay", (kind_name(attack_of), Axes::default()), place, of);
             let attack = |kind| Attack::new(kind, from.into(), f64::INFINITY, scenario);
             job.settings.attacks = attack_of.into_iter().map(attack).collect();
             (town, job)
@@ -151,7 +154,7 @@ fn of_experiment(
     arguments: &ReplayArguments,
     jobs: Jobs,
     town: &Town,
-) -> Result<Job<()>, String> {
+) -> Result<Job, String> {
     let name = id.split('/').next().unwrap_or_default();
     let sized = |defaults: Options| Options {
         scenarios: arguments.scenarios.unwrap_or(defaults.scenarios),
@@ -165,7 +168,7 @@ fn of_experiment(
     at.map(|at| jobs.swap_remove(at)).ok_or_else(|| {
         format!(
             "--run {id}: no run of an experiment on {} has such an id; one is its experiment, variant, what \
-             is special, route and scenario, such as failures/paper/tracks-empty/{}/3",
+             is special, route and scenario, such as failures/paper/empty-tracks/{}/3",
             town.id,
             town.id.route(0)
         )
@@ -176,7 +179,7 @@ fn of_experiment(
 fn write(
     arguments: &ReplayArguments,
     town: &Town,
-    job: &Job<()>,
+    job: &Job,
 ) -> Result<(String, Outcome, Vec<PathBuf>), String> {
     let name = job.id.clone();
     let named = [None, Some(Profile::PAPER), Some(Profile::HARDENED)];
@@ -232,9 +235,15 @@ impl Watcher for Both {
 }
 
 pub(super) fn kind() -> impl TypedValueParser<Value = Kind> {
-    PossibleValuesParser::new(Kind::ALL.map(Kind::name)).try_map(|given| {
-        Kind::ALL.into_iter().find(|kind| kind.name() == given).ok_or("unknown attack")
-    })
+    let value = |kind: Kind| PossibleValue::new(kind.name()).aliases(kind.older_name());
+    PossibleValuesParser::new(Kind::IN_THE_LOOP.map(value))
+        .try_map(|given| Kind::named(&given, &Kind::IN_THE_LOOP).ok_or("unknown attack"))
+}
+
+/// The id of a run, or its beginning; attacks may have their older names.
+#[expect(clippy::unnecessary_wraps, reason = "as clap parses")]
+pub(super) fn run_id(given: &str) -> Result<String, Infallible> {
+    Ok(Kind::renamed(given))
 }
 
 pub(super) fn variant() -> impl TypedValueParser<Value = Variant> {

@@ -10,7 +10,7 @@ use mufasa_drives::progress;
 use mufasa_records::files;
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::scenes::{NAME, Options, Scenes};
-use mufasa_sim::run::TAU_S;
+use mufasa_sim::vehicle::TAU_S;
 
 use super::codes::{BAD_INPUT, FAILED};
 use super::replay::variant;

@@ -12,9 +12,10 @@ use serde_json::Value;
 
 use super::codes::BAD_INPUT;
 use super::merge::MergeArguments;
+use super::shown::{EXPERIMENTS, named};
 use super::{
-    EXPERIMENTS, Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared,
-    table_name, tell,
+    Results, Task, draw, ended, falsify, in_threads, maps, page_of, parts, prepared, table_name,
+    tell,
 };
 use crate::document;
 
@@ -71,15 +72,18 @@ pub fn merge(
     let drawn = folder.map_or_else(BTreeMap::new, |_| drawn(&runs, &arguments.parts));
     let (checks, drawn) = (Mutex::new(checks), Mutex::new(drawn));
     let select = Select { made: Some(&runs), checks, drawn, ..Select::default() };
-    let named = EXPERIMENTS.iter().find(|it| it.name == experiment).ok_or_else(|| {
-        let names = EXPERIMENTS.map(|it| it.name).join(", ");
+    let shown = named(&experiment).ok_or_else(|| {
+        let names = EXPERIMENTS.map(|it| it.experiment.name).join(", ");
         format!("{experiment}: no such experiment; there are {names}")
     });
-    let made = named.and_then(|named| {
+    let made = shown.and_then(|shown| {
         let task = Task { sized: &|_| options, select: &select };
         let town = maps::same(arguments.map.as_deref(), options.map, "the parts")?;
-        document::has_place(arguments.into.as_deref(), &table_name(named.name, town.id))?;
-        in_threads(None, &town, &task, named.make)
+        document::has_place(
+            arguments.into.as_deref(),
+            &table_name(shown.experiment.name, town.id),
+        )?;
+        in_threads(None, &town, &task, shown)
     });
     let made = made.map(|results| (results, select));
     ended(made, folder, arguments.into.as_deref(), out, err)

@@ -1,104 +1,47 @@
-//! The experiments behind one face: what is made, and how it is shown.
+//! The experiments, and how each is shown.
 
-use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::attacks::{self, Attacks};
-use mufasa_sim::experiment::availability::{self, Availability};
-use mufasa_sim::experiment::combinations::{self, Combinations};
-use mufasa_sim::experiment::failures::{self, Failures};
-use mufasa_sim::experiment::job::{Campaign, ExperimentError, Job, Options};
-use mufasa_sim::experiment::left_out::{self, LeftOuts};
-use mufasa_sim::experiment::readings::{self, Readings};
-use mufasa_sim::experiment::stages::{self, Stages};
-use mufasa_sim::map::Town;
-use mufasa_sim::run::End;
-use serde::Serialize;
+use mufasa_sim::experiment::attacks::ATTACKS;
+use mufasa_sim::experiment::availability::AVAILABILITY;
+use mufasa_sim::experiment::combinations::COMBINATIONS;
+use mufasa_sim::experiment::failures::FAILURES;
+use mufasa_sim::experiment::left_out::LEFT_OUT;
+use mufasa_sim::experiment::made::{Experiment, Made, Row};
+use mufasa_sim::experiment::readings::READINGS;
+use mufasa_sim::experiment::stages::STAGES;
 
 use super::plots::figures::{self, Figure};
-use super::tables::{self, Rows};
+use super::tables::{self, Column};
 
-/// A run that failed.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Failed {
-    pub(super) id: String,
-    pub(super) variant: Variant,
-    pub(super) end: End,
+/// An experiment, and how it is shown.
+pub(super) struct Shown {
+    pub(super) experiment: Experiment,
+    pub(super) columns: &'static [Column<Row>],
+    pub(super) figures: fn(&Made) -> Vec<Figure>,
+    /// Whether a run that fails is named: where something is left out it is no failure of the profile.
+    pub(super) names_failures: bool,
 }
 
-/// An experiment that was made.
-pub(super) trait Shown: Serialize + Sized {
-    /// Its name.
-    const NAME: &'static str;
-    /// How large it is by default.
-    const OPTIONS: Options;
-    /// A row of its table.
-    type Row: Serialize;
-    /// A run.
-    type Run: Serialize;
-
-    /// Its runs.
-    fn jobs(town: &Town, options: Options) -> Vec<Job<()>>;
-
-    /// Makes it.
-    fn make(campaign: &Campaign<'_>) -> Result<Self, ExperimentError>;
-
-    fn rows(&self) -> &[Self::Row];
-    fn runs(&self) -> &[Self::Run];
-    fn failed(&self) -> Vec<Failed>;
-    fn table(&self) -> Rows;
-    fn figures(&self) -> Vec<Figure>;
+const fn shown(
+    experiment: Experiment,
+    columns: &'static [Column<Row>],
+    figures: fn(&Made) -> Vec<Figure>,
+) -> Shown {
+    Shown { experiment, columns, figures, names_failures: true }
 }
 
-/// The modules of experiments, what each makes, and how a run of it ended.
-macro_rules! shown {
-    ($($module:ident: $made:ident, $end:expr;)*) => {$(
-        impl Shown for $made {
-            const NAME: &'static str = $module::NAME;
-            const OPTIONS: Options = $module::OPTIONS;
-            type Row = $module::Row;
-            type Run = $module::Run;
+/// All.
+pub(super) const EXPERIMENTS: [Shown; 7] = [
+    shown(FAILURES, tables::FAILURES, figures::failures),
+    shown(READINGS, tables::READINGS, figures::readings),
+    shown(STAGES, tables::STAGES, figures::stages),
+    shown(ATTACKS, tables::ATTACKS, figures::attacks),
+    shown(COMBINATIONS, tables::COMBINATIONS, figures::combinations),
+    shown(AVAILABILITY, tables::AVAILABILITY, figures::availability),
+    Shown { names_failures: false, ..shown(LEFT_OUT, tables::LEFT_OUT, figures::left_out) },
+];
 
-            fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
-                $module::jobs(town, options).into_iter().map(Job::plain).collect()
-            }
-
-            fn make(campaign: &Campaign<'_>) -> Result<Self, ExperimentError> {
-                $module::experiment(campaign)
-            }
-
-            fn rows(&self) -> &[Self::Row] {
-                &self.rows
-            }
-
-            fn runs(&self) -> &[Self::Run] {
-                &self.runs
-            }
-
-            fn failed(&self) -> Vec<Failed> {
-                let end: fn(&Self::Run) -> Option<End> = $end;
-                let failed = self.runs.iter().filter_map(|run| {
-                    let end = end(run).filter(|end| end.is_failure())?;
-                    Some(Failed { id: run.id.clone(), variant: run.variant, end })
-                });
-                failed.collect()
-            }
-
-            fn table(&self) -> Rows {
-                tables::$module(self)
-            }
-
-            fn figures(&self) -> Vec<Figure> {
-                figures::$module(self)
-            }
-        }
-    )*};
-}
-
-shown! {
-    failures: Failures, |run| Some(run.end);
-    readings: Readings, |run| Some(run.end);
-    stages: Stages, |run| Some(run.end);
-    attacks: Attacks, |run| Some(run.end);
-    combinations: Combinations, |run| Some(run.end);
-    availability: Availability, |run| Some(run.end);
-    left_out: LeftOuts, |_| None;
+/// The one of this name.
+pub(super) fn named(name: &str) -> Option<&'static Shown> {
+    const ALL: &[Shown] = &EXPERIMENTS;
+    ALL.iter().find(|it| it.experiment.name == name)
 }

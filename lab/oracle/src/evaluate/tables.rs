@@ -4,11 +4,13 @@ use std::fmt::Write;
 
 use comfy_table::{CellAlignment, Table, presets};
 use mufasa_drives::pictures::escape;
+use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
+use mufasa_sim::experiment::axes::{Detectors, Factor, LeftOut, Offered};
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::{
-    attacks, availability, combinations, failures, falsify, left_out, readings, scenes, stages,
-};
+use mufasa_sim::experiment::made::Row;
+use mufasa_sim::experiment::watch::By;
+use mufasa_sim::experiment::{falsify, scenes};
 
 use super::published;
 
@@ -21,7 +23,7 @@ pub struct Rows {
 }
 
 /// A column: its name, whether it holds numbers, and what a row has there.
-type Column<R> = (&'static str, bool, fn(&R) -> String);
+pub type Column<R> = (&'static str, bool, fn(&R) -> String);
 
 const fn text<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
     (name, false, cell)
@@ -31,7 +33,8 @@ const fn number<R>(name: &'static str, cell: fn(&R) -> String) -> Column<R> {
     (name, true, cell)
 }
 
-fn rows<R>(of: &[R], columns: &[Column<R>]) -> Rows {
+/// A table with a line for each.
+pub fn rows<R>(of: &[R], columns: &[Column<R>]) -> Rows {
     let header = columns.iter().map(|(name, is_number, _)| (*name, *is_number)).collect();
     let row = |row: &R| columns.iter().map(|(.., cell)| cell(row)).collect();
     Rows { header, rows: of.iter().map(row).collect() }
@@ -91,145 +94,114 @@ impl Rows {
 }
 
 /// Failures by attack and variant.
-pub fn failures(of: &failures::Failures) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("attack", |row| kind_name(row.attack).to_owned()),
-            text("checked by", |row| row.variant.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("failures", |row| row.failures.to_string()),
-            number("collided", |row| row.collided.to_string()),
-            number("late", |row| row.late.to_string()),
-            number("left the corridor", |row| row.off_road.to_string()),
-            text("failures in the paper", |row| {
-                published::failures(row.attack, row.variant).words.to_owned()
-            }),
-        ],
-    )
-}
+pub const FAILURES: &[Column<Row>] = &[
+    text("attack", |row| kind_name(row.attack).to_owned()),
+    text("checked by", |row| row.variant.name().to_owned()),
+    number("runs", |row| row.runs.to_string()),
+    number("failures", |row| row.failures.to_string()),
+    number("collided", |row| row.collided.to_string()),
+    number("late", |row| row.late.to_string()),
+    number("left the corridor", |row| row.off_road.to_string()),
+    text("failures in the paper", |row| {
+        published::failures(row.attack, row.variant).words.to_owned()
+    }),
+];
 
 /// Failures under empty lists, by the reading of the paper's text.
-pub fn readings(of: &readings::Readings) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("lists of", |row| readings::name_of_lists(row.lists).to_owned()),
-            text("they come", |row| readings::name_of_comes(row.comes).to_owned()),
-            text("an empty list is", |row| match (row.variant, row.empty_is_a_list) {
-                (Variant::Sofof, _) => String::new(),
-                (_, true) => String::from("a list"),
-                (_, false) => String::from("no list"),
-            }),
-            text("checked by", |row| row.variant.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("collided", |row| row.collided.to_string()),
-            number("late", |row| row.late.to_string()),
-            number("detected", |row| row.detected.to_string()),
-        ],
-    )
-}
+pub const READINGS: &[Column<Row>] = &[
+    text("lists of", |row| word(row.lists.map(Lists::name))),
+    text("they come", |row| word(row.comes.map(Comes::name))),
+    text("an empty list is", |row| match (row.variant, row.empty_is_a_list) {
+        (Variant::Sofof, _) => String::new(),
+        (_, Some(false)) => String::from("no list"),
+        (_, _) => String::from("a list"),
+    }),
+    text("checked by", |row| row.variant.name().to_owned()),
+    number("runs", |row| row.runs.to_string()),
+    number("collided", |row| row.collided.to_string()),
+    number("late", |row| row.late.to_string()),
+    number("detected", |row| row.detected.to_string()),
+];
 
 /// Executions and detections by variant and stage.
-pub fn stages(of: &stages::Stages) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("checked by", |row| row.variant.name().to_owned()),
-            text("stage", |row| row.stage.name().to_owned()),
-            number("executions", |row| row.executions.to_string()),
-            number("detections", |row| row.detections.to_string()),
-            number("of 1000", |row| per_thousand(row.detections, row.executions)),
-            number("executions in the paper", |row| row.paper_executions.to_string()),
-            number("detections in the paper", |row| row.paper_detections.to_string()),
-            number("of 1000", |row| per_thousand(row.paper_detections, row.paper_executions)),
-        ],
-    )
-}
+pub const STAGES: &[Column<Row>] = &[
+    text("checked by", |row| row.variant.name().to_owned()),
+    text("stage", |row| word(row.stage.map(By::name))),
+    number("executions", |row| row.executions.to_string()),
+    number("detections", |row| row.detections.to_string()),
+    number("of 1000", |row| per_thousand(row.detections, row.executions)),
+    number("executions in the paper", |row| or_nothing(row.paper_executions)),
+    number("detections in the paper", |row| or_nothing(row.paper_detections)),
+    number("of 1000", |row| {
+        row.paper_detections
+            .zip(row.paper_executions)
+            .map_or_else(String::new, |(part, of)| per_thousand(part, of))
+    }),
+];
 
 /// What found each attack, and when.
-pub fn attacks(of: &attacks::Attacks) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("attack", |row| kind_name(row.attack).to_owned()),
-            text("offered", |row| row.offered.name().to_owned()),
-            text("checked by", |row| row.variant.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("detected", |row| row.detected.to_string()),
-            text("first by", |row| row.by.clone()),
-            number("cycles", |row| row.median_cycles.map_or_else(String::new, |it| it.to_string())),
-            number("m", |row| row.median_metres.map_or_else(String::new, |it| format!("{it:.1}"))),
-            number("collided", |row| row.collided.to_string()),
-            number("late", |row| row.late.to_string()),
-            number("link lost", |row| row.lost.to_string()),
-        ],
-    )
-}
+pub const ATTACKS: &[Column<Row>] = &[
+    text("attack", |row| kind_name(row.attack).to_owned()),
+    text("offered", |row| word(row.offered.map(Offered::name))),
+    text("checked by", |row| row.variant.name().to_owned()),
+    number("runs", |row| row.runs.to_string()),
+    number("detected", |row| row.detected.to_string()),
+    text("first by", |row| row.by.clone()),
+    number("cycles", |row| or_nothing(row.median_cycles)),
+    number("m", |row| row.median_metres.map_or_else(String::new, |it| format!("{it:.1}"))),
+    number("collided", |row| row.collided.to_string()),
+    number("late", |row| row.late.to_string()),
+    number("link lost", |row| row.lost.to_string()),
+];
 
 /// Failures under combinations of attacks.
-pub fn combinations(of: &combinations::Combinations) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("offered", |row| row.offered.name().to_owned()),
-            text("checked by", |row| row.variant.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("failures", |row| row.failures.to_string()),
-            number("collided", |row| row.collided.to_string()),
-            number("late", |row| row.late.to_string()),
-            number("left the corridor", |row| row.off_road.to_string()),
-            number("attacks", |row| row.attacks.to_string()),
-            number("two or more at a time", |row| share(row.share_several)),
-            number("fallbacks", |row| row.fallbacks.to_string()),
-            number("MOT remote", |row| share(row.share_mot)),
-            number("PLAN remote", |row| share(row.share_plan)),
-        ],
-    )
-}
+pub const COMBINATIONS: &[Column<Row>] = &[
+    text("offered", |row| word(row.offered.map(Offered::name))),
+    text("checked by", |row| row.variant.name().to_owned()),
+    number("runs", |row| row.runs.to_string()),
+    number("failures", |row| row.failures.to_string()),
+    number("collided", |row| row.collided.to_string()),
+    number("late", |row| row.late.to_string()),
+    number("left the corridor", |row| row.off_road.to_string()),
+    number("attacks", |row| row.attacks.to_string()),
+    number("two or more at a time", |row| share(row.share_several)),
+    number("fallbacks", |row| row.fallbacks.to_string()),
+    number("MOT remote", |row| share(row.share_mot)),
+    number("PLAN remote", |row| share(row.share_plan)),
+];
 
 /// What the checks cost without an attack.
-pub fn availability(of: &availability::Availability) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("set", |row| row.factor.name().to_owned()),
-            number("to", |row| row.value.to_string()),
-            text("checked by", |row| row.variant.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("failures", |row| row.failures.to_string()),
-            number("minutes", |row| format!("{:.1}", row.hours * 60.0)),
-            number("fallbacks", |row| row.fallbacks.to_string()),
-            number("in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
-            number("link lost", |row| row.lost.to_string()),
-            number("MOT remote", |row| share(row.share_mot)),
-            number("PLAN remote", |row| share(row.share_plan)),
-            number("both", |row| share(row.share_both)),
-        ],
-    )
-}
+pub const AVAILABILITY: &[Column<Row>] = &[
+    text("set", |row| word(row.factor.map(Factor::name))),
+    number("to", |row| or_nothing(row.value)),
+    text("checked by", |row| row.variant.name().to_owned()),
+    number("runs", |row| row.runs.to_string()),
+    number("failures", |row| row.failures.to_string()),
+    number("minutes", |row| format!("{:.1}", row.hours * 60.0)),
+    number("fallbacks", |row| row.fallbacks.to_string()),
+    number("in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
+    number("link lost", |row| row.lost.to_string()),
+    number("MOT remote", |row| share(row.share_mot)),
+    number("PLAN remote", |row| share(row.share_plan)),
+    number("both", |row| share(row.share_both)),
+];
 
 /// What is missed, and what is found without need, without what a stage needs.
-pub fn left_out(of: &left_out::LeftOuts) -> Rows {
-    rows(
-        &of.rows,
-        &[
-            text("detectors", |row| row.detectors.name().to_owned()),
-            text("checked by", |row| row.variant.name().to_owned()),
-            text("left out", |row| row.left_out.name().to_owned()),
-            number("runs", |row| row.runs.to_string()),
-            number("collided offloading", |row| row.collided.to_string()),
-            number("alone", |row| row.collided_local.to_string()),
-            number("fallbacks in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
-            number("PLAN remote", |row| share(row.share_plan)),
-            number("attacked runs", |row| row.attacked_runs.to_string()),
-            number("collided offloading", |row| row.attacked_collided.to_string()),
-            number("alone", |row| row.attacked_collided_local.to_string()),
-            number("v ran", |row| row.executions_v.to_string()),
-            number("v found", |row| row.detections_v.to_string()),
-        ],
-    )
-}
+pub const LEFT_OUT: &[Column<Row>] = &[
+    text("detectors", |row| word(row.detectors.map(Detectors::name))),
+    text("checked by", |row| row.variant.name().to_owned()),
+    text("left out", |row| word(row.left_out.map(LeftOut::name))),
+    number("runs", |row| row.runs.to_string()),
+    number("collided offloading", |row| row.collided_remote.to_string()),
+    number("alone", |row| (row.collided - row.collided_remote).to_string()),
+    number("fallbacks in an hour", |row| format!("{:.0}", row.fallbacks_per_hour)),
+    number("PLAN remote", |row| share(row.share_plan)),
+    number("attacked runs", |row| row.attacked_runs.to_string()),
+    number("collided offloading", |row| row.attacked_collided_remote.to_string()),
+    number("alone", |row| (row.attacked_collided - row.attacked_collided_remote).to_string()),
+    number("v ran", |row| row.executions.to_string()),
+    number("v found", |row| row.detections.to_string()),
+];
 
 /// How near the runs of a search came, by kind of attack.
 pub fn falsified(of: &falsify::Falsified) -> Rows {
@@ -266,6 +238,14 @@ pub fn scenes(of: &scenes::Scenes) -> Rows {
             text("clean ones rejected by", |row| row.by.clone()),
         ],
     )
+}
+
+fn word(of: Option<&'static str>) -> String {
+    of.unwrap_or_default().to_owned()
+}
+
+fn or_nothing(of: Option<impl ToString>) -> String {
+    of.map_or_else(String::new, |it| it.to_string())
 }
 
 /// Share of the time, to the percent.

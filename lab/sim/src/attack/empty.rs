@@ -1,4 +1,4 @@
-//! The lists of `tracks-empty`, by how they come.
+//! The lists of `empty-tracks`, by how they come.
 
 use mufasa::input::cycle::{Ego, Track};
 

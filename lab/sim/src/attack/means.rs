@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::kind::Kind;
+use super::Kind;
 
 /// Which lists of tracks are spoiled.
 #[derive(
@@ -19,7 +19,18 @@ pub enum Lists {
     Planner,
 }
 
-/// How the lists of `tracks-empty` come (`docs/evaluation.md#readings`).
+impl Lists {
+    /// Whose lists, in a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Both => "both",
+            Self::Cav => "cav",
+            Self::Planner => "planner",
+        }
+    }
+}
+
+/// How the lists of `empty-tracks` come (`docs/evaluation.md#readings`).
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
 )]
@@ -36,6 +47,18 @@ pub enum Comes {
     Farthest,
 }
 
+impl Comes {
+    /// How lists come, in a word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Last => "last",
+            Self::Replaced => "replaced",
+            Self::Interleaved => "interleaved",
+            Self::Farthest => "farthest",
+        }
+    }
+}
+
 /// Magnitudes of an attack. What a kind does not use has no effect on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -47,7 +70,7 @@ pub struct Means {
     /// How lists come that are empty.
     #[serde(default)]
     pub comes: Comes,
-    /// How far ahead of the CAV something is made up, m; `ghosts` and `ghost-in-mean`: this on top of where
+    /// How far ahead of the CAV something is made up, m; `ghost-tracks` and `ghost-in-mean`: this on top of where
     /// they are; `swerve`: way until the trajectory is aside; `ends-early`: how far behind where the CAV can
     /// stop the trajectory ends.
     pub ahead_m: f64,
@@ -59,7 +82,7 @@ pub struct Means {
     pub factor: f64,
     /// ... and turned left by this, rad; `drift`: the direction, from the left of the CAV on.
     pub turn_rad: f64,
-    /// `delay`, `starts-late`, `replay` and `late`: how much later, s; `stamps-ahead`: how far ahead.
+    /// `delay`, `starts-late`, `replay` and `held-back`: how much later, s; `stamps-ahead`: how far ahead.
     pub late_s: f64,
     /// `into-lead`: acceleration from the present speed on, m/s^2.
     pub acceleration_mps2: f64,
@@ -91,21 +114,10 @@ impl Means {
             Kind::Replay => means.late_s = 3.0,
             Kind::StartsLate | Kind::StampsAhead => means.late_s = 1.0,
             Kind::Delay => means.late_s = 0.03,
-            Kind::Late => means.late_s = 0.1,
+            Kind::HeldBack => means.late_s = 0.1,
             Kind::IntoLead => means.speed_mps = 5.0,
             Kind::Swerve => (means.left_m, means.ahead_m) = (1.5, 15.0),
-            Kind::MapReplaced
-            | Kind::TracksEmpty
-            | Kind::Ghosts
-            | Kind::OneRemoved
-            | Kind::GhostInMean
-            | Kind::ExchangedPasts
-            | Kind::EndsEarly
-            | Kind::Backwards
-            | Kind::NotFinite
-            | Kind::Flood
-            | Kind::Slow
-            | Kind::Silent => {}
+            _ => {}
         }
         means
     }

@@ -4,7 +4,6 @@
 //! end and a seed; several go on at the same time.
 
 mod empty;
-pub mod kind;
 pub mod means;
 mod tracks;
 mod trajectory;
@@ -12,11 +11,11 @@ mod trajectory;
 use std::collections::VecDeque;
 
 use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
+pub use mufasa_drives::Attack as Kind;
 use mufasa_link::message::{self, Frame, Message, Payload};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use self::kind::Kind;
 use self::means::{Lists, Means};
 use crate::ids;
 use crate::map::route::Route;
@@ -122,7 +121,7 @@ impl<'a> Attacker<'a> {
     /// The tracks that the planner of the station believes in.
     pub fn believed(&self, stamp_ns: i64, ego: &Ego, tracks: &[Track]) -> Vec<Track> {
         let mut tracks = tracks.to_vec();
-        if let Some(attack) = self.attack(Kind::TracksEmpty) {
+        if let Some(attack) = self.attack(Kind::EmptyTracks) {
             empty::believed(attack, stamp_ns, ego, &mut tracks);
         }
         self.lie(stamp_ns, ego, Lists::Planner, &mut tracks);
@@ -131,7 +130,7 @@ impl<'a> Attacker<'a> {
 
     /// The route on which it plans, if it is another.
     pub fn route(&self) -> Option<&'a Route> {
-        self.elsewhere.filter(|_| self.does(Kind::MapReplaced))
+        self.elsewhere.filter(|_| self.does(Kind::WrongMap))
     }
 
     /// What is made of the results before they are sent.
@@ -141,7 +140,7 @@ impl<'a> Attacker<'a> {
             self.earlier.pop_front();
         }
         let Results { stamp_ns, tracks, points } = results;
-        if let Some(attack) = self.attack(Kind::TracksEmpty) {
+        if let Some(attack) = self.attack(Kind::EmptyTracks) {
             empty::sent(attack, ego, tracks);
         }
         self.lie(*stamp_ns, ego, Lists::Cav, tracks);
@@ -174,7 +173,7 @@ impl<'a> Attacker<'a> {
 
     /// How long the link holds back results that were made in time, ns; none: for ever.
     pub fn held_ns(&self) -> Option<i64> {
-        let held_ns = self.means(Kind::Late).map_or(0, |means| nanoseconds(means.late_s));
+        let held_ns = self.means(Kind::HeldBack).map_or(0, |means| nanoseconds(means.late_s));
         (!self.does(Kind::Silent)).then_some(held_ns)
     }
 
@@ -196,7 +195,7 @@ impl<'a> Attacker<'a> {
                 radio.forge(now_ns, To::Vehicle, bytes);
             }
         };
-        if self.attack(Kind::TracksEmpty).is_some_and(empty::is_forged)
+        if self.attack(Kind::EmptyTracks).is_some_and(empty::is_forged)
             && let Some(session) = self.sessions[0]
         {
             send(&message(Payload::Tracks { session, stamp_ns: now_ns, tracks: Vec::new() }));

@@ -31,7 +31,7 @@ pub(super) fn spoil(
     let target = means.target.map(|id| truth.objects.iter().find(|it| it.id == id));
     let is_meant = |track: &Track| target.is_none_or(|it| it.is_some_and(|it| is_of(track, it)));
     match attack.kind {
-        Kind::Ghosts => {
+        Kind::GhostTracks => {
             for index in 0..3 {
                 let ahead = draws.between(GHOST_AHEAD.0, GHOST_AHEAD.1) + 8.0 * f64::from(index);
                 let left = draws.between(-1.0, 1.0);
@@ -39,19 +39,17 @@ pub(super) fn spoil(
                 list.push(ghost(ego, at, means.speed_mps, GHOST_ID + i64::from(index)));
             }
         }
-        Kind::GhostInMean => {
-            if list.len() >= 4 {
-                // By the nearest track ahead, as far from it as the CAV's front is from its reference point.
-                let ahead = list.iter().map(|it| way_ahead(ego, it)).filter(|it| *it > 5.0);
-                let ahead = ahead.fold(30.0, f64::min);
-                let at = (ahead + means.ahead_m, means.left_m);
-                list.push(ghost(ego, at, means.speed_mps, GHOST_ID));
-            }
+        Kind::GhostInMean if list.len() >= 4 => {
+            // By the nearest track ahead, as far from it as the CAV's front is from its reference point.
+            let ahead = list.iter().map(|it| way_ahead(ego, it)).filter(|it| *it > 5.0);
+            let ahead = ahead.fold(30.0, f64::min);
+            let at = (ahead + means.ahead_m, means.left_m);
+            list.push(ghost(ego, at, means.speed_mps, GHOST_ID));
         }
         Kind::MadeUpLead => {
             list.push(ghost(ego, (means.ahead_m, means.left_m), means.speed_mps, GHOST_ID));
         }
-        Kind::OneRemoved => {
+        Kind::MissingTrack => {
             if let Some(object) = target.unwrap_or_else(|| first_in_the_way(truth)) {
                 list.retain(|it| !is_of(it, object));
             }
@@ -80,20 +78,7 @@ pub(super) fn spoil(
                 list.extend(id.map(|id| ghost(ego, (10.0, across), 0.0, id)));
             }
         }
-        Kind::MapReplaced
-        | Kind::TracksEmpty
-        | Kind::Replay
-        | Kind::StartsLate
-        | Kind::EndsEarly
-        | Kind::Backwards
-        | Kind::IntoLead
-        | Kind::Swerve
-        | Kind::Delay
-        | Kind::NotFinite
-        | Kind::Flood
-        | Kind::StampsAhead
-        | Kind::Silent
-        | Kind::Late => {}
+        _ => {}
     }
     list.truncate(MOST_TRACKS);
 }

@@ -3,10 +3,9 @@
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use super::{Attack, Kind, later, nanoseconds};
-use crate::run::TAU_S;
 use crate::services::tpl::STEP_NS;
 use crate::services::way::seconds;
-use crate::vehicle::A_B;
+use crate::vehicle::{A_B, TAU_S};
 
 /// Most points of a message.
 const MOST_POINTS: usize = 1024;
@@ -31,23 +30,7 @@ pub(super) fn spoil(attack: &Attack, ego: &Ego, points: &mut Vec<TrajectoryPoint
         }
         Kind::Swerve => swerve(means.left_m, means.ahead_m, points),
         Kind::Slow => lengthen(points),
-        Kind::MapReplaced
-        | Kind::TracksEmpty
-        | Kind::Ghosts
-        | Kind::OneRemoved
-        | Kind::CrossingStands
-        | Kind::GhostInMean
-        | Kind::FalseVelocities
-        | Kind::ExchangedPasts
-        | Kind::Replay
-        | Kind::Drift
-        | Kind::MadeUpLead
-        | Kind::Delay
-        | Kind::NotFinite
-        | Kind::Flood
-        | Kind::StampsAhead
-        | Kind::Silent
-        | Kind::Late => {}
+        _ => {}
     }
 }
 

@@ -7,21 +7,22 @@
 use mufasa::services::configuration::Group;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use super::job::{self, Campaign, ExperimentError, Job, Options};
-use super::watch::{By, Watch};
+use super::axes::Axes;
+use super::job::Job;
+use super::made::Experiment;
+use super::select::Options;
 use crate::attack::{Attack, Kind};
 use crate::cav::Areas;
 use crate::cav::guard::Variant;
 use crate::map::Town;
-use crate::run::{End, Outcome};
 
-/// Its name.
-pub const NAME: &str = "stages";
-/// As large as the paper's.
-pub const OPTIONS: Options = Options::town(4, 30, 0);
+/// As large as the paper's; a row is a stage in all runs of a variant.
+pub const STAGES: Experiment = Experiment {
+    same: |a, b| a.variant == b.variant,
+    by_stage: Some(PAPER),
+    ..Experiment::new("stages", Options::town(4, 30, 0), jobs)
+};
 /// Executions and detections of the five stages in the paper.
 pub const PAPER: [(u64, u64); 5] = [(1386, 24), (582, 3), (216, 15), (76, 1), (188, 0)];
 /// The wait after a failure, ns.
@@ -32,89 +33,14 @@ const UNTIL: f64 = 130.0;
 const PAUSE: (f64, f64) = (2.0, 6.0);
 const LASTS: (f64, f64) = (1.0, 4.0);
 
-/// What came of it.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct Stages {
-    /// How large it was.
-    pub options: Options,
-    /// The table.
-    pub rows: Vec<Row>,
-    /// Every run.
-    pub runs: Vec<Run>,
-}
-
-/// A stage in all runs of a variant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Row {
-    /// What is checked.
-    pub variant: Variant,
-    /// The stage.
-    pub stage: By,
-    /// How often it ran.
-    pub executions: u64,
-    /// How often it found a safety issue.
-    pub detections: u64,
-    /// How often it ran in the paper.
-    pub paper_executions: u64,
-    /// How often it found a safety issue in the paper.
-    pub paper_detections: u64,
-}
-
-/// A run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Run {
-    /// By which it can be repeated.
-    pub id: String,
-    /// What is checked.
-    pub variant: Variant,
-    /// Which route.
-    pub route: usize,
-    /// Which scenario.
-    pub scenario: u64,
-    /// Other vehicles.
-    pub vehicles: usize,
-    /// How it ended.
-    pub end: End,
-    /// When, s.
-    pub t_s: f64,
-    /// How often stage i ran.
-    pub executions_i: u64,
-    /// How often it found a safety issue.
-    pub detections_i: u64,
-    /// How often stage ii ran.
-    pub executions_ii: u64,
-    /// How often it found a safety issue.
-    pub detections_ii: u64,
-    /// How often stage iii ran.
-    pub executions_iii: u64,
-    /// How often it found a safety issue.
-    pub detections_iii: u64,
-    /// How often stage iv ran.
-    pub executions_iv: u64,
-    /// How often it found a safety issue.
-    pub detections_iv: u64,
-    /// How often stage v ran.
-    pub executions_v: u64,
-    /// How often it found a safety issue.
-    pub detections_v: u64,
-    /// Cycles that failed for another reason: no obstacle check, invalid input.
-    pub other_failures: u64,
-    /// Cycles that failed without an attack.
-    pub false_alarms: u64,
-    /// Cycles with remote tracks.
-    pub remote_mot: u64,
-    /// Cycles with a remote trajectory.
-    pub remote_plan: u64,
-}
-
 /// The runs: the routes by turns, the vehicles from half of the most on.
-pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
+fn jobs(name: &str, town: &Town, options: Options) -> Vec<Job> {
     let routes: Vec<usize> = town.ego_routes().collect();
     let mut jobs = Vec::new();
     for variant in [Variant::Paper, Variant::Hardened] {
         for (scenario, route) in (0..options.scenarios).zip((0..routes.len()).cycle()) {
             let place = (variant, route, scenario);
-            let mut job = Job::new(NAME, ("random", ()), place, options);
+            let mut job = Job::new(name, ("random", Axes::default()), place, options);
             let more = options.scenarios.saturating_sub(1).max(1);
             let share = usize::try_from(more - scenario.min(more)).unwrap_or(0);
             let least = options.vehicles / 2;
@@ -126,15 +52,6 @@ pub fn jobs(town: &Town, options: Options) -> Vec<Job<()>> {
         }
     }
     jobs
-}
-
-/// Makes the runs. Errors: those of [`job::make`].
-pub fn experiment(campaign: &Campaign<'_>) -> Result<Stages, ExperimentError> {
-    let &Campaign { town, options, .. } = campaign;
-    let made = job::make(campaign, jobs(town, options), kept)?;
-    let rows = rows(&made);
-    let runs = made.into_iter().map(|(run, _)| run).collect();
-    Ok(Stages { options, rows, runs })
 }
 
 /// MOT on the first two thirds of the way to the target, PLAN on the last two.
@@ -162,55 +79,4 @@ fn attacks(seed: u64) -> Vec<Attack> {
         t = until + random.random_range(PAUSE.0..PAUSE.1);
     }
     attacks
-}
-
-/// A run, and the executions and detections of its stages.
-type Kept = (Run, [[u64; 2]; 5]);
-
-fn kept(job: &Job<()>, outcome: &Outcome, _: &Watch) -> Kept {
-    let [i, ii, iii, iv, v] = outcome.stages;
-    let run = Run {
-        id: job.id.clone(),
-        variant: job.settings.variant,
-        route: job.route,
-        scenario: job.scenario,
-        vehicles: job.vehicles,
-        end: outcome.end,
-        t_s: outcome.t,
-        executions_i: i[0],
-        detections_i: i[1],
-        executions_ii: ii[0],
-        detections_ii: ii[1],
-        executions_iii: iii[0],
-        detections_iii: iii[1],
-        executions_iv: iv[0],
-        detections_iv: iv[1],
-        executions_v: v[0],
-        detections_v: v[1],
-        other_failures: outcome.other_failures,
-        false_alarms: outcome.false_alarms,
-        remote_mot: outcome.offloaded[0],
-        remote_plan: outcome.offloaded[1],
-    };
-    (run, outcome.stages)
-}
-
-fn rows(made: &[Kept]) -> Vec<Row> {
-    let mut rows = Vec::new();
-    for made in made.chunk_by(|(a, _), (b, _)| a.variant == b.variant) {
-        let sum = |stage: usize, of: usize| -> u64 {
-            made.iter().map(|(_, stages)| stages[stage][of]).sum()
-        };
-        for (index, paper) in PAPER.into_iter().enumerate() {
-            rows.push(Row {
-                variant: made[0].0.variant,
-                stage: By::ALL[index],
-                executions: sum(index, 0),
-                detections: sum(index, 1),
-                paper_executions: paper.0,
-                paper_detections: paper.1,
-            });
-        }
-    }
-    rows
 }

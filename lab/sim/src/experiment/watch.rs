@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::attack::Attack;
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
 use crate::run::{Cycle, Watcher};
@@ -64,10 +65,11 @@ pub struct First {
     pub metres: f64,
 }
 
-/// Counts how offloading ends.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Counts how offloading ends, and how many attacks go on at the same time.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Watch {
     from: f64,
+    attacks: Vec<Attack>,
     last: Option<Cycle>,
     /// Cycles with something remote from the time on, until the first detection.
     pub cycles: u64,
@@ -84,12 +86,16 @@ pub struct Watch {
     pub lost: u64,
     /// When something was remote last, s.
     pub remote_at: Option<f64>,
+    /// The most attacks that went on at the same time.
+    pub most_at_once: usize,
+    /// Cycles in which two attacks or more went on.
+    pub several: u64,
 }
 
 impl Watch {
-    /// Looks for the first detection from this time on, s.
-    pub fn new(from: f64) -> Self {
-        Self { from, ..Self::default() }
+    /// Looks for the first detection from this time on, s, in a run with these attacks.
+    pub fn new(from: f64, attacks: &[Attack]) -> Self {
+        Self { from, attacks: attacks.to_vec(), ..Self::default() }
     }
 
     /// Counts a cycle.
@@ -99,6 +105,10 @@ impl Watch {
         self.fallbacks += u64::from(failed.is_some());
         self.remote_at = Some(cycle.t).filter(|_| cycle.remote != 0).or(self.remote_at);
         self.both += u64::from(cycle.remote == 3);
+        let going_on = |it: &&Attack| it.from <= cycle.t && cycle.t < it.until;
+        let count = self.attacks.iter().filter(going_on).count();
+        self.most_at_once = self.most_at_once.max(count);
+        self.several += u64::from(count > 1);
         let ended = before.filter(|it| it.failed == 0).map_or(0, |it| it.remote & !cycle.remote);
         self.lost += u64::from(ended.count_ones());
         if cycle.remote == 0 || cycle.t < self.from || self.first.is_some() {

@@ -1,5 +1,6 @@
 //! A stand-in for the ego's services: it sees everything, follows its route and keeps its distance.
-#![allow(dead_code, reason = "each test uses a part")]
+
+pub mod maps;
 
 use mufasa_sim::traffic::ahead;
 use mufasa_sim::traffic::idm::Idm;

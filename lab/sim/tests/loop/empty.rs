@@ -19,7 +19,7 @@ const EGO: Ego = Ego {
 };
 
 fn attacker(lists: Lists, comes: Comes) -> Attacker<'static> {
-    let mut attack = Attack::new(Kind::TracksEmpty, 0.0, 1e3, 3);
+    let mut attack = Attack::new(Kind::EmptyTracks, 0.0, 1e3, 3);
     (attack.means.lists, attack.means.comes) = (lists, comes);
     Attacker::new(vec![attack], None)
 }

@@ -8,9 +8,9 @@ use mufasa_props::lent::Lent;
 use mufasa_sim::cav::guard::{Guard, Local, Variant};
 use mufasa_sim::cav::sensing::{Sensors, ego};
 use mufasa_sim::map::streets::town;
-use mufasa_sim::run::TAU_S;
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::services::detectors::Errors;
+use mufasa_sim::vehicle::TAU_S;
 use mufasa_sim::world::World;
 
 const MS: i64 = 1_000_000;

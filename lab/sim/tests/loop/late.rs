@@ -17,7 +17,7 @@ use mufasa_sim::snapshot::Snapshot;
 use mufasa_sim::station::Station;
 use mufasa_sim::world::World;
 
-use crate::digest::{FROM, drive};
+use super::digest::{FROM, drive};
 
 /// A message of the station with results: its arrival, when it says that it was generated, what it is of, all
 /// ns, and the message.
@@ -68,7 +68,7 @@ fn each_attack_on_time_changes_its_own_time_on_the_link_alone() {
     // How much later each arrives, is generated, and is stamped, ns.
     for (kind, late) in [
         (Kind::Delay, [30_000_000, 30_000_000, 0]),
-        (Kind::Late, [100_000_000, 0, 0]),
+        (Kind::HeldBack, [100_000_000, 0, 0]),
         (Kind::StampsAhead, [0, 0, 1_000_000_000]),
     ] {
         let attacked = results(Some(kind));
@@ -76,7 +76,7 @@ fn each_attack_on_time_changes_its_own_time_on_the_link_alone() {
         for (was, is) in clean.iter().zip(&attacked) {
             assert_eq!([is.0 - was.0, is.1 - was.1, is.2 - was.2], late, "{}", kind.name());
             // The latency that is measured says nothing of a delay, and is above its limit where it is late.
-            assert_eq!(is.0 - is.1 > l_max_ns, kind == Kind::Late, "{}", kind.name());
+            assert_eq!(is.0 - is.1 > l_max_ns, kind == Kind::HeldBack, "{}", kind.name());
             // Nothing else of the message is another.
             let mut same = is.3.clone();
             same.generated_ns = was.1;
@@ -119,7 +119,7 @@ fn quality_of_service_ends_what_is_late_or_silent_and_the_monitor_what_is_stampe
         for variant in Variant::ALL {
             let (clean, ..) = seen(variant, None, scenario);
             assert!(clean > 0.9, "{variant:?} {scenario:?}: {clean}");
-            for kind in [Kind::Late, Kind::Silent, Kind::StampsAhead] {
+            for kind in [Kind::HeldBack, Kind::Silent, Kind::StampsAhead] {
                 let (remote, ended, failed) = seen(variant, Some(kind), scenario);
                 let at = format!("{variant:?} {} {scenario:?}", kind.name());
                 println!("{at}: {:.0} %, {ended} ended, failed {failed:?}", 100.0 * remote);

@@ -4,8 +4,8 @@ use mufasa::input::cycle::{Ego, Track, TrajectoryPoint};
 use mufasa_sim::attack::{Attack, Attacker, Kind, Results};
 use mufasa_sim::cav::sensing::ego;
 use mufasa_sim::map::streets::town;
-use mufasa_sim::run::TAU_S;
 use mufasa_sim::scenario::Scenario;
+use mufasa_sim::vehicle::TAU_S;
 use mufasa_sim::world::World;
 
 const NOW_NS: i64 = 3_000_000_000;

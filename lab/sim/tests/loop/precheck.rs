@@ -8,7 +8,7 @@ use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{Settings, simulate};
 use mufasa_sim::scenario::Scenario;
 
-use crate::digest::FROM;
+use super::digest::FROM;
 
 /// Alarms, and cycles with all that is offered remote, in six drives of 40 s, none of which fails.
 fn drives(
@@ -24,7 +24,7 @@ fn drives(
         let scenario = Scenario { time_limit: 40.0, ..Scenario::draw(&town, index, 15, seed) };
         let mut settings = Settings { prechecks, ..Settings::new(variant, offers, seed) };
         settings.attacks.extend(attack.map(|kind| Attack::new(kind, FROM, 1e9, seed)));
-        let mut watch = Watch::new(FROM);
+        let mut watch = Watch::new(FROM, &[]);
         let outcome = simulate(&town, &scenario, &settings, &mut watch).expect("settings");
         assert!(outcome.with.is_none(), "{variant:?} {route} {seed}: {outcome:?}");
         let [mot, plan] = outcome.offloaded;
@@ -68,7 +68,7 @@ fn the_own_planner_asks_beside_remote_tracks() {
 /// PRE-11: an attack comes after it, and is found as without.
 #[test]
 fn an_attack_comes_after_it_and_is_found() {
-    for kind in [Kind::Ghosts, Kind::MapReplaced] {
+    for kind in [Kind::GhostTracks, Kind::WrongMap] {
         let [(_, _, with), (_, _, without)] =
             [true, false].map(|asks| drives(Variant::Hardened, Groups::ALL, asks, Some(kind)));
         println!("{kind:?}: found in {without} -> {with} runs");

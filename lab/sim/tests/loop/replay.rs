@@ -8,7 +8,7 @@ use mufasa_sim::pictures::REJECTED;
 use mufasa_sim::replay::{Event, Replay};
 use mufasa_sim::run::{End, Outcome};
 
-use crate::digest::{FROM, drive};
+use super::digest::{FROM, drive};
 
 fn page(variant: Variant, kind: Option<Kind>, seed: u64) -> (Outcome, Replay, String) {
     let town = town();
@@ -27,8 +27,8 @@ fn tags(text: &str, name: &str) -> [usize; 2] {
 }
 
 #[test]
-fn a_page_is_whole_and_needs_nothing_else() {
-    let (_, _, text) = page(Variant::Hardened, Some(Kind::MapReplaced), 0);
+fn a_page_is_whole_and_about_what_happened_and_needs_nothing_else() {
+    let (outcome, replay, text) = page(Variant::Hardened, Some(Kind::WrongMap), 0);
     assert!(text.starts_with("<!DOCTYPE html>") && text.ends_with("</html>\n"));
     assert_eq!(tags(&text, "svg"), [2, 2]);
     assert_eq!(tags(&text, "g ")[0], text.matches("</g>").count(), "groups are closed");
@@ -36,17 +36,12 @@ fn a_page_is_whole_and_needs_nothing_else() {
     // Namespaces are names; nobody fetches them.
     let rest = text.replace("http://www.w3.org/2000/svg", "");
     assert!(!rest.contains("http") && !rest.contains("NaN") && !rest.contains("inf,"));
-    assert!(text.contains("replay/hardened/map-replaced/0/0"));
+    assert!(text.contains("replay/hardened/wrong-map/0/0"));
     let frames = text.matches("<clipPath").count();
     assert!((6..=8).contains(&frames), "{frames} frames");
     for index in 0..frames {
         assert_eq!(text.matches(&format!("id=\"f{index}\"")).count(), 1, "ids are given once");
     }
-}
-
-#[test]
-fn a_page_is_about_what_happened() {
-    let (outcome, replay, text) = page(Variant::Hardened, Some(Kind::MapReplaced), 0);
     let (event, at) = replay.event(&outcome);
     assert_eq!(event, Event::Issue);
     let cycle = replay.cycles()[at];
@@ -65,7 +60,7 @@ fn a_page_is_about_what_happened() {
 
 #[test]
 fn a_collision_is_shown_as_it_happens() {
-    let found = (0..6).map(|seed| page(Variant::Sofof, Some(Kind::TracksEmpty), seed));
+    let found = (0..6).map(|seed| page(Variant::Sofof, Some(Kind::EmptyTracks), seed));
     let (outcome, replay, text) =
         found.into_iter().find(|it| it.0.end == End::Collided).expect("one collides");
     assert_eq!(replay.event(&outcome).0, Event::Collision);

@@ -3,13 +3,13 @@
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
 
-use crate::digest::{Log, drive};
+use super::digest::{Log, drive};
 
 #[test]
 fn the_same_seed_gives_the_same_run() {
     for (variant, kind) in [
-        (Variant::Sofof, Some(Kind::Ghosts)),
-        (Variant::Paper, Some(Kind::TracksEmpty)),
+        (Variant::Sofof, Some(Kind::GhostTracks)),
+        (Variant::Paper, Some(Kind::EmptyTracks)),
         (Variant::Hardened, None),
     ] {
         let [(first, a), (second, b)] = [(); 2].map(|()| drive::<Log>(variant, kind, (0, 3), 12.0));

@@ -22,8 +22,8 @@ use mufasa_sim::services::detectors::{Errors, Observer};
 use mufasa_sim::services::grid::{OccupancyMap, OwnedGrid, Settings as GridSettings};
 use mufasa_sim::services::mot::{Settings, Tracker};
 
-use crate::drive::Drive;
-use crate::scene::{bend, car, vehicle};
+use super::drive::Drive;
+use super::scene::{bend, car, vehicle};
 
 /// Drives, and cycles that are checked of each.
 const DRIVES: u32 = 60;

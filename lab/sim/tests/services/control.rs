@@ -7,7 +7,7 @@ use mufasa_sim::pose::{Point, Pose};
 use mufasa_sim::services::control::{Controller, Settings};
 use mufasa_sim::vehicle::{Body, Motion};
 
-use crate::scene::ego_at;
+use super::scene::ego_at;
 
 const STEP_NS: i64 = 10_000_000;
 

@@ -9,7 +9,7 @@ use mufasa_sim::services::detectors::scan::{Met, Sweep};
 use mufasa_sim::services::detectors::scene::{Scene, Seen};
 use mufasa_sim::services::detectors::{Detector, Errors, Mount, Observer};
 
-use crate::scene::{car, straight, vehicle};
+use super::scene::{car, straight, vehicle};
 
 const ORIGIN: Pose = Pose { at: Point { x: 0.0, y: 0.0 }, cos: 1.0, sin: 0.0 };
 

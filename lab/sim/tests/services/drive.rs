@@ -10,7 +10,7 @@ use mufasa_sim::services::tpl::settings::Settings;
 use mufasa_sim::services::tpl::trajectory;
 use mufasa_sim::vehicle::{Body, Motion};
 
-use crate::scene::ego_at;
+use super::scene::ego_at;
 
 /// Speed limit, m/s.
 pub const LIMIT: f64 = 13.9;

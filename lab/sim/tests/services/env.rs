@@ -6,8 +6,8 @@ use mufasa::input::cycle::Track;
 use mufasa_sim::path::Path;
 use mufasa_sim::pose::{Point, Pose};
 
-use crate::drive::Drive;
-use crate::scene::{bend, straight};
+use super::drive::Drive;
+use super::scene::{bend, straight};
 
 fn track(id: i64, x: f64, y: f64, angle: f64, speed: f64) -> Track {
     let (sin, cos) = libm::sincos(angle);

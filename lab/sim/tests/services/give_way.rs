@@ -7,7 +7,7 @@ use mufasa_sim::path::Path;
 use mufasa_sim::pose::{Point, Pose};
 use mufasa_sim::services::env::give_way::{Own, closed_lines};
 
-use crate::scene::ego_at;
+use super::scene::ego_at;
 
 /// Limit of both routes, m/s: the CAV drives as fast, so that its times are ways over this.
 const PACE: f64 = 14.0;

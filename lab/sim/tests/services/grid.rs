@@ -8,7 +8,7 @@ use mufasa_sim::services::detectors::scan::Sweep;
 use mufasa_sim::services::detectors::scene::{Scene, Seen};
 use mufasa_sim::services::grid::{OccupancyMap, OwnedGrid, Settings};
 
-use crate::scene::{car, ego_at};
+use super::scene::{car, ego_at};
 
 fn bit(bits: &[u8], index: i64) -> bool {
     let index = usize::try_from(index).expect("inside");

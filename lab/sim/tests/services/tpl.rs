@@ -5,8 +5,8 @@ use core::f64::consts::FRAC_PI_2;
 use mufasa::input::cycle::Track;
 use mufasa_sim::pose::{Point, Pose};
 
-use crate::drive::{Drive, LIMIT};
-use crate::scene::{bend, pose_of, straight};
+use super::drive::{Drive, LIMIT};
+use super::scene::{bend, pose_of, straight};
 
 fn track(id: i64, pose: Pose, speed: f64) -> Track {
     let Pose { at, cos, sin } = pose;

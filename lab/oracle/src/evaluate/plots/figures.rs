@@ -2,72 +2,47 @@
 
 use mufasa_sim::attack::Kind;
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::attacks::{self, Attacks, Offered};
-use mufasa_sim::experiment::availability::{self, Availability, Factor};
-use mufasa_sim::experiment::combinations::{self, Combinations};
-use mufasa_sim::experiment::failures::{self, Failures};
+use mufasa_sim::experiment::attacks::ATTACKS;
+use mufasa_sim::experiment::availability::AVAILABILITY;
+use mufasa_sim::experiment::axes::{Factor, Offered};
+use mufasa_sim::experiment::combinations::COMBINATIONS;
+use mufasa_sim::experiment::failures::FAILURES;
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::stages::{self, Stages};
+use mufasa_sim::experiment::made::{Made, Row};
+use mufasa_sim::experiment::stages::{PAPER, STAGES};
+use mufasa_sim::experiment::watch::By;
 
 use super::bars::{self, Bar, Bars, Group};
 pub use super::chart::Figure;
 pub(super) use super::chart::figure;
-use super::chart::{float, ratio, series};
+use super::chart::{float, series};
 use super::dots::{self, Dot, Dots, Panel};
+use super::failed::{BARS, Failed};
 pub use super::left_out::{parts as left_out, readings};
-use super::lines::{self, COLLIDED, Row, Small};
+use super::lines::{self, COLLIDED, Small};
 use super::page::{Mark, Series};
-use crate::evaluate::published;
-
-const VARIANTS: [Series; 4] = [Series::SOFOF, Series::PAPER, Series::HARDENED, Series::PUBLISHED];
 
 /// Failures by attack and variant.
-pub fn failures(of: &Failures) -> Vec<Figure> {
-    let group = |rows: &[failures::Row]| Group {
-        name: kind_name(rows[0].attack).to_owned(),
-        bars: rows.iter().map(failure).collect(),
-        note: words(rows),
-    };
-    let same = |a: &failures::Row, b: &failures::Row| a.attack == b.attack;
-    let svg = bars::draw(&Bars {
+pub fn failures(of: &Made) -> Vec<Figure> {
+    let failed = Failed {
+        name: FAILURES.name,
         title: "Failures by attack and by what is checked",
         about: &[
-            "In full: collisions; paler: target not reached in time. Above: failures of runs.",
+            BARS,
             "The paper gives numbers in words alone: no failure with its stages, \"several\" without (Sec. V-B).",
         ],
-        key: &VARIANTS,
-        unit: "runs that failed, %",
-        most: 100.0,
-        step: 25.0,
-        groups: of.rows.chunk_by(same).map(group).collect(),
-    });
-    vec![figure(failures::NAME, svg)]
-}
-
-fn failure(row: &failures::Row) -> Bar {
-    let share = |part: usize| 100.0 * ratio(part, row.runs);
-    let published = published::failures(row.attack, row.variant).number;
-    Bar {
-        series: series(row.variant),
-        value: share(row.collided),
-        paler: share(row.late),
-        label: format!("{}/{}", row.failures, row.runs),
-        published: published.into_iter().collect(),
-    }
-}
-
-/// What the paper says of this attack without its stages.
-fn words(rows: &[failures::Row]) -> String {
-    let sofof = rows.iter().find(|row| row.variant == Variant::Sofof);
-    let words = sofof.map_or("", |row| published::failures(row.attack, row.variant).words);
-    if words.is_empty() { String::new() } else { format!("paper, sofof: {words}") }
+        is_published: true,
+        same: |a, b| a.attack == b.attack,
+        group: |row| kind_name(row.attack).to_owned(),
+    };
+    failed.draw(of.rows.iter())
 }
 
 /// What the paper published, as a bar.
 const PUBLISHED: Series = Series { class: "sofof", mark: Mark::Square, ..Series::PUBLISHED };
 
 /// Detections of each stage.
-pub fn stages(of: &Stages) -> Vec<Figure> {
+pub fn stages(of: &Made) -> Vec<Figure> {
     let per_1000 =
         |part: u64, of: u64| if of == 0 { 0.0 } else { 1000.0 * float(part) / float(of) };
     let bar = |series: Series, detections: u64, executions: u64| Bar {
@@ -77,14 +52,14 @@ pub fn stages(of: &Stages) -> Vec<Figure> {
         label: format!("{detections}\nof {executions}"),
         published: Vec::new(),
     };
-    let groups = stages::PAPER.into_iter().enumerate().map(|(index, (executions, detections))| {
-        let rows = of.rows.iter().filter(|row| row.stage as usize == index);
+    let groups = PAPER.into_iter().enumerate().map(|(index, (executions, detections))| {
+        let rows = of.rows.iter().filter(|row| row.stage == By::ALL.get(index).copied());
         let mut bars: Vec<Bar> = rows
             .clone()
             .map(|row| bar(series(row.variant), row.detections, row.executions))
             .collect();
         bars.push(bar(PUBLISHED, detections, executions));
-        let name = rows.map(|row| format!("stage {}", row.stage.name())).next();
+        let name = rows.map(|row| format!("stage {}", row.stage.map_or("", By::name))).next();
         Group { name: name.unwrap_or_default(), bars, note: String::new() }
     });
     let groups: Vec<Group> = groups.collect();
@@ -98,15 +73,15 @@ pub fn stages(of: &Stages) -> Vec<Figure> {
         step: 20.0,
         groups,
     });
-    vec![figure(stages::NAME, svg)]
+    vec![figure(STAGES.name, svg)]
 }
 
 /// Cycles until each attack is detected.
-pub fn attacks(of: &Attacks) -> Vec<Figure> {
-    let kinds: Vec<Kind> = Kind::ALL.into_iter().collect();
+pub fn attacks(of: &Made) -> Vec<Figure> {
+    let kinds: Vec<Kind> = Kind::IN_THE_LOOP.into_iter().collect();
     let variants = [(Variant::Paper, -4.0), (Variant::Hardened, 4.0)];
     let panel = |offered: Offered| {
-        let rows = || of.rows.iter().filter(|row| row.offered == offered);
+        let rows = || of.rows.iter().filter(|row| row.offered == Some(offered));
         let mut panel =
             Panel { name: format!("{} offered", offered.name()), dots: vec![], lines: vec![] };
         for (variant, shift) in variants {
@@ -140,10 +115,10 @@ pub fn attacks(of: &Attacks) -> Vec<Figure> {
         off: Some("missed"),
         panels: Offered::ALL.map(panel).into(),
     });
-    vec![figure(attacks::NAME, svg)]
+    vec![figure(ATTACKS.name, svg)]
 }
 
-fn latency(row: &attacks::Row, at: usize, shift: f64) -> Dot {
+fn latency(row: &Row, at: usize, shift: f64) -> Dot {
     Dot {
         row: at,
         value: row.median_cycles.map(float),
@@ -162,38 +137,22 @@ const fn format_class(variant: Variant) -> &'static str {
 }
 
 /// Failures under combinations of attacks.
-pub fn combinations(of: &Combinations) -> Vec<Figure> {
-    let bar = |row: &combinations::Row| Bar {
-        series: series(row.variant),
-        value: 100.0 * ratio(row.collided, row.runs),
-        paler: 100.0 * ratio(row.late, row.runs),
-        label: format!("{}/{}", row.failures, row.runs),
-        published: Vec::new(),
-    };
-    let group = |rows: &[combinations::Row]| Group {
-        name: format!("{} offered", rows[0].offered.name()),
-        bars: rows.iter().map(bar).collect(),
-        note: String::new(),
-    };
-    let same = |a: &combinations::Row, b: &combinations::Row| a.offered == b.offered;
-    let svg = bars::draw(&Bars {
+pub fn combinations(of: &Made) -> Vec<Figure> {
+    let failed = Failed {
+        name: COMBINATIONS.name,
         title: "Failures under attacks of all kinds, drawn at random over time",
-        about: &[
-            "In full: collisions; paler: target not reached in time. Above: failures of runs.",
-        ],
-        key: &[Series::SOFOF, Series::PAPER, Series::HARDENED],
-        unit: "runs that failed, %",
-        most: 100.0,
-        step: 25.0,
-        groups: of.rows.chunk_by(same).map(group).collect(),
-    });
-    vec![figure(combinations::NAME, svg)]
+        about: &[BARS],
+        is_published: false,
+        same: |a, b| a.offered == b.offered,
+        group: |row| format!("{} offered", row.offered.map_or("", Offered::name)),
+    };
+    failed.draw(of.rows.iter())
 }
 
 /// Availability by each factor.
-pub fn availability(of: &Availability) -> Vec<Figure> {
-    let chart = |factor: Factor, value: fn(&availability::Row) -> f64| {
-        let rows = || of.rows.iter().filter(|row| row.factor == factor);
+pub fn availability(of: &Made) -> Vec<Figure> {
+    let chart = |factor: Factor, value: fn(&Row) -> f64| {
+        let rows = || of.rows.iter().filter(|row| row.factor == Some(factor));
         let line = |variant| {
             let of = rows().filter(|row| row.variant == variant).map(value).collect();
             (series(variant), of)
@@ -201,28 +160,26 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
         let names = rows().filter(|row| row.variant == Variant::Paper);
         Small {
             name: words_of(factor).to_owned(),
-            names: names.map(|row| said(row.factor, row.value)).collect(),
+            names: names.filter_map(|row| Some(said(factor, row.value?))).collect(),
             lines: [Variant::Paper, Variant::Hardened].map(line).into(),
         }
     };
-    let charts = |value: fn(&availability::Row) -> f64| {
-        Factor::ALL.map(|factor| chart(factor, value)).into()
-    };
+    let charts = |value: fn(&Row) -> f64| Factor::ALL.map(|factor| chart(factor, value)).into();
     let most = of.rows.iter().map(|row| row.fallbacks_per_hour).fold(100.0, f64::max);
     let rows = [
-        Row {
+        lines::Row {
             unit: "share of the time with remote tracks, %",
             most: 100.0,
             step: 25.0,
             charts: charts(|row| 100.0 * row.share_mot),
         },
-        Row {
+        lines::Row {
             unit: "share of the time with a remote trajectory, %",
             most: 100.0,
             step: 25.0,
             charts: charts(|row| 100.0 * row.share_plan),
         },
-        Row {
+        lines::Row {
             unit: "fallbacks in an hour, each a false alarm",
             most: 200.0 * (most / 200.0).ceil(),
             step: 200.0,
@@ -237,7 +194,7 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
     let about = [defaults.as_str(), "The paper gives no such figures."];
     let key = [Series::PAPER, Series::HARDENED];
     let svg = lines::draw("What the checks cost without an attack", &about, &key, &rows);
-    vec![figure(availability::NAME, svg)]
+    vec![figure(AVAILABILITY.name, svg)]
 }
 
 /// The value that is set, short enough to stand beside others.

@@ -1,60 +1,49 @@
 //! Charts of what is left out: true lists, and inputs of stages.
 
+use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::left_out::{self, Detectors, LeftOuts};
-use mufasa_sim::experiment::readings::{self, Readings};
+use mufasa_sim::experiment::axes::{Detectors, LeftOut};
+use mufasa_sim::experiment::left_out::LEFT_OUT;
+use mufasa_sim::experiment::made::{Made, Row};
+use mufasa_sim::experiment::readings::READINGS;
 
 use super::bars::{self, Bar, Bars, Group};
 use super::chart::{Figure, figure, ratio, series};
+use super::failed::Failed;
 use super::page::Series;
 
 /// Collisions by the reading of the paper's text.
-pub fn readings(of: &Readings) -> Vec<Figure> {
-    let bar = |row: &readings::Row| Bar {
-        series: series(row.variant),
-        value: 100.0 * ratio(row.collided, row.runs),
-        paler: 100.0 * ratio(row.late, row.runs),
-        label: format!("{}/{}", row.collided + row.late, row.runs),
-        published: Vec::new(),
-    };
-    let group = |rows: &[readings::Row]| Group {
-        name: format!(
-            "{}, {}",
-            readings::name_of_lists(rows[0].lists),
-            readings::name_of_comes(rows[0].comes)
-        ),
-        bars: rows.iter().filter(|row| row.empty_is_a_list).map(bar).collect(),
-        note: String::new(),
-    };
-    let same = |a: &readings::Row, b: &readings::Row| (a.lists, a.comes) == (b.lists, b.comes);
-    let svg = bars::draw(&Bars {
+pub fn readings(of: &Made) -> Vec<Figure> {
+    let failed = Failed {
+        name: READINGS.name,
         title: "Empty track lists, by whose they are and how they come",
         about: &[
             "In full: collisions; paler: target not reached in time. An empty list is a list (I-11).",
         ],
-        key: &[Series::SOFOF, Series::PAPER, Series::HARDENED],
-        unit: "runs that failed, %",
-        most: 100.0,
-        step: 25.0,
-        groups: of.rows.chunk_by(same).map(group).collect(),
-    });
-    vec![figure(readings::NAME, svg)]
+        is_published: false,
+        same: |a, b| (a.lists, a.comes) == (b.lists, b.comes),
+        group: |row| {
+            let lists = row.lists.map_or("", Lists::name);
+            format!("{lists}, {}", row.comes.map_or("", Comes::name))
+        },
+    };
+    failed.draw(of.rows.iter().filter(|row| row.empty_is_a_list == Some(true)))
 }
 
 /// Collisions under attacks by what is left out.
-pub fn parts(of: &LeftOuts) -> Vec<Figure> {
-    let bar = |row: &left_out::Row| Bar {
+pub fn parts(of: &Made) -> Vec<Figure> {
+    let bar = |row: &Row| Bar {
         series: series(row.variant),
-        value: 100.0 * ratio(row.attacked_collided, row.attacked_runs),
+        value: 100.0 * ratio(row.attacked_collided_remote, row.attacked_runs),
         paler: 0.0,
-        label: row.attacked_collided.to_string(),
+        label: row.attacked_collided_remote.to_string(),
         published: Vec::new(),
     };
     let figure_of = |detectors: Detectors| {
-        let rows = || of.rows.iter().filter(move |row| row.detectors == detectors);
+        let rows = || of.rows.iter().filter(move |row| row.detectors == Some(detectors));
         let hardened = rows().filter(|row| row.variant == Variant::Hardened);
-        let group = |named: &left_out::Row| Group {
-            name: named.left_out.name().trim_start_matches("stage-").to_owned(),
+        let group = |named: &Row| Group {
+            name: named.left_out.map_or("", LeftOut::name).trim_start_matches("stage-").to_owned(),
             bars: rows().filter(|row| row.left_out == named.left_out).map(bar).collect(),
             note: String::new(),
         };
@@ -72,7 +61,7 @@ pub fn parts(of: &LeftOuts) -> Vec<Figure> {
             step: 25.0,
             groups: hardened.map(group).collect(),
         });
-        figure(&format!("{}-{}", left_out::NAME, detectors.name()), svg)
+        figure(&format!("{}-{}", LEFT_OUT.name, detectors.name()), svg)
     };
     Detectors::ALL.map(figure_of).into()
 }

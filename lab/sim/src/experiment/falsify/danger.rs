@@ -16,10 +16,10 @@ use crate::cav::guard::Decided;
 use crate::collision;
 use crate::map::route::Route;
 use crate::pose::{Pose, Rectangle};
-use crate::run::{Cycle, TAU_S, Watcher};
+use crate::run::{Cycle, Watcher};
 use crate::services::way::seconds;
 use crate::snapshot::{EgoState, Object, Snapshot};
-use crate::vehicle::A_B;
+use crate::vehicle::{A_B, TAU_S};
 
 /// Cycles that are looked ahead.
 const LOOKED: u8 = 40;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::super::attacks::Offered;
+use super::super::axes::{Axes, Offered};
 use super::super::job::Job;
 use super::danger::{Danger, LastUse};
 use crate::attack::Attack;
@@ -79,7 +79,7 @@ impl Case {
     }
 
     /// As a run of an experiment.
-    pub fn job(&self) -> Job<()> {
+    pub fn job(&self) -> Job {
         let &Self { route, scenario, vehicles, .. } = self;
         let mut settings = Settings::new(self.variant, self.offered.groups(), scenario);
         // Who attacks asks nobody, and what was kept stays the run that it was.
@@ -90,8 +90,8 @@ impl Case {
         settings.has_no_lead = self.has_no_lead;
         settings.requester.t_wait_ns = T_WAIT_NS;
         settings.errors.position = POSITION_M;
-        let (what, id, watched_from) = ((), self.name(), 0.0);
-        Job { what, id, route, scenario, vehicles, watched_from, settings }
+        let axes = Axes { offered: self.offered, ..Axes::default() };
+        Job { axes, id: self.name(), route, scenario, vehicles, settings }
     }
 
     /// Index of its route in the town.

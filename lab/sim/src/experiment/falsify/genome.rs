@@ -10,7 +10,7 @@
 //! 0.5 whom the kind says, else one of those who came near the CAV in the clean run. Lists: both up to 0.6,
 //! the CAV's up to 0.8, the planner's. The magnitudes are evenly between the limits of `magnitudes`.
 
-use super::super::attacks::Offered;
+use super::super::axes::Offered;
 use crate::attack::means::{Lists, Means};
 use crate::attack::{Attack, Kind};
 
@@ -21,10 +21,10 @@ const GENES_OF_ATTACK: usize = 8;
 /// What the search attacks with: all but what an attacker gets nothing from (`flood` and `slow` cost time
 /// that a run does not know).
 pub const KINDS: [Kind; 21] = [
-    Kind::MapReplaced,
-    Kind::TracksEmpty,
-    Kind::Ghosts,
-    Kind::OneRemoved,
+    Kind::WrongMap,
+    Kind::EmptyTracks,
+    Kind::GhostTracks,
+    Kind::MissingTrack,
     Kind::CrossingStands,
     Kind::GhostInMean,
     Kind::FalseVelocities,
@@ -41,7 +41,7 @@ pub const KINDS: [Kind; 21] = [
     Kind::NotFinite,
     Kind::StampsAhead,
     Kind::Silent,
-    Kind::Late,
+    Kind::HeldBack,
 ];
 
 /// What the attacker knows of a run without an attack.
@@ -97,7 +97,7 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         Means { ahead_m, left_m, speed_mps: between(c, -15.0, 15.0), ..none }
     };
     match kind {
-        Kind::Ghosts => at((-10.0, 40.0)),
+        Kind::GhostTracks => at((-10.0, 40.0)),
         Kind::GhostInMean => at((-10.0, 10.0)),
         Kind::MadeUpLead => at((3.0, 60.0)),
         Kind::CrossingStands | Kind::FalseVelocities => {
@@ -106,7 +106,7 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         Kind::Drift => Means { speed_mps: 3.0 * a * a, turn_rad: turn(b), ..none },
         Kind::Replay => Means { late_s: between(a, 0.1, 8.0), ..none },
         Kind::StartsLate | Kind::StampsAhead => Means { late_s: between(a, 0.02, 2.0), ..none },
-        Kind::Late => Means { late_s: between(a, 0.005, 0.3), ..none },
+        Kind::HeldBack => Means { late_s: between(a, 0.005, 0.3), ..none },
         Kind::Delay => Means { late_s: between(a, 0.005, 0.1), ..none },
         Kind::EndsEarly => Means { ahead_m: between(a, 0.0, 6.0), ..none },
         Kind::IntoLead => Means {
@@ -117,15 +117,7 @@ fn magnitudes(kind: Kind, [a, b, c]: [f64; 3]) -> Means {
         Kind::Swerve => {
             Means { left_m: between(a, -3.0, 3.0), ahead_m: between(b, 3.0, 40.0), ..none }
         }
-        Kind::MapReplaced
-        | Kind::TracksEmpty
-        | Kind::OneRemoved
-        | Kind::ExchangedPasts
-        | Kind::Backwards
-        | Kind::NotFinite
-        | Kind::Flood
-        | Kind::Slow
-        | Kind::Silent => none,
+        _ => none,
     }
 }
 

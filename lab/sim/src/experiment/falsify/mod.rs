@@ -28,11 +28,12 @@ use self::found::{Case, Found};
 use self::genome::{Clean, GENES, decode};
 use self::rounds::explains;
 pub use self::rounds::{Falsified, Options, Round, Row, Try};
-use super::attacks::Offered;
+use super::axes::Offered;
 use super::select::Shard;
 use crate::attack::Kind;
 use crate::map::Town;
-use crate::run::{RunError, TAU_S};
+use crate::run::RunError;
+use crate::vehicle::TAU_S;
 
 /// Its name.
 pub const NAME: &str = "falsify";

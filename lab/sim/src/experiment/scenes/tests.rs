@@ -3,7 +3,7 @@ use super::*;
 const SEED: u64 = 7;
 
 fn options(profile: Variant) -> Options {
-    Options { profile, tau_s: crate::run::TAU_S, seed: SEED, only: Vec::new() }
+    Options { profile, tau_s: crate::vehicle::TAU_S, seed: SEED, only: Vec::new() }
 }
 
 fn made(profile: Variant, count: u64) -> Scenes {

@@ -13,4 +13,3 @@ mod records;
 mod replay;
 mod same;
 mod services;
-mod sessions;
