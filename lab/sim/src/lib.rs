@@ -10,6 +10,7 @@ pub mod collision;
 pub mod experiment;
 pub mod ids;
 pub mod map;
+mod named;
 pub mod path;
 pub mod pictures;
 pub mod planner;

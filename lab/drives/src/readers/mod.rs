@@ -11,7 +11,7 @@ mod left_out;
 mod lines;
 mod map;
 pub mod mcap;
-mod npy;
+pub mod npy;
 mod order;
 pub mod route;
 mod scenario;

@@ -10,7 +10,9 @@ use crate::readers::error::{ReadError, quoted};
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Reads a table of `N` columns with these names; the rows are not copied, a map of 100 MB is there once.
-pub(crate) fn table<'a, const N: usize>(
+///
+/// Errors: no such table; the field of its header.
+pub fn table<'a, const N: usize>(
     file: &Path,
     bytes: &'a [u8],
     names: [&str; N],

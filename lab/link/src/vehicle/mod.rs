@@ -10,11 +10,12 @@ pub mod log;
 pub mod memory;
 pub mod summary;
 mod take;
+pub mod tell;
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa::input::cycle::{Track, TrackList, TrajectoryPoint};
 use mufasa::monitor::{Accepted, Monitor, MonitorError, Settings, Time};
 use mufasa::offloading::requester::{Action, Actions, GroupState, RequesterError};
 use mufasa::report::InvalidInput;
@@ -26,6 +27,7 @@ use mufasa_records::names;
 
 use self::log::What;
 use self::summary::Tally;
+use self::tell::Measured;
 use crate::message::{self, EncodeError, Frame, Message, Payload};
 use crate::play::Played;
 use crate::transport::{Address, Transport};
@@ -206,37 +208,21 @@ impl<'a, T: Transport> Vehicle<'a, T> {
 
     /// Sends what the vehicle knows, and a sign of life for each session.
     fn tell(&mut self, now_ns: i64, sensed_ns: i64, cycle: &Cycle, later_ns: i64) {
-        for (group, state) in Group::ALL.into_iter().zip(self.states()) {
-            if let GroupState::Remote { station, session } = state {
-                self.send(now_ns, station, Payload::Alive { group, session });
-            }
-        }
-        let ego = Played::sensed(cycle);
-        let mut stations = self.states().map(|state| match state {
-            GroupState::Remote { station, .. } => Some(station),
-            GroupState::Local | GroupState::Requested { .. } => None,
-        });
-        if stations[0] == stations[1] {
-            stations[1] = None;
-        }
         let owned = bridge::to_impl(cycle);
-        let detections = owned.borrow(&[]).detections;
-        for station in stations.into_iter().flatten() {
-            self.send(now_ns, station, Payload::State { stamp_ns: sensed_ns, ego });
-            if let (Configuration::PlanRemote, Some(list), GroupState::Remote { session, .. }) =
-                (self.configuration(), owned.borrow(&[]).tracks, self.states()[1])
-            {
-                // With these stage iii will compare what the station plans.
-                let stamp_ns = list.stamp_ns.saturating_add(later_ns);
-                let tracks = (0..).zip(list.items).map(|(id, track)| Track { id, ..*track });
-                let tracks = tracks.collect();
-                self.send(now_ns, station, Payload::Tracks { session, stamp_ns, tracks });
-            }
-            if let Some(list) = detections {
-                let stamp_ns = list.stamp_ns.saturating_add(later_ns);
-                let detections = list.items.to_vec();
-                self.send(now_ns, station, Payload::Detections { stamp_ns, ego, detections });
-            }
+        let known = owned.borrow(&[]);
+        let later = |stamp_ns: i64| stamp_ns.saturating_add(later_ns);
+        let numbered = |list: TrackList<'_>| {
+            let tracks = (0..).zip(list.items).map(|(id, track)| Track { id, ..*track });
+            (later(list.stamp_ns), tracks.collect())
+        };
+        let measured = Measured {
+            stamp_ns: sensed_ns,
+            ego: Played::sensed(cycle),
+            detections: known.detections.map(|list| (later(list.stamp_ns), list.items.to_vec())),
+            tracks: known.tracks.map(numbered),
+        };
+        for (station, payload) in measured.told(self.states()) {
+            self.send(now_ns, station, payload);
         }
     }
 

@@ -1,61 +1,36 @@
 //! How much of what an attack does, and to whom.
 
+use mufasa_drives::Attack as Kind;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Kind;
+use crate::named::named;
 
-/// Which lists of tracks are spoiled.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Lists {
-    /// That of the CAV and that of the station's planner.
-    Both,
-    /// What the CAV is sent alone.
-    Cav,
-    /// What the station's planner believes in alone.
-    Planner,
-}
-
-impl Lists {
-    /// Whose lists, in a word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Both => "both",
-            Self::Cav => "cav",
-            Self::Planner => "planner",
-        }
+named! {
+    /// Which lists of tracks are spoiled.
+    Lists {
+        /// That of the CAV and that of the station's planner.
+        Both = "both",
+        /// What the CAV is sent alone.
+        Cav = "cav",
+        /// What the station's planner believes in alone.
+        Planner = "planner",
     }
 }
 
-/// How the lists of `empty-tracks` come (`docs/evaluation.md#readings`).
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Comes {
-    /// Empty, at 100 Hz between the true ones; the last before the planner plans is always one of them.
-    #[default]
-    Last,
-    /// Empty, each in the place of a true one, at 10 Hz.
-    Replaced,
-    /// Empty, at 100 Hz between the true ones; the planner plans at any time, so that now and then a true one is the last.
-    Interleaved,
-    /// Each with the farthest of its tracks alone, in the place of the true one.
-    Farthest,
-}
-
-impl Comes {
-    /// How lists come, in a word.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Last => "last",
-            Self::Replaced => "replaced",
-            Self::Interleaved => "interleaved",
-            Self::Farthest => "farthest",
-        }
+named! {
+    /// How the lists of `empty-tracks` come (`docs/evaluation.md#readings`).
+    #[derive(Default)]
+    Comes {
+        /// Empty, at 100 Hz between the true ones; the last before the planner plans is always one of them.
+        #[default]
+        Last = "last",
+        /// Empty, each in the place of a true one, at 10 Hz.
+        Replaced = "replaced",
+        /// Empty, at 100 Hz between the true ones; the planner plans at any time, so that now and then a true one is the last.
+        Interleaved = "interleaved",
+        /// Each with the farthest of its tracks alone, in the place of the true one.
+        Farthest = "farthest",
     }
 }
 

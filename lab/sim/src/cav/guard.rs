@@ -13,48 +13,33 @@ use mufasa::offloading::requester::{
 use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
 use mufasa_props::call;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::assembled::{Chosen, Last, Stamped};
 pub use super::decided::{Decided, Local};
 use super::recorder::Recorder;
 use super::sensing::Sensed;
 use super::withheld::Withheld;
+use crate::named::named;
 
-/// What is checked of remote data.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Variant {
-    /// Quality of service alone: latency and inter-arrival time.
-    Sofof,
-    /// And the five stages, as the paper has them.
-    Paper,
-    /// And the five stages with the hardened rules.
-    Hardened,
+named! {
+    /// What is checked of remote data.
+    Variant {
+        /// Quality of service alone: latency and inter-arrival time.
+        Sofof = "sofof",
+        /// And the five stages, as the paper has them.
+        Paper = "paper",
+        /// And the five stages with the hardened rules.
+        Hardened = "hardened",
+    }
 }
 
 impl Variant {
-    /// All, in the order of what they check.
-    pub const ALL: [Self; 3] = [Self::Sofof, Self::Paper, Self::Hardened];
-
     /// By which its stages check, if it has any.
     pub const fn profile(self) -> Option<Profile> {
         match self {
             Self::Sofof => None,
             Self::Paper => Some(Profile::PAPER),
             Self::Hardened => Some(Profile::HARDENED),
-        }
-    }
-
-    /// Its name in tables and files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sofof => "sofof",
-            Self::Paper => "paper",
-            Self::Hardened => "hardened",
         }
     }
 }

@@ -15,6 +15,7 @@ use mufasa::monitor::{Message as Received, Time};
 use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterError};
 use mufasa::services::configuration::{Configuration, Group, Groups};
 use mufasa_link::message::{self, Frame, Message, Payload};
+use mufasa_link::vehicle::tell::Measured;
 
 use self::asking::{Asking, Known};
 use self::guard::{Decided, Guard, Local};
@@ -180,21 +181,17 @@ impl<'a> Cav<'a> {
     pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
         let mut sensed = self.sensors.sense(truth, self.route, &self.body, now_ns);
         sensed.lead = sensed.lead.filter(|_| !self.has_no_lead);
-        for group in Group::ALL {
-            if let GroupState::Remote { station, session } = self.guard.state(group) {
-                self.send(now_ns, station, Payload::Alive { group, session }, radio);
+        let states = Group::ALL.map(|group| self.guard.state(group));
+        if states.iter().any(|it| matches!(it, GroupState::Remote { .. })) {
+            let measured = Measured {
+                stamp_ns: now_ns,
+                ego: sensed.ego,
+                detections: Some((now_ns, sensed.detections.clone())),
+                tracks: self.compared_tracks(now_ns, &sensed.detections),
+            };
+            for (station, payload) in measured.told(states) {
+                self.send(now_ns, station, payload, radio);
             }
-        }
-        if Group::ALL
-            .into_iter()
-            .any(|it| matches!(self.guard.state(it), GroupState::Remote { .. }))
-        {
-            let ego = sensed.ego;
-            self.send(now_ns, ids::STATION, Payload::State { stamp_ns: now_ns, ego }, radio);
-            self.tell_own_tracks(now_ns, &sensed.detections, radio);
-            let detections = sensed.detections.clone();
-            let payload = Payload::Detections { stamp_ns: now_ns, ego, detections };
-            self.send(now_ns, ids::STATION, payload, radio);
         }
         self.sensed = Some(sensed);
         let is_in = |(from, to): (f64, f64)| (from..=to).contains(&truth.ego.s);
@@ -204,20 +201,17 @@ impl<'a> Cav<'a> {
     }
 
     /// In `PlanRemote` the station gets the CAV's own tracks, with which stage iii will compare its plan.
-    fn tell_own_tracks(&mut self, now_ns: i64, detections: &[Detection], radio: &mut Radio) {
-        let GroupState::Remote { station, session } = self.guard.state(Group::Plan) else { return };
+    fn compared_tracks(
+        &mut self,
+        now_ns: i64,
+        detections: &[Detection],
+    ) -> Option<(i64, Vec<Track>)> {
         if self.asking.is_none() || self.guard.configuration() != Configuration::PlanRemote {
-            return;
+            return None;
         }
-        if let Some(tracks) = self.services.track(now_ns, detections) {
-            self.tracked = Some((now_ns, tracks.clone()));
-            self.send(
-                now_ns,
-                station,
-                Payload::Tracks { session, stamp_ns: now_ns, tracks },
-                radio,
-            );
-        }
+        let tracks = (now_ns, self.services.track(now_ns, detections)?);
+        self.tracked = Some(tracks.clone());
+        Some(tracks)
     }
 
     /// Takes a message that was decoded.

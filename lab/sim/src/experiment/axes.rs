@@ -10,6 +10,7 @@ use crate::attack::means::{Comes, Lists};
 use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
 use crate::cav::withheld::Withheld;
+use crate::named::named;
 use crate::run::Settings;
 use crate::services::detectors::Errors;
 use crate::services::way::seconds;
@@ -65,34 +66,21 @@ impl Axes {
     }
 }
 
-/// What the station offers.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Offered {
-    /// Tracking alone.
-    Mot,
-    /// Planning alone.
-    Plan,
-    /// Both.
-    #[default]
-    Both,
+named! {
+    /// What the station offers.
+    #[derive(Default)]
+    Offered {
+        /// Tracking alone.
+        Mot = "mot",
+        /// Planning alone.
+        Plan = "plan",
+        /// Both.
+        #[default]
+        Both = "both",
+    }
 }
 
 impl Offered {
-    /// All.
-    pub const ALL: [Self; 3] = [Self::Mot, Self::Plan, Self::Both];
-
-    /// Its name in tables and files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Mot => "mot",
-            Self::Plan => "plan",
-            Self::Both => "both",
-        }
-    }
-
     /// As the station has it.
     pub fn groups(self) -> Groups {
         match self {
@@ -103,43 +91,25 @@ impl Offered {
     }
 }
 
-/// What is set.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Factor {
-    /// Share of the visible objects that a cycle's detections leave out.
-    Missed,
-    /// Mean number of detections of nothing in a cycle.
-    Clutter,
-    /// Standard deviation of each coordinate of a detection, m.
-    PositionM,
-    /// Mean of what comes on top of a message's least latency, ms.
-    JitterMs,
-    /// Share of the messages that never arrive, in both directions.
-    Loss,
-    /// The wait after a failure, s.
-    TWaitS,
+named! {
+    /// What is set.
+    Factor {
+        /// Share of the visible objects that a cycle's detections leave out.
+        Missed = "missed",
+        /// Mean number of detections of nothing in a cycle.
+        Clutter = "clutter",
+        /// Standard deviation of each coordinate of a detection, m.
+        PositionM = "position-m",
+        /// Mean of what comes on top of a message's least latency, ms.
+        JitterMs = "jitter-ms",
+        /// Share of the messages that never arrive, in both directions.
+        Loss = "loss",
+        /// The wait after a failure, s.
+        TWaitS = "t-wait-s",
+    }
 }
 
 impl Factor {
-    /// All.
-    pub const ALL: [Self; 6] =
-        [Self::Missed, Self::Clutter, Self::PositionM, Self::JitterMs, Self::Loss, Self::TWaitS];
-
-    /// Its name in tables and files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Missed => "missed",
-            Self::Clutter => "clutter",
-            Self::PositionM => "position-m",
-            Self::JitterMs => "jitter-ms",
-            Self::Loss => "loss",
-            Self::TWaitS => "t-wait-s",
-        }
-    }
-
     /// What it is set to; the default is among them.
     pub const fn values(self) -> &'static [f64] {
         match self {
@@ -179,36 +149,21 @@ impl Factor {
     }
 }
 
-/// How wrong all detectors are.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Detectors {
-    /// Not at all.
-    Exact,
-    /// As in the other experiments: 0.05 m, and one object in a hundred missed in a cycle.
-    Noisy,
-    /// The same with 0.2 m.
-    VeryNoisy,
-    /// As `Noisy`, blind for one object in two, and nothing measures the gap to the leading vehicle.
-    Blind,
+named! {
+    /// How wrong all detectors are.
+    Detectors {
+        /// Not at all.
+        Exact = "exact",
+        /// As in the other experiments: 0.05 m, and one object in a hundred missed in a cycle.
+        Noisy = "noisy",
+        /// The same with 0.2 m.
+        VeryNoisy = "very-noisy",
+        /// As `Noisy`, blind for one object in two, and nothing measures the gap to the leading vehicle.
+        Blind = "blind",
+    }
 }
 
 impl Detectors {
-    /// All.
-    pub const ALL: [Self; 4] = [Self::Exact, Self::Noisy, Self::VeryNoisy, Self::Blind];
-
-    /// Its name in tables and files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Exact => "exact",
-            Self::Noisy => "noisy",
-            Self::VeryNoisy => "very-noisy",
-            Self::Blind => "blind",
-        }
-    }
-
     fn set(self, settings: &mut Settings) {
         let noisy = Errors::default();
         settings.errors = match self {

@@ -1,54 +1,33 @@
 //! What an experiment sees of a run while it is made.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use crate::attack::Attack;
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
+use crate::named::named;
 use crate::run::{Cycle, Watcher};
 use crate::snapshot::Snapshot;
 
-/// Where a cycle failed.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum By {
-    /// Track validation.
-    I,
-    /// Trajectory to map validation.
-    Ii,
-    /// Trajectory validation with tracks.
-    Iii,
-    /// Trajectory validation with detections.
-    Iv,
-    /// Trajectory validation with the grid.
-    V,
-    /// Nothing examined the trajectory (H-05).
-    NoObstacleCheck,
-    /// The input was invalid.
-    Input,
+named! {
+    /// Where a cycle failed.
+    By {
+        /// Track validation.
+        I = "i",
+        /// Trajectory to map validation.
+        Ii = "ii",
+        /// Trajectory validation with tracks.
+        Iii = "iii",
+        /// Trajectory validation with detections.
+        Iv = "iv",
+        /// Trajectory validation with the grid.
+        V = "v",
+        /// Nothing examined the trajectory (H-05).
+        NoObstacleCheck = "no obstacle check",
+        /// The input was invalid.
+        Input = "input",
+    }
 }
 
 impl By {
-    /// All, in the order in which they are asked.
-    pub const ALL: [Self; 7] =
-        [Self::I, Self::Ii, Self::Iii, Self::Iv, Self::V, Self::NoObstacleCheck, Self::Input];
-
-    /// Its name in tables.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::I => "i",
-            Self::Ii => "ii",
-            Self::Iii => "iii",
-            Self::Iv => "iv",
-            Self::V => "v",
-            Self::NoObstacleCheck => "no obstacle check",
-            Self::Input => "input",
-        }
-    }
-
     pub(super) fn of(code: u8) -> Option<Self> {
         Self::ALL.get(usize::from(code).checked_sub(1)?).copied()
     }

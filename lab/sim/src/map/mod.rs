@@ -3,7 +3,6 @@
 pub mod conflicts;
 pub mod given;
 pub mod id;
-mod npy;
 pub mod route;
 pub mod streets;
 pub mod ulm;

@@ -7,12 +7,13 @@
 
 use std::path::{Path as File, PathBuf};
 
+use mufasa_drives::readers::npy;
 use serde::Deserialize;
 
 use crate::map::given::{Given, GivenStart};
 use crate::map::id::{MapId, Sum};
 use crate::map::route::{Route, RouteKind};
-use crate::map::{Lane, Town, conflicts, npy};
+use crate::map::{Lane, Town, conflicts};
 use crate::path::Path;
 use crate::pose::Point;
 use crate::traffic::idm::Idm;
@@ -28,6 +29,8 @@ const TASK: (f64, f64) = (20.0, 25.0);
 const SHORTEST: f64 = 100.0;
 /// The ego of a scenario is so near to the middle of its way, m.
 const ON_WAY: f64 = 3.0;
+/// The columns of a map.
+const COLUMNS: [&str; 6] = ["x", "y", "d_left", "d_right", "speed_limit", "altitude"];
 /// The maps.
 const SET: &str = "maps/ulm";
 /// The scenario on this junction whose vehicles have drivers. (In the other one, `iv_2023`, the ego begins within
@@ -221,10 +224,11 @@ fn json<T: for<'a> Deserialize<'a>>(file: &File, bytes: &[u8]) -> Result<T, UlmE
 
 /// One way, cut to what is around the junction and resampled to about 1 m.
 fn route(file: &File, bytes: &[u8], name: &str, rank: u8) -> Result<Route, UlmError> {
-    let rows =
-        npy::table::<6>(bytes).map_err(|broken| error(file, broken.field, broken.message))?;
+    let table = npy::table(file, bytes, COLUMNS);
+    let rows: Vec<[f64; 6]> =
+        table.map_err(|broken| error(file, &broken.field, broken.message))?.collect();
     for (index, row) in rows.iter().enumerate() {
-        let named = ["x", "y", "d_left", "d_right", "speed_limit"].into_iter().zip(row);
+        let named = COLUMNS[..5].iter().zip(row);
         for (column, (name, cell)) in named.enumerate() {
             let message = match cell {
                 cell if !cell.is_finite() => "not finite",

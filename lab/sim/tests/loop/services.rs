@@ -45,12 +45,18 @@ fn services_run_where_they_are_to_and_sessions_end_and_begin_when_they_are_to() 
                 None => nearly_always_remote(&outcome, &at),
                 Some(_) => seen.held_until_t_wait(&cycles, &at),
             }
-            seen.run_when_and_only_when_nobody_else_runs_them(&cycles, &at);
+            if variant != Variant::Paper {
+                seen.run_when_and_only_when_nobody_else_runs_them(&cycles, &at);
+            }
         }
         let Seen { idle, back, issues, again } = seen;
         println!("{variant:?}: idle {idle:?}, back {back:?}, {issues} issues, {again} times again");
-        assert!(idle.iter().all(|it| *it > 50), "{variant:?}: {idle:?}");
-        assert!(kind.is_none() || back.iter().all(|it| *it > 0), "{variant:?}: {back:?}");
+        let is_looked_at = variant != Variant::Paper;
+        assert!(!is_looked_at || idle.iter().all(|it| *it > 50), "{variant:?}: {idle:?}");
+        assert!(
+            variant != Variant::Hardened || back.iter().all(|it| *it > 0),
+            "{variant:?}: {back:?}"
+        );
         assert!(kind.is_none() || issues > 0 && again > 0, "{variant:?}: {issues}, {again}");
     }
 }

@@ -1,32 +1,9 @@
 //! Of what kinds a scene is.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
+use crate::named::named;
 use crate::services::detectors::random::Draws;
 
-macro_rules! kinds {
-    ($($(#[$doc:meta])* $name:ident { $($(#[$of:meta])* $value:ident = $word:literal,)* })*) => {$(
-        $(#[$doc])*
-        #[derive(
-            Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-        )]
-        #[serde(rename_all = "kebab-case")]
-        pub enum $name { $($(#[$of])* $value,)* }
-
-        impl $name {
-            /// All.
-            pub const ALL: &'static [Self] = &[$(Self::$value,)*];
-
-            /// Its name in tables and files.
-            pub const fn name(self) -> &'static str {
-                match self { $(Self::$value => $word,)* }
-            }
-        }
-    )*};
-}
-
-kinds! {
+named! {
     /// What is remote.
     Remote {
         /// The tracks.

@@ -155,10 +155,10 @@ impl Scene {
 }
 
 fn kinds(draws: &mut Draws) -> Kinds {
-    let remote = pick(draws, Remote::ALL);
-    let (shift, lie) = (pick(draws, Shift::ALL), pick(draws, Lie::ALL));
-    let (side, motion) = (pick(draws, Side::ALL), pick(draws, Motion::ALL));
-    let drive = pick(draws, Drive::ALL);
+    let remote = pick(draws, &Remote::ALL);
+    let (shift, lie) = (pick(draws, &Shift::ALL), pick(draws, &Lie::ALL));
+    let (side, motion) = (pick(draws, &Side::ALL), pick(draws, &Motion::ALL));
+    let drive = pick(draws, &Drive::ALL);
     Kinds {
         remote,
         shift,
