@@ -22,8 +22,7 @@ type Exceptions = [(&'static str, &'static str)];
 const LONG: &Exceptions = &[];
 
 /// Modules of one package that know each other, by a module of the circle.
-const CIRCLES: &Exceptions =
-    &[("lab/sim/src/attack", "open: attacks, run and station are being taken apart")];
+const CIRCLES: &Exceptions = &[];
 
 /// Modules that only one of model and implementation has.
 const UNEQUAL: &Exceptions = &[
