@@ -5,8 +5,9 @@ use mufasa_sim::experiment::availability::AVAILABILITY;
 use mufasa_sim::experiment::combinations::COMBINATIONS;
 use mufasa_sim::experiment::failures::FAILURES;
 use mufasa_sim::experiment::left_out::LEFT_OUT;
-use mufasa_sim::experiment::made::{Experiment, Made, Row};
+use mufasa_sim::experiment::made::{Experiment, Made};
 use mufasa_sim::experiment::readings::READINGS;
+use mufasa_sim::experiment::row::Row;
 use mufasa_sim::experiment::stages::STAGES;
 
 use super::plots::figures::{self, Figure};

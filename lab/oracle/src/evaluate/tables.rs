@@ -8,7 +8,7 @@ use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::axes::{Detectors, Factor, LeftOut, Offered};
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::made::Row;
+use mufasa_sim::experiment::row::Row;
 use mufasa_sim::experiment::watch::By;
 use mufasa_sim::experiment::{falsify, scenes};
 

@@ -8,7 +8,8 @@
 
 use super::axes::{Axes, Detectors, LeftOut, Offered};
 use super::job::{self, Job};
-use super::made::{Experiment, Run};
+use super::kept::Run;
+use super::made::Experiment;
 use super::select::Options;
 use crate::attack::Kind;
 use crate::cav::guard::Variant;

@@ -1,7 +1,7 @@
 //! Charts of runs that failed.
 
 use mufasa_sim::cav::guard::Variant;
-use mufasa_sim::experiment::made::Row;
+use mufasa_sim::experiment::row::Row;
 
 use super::bars::{self, Bar, Bars, Group};
 use super::chart::{Figure, figure, ratio, series};

@@ -8,7 +8,8 @@ use mufasa_sim::experiment::axes::{Factor, Offered};
 use mufasa_sim::experiment::combinations::COMBINATIONS;
 use mufasa_sim::experiment::failures::FAILURES;
 use mufasa_sim::experiment::job::kind_name;
-use mufasa_sim::experiment::made::{Made, Row};
+use mufasa_sim::experiment::made::Made;
+use mufasa_sim::experiment::row::Row;
 use mufasa_sim::experiment::stages::{PAPER, STAGES};
 use mufasa_sim::experiment::watch::By;
 

@@ -4,8 +4,9 @@ use mufasa_sim::attack::means::{Comes, Lists};
 use mufasa_sim::cav::guard::Variant;
 use mufasa_sim::experiment::axes::{Detectors, LeftOut};
 use mufasa_sim::experiment::left_out::LEFT_OUT;
-use mufasa_sim::experiment::made::{Made, Row};
+use mufasa_sim::experiment::made::Made;
 use mufasa_sim::experiment::readings::READINGS;
+use mufasa_sim::experiment::row::Row;
 
 use super::bars::{self, Bar, Bars, Group};
 use super::chart::{Figure, figure, ratio, series};
