@@ -1,4 +1,4 @@
-"""Who keeps beside the path of H-14, measured along the route: spec/7-fail-safe.md#meeting.
+"""Who keeps beside the path of H-14, measured along the route: spec/hardened/H-14.md#requirements-failure.
 
 What lies beyond an end of the route, and where the nearest point of the reference path is, is
 decided in fractions: an object may be as near to that path as rounding is fine.

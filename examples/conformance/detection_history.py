@@ -1,4 +1,4 @@
-"""What the CAV saw itself: the terms of spec/3-stages.md#what-the-cav-saw-itself.
+"""What the CAV saw itself: the terms of spec/hardened/what-the-cav-saw.md.
 
 Which item is nearest decides what follows, and no margin makes that cautious. So the comparisons
 are made as they are written, and `unclear` says that one was too close to call: stage i fails then.

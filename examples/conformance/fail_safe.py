@@ -1,4 +1,4 @@
-"""H-14, the fail-safe rule of spec/7-fail-safe.md: what the CAV can always do, going on for tau at
+"""H-14, the fail-safe rule of spec/hardened/H-14.md: what the CAV can always do, going on for tau at
 most and then braking to a stop along its path, and whom it meets then.
 
 Which points of the trajectory are ahead, how many places a piece has and where the path ends has no

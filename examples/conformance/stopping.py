@@ -1,4 +1,4 @@
-"""How far the CAV needs to stop, and when it is where: spec/7-fail-safe.md#when-the-cav-is-where.
+"""How far the CAV needs to stop, and when it is where: spec/hardened/H-14.md#requirements-windows.
 
 Times change without bound with the way where the CAV comes to stand. So ways are fractions, and
 only the square root is rounded.

@@ -116,7 +116,7 @@
 //! # Assumptions of use
 //!
 //! * Detections, lead, grid, pose and speed are the CAV's own and right; what they do not see, only the
-//!   remote knows (`spec/3-stages.md#findings`, F-33, F-39). The route is right.
+//!   remote knows (`findings/README.md`, F-33, F-39). The route is right.
 //! * All times are of one monotonic clock ([`monitor::Time`]); the stations' clocks are synchronised with
 //!   it. All places are in one right-handed frame (`spec/5-interfaces.md#cycle`).
 //! * `tick` and `cycle` are called in each period, offloading or not, and every action is taken.

@@ -44,7 +44,7 @@ pub fn s_valid(parameters: &Parameters, v_now: f64, v_lead: Option<f64>) -> f64 
     distances::s_valid(parameters, v_now, v_lead)
 }
 
-/// `s_stop` in plain doubles, m. Source: `spec/7-fail-safe.md#when-the-cav-is-where`.
+/// `s_stop` in plain doubles, m. Source: `spec/hardened/H-14.md#requirements-windows`.
 pub fn s_stop(cycle: &Cycle<'_>) -> f64 {
     Times::new(cycle).s_stop
 }
@@ -158,7 +158,7 @@ pub fn points_examined(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> usize {
     horizon::points_examined(cycle, points, Horizon::Braking).len()
 }
 
-/// What the start of a trajectory breaks. Source: `spec/3-stages.md#hardened-profile`, H-07.
+/// What the start of a trajectory breaks. Source: `spec/hardened/H-07.md`, H-07.
 pub fn start_failure(cycle: &Cycle<'_>, points: &[TrajectoryPoint]) -> Option<Witness> {
     h07_start::start_failure(cycle, points)
 }

@@ -1,6 +1,6 @@
 //! What a cycle reports: the stages of the paper ([`crate::stages`]) as the rules of a profile change
 //! them from outside ([`crate::hardened`]), by what they give a stage and by what they add behind it
-//! (`spec/3-stages.md#schedule`, `spec/3-stages.md#hardened-profile`).
+//! (`spec/3-stages.md#schedule`, `spec/hardened/README.md`).
 
 use crate::hardened::detection_history::ambiguous_failure;
 use crate::hardened::h02_h05_h10_schedule::{no_obstacle_check, schedule};

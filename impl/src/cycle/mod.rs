@@ -1,5 +1,5 @@
 //! A cycle: the stages of the paper with what the rules of its profile change, and what it reports
-//! (`spec/3-stages.md#schedule`, `spec/3-stages.md#hardened-profile`). A rule changes a stage by what it gives
+//! (`spec/3-stages.md#schedule`, `spec/hardened/README.md`). A rule changes a stage by what it gives
 //! to it, or is asked behind it.
 
 pub mod order;

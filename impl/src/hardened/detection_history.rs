@@ -1,5 +1,5 @@
 //! What the CAV saw itself: which received tracks are backed and confirmed by its own earlier
-//! detections (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! detections (SEEN-01 to SEEN-17, `spec/hardened/what-the-cav-saw.md`).
 //!
 //! Plain doubles: places are differences of given coordinates and of v t, so that a distance of up
 //! to a few km errs by less than 1e-10 m, and `CLOSE` is more. What is closer than that is not

@@ -1,5 +1,5 @@
 //! Stage i: every gated track but a few backed ones is paired, and closely (H-01 of
-//! `spec/3-stages.md#hardened-profile`).
+//! `spec/hardened/H-01.md`).
 
 use core::ops::Range;
 

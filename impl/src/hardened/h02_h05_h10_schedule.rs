@@ -1,5 +1,5 @@
 //! Which stages the hardened profile runs, and what counts as an obstacle check (H-02, H-05, H-10
-//! of `spec/3-stages.md#hardened-profile`).
+//! of `spec/hardened/README.md`).
 
 use crate::input::profile::{HardenedRule, Profile};
 use crate::report::{FailedStage, Stage};

@@ -1,5 +1,5 @@
 //! As far as the CAV needs to stop: the gap to the leading vehicle where stage iv did not run, and more
-//! places for stage v (H-04 of `spec/3-stages.md#hardened-profile`).
+//! places for stage v (H-04 of `spec/hardened/H-04.md`).
 
 pub(crate) mod places;
 

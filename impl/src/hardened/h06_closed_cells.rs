@@ -1,5 +1,5 @@
 //! Stage v with closed cells, unknown ones and the border of the grid (H-06 of
-//! `spec/3-stages.md#hardened-profile`).
+//! `spec/hardened/H-06.md`).
 
 mod covered;
 

@@ -1,5 +1,5 @@
 //! Where and when a trajectory starts, and that it keeps to the corridor and its direction (H-07
-//! of `spec/3-stages.md#hardened-profile`).
+//! of `spec/hardened/H-07.md`).
 
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::numbers::plane::{Vector, distance, segment_distance};

@@ -1,5 +1,5 @@
 //! What the steps and turns of a trajectory have to be like to be driven (H-11 of
-//! `spec/3-stages.md#hardened-profile`).
+//! `spec/hardened/H-11.md`).
 
 use crate::input::cycle::{Cycle, TrajectoryPoint};
 use crate::input::parameters::Parameters;

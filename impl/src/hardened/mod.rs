@@ -1,4 +1,4 @@
-//! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`). The order
+//! What the rules H-nn add to the stages (`spec/hardened/README.md`). The order
 //! of the stages and stage v call them; H-08 is about the requester (`offloading::requester`).
 
 pub(crate) mod detection_history;

@@ -38,7 +38,7 @@ pub struct Cycle<'a> {
     /// The occupancy grid map.
     pub grid: Option<Grid<'a>>,
     /// Earlier lists of the CAV's own detections, the youngest first: at most 4
-    /// (`spec/3-stages.md#what-the-cav-saw-itself`).
+    /// (`spec/hardened/what-the-cav-saw.md`).
     pub detection_history: &'a [DetectionList<'a>],
 }
 

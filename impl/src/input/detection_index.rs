@@ -1,5 +1,5 @@
 //! A list of detections that has been checked and sorted by place once, for the cycle in which it
-//! is current and for those in which it is history (`spec/3-stages.md#what-the-cav-saw-itself`). No
+//! is current and for those in which it is history (`spec/hardened/what-the-cav-saw.md`). No
 //! verdict depends on it, only time.
 //!
 //! Plain doubles: coordinates are below 2^25 m, so that a place and its cell err by less than 1e-7 m;
@@ -14,7 +14,7 @@ use crate::numbers::range::{EMPTY, extend, larger, smaller};
 use crate::report::{InvalidInput, Problem};
 
 /// Working memory for the index: an item by its place, and where a cell ends. Source:
-/// `spec/3-stages.md#what-the-cav-saw-itself`.
+/// `spec/hardened/what-the-cav-saw.md`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Slot {
     place: [f64; 2],
@@ -29,12 +29,12 @@ pub struct Slot {
 
 impl Slot {
     /// A place to be lent; a constant, so that it needs no heap. Source:
-    /// `spec/3-stages.md#what-the-cav-saw-itself`.
+    /// `spec/hardened/what-the-cav-saw.md`.
     pub const EMPTY: Self = Self { place: [0.0; 2], clear: 0.0, item: 0, start: 0, end: 0 };
 }
 
 /// Valid detections with their index: a grid over all of them with about as many cells, and the
-/// items cell by cell. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+/// items cell by cell. Source: `spec/hardened/what-the-cav-saw.md`.
 #[derive(Clone, Copy, Debug)]
 pub struct DetectionIndex<'a> {
     pub(crate) items: &'a [Detection],
@@ -76,7 +76,7 @@ impl<'a> DetectionIndex<'a> {
         Some(Self { items, slots, least, side, scale, last, columns, reach })
     }
 
-    /// Of an empty list. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    /// Of an empty list. Source: `spec/hardened/what-the-cav-saw.md`.
     pub const EMPTY: Self = Self {
         items: &[],
         slots: &[],
@@ -116,7 +116,7 @@ impl<'a> DetectionIndex<'a> {
         Ok(index)
     }
 
-    /// The detections. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    /// The detections. Source: `spec/hardened/what-the-cav-saw.md`.
     pub const fn items(&self) -> &'a [Detection] {
         self.items
     }

@@ -1,8 +1,8 @@
-//! The profiles, as sets of rules (`spec/3-stages.md#hardened-profile`).
+//! The profiles, as sets of rules (`spec/hardened/README.md`).
 
 use crate::report::Stage;
 
-/// A rule of the hardened profile. Source: `spec/3-stages.md#hardened-profile`.
+/// A rule of the hardened profile. Source: `spec/hardened/README.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum HardenedRule {
     /// Stage i pairs each gated track but a few backed ones, and closely.
@@ -28,7 +28,7 @@ pub enum HardenedRule {
 }
 
 impl HardenedRule {
-    /// All rules in their order. Source: `spec/3-stages.md#hardened-profile`.
+    /// All rules in their order. Source: `spec/hardened/README.md`.
     pub const ALL: [Self; 10] = [
         Self::H01,
         Self::H02,
@@ -42,7 +42,7 @@ impl HardenedRule {
         Self::H14,
     ];
 
-    /// As the text names it. Source: `spec/3-stages.md#hardened-profile`.
+    /// As the text names it. Source: `spec/hardened/README.md`.
     pub const fn id(self) -> &'static str {
         match self {
             Self::H01 => "H-01",
@@ -65,7 +65,7 @@ impl HardenedRule {
 }
 
 /// A set of rules: the published method, read as the interpretations I-nn say, with the rules H-nn that
-/// are in it. Source: `spec/3-stages.md#hardened-profile`.
+/// are in it. Source: `spec/hardened/README.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Profile {
     /// A bit for each rule in force, then a bit for each stage that is left out.
@@ -73,13 +73,13 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The published method: no rule. Source: `spec/3-stages.md#hardened-profile`.
+    /// The published method: no rule. Source: `spec/hardened/README.md`.
     pub const PAPER: Self = Self { bits: 0 };
-    /// Every rule. Source: `spec/3-stages.md#hardened-profile`.
+    /// Every rule. Source: `spec/hardened/README.md`.
     pub const HARDENED: Self = Self { bits: (1 << RULES) - 1 };
 
     /// For studies: without one rule. Neither records nor the C interface can name such a set. Source:
-    /// `spec/3-stages.md#hardened-profile`.
+    /// `spec/hardened/README.md`.
     pub const fn without(self, rule: HardenedRule) -> Self {
         Self { bits: self.bits & !rule.bit() }
     }
@@ -90,14 +90,14 @@ impl Profile {
         Self { bits: self.bits | bit_of(stage) }
     }
 
-    /// Whether a rule is in force. Source: `spec/3-stages.md#hardened-profile`.
+    /// Whether a rule is in force. Source: `spec/hardened/README.md`.
     #[inline]
     pub const fn has(self, rule: HardenedRule) -> bool {
         self.bits & rule.bit() != 0
     }
 
     /// Whether a rule asks what the CAV saw itself, hence for earlier detections: H-01 which tracks are
-    /// backed, H-14 what has moved. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    /// backed, H-14 what has moved. Source: SEEN-08.
     #[inline]
     pub const fn looks_back(self) -> bool {
         self.has(HardenedRule::H01) || self.has(HardenedRule::H14)

@@ -1,5 +1,5 @@
 //! The CAV's own earlier detections, copied into lent memory
-//! (`spec/monitor.md#monitor`, `spec/3-stages.md#what-the-cav-saw-itself`).
+//! (`spec/monitor.md#monitor`, SEEN-01).
 
 use super::memory::PLACES;
 use crate::input::cycle::{Detection, DetectionList};

@@ -43,7 +43,7 @@ impl<'c> Inputs<'c> {
     }
 
     /// With the detections of all local detectors, measured at `stamp`. The monitor keeps a copy for
-    /// later cycles. Source: `spec/3-stages.md#what-the-cav-saw-itself`.
+    /// later cycles. Source: `spec/hardened/what-the-cav-saw.md`.
     pub const fn detections(mut self, stamp: Time, items: &'c [Detection]) -> Self {
         self.detections = Some(DetectionList { stamp_ns: stamp.as_nanoseconds(), items });
         self
@@ -114,7 +114,7 @@ impl<'c> Inputs<'c> {
     ///   tyres take it (H-14). Behind its last point, and whatever its times say, the CAV has to be able to
     ///   go on and stop.
     ///
-    /// Source: `spec/monitor.md#monitor`, `spec/3-stages.md#hardened-profile`.
+    /// Source: `spec/monitor.md#monitor`, `spec/hardened/README.md`.
     pub fn remote_trajectory<L: AsRef<[TrajectoryPoint]>>(
         mut self,
         trajectory: &'c Accepted<L>,

@@ -1,5 +1,5 @@
 //! Stage v beside detections: occupied cells that the CAV's rectangle touches, and no detection's (H-06
-//! of `spec/3-stages.md#hardened-profile`). Cells of 1 m, with the CAV's first point at the corner of
+//! of `spec/hardened/H-06.md`). Cells of 1 m, with the CAV's first point at the corner of
 //! the cell (100, 100); its disks reach 1.104 m to the side, its rectangle 0.95 m. To the front the
 //! disks reach 4.19 m, the rectangle 3.65 m.
 

@@ -1,5 +1,5 @@
 //! Detections whose track has the past of an object that the remote left out (F-42; "disputed" in
-//! `spec/3-stages.md#what-the-cav-saw-itself`), on both sides of the thresholds. The CAV drives at
+//! SEEN-17), on both sides of the thresholds. The CAV drives at
 //! 5 m/s along y = 0; a car comes from the right at 15 m/s, and the remote says that it goes away.
 
 use crate::scene::{Scene, detection, scene, track};

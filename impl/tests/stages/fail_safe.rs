@@ -1,4 +1,4 @@
-//! The fail-safe rule on both sides of each clause (H-14, `spec/7-fail-safe.md`). The CAV drives at
+//! The fail-safe rule on both sides of each clause (H-14, `spec/hardened/H-14.md`). The CAV drives at
 //! 5 m/s along y = 0; its rectangle reaches 3.65 m ahead of its position and 0.95 m to either side.
 //! `s_stop` is 2.270_625 m, T is 0.7625 s, and from `s_b`, 1.5625 m, on it may stand.
 

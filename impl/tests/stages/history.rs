@@ -1,5 +1,5 @@
 //! What the CAV saw itself, on both sides of its thresholds, as H-01 shows it
-//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! (`spec/hardened/what-the-cav-saw.md`).
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};

@@ -1,4 +1,4 @@
-//! The inner rectangle of H-14 (`spec/7-fail-safe.md#meeting`), on both sides of each side of it.
+//! The inner rectangle of H-14 (`spec/hardened/H-14.md#requirements-not-examined`), on both sides of each side of it.
 
 use crate::fail_safe::{AGE, BESIDE, FRONT, met, moving, with};
 use mufasa::input::cycle::Track;

@@ -1,4 +1,4 @@
-//! Who keeps beside a route that bends, on both sides of each clause (H-14, `spec/7-fail-safe.md#meeting`).
+//! Who keeps beside a route that bends, on both sides of each clause (H-14, `spec/hardened/H-14.md#requirements-not-examined`).
 //! The CAV is that of `fail_safe`; it goes straight on, and the route bends to the left before it, behind
 //! it, or both. What meets it would not, if it went along the route as it goes now.
 

@@ -1,5 +1,5 @@
 //! Detections that move as the CAV saw them move, and what explains them (H-14,
-//! `spec/7-fail-safe.md#motions`). The CAV is that of `fail_safe`.
+//! `spec/hardened/H-14.md#requirements-motions`). The CAV is that of `fail_safe`.
 
 use crate::scene::{Scene, detection, scene, track};
 use mufasa::input::cycle::{Detection, Track};

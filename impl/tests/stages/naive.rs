@@ -1,5 +1,5 @@
 //! The fail-safe rule as the text has it, in plain doubles and without any short cut (H-14,
-//! `spec/7-fail-safe.md`), strictly or laxly by a margin. Nothing is explained.
+//! `spec/hardened/H-14.md`), strictly or laxly by a margin. Nothing is explained.
 
 use std::ops::{Add, Mul, Sub};
 

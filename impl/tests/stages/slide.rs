@@ -1,5 +1,5 @@
 //! Where the headings of all steps lead together, on both sides of the bound (H-11 of
-//! `spec/3-stages.md#hardened-profile`, `findings/F-41.md`).
+//! `spec/hardened/H-11.md`, `findings/F-41.md`).
 
 use crate::scene::{NOW_NS, Scene, scene};
 use mufasa::input::cycle::TrajectoryPoint;

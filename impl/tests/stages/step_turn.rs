@@ -1,5 +1,5 @@
 //! How far a single step may turn, on both sides of the bounds (H-11 of
-//! `spec/3-stages.md#hardened-profile`).
+//! `spec/hardened/H-11.md`).
 
 use crate::scene::{NOW_NS, scene};
 use mufasa::input::cycle::TrajectoryPoint;

@@ -1,5 +1,5 @@
 //! Starts and steps of a trajectory, and the gap, on both sides of their thresholds (H-04, H-07, H-10
-//! and H-11 of `spec/3-stages.md#hardened-profile`).
+//! and H-11 of `spec/hardened/README.md`).
 
 use crate::scene::{NOW_NS, Scene, detection, scene};
 use mufasa::input::cycle::Lead;

@@ -1,4 +1,4 @@
-//! Every finding of the spec has its file, and each file names what exists: vectors, theorems,
+//! Every finding has its file, and each file names what exists: vectors, theorems,
 //! laws. The witnesses that a solver finds are accepted in the paper profile and in no hardened one.
 
 use std::collections::BTreeSet;
@@ -25,15 +25,21 @@ fn read(file: impl AsRef<Path>) -> String {
     fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
 }
 
-/// Findings of the spec with their claims.
+/// The rows of the table, cell by cell.
+fn table() -> Vec<Vec<String>> {
+    let page = read("findings/README.md");
+    let rows = page.lines().filter(|line| line.starts_with("| [F-"));
+    rows.map(|row| row.trim_matches('|').split(" | ").map(|it| it.trim().to_owned()).collect())
+        .collect()
+}
+
+/// Findings with their claims.
 fn claims() -> Vec<(String, String)> {
-    let spec = read("spec/3-stages.md");
-    let rows = spec.lines().filter_map(|line| line.strip_prefix("| F-"));
-    rows.map(|row| {
-        let (number, claim) = row.split_once(" | ").expect("a row has two cells");
-        (format!("F-{number}"), claim.trim_end_matches(" |").to_owned())
-    })
-    .collect()
+    let finding = |row: Vec<String>| {
+        let id = row[0].split(['[', ']']).nth(1).unwrap_or_default().to_owned();
+        (id, row[1].clone())
+    };
+    table().into_iter().map(finding).collect()
 }
 
 /// The names of one kind that a file lists as "* kind `name`".
@@ -61,19 +67,9 @@ fn every_finding_has_a_file_with_its_claim() {
 /// Each row says what an attacker gets out of it.
 #[test]
 fn the_table_has_a_consequence_for_every_finding() {
-    let table = read(String::from("findings/README.md"));
-    let rows: Vec<Vec<&str>> = table
-        .lines()
-        .filter(|line| line.starts_with("| [F-"))
-        .map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect())
-        .collect();
-    let named = rows.iter().map(|row| row[0].split(['[', ']']).nth(1).unwrap_or_default());
-    assert_eq!(
-        named.collect::<Vec<_>>(),
-        claims().iter().map(|(id, _)| id.as_str()).collect::<Vec<_>>()
-    );
-    for row in rows {
-        assert_eq!(row.len(), 6, "{row:?}");
+    for (number, row) in (1..).zip(table()) {
+        assert_eq!(row[0], format!("[F-{number:02}](F-{number:02}.md)"));
+        assert_eq!(row.len(), 7, "{row:?}");
         assert!(row.iter().all(|cell| cell.len() > 2), "{row:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! What the CAV saw itself (`spec/3-stages.md#what-the-cav-saw-itself`): tracks beside the CAV's own
+//! What the CAV saw itself (SEEN-01 to SEEN-17, `spec/hardened/what-the-cav-saw.md`): tracks beside the CAV's own
 //! detections, current and earlier ones. The tracks are the received ones, in `PlanRemote` its own.
 
 use crate::input::profile::HardenedRule;

@@ -1,4 +1,4 @@
-//! What the rules H-nn add to the stages (`spec/3-stages.md#hardened-profile`), a file for each rule
+//! What the rules H-nn add to the stages (`spec/hardened/README.md`), a file for each rule
 //! or group of rules. H-08 is a rule of the requester ([`crate::offloading::requester`]).
 
 pub mod detection_history;

@@ -34,7 +34,7 @@ pub struct Cycle {
     /// The occupancy grid map.
     pub grid: Option<Grid>,
     /// Earlier lists of the CAV's own detections, the youngest first: at most 4
-    /// (`spec/3-stages.md#what-the-cav-saw-itself`).
+    /// (`spec/hardened/what-the-cav-saw.md`).
     pub detection_history: Vec<DetectionList>,
 }
 

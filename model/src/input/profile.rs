@@ -1,4 +1,4 @@
-//! The profiles (`spec/3-stages.md#hardened-profile`): the stages of the paper, and which rules H-nn are
+//! The profiles (`spec/hardened/README.md`): the stages of the paper, and which rules H-nn are
 //! in force beside them.
 
 /// The five stages in their order.

@@ -250,6 +250,7 @@ fn ages_never_move() {
 /// MARGIN-08: two gated tracks and three detections are 2^2 * 3 steps, with
 /// one more column for a backed track that may be left out 2^2 * 4; a limit below fails the strict
 /// reading alone, and nothing where no track has to be assigned.
+/// S1-07, H-01.5.
 #[test]
 fn work_above_the_limit_fails_the_strict_reading() {
     let with = |profile, work_limit, miss_budget, backed: &[[f64; 4]]| {

@@ -1,4 +1,4 @@
-//! `spec/3-stages.md#hardened-profile`: what the vectors of the rules leave out.
+//! `spec/hardened/README.md`: what the vectors of the rules leave out.
 
 mod fail_safe;
 mod history;

@@ -1,4 +1,4 @@
-//! `spec/3-stages.md#hardened-profile`: the rules, and sets of them.
+//! `spec/hardened/README.md`: the rules, and sets of them.
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_model::input::profile::HardenedRule;
@@ -6,7 +6,7 @@ use mufasa_model::report::Stage;
 
 use crate::base::*;
 
-const SPEC: &str = include_str!("../../../spec/3-stages.md");
+const SPEC: &str = include_str!("../../../spec/hardened/README.md");
 
 #[test]
 fn the_model_has_no_rule_in_paper_and_all_in_hardened() {

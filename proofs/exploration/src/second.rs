@@ -84,11 +84,10 @@ impl Model for Twin {
     }
 
     fn next_state(&self, seen: &Seen, by: Move) -> Option<Seen> {
-        let state = self.state(seen);
-        let next = self.system.apply(&state, by)?;
+        let next = self.system.apply(&self.state(seen), by)?;
+        let state = self.system.layout().pack(&next.state);
         let broken = claimed(&self.system, next.found.broken);
-        let changes = next.state != state || !broken.is_empty();
-        changes.then(|| Seen { state: self.system.layout().pack(&next.state), broken })
+        (state != seen.state || !broken.is_empty()).then_some(Seen { state, broken })
     }
 
     fn format_action(&self, by: &Move) -> String {

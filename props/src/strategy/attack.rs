@@ -1,5 +1,5 @@
 //! The attacks of the paper's evaluation and the scenes of its findings
-//! (`spec/3-stages.md#findings`), with sizes and places drawn.
+//! (`findings/README.md`), with sizes and places drawn.
 
 use mufasa_model::input::cycle::{Cycle, DetectionList, Grid, Lead, Profile, TrackList};
 use mufasa_model::services::configuration::Configuration;

@@ -1,5 +1,5 @@
 //! Trajectories that end before `s_stop`, and what stands at the last place of the path
-//! (`spec/7-fail-safe.md#the-path`).
+//! (`spec/hardened/H-14.md#requirements-the-path`).
 
 use mufasa_model::input::cycle::{Cycle, Ego, Profile, Trajectory, TrajectoryPoint};
 use mufasa_model::services::configuration::Configuration;

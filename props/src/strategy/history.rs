@@ -1,5 +1,5 @@
 //! Earlier detections of the CAV: histories that back tracks, nearly back them, or do not
-//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! (`spec/hardened/what-the-cav-saw.md`).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track};
 

@@ -1,5 +1,5 @@
 //! Things that move as the CAV saw them move, at the thresholds of H-14
-//! (`spec/7-fail-safe.md#motions`).
+//! (`spec/hardened/H-14.md#requirements-motions`).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Track, TrackList};
 use mufasa_model::services::configuration::Configuration;

@@ -1,4 +1,4 @@
-//! Steps of a trajectory at the limits of H-11 (`spec/3-stages.md#hardened-profile`): one step at a
+//! Steps of a trajectory at the limits of H-11 (`spec/hardened/H-11.md`): one step at a
 //! time, and turns from a mark to the points behind it.
 
 use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};

@@ -164,15 +164,23 @@ fn headings_and_rules(tree: &Tree) -> Vec<Row> {
     let mut rules: BTreeMap<&str, Row> = BTreeMap::new();
     for Requirement { id, place, text } in asked.iter().filter(|it| is_of_rule(&it.id)) {
         let page = place.split('#').next().unwrap_or_default();
-        let place = if page.starts_with("spec/hardened/") { page } else { place };
-        let words: String =
-            text.split(" | ").next().unwrap_or_default().chars().take(100).collect();
+        let (place, words) = match tree.0.get(page).filter(|_| page.starts_with("spec/hardened/")) {
+            Some(text) => (page, called(text)),
+            None => (place.as_str(), text.split(" | ").next().unwrap_or_default()),
+        };
+        let words: String = words.chars().take(100).collect();
         let row =
             rules.entry(rule(id)).or_insert_with(|| Row::new(rule(id), rule(id), &words, place));
         row.ids.insert(id.clone());
     }
     rows.extend(rules.into_values());
     rows
+}
+
+/// What a rule is called: behind the colon of the heading of its page.
+fn called(text: &str) -> &str {
+    let title = text.lines().next().unwrap_or_default();
+    title.split_once(": ").map_or(title, |(_, words)| words)
 }
 
 /// A rule H-nn or an interpretation I-nn has a row of its own.

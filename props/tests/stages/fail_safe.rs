@@ -1,4 +1,4 @@
-//! H-14 of the implementation against the exact model (`spec/7-fail-safe.md`).
+//! H-14 of the implementation against the exact model (`spec/hardened/H-14.md`).
 
 use mufasa_model::input::cycle::Profile;
 use mufasa_props::differential::{agree, hold, near_threshold, same_witness};

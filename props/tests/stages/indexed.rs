@@ -1,6 +1,6 @@
 //! An index of the route changes no answer (`spec/3-stages.md#stage-ii-trajectory-to-map`), on
 //! routes of many blocks, too; nor do indexes of detections
-//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! (SEEN-06, SEEN-16).
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! How much one lie can hide (H-14, F-38, F-42 of `spec/3-stages.md#findings`): where the CAV saw every object
+//! How much one lie can hide (H-14, F-38, F-42 of `findings/README.md`): where the CAV saw every object
 //! in every list, and each drives straight at constant speed, one false track and any omissions hide no
 //! motion; two false tracks can. Beyond the numbers drawn this is argued in `findings/F-42.md`.
 

@@ -1,4 +1,4 @@
-//! Which explained detections are disputed (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! Which explained detections are disputed (SEEN-17).
 //!
 //! In plain doubles, with `CLOSE` on the side that disputes more. The own origin is found again: what
 //! is as near to the past as the nearest item, but for `CLOSE`, is at the same place, or stage i has

@@ -1,4 +1,4 @@
-//! Which current detections confirmed tracks explain (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! Which current detections confirmed tracks explain (SEEN-13).
 
 use crate::hardened::detection_history::DetectionHistory;
 use crate::input::cycle::TrackList;

@@ -1,4 +1,4 @@
-//! The usable lists, as H-14 looks into them (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! The usable lists, as H-14 looks into them (SEEN-01, SEEN-02).
 
 use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};

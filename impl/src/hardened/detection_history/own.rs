@@ -1,5 +1,5 @@
 //! The items of a list that are one track's own: nearest to where it was at the time of the list,
-//! and of no other track (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! and of no other track (SEEN-07).
 
 use crate::hardened::detection_history::squares::{CLOSE, Links, Listed, MARGIN, Squares};
 use crate::input::cycle::{Detection, Track};

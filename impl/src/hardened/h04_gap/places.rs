@@ -1,5 +1,5 @@
 //! Stage v where the CAV is until it stops, behind the points that the paper names (H-04 of
-//! `spec/3-stages.md#hardened-profile`).
+//! `spec/hardened/H-04.md`).
 
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
 use crate::input::cycle::{Cycle, Ego, Grid, Trajectory, TrajectoryPoint};

@@ -1,4 +1,4 @@
-//! Which cells a current detection covers (H-06 of `spec/3-stages.md#hardened-profile`).
+//! Which cells a current detection covers (H-06 of `spec/hardened/H-06.md`).
 
 use crate::input::cycle::{Detection, Grid};
 use crate::numbers::plane::Vector;

@@ -1,4 +1,4 @@
-//! Who keeps beside the path (`spec/7-fail-safe.md#meeting`).
+//! Who keeps beside the path (`spec/hardened/H-14.md#requirements-not-examined`).
 //!
 //! An object is compared with how far places reach to the sides of the reference path, all of them
 //! together: in plain doubles, of which each distance errs by less than 2e-6 m, `ERROR` being more than

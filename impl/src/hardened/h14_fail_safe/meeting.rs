@@ -1,4 +1,4 @@
-//! Whether an object meets the CAV (`spec/7-fail-safe.md#meeting`).
+//! Whether an object meets the CAV (`spec/hardened/H-14.md#requirements-the-cav`, `#requirements-not-examined`, `#requirements-failure`).
 //!
 //! Most objects are told by the boxes of `cover` to miss it. What is left is decided place by place, with
 //! error bounds; that an object comes across the CAV, follows it or keeps beside it only when it is sure.

@@ -1,5 +1,5 @@
 //! The fail-safe rule: what the CAV can always do, going on for tau at most and then braking along its
-//! path, is examined against everything that moves or stands (H-14, `spec/7-fail-safe.md`).
+//! path, is examined against everything that moves or stands (H-14, `spec/hardened/H-14.md`).
 
 mod beside;
 mod cover;

@@ -1,4 +1,4 @@
-//! One object and how it moves (`spec/7-fail-safe.md#motions`).
+//! One object and how it moves (`spec/hardened/H-14.md#requirements-motions`).
 
 use crate::numbers::plane::Vector;
 use crate::numbers::rounding::Real;

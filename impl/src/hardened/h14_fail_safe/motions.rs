@@ -1,5 +1,5 @@
 //! The motions that are examined: of tracks, and of detections as the CAV saw them move
-//! (`spec/7-fail-safe.md#motions`).
+//! (`spec/hardened/H-14.md#requirements-motions`).
 //!
 //! What is decided here in plain doubles, with `CLOSE` on the side that examines more, is which pairs of
 //! a detection and an earlier item are examined; whether they meet the CAV, `meeting` decides. That an

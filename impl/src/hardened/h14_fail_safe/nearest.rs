@@ -1,5 +1,5 @@
 //! Where the reference path is nearest to a place, and whether it is beside it
-//! (`spec/7-fail-safe.md#meeting`).
+//! (`spec/hardened/H-14.md#requirements-failure`).
 
 use crate::input::cycle::CrossSection;
 use crate::numbers::plane::{Vector, distance_to_segment};

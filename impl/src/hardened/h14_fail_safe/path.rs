@@ -1,4 +1,4 @@
-//! The path of the CAV: nodes, pieces and places (`spec/7-fail-safe.md#the-path`). Nothing is kept: a
+//! The path of the CAV: nodes, pieces and places (`spec/hardened/H-14.md#requirements-the-path`). Nothing is kept: a
 //! piece says where each of its places is.
 //!
 //! The places of a piece are taken with the node from which it leads, not with the one to which, so

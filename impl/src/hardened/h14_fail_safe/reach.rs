@@ -1,4 +1,4 @@
-//! Whether the path is within reach (`spec/7-fail-safe.md#reach`).
+//! Whether the path is within reach (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::path::{Nodes, Path, Place};
 use crate::input::cycle::{Cycle, TrajectoryPoint};

@@ -1,4 +1,4 @@
-//! When the CAV is where (`spec/7-fail-safe.md#when-the-cav-is-where`), in numbers with error bounds or
+//! When the CAV is where (`spec/hardened/H-14.md#requirements-windows`), in numbers with error bounds or
 //! in plain doubles.
 
 use crate::input::cycle::Cycle;

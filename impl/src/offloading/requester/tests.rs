@@ -104,7 +104,7 @@ fn parameters_have_the_defaults_of_the_text_and_none_is_below_0() -> TestResult 
     Ok(())
 }
 
-/// `spec/3-stages.md#hardened-profile`, H-08: a verdict stops local services only when it names the
+/// `spec/hardened/H-08.md`, H-08: a verdict stops local services only when it names the
 /// running session of the group, and only after a result of that session was used. PROTO-09.
 #[test]
 fn a_verdict_of_another_session_stops_nothing() -> TestResult {

@@ -1,5 +1,5 @@
 //! Attacks on the remote services, injected into a drive (paper Sec. V-B, and the findings of
-//! `spec/3-stages.md#findings`). An attack changes what the CAV receives, never what it measures
+//! `findings/README.md`). An attack changes what the CAV receives, never what it measures
 //! itself: detections and their history, route and grid stay as they are (but for
 //! [`catalogue::Attack::BlindDetectors`]), and so do ego and lead unless the CAV is shown driving what it is
 //! sent.

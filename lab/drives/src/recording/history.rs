@@ -1,4 +1,4 @@
-//! Which of the CAV's earlier scans a cycle comes with (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! Which of the CAV's earlier scans a cycle comes with (`spec/hardened/what-the-cav-saw.md`).
 
 /// Ages that the keeper of the history looks for, ns.
 const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];

@@ -1,5 +1,5 @@
 //! The CAV's own detections of the last second, as the monitor keeps them
-//! (`spec/3-stages.md#what-the-cav-saw-itself`).
+//! (`spec/hardened/what-the-cav-saw.md`).
 
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;

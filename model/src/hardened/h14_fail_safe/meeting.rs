@@ -1,5 +1,5 @@
 //! Where an object that neither follows the CAV nor keeps beside its path meets it
-//! (`spec/7-fail-safe.md#meeting`).
+//! (`spec/hardened/H-14.md#requirements-the-cav`, `#requirements-not-examined`, `#requirements-failure`).
 
 use std::cell::LazyCell;
 
@@ -82,7 +82,7 @@ pub fn comes_across(scene: &Scene, motion: &Motion, behind: bool) -> bool {
 
 /// The rectangle of the CAV at p, its front moved in by 0.3 m, its other sides by b = min(0.3 m, s_b(v)),
 /// b = 0 for an object that is behind.
-fn inner(scene: &Scene, behind: bool) -> Rectangle {
+pub fn inner(scene: &Scene, behind: bool) -> Rectangle {
     let (front, two) = (Real::from_double(0.3), Real::from_integer(2));
     let b = if behind { Real::zero() } else { Driving::of(scene).s_b().min(front.clone()) };
     let Rectangle { frame, half_length, half_width } = cav(scene, &p(scene));
@@ -252,7 +252,7 @@ fn is_within_ends(scene: &Scene, path: &[Segment], x: &Vector) -> bool {
 }
 
 /// The object where it is now, moved by w age.
-fn now(motion: &Motion) -> Object {
+pub fn now(motion: &Motion) -> Object {
     let Object { frame: Frame { origin, direction }, .. } = &motion.object;
     let origin = origin + &motion.w.scaled(&motion.age);
     Object { frame: Frame { origin, direction: direction.clone() }, ..motion.object.clone() }

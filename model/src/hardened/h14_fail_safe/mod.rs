@@ -1,4 +1,4 @@
-//! H-14, the fail-safe rule (`spec/7-fail-safe.md`): what the CAV can always do, going on for tau at most and
+//! H-14, the fail-safe rule (`spec/hardened/H-14.md`): what the CAV can always do, going on for tau at most and
 //! then braking along its path, meets nobody. Reach is a rule of stage ii, the rest stands in the place
 //! of stage iv.
 

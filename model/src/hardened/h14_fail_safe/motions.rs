@@ -1,4 +1,4 @@
-//! Which objects are examined, and how they move (`spec/7-fail-safe.md#motions`).
+//! Which objects are examined, and how they move (`spec/hardened/H-14.md#requirements-motions`).
 
 use crate::hardened::detection_history::{
     Seen, Usable, confirmed, is_disputed, is_within, list_of, may_come_from, nearest_to_reference,

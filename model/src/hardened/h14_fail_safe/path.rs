@@ -1,5 +1,5 @@
 //! The path of the CAV: from where it is along the points of the trajectory, then straight on, and the
-//! places where it is examined (`spec/7-fail-safe.md#the-path`).
+//! places where it is examined (`spec/hardened/H-14.md#requirements-the-path`).
 
 use std::iter::once;
 

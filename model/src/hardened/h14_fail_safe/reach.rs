@@ -1,4 +1,4 @@
-//! Reach: no place is farther aside than tyres can carry the CAV (`spec/7-fail-safe.md#reach`).
+//! Reach: no place is farther aside than tyres can carry the CAV (`spec/hardened/H-14.md#requirements-reach`).
 
 use crate::hardened::h14_fail_safe::path::{ahead, first_ahead, least_ahead, places};
 use crate::hardened::h14_fail_safe::times::Driving;

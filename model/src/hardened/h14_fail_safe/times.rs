@@ -1,5 +1,5 @@
 //! When the CAV is where, going on for tau at most and then braking to a stop
-//! (`spec/7-fail-safe.md#when-the-cav-is-where`).
+//! (`spec/hardened/H-14.md#requirements-windows`).
 
 use crate::input::scene::Scene;
 use crate::numbers::reading::Comparisons;

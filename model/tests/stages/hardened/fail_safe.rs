@@ -1,4 +1,4 @@
-//! H-14, `spec/7-fail-safe.md`: each requirement on both sides of its bounds, in the three readings.
+//! H-14, `spec/hardened/H-14.md`: each requirement on both sides of its bounds, in the three readings.
 
 mod following;
 mod goes_along;

@@ -1,4 +1,4 @@
-//! `spec/3-stages.md#what-the-cav-saw-itself`: each term at its bound and on both sides of it, and what
+//! `spec/hardened/what-the-cav-saw.md`: each term at its bound and on both sides of it, and what
 //! is too close to call.
 
 use mufasa_model::cycle::check;
@@ -58,7 +58,7 @@ fn driving(lists: &[i64]) -> Cycle {
     cycle(vec![track], vec![detection(20.0, 0.0), detection(60.0, 0.0)], &lists)
 }
 
-/// `spec/3-stages.md#what-the-cav-saw-itself.1`: both ends of the ages are usable.
+/// SEEN-01: both ends of the ages are usable.
 #[test]
 fn lists_of_200_ms_to_1_s_are_usable() {
     let ages = |cycle: &Cycle| -> Vec<i128> {
@@ -95,6 +95,7 @@ fn a_list_older_than_60_s_is_missing() {
     assert_eq!(usable(&scene(&cycle)).len(), 0);
 }
 
+/// SEEN-02.
 #[test]
 fn the_reference_list_is_nearest_to_500_ms_and_the_younger_of_two() {
     let reference = |ages: &[i64]| {
@@ -111,6 +112,7 @@ fn the_reference_list_is_nearest_to_500_ms_and_the_younger_of_two() {
 }
 
 /// place = p + v (t_D - t_T), of either sign.
+/// SEEN-04.
 #[test]
 fn the_place_is_where_the_track_is_when_the_cav_detects() {
     let place = |track_ns: i64| {
@@ -126,6 +128,7 @@ fn the_place_is_where_the_track_is_when_the_cav_detects() {
 }
 
 /// Backed: own origins in two usable lists, each at distance <= 1 + 2 dt.
+/// SEEN-05, SEEN-06, SEEN-08.
 #[test]
 fn a_track_is_backed_by_its_own_origins_in_two_lists() {
     let is_backed = |cycle: &Cycle| all_seen(cycle)[0].is_backed;
@@ -153,6 +156,7 @@ fn a_track_is_backed_by_its_own_origins_in_two_lists() {
 }
 
 /// An origin that another received track has, too, is nobody's own: also of one far outside the gate.
+/// SEEN-07.
 #[test]
 fn an_origin_of_two_tracks_is_no_ones_own() {
     let mut cycle = driving(&[250, 500, 750]);
@@ -168,6 +172,7 @@ fn an_origin_of_two_tracks_is_no_ones_own() {
 }
 
 /// The first of several at the same distance is the origin, and two items at one position are one.
+/// SEEN-06.
 #[test]
 fn the_first_of_the_nearest_items_is_the_origin() {
     let with = |items: [(f64, f64); 2]| {
@@ -187,6 +192,7 @@ fn the_first_of_the_nearest_items_is_the_origin() {
 }
 
 /// `v_object` is included.
+/// SEEN-08.
 #[test]
 fn a_backed_track_is_at_most_as_fast_as_v_object() {
     let with = |v_object: f64| {
@@ -201,6 +207,7 @@ fn a_backed_track_is_at_most_as_fast_as_v_object() {
 }
 
 /// The detection of a track is nearer than theta_track_max, and a confirmed one has it for itself.
+/// SEEN-09, SEEN-10.
 #[test]
 fn a_confirmed_track_has_a_detection_of_its_own() {
     let with = |y: f64| {
@@ -223,6 +230,7 @@ fn a_confirmed_track_has_a_detection_of_its_own() {
 }
 
 /// abs(v x direction) <= 2 + 8 / 10 for what is longer than 1 m; directions as given.
+/// SEEN-11.
 #[test]
 fn a_confirmed_track_moves_along_its_detection() {
     let with = |sideways: f64, length: f64| {
@@ -263,6 +271,7 @@ fn the_bound_of_sideways_motion_is_included() {
 }
 
 /// Confirmed are tracks of a current list, in PlanRemote the CAV's own.
+/// SEEN-03, SEEN-13.
 #[test]
 fn only_current_tracks_confirm() {
     let count = |cycle: &Cycle| confirmed(&scene(cycle)).len();

@@ -24,6 +24,7 @@ const FAR: [f64; 2] = [90.0, 0.0];
 const A: [f64; 2] = [20.0, 5.0];
 const B: [f64; 2] = [40.0, 5.0];
 
+/// H-01.3.
 #[test]
 fn a_backed_track_without_a_detection_may_be_left_out() {
     let one = |backed: &[[f64; 2]], budget: i64| {
@@ -37,6 +38,7 @@ fn a_backed_track_without_a_detection_may_be_left_out() {
     assert_eq!(one(&[], 4), Some(Rule::NoAssignment));
 }
 
+/// H-01.2.
 #[test]
 fn at_most_miss_budget_tracks_are_left_out() {
     let with = |budget: i64| {
@@ -63,6 +65,7 @@ fn nothing_that_remains_passes() {
 }
 
 /// The mean is that of what remains: a track left out makes it neither better nor worse.
+/// H-01.4.
 #[test]
 fn the_mean_is_that_of_what_remains() {
     // A is 0.3 m off, B exact; C is gone, and backed.
@@ -107,7 +110,7 @@ fn margins_move_what_remains() {
     ]);
 }
 
-/// `spec/3-stages.md#what-the-cav-saw-itself.2`: gate and assignment are at the places: the lists need not be of one time.
+/// H-01.1: gate and assignment are at the places: the lists need not be of one time.
 #[test]
 fn tracks_are_compared_at_their_places() {
     let mut cycle = cycle(&[], &[[60.0, 0.0], FAR], &[]);

@@ -33,6 +33,7 @@ fn margins_move_each_bound_of_the_start() {
 }
 
 /// The cross product alone would take the opposite for the same.
+/// H-07.3.
 #[test]
 fn the_opposite_heading_is_another_one() {
     let mut cycle = base(Profile::HARDENED, PlanRemote);

@@ -1,4 +1,4 @@
-//! H-04: the gap that a stop needs behind a leading vehicle (`spec/3-stages.md#hardened-profile`).
+//! H-04: the gap that a stop needs behind a leading vehicle (`spec/hardened/H-04.md`).
 
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::h04_gap::s_react;

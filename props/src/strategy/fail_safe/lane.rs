@@ -1,5 +1,5 @@
 //! Objects that keep beside the path along the route, or just do not
-//! (`spec/7-fail-safe.md#meeting`).
+//! (`spec/hardened/H-14.md#requirements-not-examined`).
 
 use mufasa_model::input::cycle::{Cycle, Route, Trajectory, TrajectoryPoint};
 

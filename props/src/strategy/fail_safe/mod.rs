@@ -1,4 +1,4 @@
-//! Objects at the thresholds of the fail-safe rule (`spec/7-fail-safe.md#meeting`): who touches the CAV at a
+//! Objects at the thresholds of the fail-safe rule (`spec/hardened/H-14.md#requirements-failure`): who touches the CAV at a
 //! place, just before or after its window, comes across it, is behind it, or keeps beside its path.
 
 mod lane;

@@ -1,5 +1,5 @@
 //! The path of the CAV in plain doubles, and when it is where
-//! (`spec/7-fail-safe.md#the-path`): where generators aim, not what decides.
+//! (`spec/hardened/H-14.md#requirements-the-path`): where generators aim, not what decides.
 
 use mufasa_model::input::cycle::Cycle;
 

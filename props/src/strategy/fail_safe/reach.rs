@@ -1,5 +1,5 @@
 //! Paths at the bound of what tyres can do, and points that are nodes of the path, or just are not
-//! (`spec/7-fail-safe.md#reach`).
+//! (`spec/hardened/H-14.md#requirements-reach`).
 
 use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
 

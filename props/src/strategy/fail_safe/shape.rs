@@ -1,4 +1,4 @@
-//! Paths of every shape (`spec/7-fail-safe.md#the-path`).
+//! Paths of every shape (`spec/hardened/H-14.md#requirements-the-path`).
 
 use mufasa_model::input::cycle::{Cycle, Trajectory, TrajectoryPoint};
 

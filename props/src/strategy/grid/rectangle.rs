@@ -1,5 +1,5 @@
 //! Occupied cells that the CAV's rectangle touches, or just does not, while a disk reaches them, and
-//! that a detection covers, or just does not (H-06 of `spec/3-stages.md#hardened-profile`).
+//! that a detection covers, or just does not (H-06 of `spec/hardened/H-06.md`).
 
 use mufasa_model::input::cycle::{Cycle, Detection, DetectionList, Grid, TrackList};
 use mufasa_model::services::configuration::Configuration::{AllRemote, MotRemote, PlanRemote};

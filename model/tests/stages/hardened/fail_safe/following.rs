@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#meeting`: who comes across, who follows and who keeps beside, each condition on both
+//! `spec/hardened/H-14.md#requirements-not-examined`: who comes across, who follows and who keeps beside, each condition on both
 //! sides.
 
 use mufasa_model::hardened::h14_fail_safe::meeting::{
@@ -62,6 +62,7 @@ fn behind(vx: f64, vy: f64) -> Track {
 }
 
 /// Each condition alone decides; from 28.5 m on every direction goes along.
+/// H-14.35.
 #[test]
 fn who_follows_is_behind_and_comes_along() {
     let far = |vx: f64, vy: f64| cycle(Track { x: -40.0, ..behind(vx, vy) });
@@ -76,6 +77,7 @@ fn who_follows_is_behind_and_comes_along() {
 }
 
 /// All of its rectangle where it is now, as it looks; the rear is that of the rectangle of the CAV.
+/// H-14.29.
 #[test]
 fn behind_is_behind_the_rear() {
     let with = |x: f64, change: &dyn Fn(&mut Cycle)| {
@@ -98,6 +100,7 @@ fn behind_is_behind_the_rear() {
 
 /// What is b inside of the CAV's sides and rear and 0.3 m inside of its front is met by who goes on; not by who
 /// stands, nor by who came.
+/// H-14.30, H-14.31, H-14.33.
 #[test]
 fn who_comes_across_meets_the_inner_rectangle() {
     let at = |x: f64, y: f64, vx: f64| across(&cycle(Track { vx, ..track(1, x, y) }));
@@ -126,6 +129,7 @@ pub(super) fn beside(x: f64, y: f64, vx: f64, vy: f64) -> Cycle {
 
 /// The distance of its centre to the reference path differs from that of each place by more than half of both
 /// widths, which are 2 m here.
+/// H-14.36, H-14.42.
 #[test]
 fn who_keeps_beside_is_beside_the_path() {
     for (x, vx) in [(-10.0, 8.0), (20.0, 8.0), (20.0, -8.0), (0.0, 8.0)] {
@@ -161,6 +165,7 @@ fn who_keeps_beside_is_beside_the_path() {
 }
 
 /// Farther away it is on another road.
+/// H-14.37.
 #[test]
 fn who_keeps_beside_is_near_the_route() {
     for side in [1.0, -1.0] {
@@ -170,6 +175,7 @@ fn who_keeps_beside_is_near_the_route() {
 
 /// It is 34.4 m long and backs along a leg that ends 18 m behind the CAV, so far to the left of it that it ends at the
 /// CAV's rear, to the left; its side is 9.4 m from the leg.
+/// H-14.38.
 #[test]
 fn who_lies_across_the_way_does_not_keep_beside() {
     let with = |longer: f64, x: f64| {
@@ -188,6 +194,7 @@ fn who_lies_across_the_way_does_not_keep_beside() {
 
 /// It drifts until it would have stopped for a CAV that brakes, tau + t_yield + abs(w) / (2 a_yield); not where it
 /// is behind and drifts by at most a tenth.
+/// H-14.43.
 #[test]
 fn who_keeps_beside_does_not_drift_into_the_path() {
     let t_h = |w: f64| 0.5 + 2.0 + w / 6.0;
@@ -204,6 +211,7 @@ fn who_keeps_beside_does_not_drift_into_the_path() {
 }
 
 /// Each place counts: the CAV drives to the lane where the other one is, or begins beside its trajectory.
+/// H-14.42.
 #[test]
 fn every_place_is_beside_its_lane() {
     let with = |aside: f64| {
@@ -224,6 +232,7 @@ fn every_place_is_beside_its_lane() {
 }
 
 /// abs(h x h_k) <= 0.05 + way / 30 m; a turned CAV is wider.
+/// H-14.41.
 #[test]
 fn the_path_bends_and_does_not_turn_off() {
     let with = |sin: f64, y: f64| {
@@ -241,6 +250,7 @@ fn the_path_bends_and_does_not_turn_off() {
 }
 
 /// Several nearest points or segments are all asked; strictly those that are nearly as near, too.
+/// H-14.44.
 #[test]
 fn every_nearest_point_and_segment_is_asked() {
     let on_route = |cycle: &mut Cycle, corner: [f64; 2], end: [f64; 2]| {
@@ -265,6 +275,7 @@ fn every_nearest_point_and_segment_is_asked() {
 }
 
 /// Neither it nor a place lies beyond an end of an open route; a closing segment of length 0 is none.
+/// H-14.39.
 #[test]
 fn nobody_keeps_beside_beyond_the_ends_of_an_open_route() {
     let with = |from: f64, to: f64, closed: bool| {
@@ -288,7 +299,7 @@ fn nobody_keeps_beside_beyond_the_ends_of_an_open_route() {
     assert_eq!(keeps_beside(&round), [true; 3]);
 }
 
-/// spec/7-fail-safe.md#meeting.1: who follows or keeps beside is not examined, whoever else comes is.
+/// H-14.28: who follows or keeps beside is not examined, whoever else comes is.
 #[test]
 fn who_follows_keeps_its_own_distance() {
     let fast = |y: f64| Track { vx: 30.0, ..track(1, -12.0, y) };

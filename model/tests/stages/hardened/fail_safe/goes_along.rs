@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#meeting`: who goes along, abs(w x h) <= abs(w) (0.05 + abs(c - p)/30 m), and that both who
+//! `spec/hardened/H-14.md#requirements-not-examined`: who goes along, abs(w x h) <= abs(w) (0.05 + abs(c - p)/30 m), and that both who
 //! follows and who keeps beside do.
 
 use mufasa_model::hardened::h14_fail_safe::meeting::goes_along;
@@ -28,6 +28,7 @@ fn at([x, y]: [f64; 2], [vx, vy]: [f64; 2]) -> Cycle {
 const FAR: f64 = 16.5;
 
 /// abs(w) = 10 m/s: 3 m are 1 m/s. Both ways, to both sides, ahead and behind and aside.
+/// H-14.34.
 #[test]
 fn who_goes_along_goes_the_way_or_the_opposite_way() {
     for w in [[8.0, 6.0], [8.0, -6.0], [-8.0, 6.0], [-8.0, -6.0]] {
@@ -168,7 +169,7 @@ fn margins_move_who_goes_along() {
     margins_move_meetings(NEAR);
 }
 
-/// spec/7-fail-safe.md#meeting.1: who merges or crosses is examined.
+/// H-14.28, H-14.34: who merges or crosses is examined.
 #[test]
 fn who_does_not_go_along_is_examined() {
     let merges = |w: [f64; 2]| found(&at([-10.0, -8.2], w)).is_some();

@@ -1,6 +1,7 @@
-//! `spec/7-fail-safe.md#meeting`: where and when an object meets the CAV.
+//! `spec/hardened/H-14.md#requirements-failure`: where and when an object meets the CAV.
 
 use mufasa_model::input::cycle::{Cycle, Profile, Track};
+use mufasa_model::report::{Rule, Stage};
 use mufasa_model::services::configuration::Configuration::MotRemote;
 
 use super::{alone, crossing, found, margins_move_meetings};
@@ -99,6 +100,7 @@ fn margins_move_where_and_when_they_meet() {
 }
 
 /// Touching is a collision.
+/// H-14.45.
 #[test]
 fn touching_is_meeting() {
     let standing = |x: f64| {
@@ -117,6 +119,7 @@ fn touching_is_meeting() {
 
 /// Who passes behind where the CAV may stand is not met however late it comes; before it may stand a window
 /// ends.
+/// H-14.12, H-14.13, H-14.25.
 #[test]
 fn a_place_that_is_left_for_good_is_examined_until_then() {
     let at = |x: f64, y: f64| {
@@ -133,6 +136,7 @@ fn a_place_that_is_left_for_good_is_examined_until_then() {
 }
 
 /// The rectangle of who comes across: none for a CAV that is narrower than 0.6 m, so it comes later, too.
+/// H-14.32.
 #[test]
 fn nobody_comes_across_a_narrow_cav() {
     let with = |width: f64, y: f64| {
@@ -160,7 +164,7 @@ fn what_stands_is_met_where_the_cav_comes_to() {
     assert_eq!(with(14.7), Some([10.75, 10.75]));
 }
 
-/// spec/7-fail-safe.md#meeting.2: along a bend the CAV is where the path leads.
+/// H-14.45: along a bend the CAV is where the path leads.
 #[test]
 fn the_path_is_that_of_the_trajectory() {
     let with = |aside: f64| {
@@ -175,7 +179,8 @@ fn the_path_is_that_of_the_trajectory() {
     assert!(!with(0.0) && with(0.05));
 }
 
-/// spec/7-fail-safe.md#meeting.3: the first place, and there the first motion.
+/// H-14.48, H-14.49: the first place, and there the first motion.
+/// H-14.9, H-14.50.
 #[test]
 fn the_witness_is_the_first_place_then_the_first_motion() {
     let with = |items: &[Track]| {
@@ -194,6 +199,7 @@ fn the_witness_is_the_first_place_then_the_first_motion() {
 }
 
 /// A trajectory that begins beside the CAV: the half width is greater by how far it does, across its heading.
+/// H-14.26.
 #[test]
 fn a_trajectory_that_begins_beside_widens_the_rectangle() {
     let with = |ego: f64, x: f64, y: f64| {
@@ -220,6 +226,7 @@ fn a_trajectory_that_begins_beside_widens_the_rectangle() {
 }
 
 /// The rectangle of the CAV is that of LLCC, `center_offset` ahead.
+/// H-14.26.
 #[test]
 fn the_rectangle_is_shifted_forward() {
     let with = |center_offset: f64, x: f64| {
@@ -229,4 +236,21 @@ fn the_rectangle_is_shifted_forward() {
         found(&cycle).is_some()
     };
     assert!(with(1.5, 16.25) && !with(1.5, 16.26) && !with(0.0, 16.25));
+}
+
+/// H-14.27: beside a trajectory the CAV is no wider in the grid. With a = 0.5 m it would reach y = 1.
+#[test]
+fn a_trajectory_that_begins_beside_widens_nothing_in_the_grid() {
+    let with = |cell: f64, width: f64| {
+        let mut cycle = base(HARDENED, MotRemote);
+        cycle.ego.width = width;
+        cycle.trajectory = Some(straight(1, 0.0));
+        cycle.trajectory.as_mut().expect("given").points[0].y = 0.5;
+        (cycle.tracks, cycle.detections) = (None, None);
+        mark(&mut cycle.grid.as_mut().expect("there is a grid").occupied, 9.5, cell);
+        rule(&cycle, Stage::V)
+    };
+    assert_eq!(with(1.5, 1.0), None);
+    assert_eq!(with(1.5, 2.0), Some(Rule::Occupied));
+    assert_eq!(with(0.5, 1.0), Some(Rule::Occupied));
 }

@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#motions`
+//! `spec/hardened/H-14.md#requirements-motions`
 
 use mufasa_model::cycle::check;
 use mufasa_model::hardened::h14_fail_safe::motions::{Motion, Named, all_motions};
@@ -59,7 +59,7 @@ fn standing(detection: usize) -> Named {
 const A: [f64; 4] = [30.0, 0.0, 8.0, 0.0];
 const B: [f64; 4] = [50.0, 0.0, 4.0, 0.0];
 
-/// spec/7-fail-safe.md#motions.1: tracks, then confirmed tracks' detections, then where a detection may stand
+/// H-14.22: tracks, then confirmed tracks' detections, then where a detection may stand
 /// or, unexplained or disputed, may come from, then what is unexplained as standing.
 #[test]
 fn motions_are_in_their_order() {
@@ -96,6 +96,7 @@ fn motions_are_in_their_order() {
 
 /// What a confirmed track explains is disputed where somebody else may have its past; it is examined as
 /// moving, not as standing.
+/// H-14.20, SEEN-17.
 #[test]
 fn a_disputed_detection_is_examined_as_it_moved() {
     // A car passes the place where the tracked one stands; it was there half a second ago.
@@ -137,6 +138,7 @@ fn exchanged() -> Cycle {
 
 /// d may stand: who stands is examined as standing, whatever its confirmed track claims; who passed has the
 /// false motion alone.
+/// H-14.20, SEEN-14.
 #[test]
 fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
     let expected = [
@@ -160,6 +162,7 @@ fn who_stands_with_an_exchanged_past_is_examined_as_standing() {
 }
 
 /// At distance <= theta_track_max from d, each item of the reference list, not of another.
+/// H-14.19, H-14.20.
 #[test]
 fn a_detection_may_stand_where_an_item_was() {
     let explained = |at: [f64; 2], list: usize, reading: Reading| {
@@ -207,6 +210,7 @@ fn an_unexplained_detection_may_stand_without_support() {
 }
 
 /// The list of a confirmed track, each item near its past, with 1 m + 2 m/s * 0.5 s included.
+/// H-14.18, SEEN-12.
 #[test]
 fn items_near_the_past_of_a_confirmed_track_are_examined() {
     let with = |x: f64, reading: Reading| {
@@ -235,6 +239,7 @@ fn items_near_the_past_of_a_confirmed_track_are_examined() {
 }
 
 /// May come from: at most v_object dt, and supported by another list, both included; one list needs none.
+/// SEEN-15, SEEN-16.
 #[test]
 fn a_detection_may_come_from_items_that_support_it() {
     let with = |change: &dyn Fn(&mut Cycle), reading: Reading| {
@@ -260,7 +265,7 @@ fn a_detection_may_come_from_items_that_support_it() {
     assert!(!with(&|c| c.detection_history[0].items.clear(), Reading::Exact));
 }
 
-/// spec/7-fail-safe.md#motions.2, spec/7-fail-safe.md#when-the-cav-is-where.2: times count from now, ages from
+/// H-14.24, H-14.14: times count from now, ages from
 /// the stamps; r_b up to standstill.
 #[test]
 fn an_object_is_between_braking_and_going_on() {
@@ -284,6 +289,7 @@ fn an_object_is_between_braking_and_going_on() {
 }
 
 /// In PlanRemote the CAV's own tracks explain: a car that drives ahead is not taken to stand, too.
+/// SEEN-03.
 #[test]
 fn own_tracks_explain_in_plan_remote() {
     for configuration in [PlanRemote, AllRemote] {
@@ -299,6 +305,7 @@ fn own_tracks_explain_in_plan_remote() {
 }
 
 /// F-30, F-31: a car crosses before the CAV at 7.5 m/s; it is left out, or said to stand.
+/// H-14.19, H-14.21.
 #[test]
 fn a_crossing_car_that_the_remote_side_hides_is_seen() {
     let car = [10.0, -10.0, 0.0, 7.5];

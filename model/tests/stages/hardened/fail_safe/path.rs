@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#the-path`
+//! `spec/hardened/H-14.md#requirements-the-path`
 
 use mufasa_model::hardened::h14_fail_safe::path::{Place, count, places};
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory, TrajectoryPoint};
@@ -52,7 +52,7 @@ fn xs(cycle: &Cycle) -> Vec<f64> {
     exact(cycle).into_iter().map(|(x, ..)| x).collect()
 }
 
-/// spec/7-fail-safe.md#the-path.1: the least number of equal parts of at most a quarter of a metre along x
+/// H-14.3, H-14.5: the least number of equal parts of at most a quarter of a metre along x
 /// and along y; straight on in quarters of a metre behind the last node.
 #[test]
 fn places_are_at_most_a_quarter_of_a_metre_apart() {
@@ -81,6 +81,7 @@ fn places_are_at_most_a_quarter_of_a_metre_apart() {
 }
 
 /// A node has its own heading, the places before it that of the piece; behind the last one it goes on.
+/// H-14.4, H-14.5.
 #[test]
 fn headings_are_those_of_the_pieces() {
     let turned = cycle(4.0, &[[0.5, 0.5, 0.0, 1.0]]);
@@ -106,6 +107,7 @@ fn headings_are_those_of_the_pieces() {
 }
 
 /// The way is the sum of the advances along the heading of each node: aside and back are no way.
+/// H-14.2.
 #[test]
 fn the_way_counts_along_the_headings() {
     let aside = exact(&cycle(4.0, &[along_x(0.5, 0.0), along_x(0.5, 0.5), along_x(0.25, 0.5)]));
@@ -117,6 +119,7 @@ fn the_way_counts_along_the_headings() {
 }
 
 /// A node is more than 1/8 m ahead, and so is every point after it; ahead is along the heading of the CAV.
+/// H-14.1.
 #[test]
 fn nodes_begin_with_the_first_point_ahead() {
     let first = |x: f64| exact(&cycle(4.0, &[along_x(x, 0.5)]))[1];
@@ -128,7 +131,7 @@ fn nodes_begin_with_the_first_point_ahead() {
     assert_eq!(exact(&turned)[1], (0.0, 0.25, 0.25, false), "the point is beside it");
 }
 
-/// spec/7-fail-safe.md#the-path.2: the list ends where the way is s_stop, between two places.
+/// H-14.7, H-14.8: the list ends where the way is s_stop, between two places.
 #[test]
 fn the_last_place_is_at_s_stop() {
     let ends = all(&cycle(4.0, &[along_x(0.875, 0.0)]), Reading::Exact);
@@ -178,6 +181,7 @@ fn the_readings_end_before_and_behind_s_stop() {
 }
 
 /// How many places there are is the number of places, without going through them.
+/// H-14.6.
 #[test]
 fn places_are_counted_as_they_are() {
     let mut draw = Draw::new(14);

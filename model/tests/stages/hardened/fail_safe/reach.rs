@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#reach`
+//! `spec/hardened/H-14.md#requirements-reach`
 
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, Trajectory};

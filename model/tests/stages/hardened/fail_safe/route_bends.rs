@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#meeting`: who keeps beside does so where the route bends, abs(h x g_i) <=
+//! `spec/hardened/H-14.md#requirements-not-examined`: who keeps beside does so where the route bends, abs(h x g_i) <=
 //! abs(g_i) (0.05 + (distance of p from g_i)/R), R = 30 m for who comes towards the CAV, else 300 m.
 
 use mufasa_model::input::cycle::{CrossSection, Cycle, Profile, Track};
@@ -31,6 +31,7 @@ fn corner(object: f64, x: f64, length: f64, sin: f64) -> Cycle {
 }
 
 /// 15 m ahead the bound is 0.1 for who goes the same way, 0.55 else, times the length of the leg; to both sides.
+/// H-14.40.
 #[test]
 fn the_route_bends_and_does_not_turn_off() {
     let both_sides = |object: f64, sin: f64, r: f64| {
@@ -208,7 +209,7 @@ const NEAR: &[Near] =
         on_route(c, [[-100.0, 0.0], [75.0, 0.0], end, [200.0, end[1]]]);
     })];
 
-/// spec/7-fail-safe.md#meeting.1: who passes a CAV that is about to change lanes is examined.
+/// H-14.40: who passes a CAV that is about to change lanes is examined.
 #[test]
 fn margins_move_where_the_route_bends() {
     margins_move_meetings(NEAR);

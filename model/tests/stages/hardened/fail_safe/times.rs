@@ -1,4 +1,4 @@
-//! `spec/7-fail-safe.md#when-the-cav-is-where`
+//! `spec/hardened/H-14.md#requirements-windows`
 
 use mufasa_model::hardened::h04_gap::s_react;
 use mufasa_model::hardened::h14_fail_safe::times::{Driving, window};
@@ -17,6 +17,7 @@ fn with<T>(judge: impl FnOnce(&Driving) -> T) -> T {
 }
 
 /// The formulas against values worked out by hand.
+/// H-14.10.
 #[test]
 fn times_and_distances_are_the_formulas() {
     with(|driving| {
@@ -41,7 +42,7 @@ fn a_cav_that_stands_may_stand_at_once() {
     assert_eq!(driving.first(&Real::zero()), Real::zero());
 }
 
-/// spec/7-fail-safe.md#when-the-cav-is-where.1: from first(way before) to last(way after); without an end
+/// H-14.11, H-14.12, H-14.13: from first(way before) to last(way after); without an end
 /// from s_b(v) on, as the reading moves it, and at the last place.
 #[test]
 fn windows_reach_from_the_place_before_to_the_place_after() {

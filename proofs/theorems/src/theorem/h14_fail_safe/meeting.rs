@@ -1,4 +1,4 @@
-//! H-14: how far along w an object is (`spec/7-fail-safe.md#motions`). What it sweeps over: `theorem::rectangle`.
+//! H-14: how far along w an object is (`spec/hardened/H-14.md#requirements-motions`). What it sweeps over: `theorem::rectangle`.
 
 use super::times::braked;
 use crate::claim::{Theorem, Wrong};

@@ -1,4 +1,4 @@
-//! H-14, the fail-safe rule (`spec/7-fail-safe.md`), a file for each of the model's.
+//! H-14, the fail-safe rule (`spec/hardened/H-14.md`), a file for each of the model's.
 
 pub mod meeting;
 pub mod motions;

@@ -1,4 +1,4 @@
-//! H-14: the places of the CAV on its path (`spec/7-fail-safe.md#the-path`).
+//! H-14: the places of the CAV on its path (`spec/hardened/H-14.md#requirements-the-path`).
 
 use crate::claim::{Theorem, Wrong};
 use crate::hardened::h14_fail_safe::path::{Place, places};

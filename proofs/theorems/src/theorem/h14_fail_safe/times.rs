@@ -1,5 +1,5 @@
 //! H-14: whatever the CAV does until it brakes, it is at a place of its path between `first` and `last`
-//! (`spec/7-fail-safe.md#when-the-cav-is-where`). The way of a CAV is made of pieces of any acceleration that
+//! (`spec/hardened/H-14.md#requirements-windows`). The way of a CAV is made of pieces of any acceleration that
 //! it can have; what holds of all of them is kept by each, an induction that is not part of the theorems.
 
 use crate::claim::{Theorem, Wrong};
