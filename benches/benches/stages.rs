@@ -1,86 +1,194 @@
-//! Time per stage and per whole cycle, beside the peers on the same input, and per period of the
-//! requester (criterion). The table
-//! of ratios comes from the program `race`, which interleaves.
+//! `cargo bench -p mufasa-benches -- [--json FILE]`: checks that implementation and peers come to the same
+//! verdicts, then times them in one process and prints the tables of ratios as Markdown; `--from FILE` prints those
+//! of an earlier run. `cargo test` checks the same verdicts, and times each once.
 
-use criterion::{BenchmarkId, Criterion};
+use std::error::Error;
+use std::hint::black_box;
+use std::time::Instant;
+
+use mufasa::input::cycle::Cycle;
 use mufasa::input::profile::Profile;
+use mufasa::input::route_index::{Block, RouteIndex};
 use mufasa::offloading::requester::StationRecord;
 use mufasa::report::Stage;
 use mufasa::services::configuration::Configuration;
 use mufasa_benches::contestant::Contestant;
-use mufasa_benches::peer;
+use mufasa_benches::peer::{self, corridor::Trees};
 use mufasa_benches::periods::Periods;
+use mufasa_benches::race::{Entry, Rounds, measure};
+use mufasa_benches::table::{Cache, OURS, Results, TEAMS, Team, UNSEEN, hardened, markdown};
+use mufasa_benches::workload::recipe::Size;
 use mufasa_benches::workload::{SIZES, Variant, Workload};
 
-const PROFILES: [(&str, Profile); 2] = [("paper", Profile::PAPER), ("hardened", Profile::HARDENED)];
-
-fn stages(criterion: &mut Criterion) {
-    for stage in Stage::ALL {
-        let mut group = criterion.benchmark_group(format!("stage {stage:?}"));
-        for size in &SIZES {
-            let workload = Workload::new(size, Variant::Pass);
-            for (name, profile) in PROFILES {
-                let cycle = workload.cycle(profile, Configuration::AllRemote);
-                let mut it = Contestant::new(&cycle);
-                let id = BenchmarkId::new(format!("mufasa, {name}"), &workload.name);
-                group.bench_function(id, |bencher| {
-                    bencher.iter(|| it.stage(stage));
-                });
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut json_file = None;
+    let mut rounds = Rounds { warm: 1, cold: 1 };
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--json" => json_file = Some(arguments.next().ok_or("--json needs a file")?),
+            "--from" => {
+                let file = arguments.next().ok_or("--from needs a file")?;
+                let results: Vec<Results> = serde_json::from_str(&std::fs::read_to_string(file)?)?;
+                print!("{}", markdown(&results));
+                return Ok(());
             }
-            let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
-            for mut peer in peer::all(&cycle) {
-                if peer.stage == stage && !peer.slow {
-                    let id = BenchmarkId::new(peer.name, &workload.name);
-                    group.bench_function(id, |bencher| bencher.iter(|| (peer.decide)()));
-                }
-            }
+            "--bench" => rounds = Rounds { warm: 31, cold: 21 },
+            // Words for the harness of the tests beside it.
+            _ => {}
         }
-        group.finish();
     }
+    let mut results = Vec::new();
+    for size in &SIZES {
+        let start = Instant::now();
+        results.push(run(size, rounds));
+        eprintln!("W{}: {:.1} s", size.number, start.elapsed().as_secs_f64());
+    }
+    print!("{}", markdown(&results));
+    if let Some(file) = json_file {
+        std::fs::write(file, serde_json::to_string_pretty(&results)? + "\n")?;
+    }
+    Ok(())
 }
 
-fn cycles(criterion: &mut Criterion) {
-    let configurations =
-        [Configuration::MotRemote, Configuration::AllRemote, Configuration::PlanRemote];
-    for configuration in configurations {
-        let mut group = criterion.benchmark_group(format!("whole cycle {configuration:?}"));
-        for size in &SIZES {
-            let workload = Workload::new(size, Variant::Pass);
-            for (name, profile) in PROFILES {
-                let cycle = workload.cycle(profile, configuration);
-                let mut it = Contestant::new(&cycle);
-                assert_eq!(it.check().failed_stage, None, "{}", workload.name);
-                let id = BenchmarkId::new(name, &workload.name);
-                group.bench_function(id, |bencher| {
-                    bencher.iter(|| it.check());
-                });
-            }
-        }
-        group.finish();
+const VARIANTS: [(&str, Variant, Stage); 7] = [
+    ("ghost", Variant::Ghost, Stage::I),
+    ("drift", Variant::Drift, Stage::I),
+    ("fail i", Variant::Fail(Stage::I), Stage::I),
+    ("fail ii", Variant::Fail(Stage::Ii), Stage::Ii),
+    ("fail iii", Variant::Fail(Stage::Iii), Stage::Iii),
+    ("fail iv", Variant::Fail(Stage::Iv), Stage::Iv),
+    ("fail v", Variant::Fail(Stage::V), Stage::V),
+];
+
+/// Everything about one workload.
+fn run(size: &Size, rounds: Rounds) -> Results {
+    let workload = Workload::new(size, Variant::Pass);
+    let paper = workload.cycle(Profile::PAPER, Configuration::AllRemote);
+    let strict = workload.cycle(Profile::HARDENED, Configuration::AllRemote);
+    let mut contestants = Vec::new();
+    for stage in Stage::ALL {
+        contestants.push(ours(&of_stage(stage), OURS.to_owned(), &paper, stage));
+        contestants.push(ours(&of_stage(stage), hardened(), &strict, stage));
     }
+    contestants
+        .extend(peer::all(&paper).into_iter().map(|peer| by_peer(&of_stage(peer.stage), peer)));
+    for (name, cycle) in [(OURS.to_owned(), &paper), (hardened(), &strict)] {
+        let mut it = Contestant::new(cycle);
+        let run = move || it.validate();
+        contestants.push(contestant("validation", name, Box::new(run)));
+    }
+    let plain_loop = || peer::validation::plain_loop(black_box(&paper));
+    contestants.push(contestant("validation", "plain loop".to_owned(), Box::new(plain_loop)));
+    let blocks = vec![Block::default(); Block::needed(paper.route.cross_sections.len())].leak();
+    let build = || RouteIndex::new(black_box(paper.route), &mut *blocks).is_ok();
+    contestants.push(contestant("index", OURS.to_owned(), Box::new(build)));
+    let build = || Trees::new(black_box(&paper)).is_built();
+    contestants.push(contestant("index", "geo and rstar".to_owned(), Box::new(build)));
+    for configuration in Configuration::ALL {
+        let task = format!("whole cycle {configuration:?}");
+        for (name, profile) in [(OURS.to_owned(), Profile::PAPER), (hardened(), Profile::HARDENED)]
+        {
+            let cycle = Box::leak(Box::new(workload.cycle(profile, configuration)));
+            let mut it = Contestant::new(cycle);
+            let run = move || it.check().failed_stage.is_none();
+            contestants.push(contestant(&task, name, Box::new(run)));
+        }
+    }
+    // Stage iv cannot run, so that unknown cells count.
+    let base = workload.cycle(Profile::HARDENED, Configuration::MotRemote);
+    let cycle = Box::leak(Box::new(Cycle { detections: None, ..base }));
+    let mut it = Contestant::new(cycle);
+    let run = move || it.check().failed_stage.is_none();
+    contestants.push(contestant(UNSEEN, hardened(), Box::new(run)));
+    for (name, profile) in [(OURS.to_owned(), Profile::PAPER), (hardened(), Profile::HARDENED)] {
+        contestants.extend(requester(&name, profile));
+    }
+    agree(&mut contestants, true);
+    let times = measure(&mut contestants, rounds);
+    let mut results = Results { workload: workload.name.clone(), times };
+    let mut contestants = whole_cycles(&results, [&paper, &strict]);
+    agree(&mut contestants, true);
+    results.times.extend(measure(&mut contestants, rounds));
+    for (task, variant, stage) in VARIANTS {
+        let workload = Workload::new(size, variant);
+        let cycle = workload.cycle(Profile::PAPER, Configuration::AllRemote);
+        let strict = workload.cycle(Profile::HARDENED, Configuration::AllRemote);
+        let mut contestants = vec![
+            ours(task, OURS.to_owned(), &cycle, stage),
+            ours(task, hardened(), &strict, stage),
+        ];
+        let peers = peer::all(&cycle).into_iter();
+        let peers = peers.filter(|peer| peer.stage == stage);
+        contestants.extend(peers.map(|peer| by_peer(task, peer)));
+        agree(&mut contestants, false);
+        let rounds = Rounds { warm: (rounds.warm / 3) | 1, cold: (rounds.cold / 3) | 1 };
+        results.times.extend(measure(&mut contestants, rounds));
+    }
+    results
+}
+
+/// All stages in one call, so that caches are emptied once before each of the contestants: the
+/// implementation in both profiles, and the peers that were fastest, warm and cold.
+fn whole_cycles<'a>(results: &Results, [paper, strict]: [&'a Cycle<'a>; 2]) -> Vec<Entry<'a>> {
+    let mut contestants = Vec::new();
+    for cache in [Cache::Warm, Cache::Cold] {
+        for (name, cycle) in [(OURS.to_owned(), paper), (hardened(), strict)] {
+            let mut it = Contestant::new(cycle);
+            let run = move || it.all_stages();
+            contestants.push(contestant(&cache.task(), name, Box::new(run)));
+        }
+        for Team { name, by_hand, validates } in TEAMS {
+            let run = peer::team(paper, results.fastest(cache, by_hand), validates);
+            contestants.push(contestant(&cache.task(), name.to_owned(), Box::new(run)));
+        }
+    }
+    contestants
+}
+
+/// The task of a stage alone.
+fn of_stage(stage: Stage) -> String {
+    format!("stage {stage:?}").to_lowercase()
 }
 
 /// A period of the requester with both groups remote: a tick, an element of each group, a safe verdict;
 /// and a fallback, from the tick that asks to the verdict that ends both sessions.
-fn requester(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("requester step");
-    for (name, profile) in PROFILES {
-        let mut table = [StationRecord::FREE; 4];
-        let mut it = Periods::new(profile, &mut table);
-        group.bench_function(format!("a period without an issue, {name}"), |bencher| {
-            bencher.iter(|| it.period());
-        });
-        group.bench_function(format!("a fallback and back, {name}"), |bencher| {
-            bencher.iter(|| it.fallback());
-        });
-    }
-    group.finish();
+fn requester<'a>(name: &str, profile: Profile) -> [Entry<'a>; 2] {
+    let table = || vec![StationRecord::FREE; 4].leak();
+    let (mut period, mut fallback) =
+        (Periods::new(profile, table()), Periods::new(profile, table()));
+    let period = move || {
+        period.period();
+        true
+    };
+    let fallback = move || {
+        fallback.fallback();
+        true
+    };
+    [
+        contestant("requester step", name.to_owned(), Box::new(period)),
+        contestant("requester fallback", name.to_owned(), Box::new(fallback)),
+    ]
 }
 
-fn main() {
-    let mut criterion = Criterion::default().configure_from_args();
-    stages(&mut criterion);
-    cycles(&mut criterion);
-    requester(&mut criterion);
-    criterion.final_summary();
+/// Wrong answers are not timed.
+fn agree(contestants: &mut [Entry<'_>], expected: bool) {
+    for it in contestants {
+        assert_eq!((it.run)(), expected, "{} {}", it.task, it.name);
+    }
+}
+
+fn contestant<'a>(task: &str, name: String, run: Box<dyn FnMut() -> bool + 'a>) -> Entry<'a> {
+    Entry { task: task.to_owned(), name, run }
+}
+
+/// A stage of the implementation alone, after validation.
+fn ours<'a>(task: &str, name: String, cycle: &'a Cycle<'a>, stage: Stage) -> Entry<'a> {
+    let mut it = Contestant::new(cycle);
+    let run = move || it.stage(stage);
+    contestant(task, name, Box::new(run))
+}
+
+fn by_peer<'a>(task: &str, peer: peer::Peer<'a>) -> Entry<'a> {
+    contestant(task, peer.name.to_owned(), peer.decide)
 }

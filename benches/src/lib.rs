@@ -2,8 +2,11 @@
 
 pub mod contestant;
 pub mod monitored;
+#[cfg(feature = "peers")]
 pub mod peer;
 pub mod periods;
+#[cfg(feature = "peers")]
 pub mod race;
+#[cfg(feature = "peers")]
 pub mod table;
 pub mod workload;

@@ -10,8 +10,6 @@ pub struct Entry<'a> {
     pub task: String,
     /// Who it is.
     pub name: String,
-    /// Takes milliseconds: timed in few rounds, and never cold.
-    pub slow: bool,
     /// The work; its answer is used, so that it cannot be left out.
     pub run: Box<dyn FnMut() -> bool + 'a>,
 }
@@ -47,27 +45,23 @@ const EVICTION_BYTES: usize = 96 << 20;
 pub fn measure(contestants: &mut [Entry<'_>], rounds: Rounds) -> Vec<Time> {
     let calls: Vec<u32> = contestants.iter_mut().map(|it| calls_in_slice(&mut it.run)).collect();
     let mut warm = vec![Vec::new(); contestants.len()];
-    for round in 0..rounds.warm {
+    for _ in 0..rounds.warm {
         for ((contestant, samples), &calls) in contestants.iter_mut().zip(&mut warm).zip(&calls) {
-            if !contestant.slow || round < 3 {
-                let start = Instant::now();
-                for _ in 0..calls {
-                    black_box((contestant.run)());
-                }
-                samples.push(start.elapsed().as_secs_f64() * 1e6 / f64::from(calls));
+            let start = Instant::now();
+            for _ in 0..calls {
+                black_box((contestant.run)());
             }
+            samples.push(start.elapsed().as_secs_f64() * 1e6 / f64::from(calls));
         }
     }
     let mut cold = vec![Vec::new(); contestants.len()];
     let mut cache = vec![0_u8; EVICTION_BYTES];
     for _ in 0..rounds.cold {
         for (contestant, samples) in contestants.iter_mut().zip(&mut cold) {
-            if !contestant.slow {
-                evict(&mut cache);
-                let start = Instant::now();
-                black_box((contestant.run)());
-                samples.push(start.elapsed().as_secs_f64() * 1e6);
-            }
+            evict(&mut cache);
+            let start = Instant::now();
+            black_box((contestant.run)());
+            samples.push(start.elapsed().as_secs_f64() * 1e6);
         }
     }
     let times = contestants.iter().zip(warm).zip(cold);
@@ -120,7 +114,6 @@ mod tests {
         let contestant = |name: &str, turns| Entry {
             task: String::new(),
             name: name.to_owned(),
-            slow: false,
             run: Box::new(work(turns)) as Box<dyn FnMut() -> bool>,
         };
         let sleep = Entry {

@@ -1,29 +1,24 @@
-//! Stage i: minimal assignment by `lapjv` (square matrices only: the rest is padded with zeros),
-//! `lsap` and `pathfinding` (integers: micrometres), and nearest neighbours by `rstar`, which
-//! decide alone when they are distinct.
+//! Stage i: minimal assignment by `lapjv` (square matrices only: the rest is padded with zeros) and
+//! `lsap`, and nearest neighbours by `rstar`, which decide alone when they are distinct.
 
 use mufasa::input::cycle::{Cycle, Detection, Track};
 use mufasa::report::Stage;
-use pathfinding::kuhn_munkres::kuhn_munkres_min;
-use pathfinding::matrix::Matrix;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use super::Peer;
 
-/// The four ways.
+/// The three ways.
 pub fn peers<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
-    let peer = |name, slow, decide: fn(&Cycle<'_>) -> bool| Peer {
+    let peer = |name, decide: fn(&Cycle<'_>) -> bool| Peer {
         name,
         stage: Stage::I,
-        slow,
         decide: Box::new(move || decide(std::hint::black_box(cycle))),
     };
     vec![
-        peer("lapjv", false, by_lapjv),
-        peer("lsap", false, by_lsap),
-        peer("pathfinding", true, by_pathfinding),
-        peer("rstar, lsap when needed", false, by_neighbours),
+        peer("lapjv", by_lapjv),
+        peer("lsap", by_lsap),
+        peer("rstar, lsap when needed", by_neighbours),
     ]
 }
 
@@ -71,19 +66,6 @@ fn assigned(cycle: &Cycle<'_>, tracks: &[&Track], detections: &[Detection]) -> b
         .is_ok_and(|sum| passes(cycle, sum, pairs))
 }
 
-fn by_pathfinding(cycle: &Cycle<'_>) -> bool {
-    let (tracks, detections) = lists(cycle);
-    let (rows, columns) = (tracks.len(), detections.len());
-    if rows > columns {
-        return assigned(cycle, &tracks, detections);
-    }
-    let micrometres = |metres: f64| whole(metres * 1e6);
-    let cost = |row: usize, column: usize| micrometres(apart(tracks[row], &detections[column]));
-    let costs = Matrix::from_fn(rows, columns, |(row, column)| cost(row, column));
-    let (sum, _) = kuhn_munkres_min(&costs);
-    rows == 0 || sum < whole(count(rows) * 1e6 * cycle.parameters.theta_tr)
-}
-
 /// Distinct nearest neighbours are a minimal assignment; whatever they are, no assignment of all
 /// tracks is cheaper.
 fn by_neighbours(cycle: &Cycle<'_>) -> bool {
@@ -112,9 +94,4 @@ fn square(value: f64) -> f64 {
 #[expect(clippy::cast_precision_loss, reason = "lists are short")]
 fn count(items: usize) -> f64 {
     items as f64
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "micrometres within a few kilometres")]
-fn whole(value: f64) -> i64 {
-    value as i64
 }

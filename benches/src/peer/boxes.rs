@@ -13,7 +13,6 @@ pub fn peers<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
     let peer = |stage, decide: fn(&Cycle<'_>) -> bool| Peer {
         name: "parry2d after centres",
         stage,
-        slow: false,
         decide: Box::new(move || decide(std::hint::black_box(cycle))),
     };
     vec![peer(Stage::Iii, tracks), peer(Stage::Iv, detections)]

@@ -48,19 +48,14 @@ impl Trees {
     }
 }
 
-/// The path first, as the text has it, and the corridor first, which decides most points.
-pub fn peers<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
-    let peer = |name, passes: fn(&Trees, [f64; 2], f64) -> bool| {
-        let trees = Trees::new(cycle);
-        let decide = move || {
-            let points = cycle.trajectory.map_or(&[][..], |trajectory| trajectory.points);
-            let theta_map = std::hint::black_box(cycle).parameters.theta_map;
-            points.iter().all(|point| passes(&trees, [point.x, point.y], theta_map))
-        };
-        Peer { name, stage: Stage::Ii, slow: false, decide: Box::new(decide) }
+/// The corridor first, which decides most points.
+pub fn peer<'a>(cycle: &'a Cycle<'a>) -> Peer<'a> {
+    let trees = Trees::new(cycle);
+    let decide = move || {
+        let points = cycle.trajectory.map_or(&[][..], |trajectory| trajectory.points);
+        let theta_map = std::hint::black_box(cycle).parameters.theta_map;
+        let passes = |point: [f64; 2]| trees.inside(point) || trees.near(point, theta_map);
+        points.iter().all(|point| passes([point.x, point.y]))
     };
-    vec![
-        peer("rstar, then geo", |it, p, theta_map| it.near(p, theta_map) || it.inside(p)),
-        peer("geo, then rstar", |it, p, theta_map| it.inside(p) || it.near(p, theta_map)),
-    ]
+    Peer { name: "geo, then rstar", stage: Stage::Ii, decide: Box::new(decide) }
 }

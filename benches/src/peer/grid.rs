@@ -1,10 +1,9 @@
-//! Stage v: dilation by `imageproc`, of the whole grid and of the region around the disks, by the
-//! squared distance transform (which is exact for every radius) and by a mask; and, without any
-//! library, a loop over the cells around each disk centre. Grids that are not turned.
+//! Stage v: dilation by `imageproc` of the region around the disks, by the squared distance transform (which is
+//! exact for every radius); and, without any library, a loop over the cells around each disk centre. Grids that are
+//! not turned.
 
 use image::{GrayImage, Luma};
 use imageproc::distance_transform::euclidean_squared_distance_transform;
-use imageproc::morphology::{Mask, grayscale_dilate};
 use mufasa::input::cycle::Cycle;
 use mufasa::report::Stage;
 
@@ -16,33 +15,23 @@ pub struct Prepared {
     /// Squared radius in cells.
     radius_squared: f64,
     reach: u32,
-    mask: Mask,
     offsets: Vec<(i64, i64)>,
 }
 
-/// All five ways.
+/// Both ways.
 pub fn peers<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
-    let peer = |name, slow, decide: fn(&Cycle<'_>, &Prepared) -> bool| {
+    let peer = |name, decide: fn(&Cycle<'_>, &Prepared) -> bool| {
         let prepared = Prepared::new(cycle);
         let decide = move || decide(std::hint::black_box(cycle), &prepared);
-        Peer { name, stage: Stage::V, slow, decide: Box::new(decide) }
+        Peer { name, stage: Stage::V, decide: Box::new(decide) }
     };
     vec![
-        peer("imageproc, whole grid", true, |cycle, it| {
-            let distances = euclidean_squared_distance_transform(&it.image);
-            free(cycle, (0, 0), |x, y| distances.get_pixel(x, y)[0] > it.radius_squared)
-        }),
-        peer("imageproc, region, distances", false, |cycle, it| {
+        peer("imageproc, region, distances", |cycle, it| {
             let (corner, region) = it.region(cycle);
             let distances = euclidean_squared_distance_transform(&region);
             free(cycle, corner, |x, y| distances.get_pixel(x, y)[0] > it.radius_squared)
         }),
-        peer("imageproc, region, mask", false, |cycle, it| {
-            let (corner, region) = it.region(cycle);
-            let dilated = grayscale_dilate(&region, &it.mask);
-            free(cycle, corner, |x, y| dilated.get_pixel(x, y)[0] == 0)
-        }),
-        peer("loop around the disk centres", false, |cycle, it| {
+        peer("loop around the disk centres", |cycle, it| {
             let samples = it.image.as_raw();
             let (width, height) = (i64::from(it.image.width()), i64::from(it.image.height()));
             free(cycle, (0, 0), |x, y| {
@@ -73,19 +62,7 @@ impl Prepared {
         let near = |&(dx, dy): &(i64, i64)| small(dx * dx + dy * dy) <= radius * radius;
         let square = (-whole..=whole).flat_map(|dy| (-whole..=whole).map(move |dx| (dx, dy)));
         let offsets: Vec<_> = square.filter(near).collect();
-        let side = 2 * pixels(whole) + 1;
-        let disk = GrayImage::from_fn(side, side, |x, y| {
-            let offset = (i64::from(x) - whole, i64::from(y) - whole);
-            Luma([if near(&offset) { 255 } else { 0 }])
-        });
-        let centre = u8::try_from(whole).expect("a small radius");
-        Self {
-            image,
-            radius_squared: radius * radius,
-            reach: pixels(whole) + 1,
-            mask: Mask::from_image(&disk, centre, centre),
-            offsets,
-        }
+        Self { image, radius_squared: radius * radius, reach: pixels(whole) + 1, offsets }
     }
 
     /// The part of the image within reach of some disk centre, and its corner.

@@ -18,8 +18,6 @@ pub struct Peer<'a> {
     pub name: &'static str,
     /// The stage that it decides.
     pub stage: Stage,
-    /// Slower than a millisecond by far on large workloads: fewer runs are enough.
-    pub slow: bool,
     /// Decides the cycle that the peer was made for.
     pub decide: Box<dyn FnMut() -> bool + 'a>,
 }
@@ -27,7 +25,7 @@ pub struct Peer<'a> {
 /// Every peer, prepared for a cycle.
 pub fn all<'a>(cycle: &'a Cycle<'a>) -> Vec<Peer<'a>> {
     let mut peers = assignment::peers(cycle);
-    peers.extend(corridor::peers(cycle));
+    peers.push(corridor::peer(cycle));
     peers.extend(boxes::peers(cycle));
     peers.extend(grid::peers(cycle));
     peers

@@ -1,6 +1,8 @@
 //! The workloads W1 (urban), W2 (dense) and W3 (stress) as cycles. The base case passes every
 //! stage, which costs most.
 
+#[cfg(test)]
+mod checksum;
 mod draws;
 mod geometry;
 pub mod recipe;
@@ -231,40 +233,6 @@ impl Workload {
                 self.occupied[bit / 8] |= 1 << (bit % 8);
             }
         }
-    }
-
-    /// The same with another grid: 41 m around the CAV in so many columns and rows, of which one
-    /// cell of twelve is occupied wherever that is more than 3 m from the trajectory.
-    ///
-    /// # Panics
-    /// When the number does not fit.
-    #[must_use]
-    pub fn with_grid(mut self, cells: usize) -> Self {
-        let side = f64::from(u32::try_from(cells).expect("a few thousand"));
-        (self.cells, self.resolution) =
-            (i64::try_from(cells).expect("a few thousand"), 41.0 / side);
-        let origin = [self.ego.x - 20.5, self.ego.y - 20.5];
-        let clearance = 3.0 + 0.75 * self.resolution + 0.5 * LENGTH;
-        let mut coordinate = 0.5 * self.resolution;
-        let mut coordinates = Vec::new();
-        for _ in 0..cells {
-            coordinates.push(coordinate);
-            coordinate += self.resolution;
-        }
-        let near =
-            |x: f64, y: f64| self.points.iter().any(|p| (p.x - x).hypot(p.y - y) < clearance);
-        // Most cells are free, so that few are compared with all points.
-        let drawn = |at: usize| at.wrapping_mul(0x9E37_79B9) >> 7 & 0xfff < 0x155;
-        self.numbers.occupied = (0..cells * cells)
-            .map(|at| {
-                let (x, y) = (coordinates[at % cells], coordinates[at / cells]);
-                drawn(at) && !near(origin[0] + x, origin[1] + y)
-            })
-            .collect();
-        self.occupied = bitmap(&self.numbers.occupied);
-        self.unknown = bitmap(&behind(&self.numbers.occupied, cells));
-        self.numbers.origin = origin;
-        self
     }
 
     /// The detections but for those left out; never freed, as a part of a cycle: a bench ends soon.

@@ -1,5 +1,5 @@
 //! The recipe of the workloads: every draw and every operation in the order of the published
-//! generator, so that all numbers are the same to the bit (`tests/checksum.rs`).
+//! generator, so that all numbers are the same to the bit (`checksum.rs`).
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,9 +1,8 @@
-//! The workloads are the published ones, to the bit. `checksums.txt` is the output of
-//! `scripts/workload-checksums DIR` over the files that the published `workloads.py` (numpy 2.4,
-//! Python 3.11, glibc) wrote to DIR; sines and logarithms are the C library's on both sides.
+//! The workloads are the published ones, to the bit. `checksums.txt` was made, number by number in the order
+//! of `checksum`, of the files that the published `workloads.py` (numpy 2.4, Python 3.11, glibc) wrote; sines and logarithms are the C library's on both sides.
 
-use mufasa_benches::workload::SIZES;
-use mufasa_benches::workload::recipe::{Numbers, Object, Size};
+use super::SIZES;
+use super::recipe::{Numbers, Object, Size};
 
 struct Fnv(u64);
 
@@ -48,7 +47,7 @@ fn checksum(size: &Size) -> u64 {
 fn the_workloads_are_the_published_ones() {
     let lines: Vec<String> =
         SIZES.iter().map(|size| format!("W{} {:016x}", size.number, checksum(size))).collect();
-    let published = include_str!("../checksums.txt");
+    let published = include_str!("../../checksums.txt");
     assert_eq!(lines, published.lines().collect::<Vec<_>>());
 }
 
