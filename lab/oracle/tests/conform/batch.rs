@@ -1,7 +1,6 @@
 //! The commands of `docs/conformance.md#large-campaigns` run as they stand there, with fewer cases.
 //! GNU parallel is used where it is installed and `xargs` in its place elsewhere; what Slurm and
 //! Kubernetes do, to run a script with a number in its environment, is done by this test.
-#![cfg(unix)]
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;

@@ -4,22 +4,41 @@ use std::time::Instant;
 
 use mufasa_conform::{Breach, Kind};
 
-use crate::{EACH, MUFASA, SAFE, conform, folder, script, summary, text};
+use crate::{EACH, MUFASA, SAFE, cases, folder, right, wrong};
 
-/// A script of which nothing but this breach is expected, in every class.
-fn broken(test: &str, options: &[&str], text: &str, breach: Breach) {
-    let Some((summary, told)) = script(test, options, text) else { return };
-    assert!(!summary.classes.is_empty());
-    for found in &summary.classes {
-        assert_eq!(found.class.breach, breach, "{told}");
+/// Of each script nothing but its breach is found, in every class.
+#[test]
+fn who_gives_no_answer_or_another_is_found() {
+    let out_of_order = format!(
+        r#"{EACH} printf '{{"id": "%s", "verdict": "safe", "failed_stage": null}}\n' "${{last-c-x}}"
+        last=$id; done"#
+    );
+    let patient = "--cases 8 --time-limit 20000";
+    for (name, options, script, breach) in [
+        // A line of a million cells does not fit into a pipe that nobody reads.
+        ("unread", "--cases 3 --time-limit 40", "exec sleep 100 <&-", Breach::Hangs),
+        ("nonsense", "--cases 20", &format!("{EACH} echo perhaps; done"), Breach::Nonsense),
+        ("order", "--cases 20", &out_of_order, Breach::OutOfOrder),
+        ("flood-lines", patient, "exec yes", Breach::Floods),
+        ("flood-line", patient, "exec cat /dev/zero", Breach::Floods),
+        ("flood-twice", patient, &format!("{EACH} echo '{{}}'; echo '{{}}'; done"), Breach::Floods),
+        ("flood-last", "--cases 3", &format!("'{MUFASA}' oracle; echo done"), Breach::Floods),
+    ] {
+        let (summary, told) = wrong(name, &format!("--kinds cycle {options}"), script);
+        assert!(summary.classes.iter().all(|found| found.class.breach == breach), "{name}: {told}");
     }
+    let begun = Instant::now();
+    let options = "--kinds cycle --cases 100000 --time-limit 40";
+    let (summary, told) = wrong("hangs", options, "exec sleep 100");
+    assert!(summary.classes.iter().all(|found| found.class.breach == Breach::Hangs), "{told}");
+    assert!(begun.elapsed().as_secs() < 30, "took {:?}", begun.elapsed());
 }
 
 #[test]
 fn who_dies_is_started_again_until_it_is_given_up() {
-    let program = "read -r line; echo 'out of luck' >&2; exit 7";
-    let options = ["--cases", "100", "--kinds", "cycle,offloading,composition"];
-    let Some((summary, told)) = script("dies", &options, program) else { return };
+    let script = "read -r line; echo 'out of luck' >&2; exit 7";
+    let options = "--cases 100 --kinds cycle,offloading,composition";
+    let (summary, told) = wrong("dies", options, script);
     assert_eq!(summary.classes.len(), 3, "{told}");
     for found in &summary.classes {
         assert_eq!((found.class.breach, found.count), (Breach::Dies, 5), "{told}");
@@ -30,11 +49,13 @@ fn who_dies_is_started_again_until_it_is_given_up() {
     assert_eq!(summary.asked + summary.skipped, 100);
 }
 
+/// It dies at a tenth of the records, seldom often in a row: the others are asked, and the record is made small.
 #[test]
-fn who_dies_at_one_record_is_shrunk_and_the_run_goes_on() {
-    let program = format!(r#"{EACH} case $line in *'"gap"'*) exit 1;; esac; {SAFE}; done"#);
-    let options = ["--kinds", "cycle", "--cases", "60", "--profile", "paper", "--seed", "3"];
-    let Some((summary, told)) = script("dies-at-lead", &options, &program) else { return };
+fn who_dies_now_and_then_is_asked_to_the_end() {
+    let script = format!(r#"{EACH} case $line in *'"gap"'*) exit 1;; esac; {SAFE}; done"#);
+    let options = "--kinds cycle --cases 60 --profile paper --seed 3";
+    let (summary, told) = wrong("dies-seldom", options, &script);
+    assert_eq!((summary.asked, summary.skipped), (60, 0), "{told}");
     let dies = summary.classes.iter().find(|found| found.class.breach == Breach::Dies);
     let dies = dies.unwrap_or_else(|| panic!("{told}"));
     assert!(dies.shrunk && dies.size == 1, "{told}");
@@ -46,22 +67,13 @@ fn who_dies_at_one_record_is_shrunk_and_the_run_goes_on() {
     assert!(stations.len() >= 2 && record["ego"]["length"].as_f64() > Some(0.0), "{told}");
 }
 
-/// It dies at a tenth of the records, seldom often in a row: the others are asked.
-#[test]
-fn who_dies_now_and_then_is_asked_to_the_end() {
-    let program = format!(r#"{EACH} case $line in *'"gap"'*) exit 1;; esac; {SAFE}; done"#);
-    let options = ["--kinds", "cycle", "--cases", "60", "--profile", "paper", "--seed", "3"];
-    let Some((summary, told)) = script("dies-seldom", &options, &program) else { return };
-    assert_eq!((summary.asked, summary.skipped), (60, 0), "{told}");
-}
-
 /// The answer to the first record counts; what is done after it is not blamed on the second.
 #[test]
 fn who_dies_after_an_answer_is_said_to() {
     // Right, so that nothing is asked in between.
-    let program = format!(r#"{EACH} printf '%s\n' "$line" | '{MUFASA}' oracle; exit 3; done"#);
-    let options = ["--kinds", "cycle", "--cases", "2", "--time-limit", "20000"];
-    let Some((summary, told)) = script("dies-after", &options, &program) else { return };
+    let script = format!(r#"{EACH} printf '%s\n' "$line" | '{MUFASA}' oracle; exit 3; done"#);
+    let (summary, told) =
+        wrong("dies-after", "--kinds cycle --cases 2 --time-limit 20000", &script);
     assert_eq!((summary.asked, summary.skipped), (2, 0), "{told}");
     // On a busy machine the second line may be sent between its answer and its end.
     assert_eq!(summary.classes.len(), 1, "{told}");
@@ -74,78 +86,22 @@ fn who_dies_or_hangs_at_the_end_of_the_input_is_found() {
     for (name, end, breach) in
         [("killed", "kill -9 $$", Breach::Dies), ("stays", "exec sleep 100", Breach::Hangs)]
     {
-        let program = format!("{EACH} {SAFE}; done; {end}");
-        let options = ["--kinds", "cycle", "--cases", "4", "--time-limit", "2000"];
-        let Some((summary, told)) = script(name, &options, &program) else { return };
+        let script = format!("{EACH} {SAFE}; done; {end}");
+        let (summary, told) = wrong(name, "--kinds cycle --cases 4 --time-limit 2000", &script);
         assert!(summary.classes.iter().any(|found| found.class.breach == breach), "{told}");
         assert_eq!(summary.asked, 4, "{told}");
     }
 }
 
 #[test]
-fn who_hangs_is_ended_soon() {
-    let options = ["--kinds", "cycle", "--cases", "100000", "--time-limit", "40"];
-    let begun = Instant::now();
-    broken("hangs", &options, "exec sleep 100", Breach::Hangs);
-    assert!(begun.elapsed().as_secs() < 30, "took {:?}", begun.elapsed());
-}
-
-#[test]
-fn who_does_not_read_hangs_too_and_long_lines_block_nobody() {
-    // A line of a million cells does not fit into a pipe.
-    let options = ["--kinds", "cycle", "--cases", "3", "--time-limit", "40"];
-    broken("hangs-unread", &options, "exec sleep 100 <&-", Breach::Hangs);
-}
-
-#[test]
-fn nonsense_is_found() {
-    let program = format!("{EACH} echo perhaps; done");
-    broken("nonsense", &["--kinds", "cycle", "--cases", "20"], &program, Breach::Nonsense);
-}
-
-#[test]
-fn answers_out_of_order_are_found() {
-    let program = format!(
-        r#"{EACH} printf '{{"id": "%s", "verdict": "safe", "failed_stage": null}}\n' "${{last-c-x}}"
-        last=$id; done"#
-    );
-    broken("order", &["--kinds", "cycle", "--cases", "20"], &program, Breach::OutOfOrder);
-}
-
-#[test]
-fn floods_are_found() {
-    let options = ["--kinds", "cycle", "--cases", "8", "--time-limit", "20000"];
-    broken("flood-lines", &options, "exec yes", Breach::Floods);
-    broken("flood-line", &options, "exec cat /dev/zero", Breach::Floods);
-    let program = format!("{EACH} echo '{{}}'; echo '{{}}'; done");
-    broken("flood-twice", &options, &program, Breach::Floods);
-}
-
-#[test]
-fn a_line_too_many_behind_the_last_answer_is_found() {
-    let program = format!(r#""{MUFASA}" oracle; echo done"#);
-    let options = ["--kinds", "cycle", "--cases", "3"];
-    broken("flood-last", &options, &program, Breach::Floods);
-}
-
-#[test]
 fn who_stood_still_once_is_asked_again_and_not_called_hanging() {
-    let folder = folder("late");
-    let once = folder.join("once");
-    let program = format!(
-        r#"mkdir "{}" 2>/dev/null && exec sleep 100; exec "{MUFASA}" oracle"#,
-        once.display()
-    );
-    let options = ["--kinds", "cycle", "--cases", "30", "--time-limit", "500"];
-    let output = conform(&folder, &options, &["sh", "-c", &program]);
-    if output.status.code() == Some(2) {
-        eprintln!("NOT RUN: late: there is no `sh` here");
-        return;
-    }
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output));
-    let late = summary(&folder).late;
+    let once = folder("late-once").join("once");
+    let script = format!("mkdir '{}' 2>/dev/null && exec sleep 100; {}", once.display(), right());
+    let run = cases("late", "--kinds cycle --cases 30 --time-limit 500", &script);
+    assert_eq!(run.code, Some(0), "{}", run.told);
+    let late = run.summary().late;
     // On a busy machine there may be more.
-    assert!(late >= 1, "{}", text(&output));
+    assert!(late >= 1, "{}", run.told);
     let words = format!("{late} answered only when asked again, not within 500 ms");
-    assert!(text(&output).contains(&words), "{}", text(&output));
+    assert!(run.told.contains(&words), "{}", run.told);
 }

@@ -2,20 +2,19 @@
 
 use mufasa_conform::Kind;
 
-use crate::{MUFASA, conform, folder, summary, text, with_vectors};
+use crate::{MUFASA, cases, changed, right, with_vectors};
 
 /// TOOL-02, TOOL-03, TOOL-05.
 #[test]
-fn the_model_conforms_in_both_profiles() {
+fn model_and_implementation_conform_in_both_profiles() {
     for profile in ["paper", "hardened"] {
-        let folder = folder(&format!("model-{profile}"));
-        let options = ["--profile", profile, "--cases", "1500", "--seed", "7"];
-        let output = with_vectors(&folder, &options, &[MUFASA, "oracle"]);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
-        let summary = summary(&folder);
+        let options = format!("--profile {profile} --cases 1500 --seed 7");
+        let run = with_vectors(&format!("model-{profile}"), &options, &right());
+        assert_eq!(run.code, Some(0), "{}", run.told);
+        let summary = run.summary();
         assert_eq!((summary.asked, summary.disagreements(), summary.restarts), (1500, 0, 0));
         assert_eq!(summary.vectors, summary.campaign.vectors);
-        assert!(summary.vectors > 500, "{}", text(&output));
+        assert!(summary.vectors > 500, "{}", run.told);
         // A campaign of nothing would conform, too.
         for verdict in ["safe", "error", "input", "i", "ii", "iii", "iv", "v"] {
             let reached = summary.groups.iter().any(|group| group.expected == verdict);
@@ -24,33 +23,20 @@ fn the_model_conforms_in_both_profiles() {
         for kind in Kind::ALL {
             assert!(summary.groups.iter().any(|group| group.kind == kind));
         }
-    }
-}
-
-#[test]
-fn the_implementation_conforms_in_both_profiles() {
-    for profile in ["paper", "hardened"] {
-        let folder = folder(&format!("implementation-{profile}"));
         // The command of docs/conformance.md; it composes nothing.
-        let options = ["--profile", profile, "--cases", "1500", "--kinds", "cycle,offloading,line"];
-        let command = [MUFASA, "oracle", "--implementation"];
-        let output = with_vectors(&folder, &options, &command);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output));
+        let options = format!("--profile {profile} --cases 1500 --kinds cycle,offloading,line");
+        let script = format!("exec '{MUFASA}' oracle --implementation");
+        let run = with_vectors(&format!("implementation-{profile}"), &options, &script);
+        assert_eq!(run.code, Some(0), "{}", run.told);
     }
 }
 
 /// The answers to lines that are no records need no place; nobody has to answer every kind.
 #[test]
 fn three_keys_are_enough() {
-    let program = format!(r#""{MUFASA}" oracle | sed -u 's/,"\(error\|stages\)":{{.*}}/}}/'"#);
-    let folder = folder("three-keys");
-    let options = ["--kinds", "cycle,line", "--cases", "500"];
-    let output = conform(&folder, &options, &["sh", "-c", &program]);
-    if output.status.code() == Some(2) {
-        eprintln!("NOT RUN: three keys: there is no `sh` here");
-        return;
-    }
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output));
-    let lines = summary(&folder).groups.into_iter().find(|group| group.kind == Kind::Line);
+    let script = changed(r#"s/,"\(error\|stages\)":{.*}/}/"#);
+    let run = cases("three-keys", "--kinds cycle,line --cases 500", &script);
+    assert_eq!(run.code, Some(0), "{}", run.told);
+    let lines = run.summary().groups.into_iter().find(|group| group.kind == Kind::Line);
     assert!(lines.is_some_and(|group| group.cases > 20));
 }

@@ -1,10 +1,9 @@
 //! Programs whose answer depends on what they were asked before.
 
-use std::fs;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use crate::{EACH, MUFASA, SAFE, path, script};
+use crate::{EACH, MUFASA, SAFE, cases};
 
 /// Right until it was asked about a leading vehicle, then it says safe.
 fn after_a_lead() -> String {
@@ -17,9 +16,10 @@ fn after_a_lead() -> String {
 #[test]
 fn what_does_not_occur_alone_is_said_with_the_lines_that_show_it() {
     let program = after_a_lead();
-    let options = ["--kinds", "cycle", "--cases", "60", "--profile", "paper"];
-    let options = [&options[..], &["--time-limit", "20000"]].concat();
-    let Some((summary, told)) = script("stateful", &options, &program) else { return };
+    let options = "--kinds cycle --cases 60 --profile paper --time-limit 20000";
+    let run = cases("stateful", options, &program);
+    let (summary, told) = (run.summary(), &run.told);
+    assert_eq!(run.code, Some(1), "{told}");
     assert!(told.contains("does not occur alone; case c-"), "{told}");
     for found in &summary.classes {
         assert!(!found.shrunk, "{told}");
@@ -28,8 +28,7 @@ fn what_does_not_occur_alone_is_said_with_the_lines_that_show_it() {
         }
         assert_eq!(found.before.len(), 1, "{told}");
         assert!(found.before[0].contains("\"gap\""), "{told}");
-        let path = path("stateful").join(format!("sequence.{}.jsonl", found.id));
-        let sequence = fs::read_to_string(path).expect("the sequence");
+        let sequence = run.file(&format!("sequence.{}.jsonl", found.id));
         assert_eq!(sequence.lines().count(), 2);
         let mut child = Command::new("sh")
             .args(["-c", &program])
