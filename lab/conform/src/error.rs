@@ -29,7 +29,7 @@ pub enum ConformError {
     Read(Box<ReadError>),
     /// Summaries that are not shards of one campaign.
     Merge(String),
-    /// A vector on which its author and the model differ.
+    /// A vector that cannot be read.
     Vectors(String),
     /// The report cannot be written.
     Output(io::Error),

@@ -8,15 +8,11 @@
 mod cases;
 mod error;
 mod judge;
-mod minimise;
 pub mod reference;
-mod reproduce;
 mod results;
 mod runner;
 mod settings;
 mod shrink;
-mod shrinking;
-mod sighting;
 mod subject;
 pub mod vectors;
 

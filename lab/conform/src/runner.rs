@@ -20,8 +20,7 @@ use crate::results::found::CASES_OF_A_CLASS;
 use crate::results::summary::{Campaign, CaseCount, Summary};
 use crate::results::{advice, report};
 use crate::settings::Settings;
-use crate::shrinking::Shrinking;
-use crate::sighting::{Sighting, Sightings};
+use crate::shrink::{Shrinking, Sighting, Sightings};
 use crate::subject::{Broken, Subject};
 use mufasa_records::names;
 

@@ -51,7 +51,7 @@ impl Generator {
     }
 
     /// The tape of a case.
-    pub fn tape(&self, case: u64) -> Vec<u32> {
+    fn tape(&self, case: u64) -> Vec<u32> {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&self.seed.to_le_bytes());
         bytes[8..16].copy_from_slice(&case.to_le_bytes());
@@ -81,7 +81,7 @@ impl Generator {
     }
 
     /// What a tape says.
-    pub fn read(&self, kind: Kind, tape: &[u32]) -> Question {
+    fn read(&self, kind: Kind, tape: &[u32]) -> Question {
         match kind {
             Kind::Cycle => Question::Cycle(Box::new(cycle(&mut Draw::new(tape), self.profile))),
             Kind::Offloading => {

@@ -4,15 +4,28 @@
 use std::collections::BTreeSet;
 
 use mufasa_model::input::cycle::Profile;
+use serde::Deserialize;
 use serde_json::Value;
+use serde_json::value::RawValue;
 
 use crate::cases::question::{Question, Text};
 use crate::error::ConformError;
 use crate::judge::class::Kind;
 use crate::settings::Settings;
-use crate::vectors;
-use crate::vectors::book::{Input, Vector};
-use crate::vectors::flag::Flag;
+
+/// What is published of the files of written vectors: the model need not answer them anew.
+const PUBLISHED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/published.rs"));
+
+/// A line of these files.
+#[derive(Deserialize)]
+struct Vector<'a> {
+    id: &'a str,
+    requirement: &'a str,
+    flag: &'a str,
+    note: String,
+    #[serde(borrow)]
+    input: &'a RawValue,
+}
 
 /// A vector that binds the program under test.
 #[derive(Clone, Debug)]
@@ -26,42 +39,55 @@ pub struct Given {
 }
 
 /// The vectors of these settings, those of one profile and the wanted kinds; none with drives.
-/// Errors: an author and the model differ.
+/// Errors: one cannot be read.
 pub fn fitting(settings: &Settings) -> Result<Vec<Given>, ConformError> {
     if !settings.vectors || !settings.drives.is_empty() {
         return Ok(Vec::new());
     }
-    let files = vectors::written().map_err(|refused| {
-        let refused: Vec<String> = refused.iter().map(ToString::to_string).collect();
-        ConformError::Vectors(refused.join("; "))
-    })?;
-    let mut known = BTreeSet::new();
-    let given = files.into_values().flatten().filter_map(|vector| {
-        let question = question(&vector, settings.profile)?;
-        let wanted = is_wanted(&question, &settings.kinds);
-        (wanted && known.insert(question.line(""))).then(|| given(vector, question))
-    });
-    Ok(given.collect())
+    let (mut known, mut fitting) = (BTreeSet::new(), Vec::new());
+    for (file, line) in
+        PUBLISHED.iter().flat_map(|(file, text)| text.lines().map(move |it| (file, it)))
+    {
+        let wrong = |error| ConformError::Vectors(format!("{file}: {error}"));
+        let vector: Vector<'_> = serde_json::from_str(line).map_err(wrong)?;
+        let Some(question) = vector.question(settings.profile).map_err(wrong)? else { continue };
+        if is_wanted(&question, &settings.kinds) && known.insert(question.line("")) {
+            fitting.push(Given { id: vector.id.to_owned(), about: vector.about(), question });
+        }
+    }
+    Ok(fitting)
 }
 
-/// What a vector asks of a program of this profile. What binds both profiles is asked in this one.
-fn question(vector: &Vector, profile: Profile) -> Option<Question> {
-    let text = vector.input.text();
-    let record = match &vector.input {
-        Input::Record(text) => Question::of_line(text),
-        // As it stands: another text would be another question.
-        Input::Line(_) => None,
-    };
-    let mut question = record.unwrap_or_else(|| Question::Text(Text::new(&vector.id, text)));
-    let its_profile = match &mut question {
-        Question::Cycle(cycle) => &mut cycle.profile,
-        Question::Offloading(trace) => &mut trace.profile,
-        Question::Composition(_) | Question::Line(_) | Question::Text(_) => return Some(question),
-    };
-    if vector.flag == Flag::Must {
-        *its_profile = profile;
+impl Vector<'_> {
+    /// What it asks of a program of this profile. What binds both profiles is asked in this one.
+    fn question(&self, profile: Profile) -> serde_json::Result<Option<Question>> {
+        let text = self.input.get();
+        let mut question = if text.starts_with('"') {
+            // As it stands: another text would be another question.
+            let line: String = serde_json::from_str(text)?;
+            Question::Text(Text::new(self.id, &line))
+        } else {
+            Question::of_line(text).unwrap_or_else(|| Question::Text(Text::new(self.id, text)))
+        };
+        let its_profile = match &mut question {
+            Question::Cycle(cycle) => &mut cycle.profile,
+            Question::Offloading(trace) => &mut trace.profile,
+            Question::Composition(_) | Question::Line(_) | Question::Text(_) => {
+                return Ok(Some(question));
+            }
+        };
+        if self.flag == "must" {
+            *its_profile = profile;
+        }
+        Ok((*its_profile == profile).then_some(question))
     }
-    (*its_profile == profile).then_some(question)
+
+    /// What it is about.
+    fn about(&self) -> String {
+        let reading = self.flag.strip_prefix("interpretation ");
+        let reading = reading.map_or(String::new(), |name| format!(", if {name} is read so"));
+        format!("{}{reading}: {}", self.requirement, self.note)
+    }
 }
 
 /// Whether the kind is asked about; a line also has to be of a record that is, where it shows one.
@@ -73,15 +99,6 @@ fn is_wanted(question: &Question, kinds: &[Kind]) -> bool {
     let is_asked =
         |kind| kinds.contains(&kind) || !Kind::RECORDS.iter().any(|it| kinds.contains(it));
     kinds.contains(&Kind::Line) && of.is_none_or(is_asked)
-}
-
-fn given(vector: Vector, question: Question) -> Given {
-    let Vector { id, requirement, flag, note, .. } = vector;
-    let reading = match flag {
-        Flag::Interpretation(name) => format!(", if {name} is read so"),
-        Flag::Must | Flag::PaperOnly | Flag::HardenedOnly => String::new(),
-    };
-    Given { id, about: format!("{requirement}{reading}: {note}"), question }
 }
 
 #[cfg(test)]

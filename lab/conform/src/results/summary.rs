@@ -12,7 +12,7 @@ use crate::judge::class::{Class, Kind};
 use crate::results::found::Found;
 
 /// The result of a campaign, or of some of its shards.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Summary {
     /// What was done; equal in all shards.
@@ -48,7 +48,7 @@ pub struct Summary {
 }
 
 /// What makes shards parts of one campaign.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Campaign {
     /// The version of the kit, as `mufasa --version` has it; empty: one that did not say.

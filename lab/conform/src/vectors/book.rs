@@ -70,7 +70,7 @@ impl fmt::Display for Vector {
             text(self.requirement),
             text(&self.flag.to_string()),
             text(&self.note),
-            serde_json::to_string(&self.expect).map_err(|_| fmt::Error)?
+            serde_json::to_string(&self.expect).unwrap_or_default()
         )
     }
 }
@@ -130,87 +130,82 @@ pub struct Book {
     refused: Vec<Refused>,
 }
 
-impl Book {
+/// What a vector asks.
+#[derive(Clone, Copy, Debug)]
+pub enum Asked<'a> {
     /// A cycle.
-    pub fn cycle(
-        &mut self,
-        topic: Topic,
-        name: &str,
-        note: &str,
-        cycle: &Cycle,
-        expected: &Expected,
-    ) {
-        let id = topic.id(name);
-        let readings = [Reading::Exact, Reading::Strict]
-            .map(|reading| check(cycle, reading).map(|report| report.failed_stage));
-        let note =
-            if readings[0] == readings[1] { note.to_owned() } else { format!("{note} {STAYS}") };
-        let flag = topic.flag(flag::of_cycle(cycle));
-        let input = Input::Record(cycle_to_line(&id, cycle));
-        self.add(topic, flag, (id, note), input, expected);
+    Cycle(&'a Cycle),
+    /// A cycle in whose text something is replaced so that it is refused, whatever the profile.
+    Broken(&'a Cycle, [&'a str; 2]),
+    /// An offloading trace.
+    Trace(&'a Trace),
+    /// A composition.
+    Task(&'a Task),
+    /// A line that is refused, whatever the profile.
+    Line(&'a str),
+}
+
+impl Asked<'_> {
+    /// Whom it binds, and the line under this id.
+    fn input(self, id: &str) -> (Flag, Input) {
+        // Records are plain data: they always become JSON.
+        let text = |record: serde_json::Result<String>| Input::Record(record.unwrap_or_default());
+        match self {
+            Self::Cycle(cycle) => (flag::of_cycle(cycle), Input::Record(cycle_to_line(id, cycle))),
+            Self::Broken(cycle, [old, new]) => {
+                (Flag::Must, Input::Record(cycle_to_line(id, cycle).replacen(old, new, 1)))
+            }
+            Self::Trace(trace) => {
+                (flag::of_trace(trace), text(serde_json::to_string(&Offloading::whole(id, trace))))
+            }
+            Self::Task(task) => {
+                let record = Composition { id: id.to_owned(), ..Recorded::of_model(task) };
+                (Flag::Must, text(serde_json::to_string(&record)))
+            }
+            Self::Line(line) => (Flag::Must, Input::Line(line.to_owned())),
+        }
     }
 
-    /// A cycle in whose text something is replaced so that it is refused, whatever the profile.
-    pub fn broken(
+    /// Whether exact and strict model differ.
+    fn may_be_answered_otherwise(self) -> bool {
+        let Self::Cycle(cycle) = self else { return false };
+        let [exact, strict] = [Reading::Exact, Reading::Strict]
+            .map(|reading| check(cycle, reading).map(|report| report.failed_stage));
+        exact != strict
+    }
+}
+
+impl Book {
+    /// A vector; refused when the oracle's answer is not what its author expects.
+    pub fn add(
         &mut self,
         topic: Topic,
         (name, note): (&str, &str),
-        cycle: &Cycle,
-        [old, new]: [&str; 2],
+        asked: Asked<'_>,
         expected: &Expected,
     ) {
         let id = topic.id(name);
-        let input = Input::Record(cycle_to_line(&id, cycle).replacen(old, new, 1));
-        self.add(topic, topic.flag(flag::ALIKE), (id, note.to_owned()), input, expected);
-    }
-
-    /// An offloading trace.
-    pub fn trace(
-        &mut self,
-        topic: Topic,
-        name: &str,
-        note: &str,
-        trace: &Trace,
-        expected: &Expected,
-    ) {
-        let id = topic.id(name);
-        let flag = topic.flag(flag::of_trace(trace));
-        match serde_json::to_string(&Offloading::whole(&id, trace)) {
-            Ok(text) => {
-                self.add(topic, flag, (id, note.to_owned()), Input::Record(text), expected);
-            }
-            Err(error) => self.refused.push(Refused { id, problem: error.to_string() }),
+        let stays =
+            if asked.may_be_answered_otherwise() { format!(" {STAYS}") } else { String::new() };
+        let (flag, input) = asked.input(&id);
+        let expect = json::answer(input.text().as_bytes(), 1);
+        let problem = match serde_json::to_value(&expect) {
+            Ok(answer) => expected.broken_by(&answer),
+            Err(error) => Some(error.to_string()),
+        };
+        if let Some(problem) = problem {
+            self.refuse(&id, &problem);
         }
-    }
-
-    /// A composition.
-    pub fn composition(
-        &mut self,
-        topic: Topic,
-        name: &str,
-        note: &str,
-        task: &Task,
-        expected: &Expected,
-    ) {
-        let id = topic.id(name);
-        let flag = topic.flag(flag::ALIKE);
-        let record = Composition { id: id.clone(), ..Recorded::of_model(task) };
-        match serde_json::to_string(&record) {
-            Ok(text) => {
-                self.add(topic, flag, (id, note.to_owned()), Input::Record(text), expected);
-            }
-            Err(error) => self.refused.push(Refused { id, problem: error.to_string() }),
+        if !self.ids.insert(id.clone()) {
+            self.refuse(&id, &"the id is taken");
         }
+        let (requirement, flag) = (topic.requirement, topic.flag(flag));
+        let vector =
+            Vector { id, requirement, flag, note: format!("{note}{stays}"), input, expect };
+        self.files.entry(topic.file).or_default().push(vector);
     }
 
-    /// A line that is refused, whatever the profile.
-    pub fn line(&mut self, topic: Topic, name: &str, note: &str, line: &str, expected: &Expected) {
-        let id = topic.id(name);
-        let input = Input::Line(line.to_owned());
-        self.add(topic, topic.flag(flag::ALIKE), (id, note.to_owned()), input, expected);
-    }
-
-    /// A place of the data that cannot be read.
+    /// A place of the data that cannot be read, or a vector that is wrong.
     pub fn refuse(&mut self, place: &str, problem: &impl fmt::Display) {
         self.refused.push(Refused { id: place.to_owned(), problem: problem.to_string() });
     }
@@ -218,30 +213,5 @@ impl Book {
     /// The vectors of every file, or everything that is wrong with them.
     pub fn finish(self) -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
         if self.refused.is_empty() { Ok(self.files) } else { Err(self.refused) }
-    }
-
-    fn add(
-        &mut self,
-        topic: Topic,
-        flag: Flag,
-        (id, note): (String, String),
-        input: Input,
-        expected: &Expected,
-    ) {
-        let expect = json::answer(input.text().as_bytes(), 1);
-        let problem = match serde_json::to_value(&expect) {
-            Ok(answer) => expected.broken_by(&answer),
-            Err(error) => Some(error.to_string()),
-        };
-        if let Some(problem) = problem {
-            self.refused.push(Refused { id: id.clone(), problem });
-        }
-        if !self.ids.insert(id.clone()) {
-            let problem = String::from("the id is taken");
-            self.refused.push(Refused { id: id.clone(), problem });
-        }
-        let requirement = topic.requirement;
-        let vector = Vector { id, requirement, flag, note, input, expect };
-        self.files.entry(topic.file).or_default().push(vector);
     }
 }

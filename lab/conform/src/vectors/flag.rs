@@ -33,9 +33,6 @@ impl fmt::Display for Flag {
     }
 }
 
-/// The flag of a record that has no profile, or is answered before the profile matters.
-pub const ALIKE: Flag = Flag::Must;
-
 /// The flag of a cycle: whether the other profile has another verdict or failed stage, in the
 /// exact or in the strict model.
 pub fn of_cycle(cycle: &Cycle) -> Flag {

@@ -6,11 +6,9 @@ pub mod flag;
 
 mod authored;
 mod expected;
-mod files;
 mod random;
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::io;
 use std::path::Path;
 
@@ -28,31 +26,18 @@ pub fn all() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
     book.finish()
 }
 
-/// The vectors that people wrote, by file, or everything that is wrong with them.
-pub fn written() -> Result<BTreeMap<&'static str, Vec<Vector>>, Vec<Refused>> {
-    let mut book = Book::default();
-    authored::add(&mut book);
-    book.finish()
-}
-
-/// Every file with its content: vectors, schemas, and a README.
-pub fn contents() -> Result<BTreeMap<String, String>, Vec<Refused>> {
+/// Every file with its content: these vectors, schemas, and a README.
+pub fn contents(files: &BTreeMap<&'static str, Vec<Vector>>) -> BTreeMap<String, String> {
     let mut contents = BTreeMap::from([(String::from("README.md"), README.to_owned())]);
-    for (file, vectors) in all()? {
-        let mut lines = String::new();
-        for vector in vectors {
-            // Writing to a string cannot fail but for what the vector itself reports.
-            writeln!(lines, "{vector}").map_err(|error| {
-                vec![Refused { id: vector.id.clone(), problem: error.to_string() }]
-            })?;
-        }
+    for (file, vectors) in files {
+        let lines: String = vectors.iter().map(|vector| vector.to_string() + "\n").collect();
         contents.insert(format!("{file}.jsonl"), lines);
     }
     for (name, schema) in mufasa_records::schema::all() {
         contents
             .insert(format!("schemas/{name}.schema.json"), mufasa_records::schema::text(&schema));
     }
-    Ok(contents)
+    contents
 }
 
 /// Writes the files into a folder; other files there stay.

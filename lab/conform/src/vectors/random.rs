@@ -7,7 +7,7 @@ use mufasa_props::strategy::{input, whole};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::vectors::book::{Book, Topic};
+use crate::vectors::book::{Asked, Book, Topic};
 use crate::vectors::expected::Expected;
 use mufasa_records::cycle_to_line;
 
@@ -38,7 +38,8 @@ pub fn add(book: &mut Book) {
                 continue;
             }
             let note = "Drawn by the generators of the differential tests.";
-            book.cycle(topic, &format!("{count:03}"), note, &cycle, &Expected::default());
+            let name = format!("{count:03}");
+            book.add(topic, (&name, note), Asked::Cycle(&cycle), &Expected::default());
             count += 1;
         }
     }

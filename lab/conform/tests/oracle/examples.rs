@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-use crate::common::{accepted, refused};
+use crate::oracle::common::{accepted, refused};
 
 const SPEC: &str = include_str!("../../../../spec/5-interfaces.md");
 

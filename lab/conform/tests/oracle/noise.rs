@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mufasa_conform::reference as oracle;
 use serde_json::Value;
 
-use crate::common::{COMPOSITION, CYCLE, Random, TRACE};
+use crate::oracle::common::{COMPOSITION, CYCLE, Random, TRACE};
 
 const LINES: usize = 100_000;
 const SEED: u64 = 5;

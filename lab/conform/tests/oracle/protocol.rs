@@ -7,7 +7,7 @@ use mufasa_conform::reference as oracle;
 use mufasa_records::lines::MAX_LINE_BYTES;
 use serde_json::Value;
 
-use crate::common::{COMPOSITION, CYCLE, TRACE, answers};
+use crate::oracle::common::{COMPOSITION, CYCLE, TRACE, answers};
 
 #[test]
 fn an_empty_input_has_no_answer() {

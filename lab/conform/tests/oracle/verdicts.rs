@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::common::{CYCLE, answer};
+use crate::oracle::common::{CYCLE, answer};
 
 /// The safe cycle with one thing changed.
 fn changed(change: impl FnOnce(&mut Value)) -> Value {

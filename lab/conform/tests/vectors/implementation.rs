@@ -7,7 +7,7 @@ use mufasa_model::report::Reading;
 use mufasa_props::bridge;
 use mufasa_records::{Record, Trace};
 
-use crate::{ALL, record};
+use crate::vectors::{all, record};
 
 /// Places of the implementation's station table; no trace names more stations.
 const STATIONS: usize = 16;
@@ -48,7 +48,7 @@ pub fn exact(trace: &Trace) -> Vec<Step> {
 #[test]
 fn the_implementation_conforms_on_every_vector() {
     let mut count = [0; 2];
-    for vector in ALL.iter() {
+    for vector in all() {
         match record(vector) {
             Some(Record::Cycle { cycle, .. }) => {
                 let [exact, strict] =

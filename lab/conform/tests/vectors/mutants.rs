@@ -10,9 +10,9 @@ use mufasa_conform::vectors::book::{STAYS, Vector};
 use mufasa_model::cycle::check;
 use mufasa_model::report::{Outcome, Reading, Report, Rule, Witness};
 use mufasa_props::bridge::{self, Answer};
-use mufasa_records::{Record, decide};
+use mufasa_records::Record;
 
-use crate::{ALL, record};
+use crate::vectors::{all, record};
 
 /// Whether a mutant's answer to a cycle is told from a right one: by verdict, failed stage or
 /// place of invalid input; where strict and exact model agree in all of them, by an outcome or a
@@ -59,15 +59,7 @@ fn killed(vector: &Vector) -> Vec<&'static str> {
             mutants.map(|(name, _)| *name).collect()
         }
         Some(Record::Offloading { trace, .. }) => others::of_trace(&trace),
-        Some(Record::Composition { id, task }) => {
-            let of = |task| decide(Record::Composition { id: id.clone(), task });
-            let right = of(task.clone());
-            let mutants = others::TASKS.iter();
-            mutants
-                .filter(|(_, mutant)| of(mutant(&task)) != right)
-                .map(|(name, _)| *name)
-                .collect()
-        }
+        Some(Record::Composition { task, .. }) => others::of_task(&task),
         None => others::of_line(vector.input.text()),
     }
 }
@@ -76,7 +68,7 @@ fn killed(vector: &Vector) -> Vec<&'static str> {
 fn every_vector_kills_a_mutant_or_says_why_it_stays() {
     let (mut survived, mut stay) = (Vec::new(), 0);
     let mut useful = std::collections::BTreeMap::<&str, u32>::new();
-    for vector in ALL.iter() {
+    for vector in all() {
         let killed = killed(vector);
         for name in &killed {
             *useful.entry(name).or_default() += 1;
@@ -87,7 +79,7 @@ fn every_vector_kills_a_mutant_or_says_why_it_stays() {
             survived.push(format!("{}: {}", vector.id, vector.note));
         }
     }
-    println!("{stay} of {} vectors stay though they tell no mutant apart", ALL.len());
+    println!("{stay} of {} vectors stay though they tell no mutant apart", all().count());
     for (name, count) in &useful {
         println!("{count:5} vectors tell apart: {name}");
     }

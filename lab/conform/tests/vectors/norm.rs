@@ -7,7 +7,7 @@ use mufasa_model::report::Reading;
 use mufasa_props::strategy::input::directions;
 use mufasa_records::Record;
 
-use crate::{ALL, record};
+use crate::vectors::{all, record};
 
 /// The check as it is written first.
 fn in_doubles(cos: f64, sin: f64) -> bool {
@@ -18,7 +18,7 @@ fn in_doubles(cos: f64, sin: f64) -> bool {
 #[test]
 fn the_norm_check_in_doubles_is_wrong_on_every_vector_about_the_norm() {
     let mut seen = BTreeSet::new();
-    for vector in ALL.iter() {
+    for vector in all() {
         let Some(about) = vector.id.strip_prefix("input-norm-") else { continue };
         let Some(Record::Cycle { mut cycle, .. }) = record(vector) else {
             panic!("{}: no cycle", vector.id)

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use jsonschema::Validator;
 use serde_json::Value;
 
-use crate::{folder, published};
+use crate::vectors::{folder, published};
 
 fn validator(name: &str) -> Validator {
     let file = folder().join(format!("schemas/{name}.schema.json"));

@@ -23,8 +23,8 @@ pub fn completions(shell: Shell, mut command: Command, out: &mut impl Write) -> 
 
 /// The vectors. The exit code. Errors: those of writing to `out`, of all here.
 pub fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
-    let contents = match vectors::contents() {
-        Ok(contents) => contents,
+    let files = match vectors::all() {
+        Ok(files) => files,
         Err(refused) => {
             for vector in refused {
                 complain(&mut io::stderr(), &vector.to_string());
@@ -32,17 +32,11 @@ pub fn vectors(folder: &Path, out: &mut impl Write) -> io::Result<u8> {
             return Ok(DISAGREE);
         }
     };
+    let contents = vectors::contents(&files);
     if let Err(error) = vectors::write(folder, &contents) {
         return Ok(refused(&format!("{}: cannot be written: {error}", folder.display())));
     }
-    let lines = |(name, text): (&String, &String)| {
-        if Path::new(name).extension().is_some_and(|kind| kind == "jsonl") {
-            text.lines().count()
-        } else {
-            0
-        }
-    };
-    let count: usize = contents.iter().map(lines).sum();
+    let count: usize = files.values().map(Vec::len).sum();
     writeln!(out, "{}: {} files, {count} vectors", folder.display(), contents.len())?;
     Ok(0)
 }

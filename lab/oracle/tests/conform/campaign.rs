@@ -114,7 +114,7 @@ fn names(folder: &Path) -> Vec<OsString> {
 fn recorded_cycles_are_asked_clean_attacked_and_in_other_configurations() {
     // The demo writes a drive; the empty track list goes through in the paper profile (F-14).
     let demo = folder("demo");
-    let (code, told) = mufasa("demo --out", &[demo.clone()]);
+    let (code, told) = mufasa("demo --out", std::slice::from_ref(&demo));
     assert_eq!(code, Some(0), "{told}");
     let is_drive = |name: &OsString| {
         Path::new(name).extension().is_some_and(|it| it == "xml" || it == "jsonl")

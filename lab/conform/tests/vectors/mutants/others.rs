@@ -1,21 +1,21 @@
 //! Mutants of the requester, of the orchestrator and of readers.
 
 use mufasa_conform::vectors::flag;
-use mufasa_model::offloading::requester::{Event, EventKind, Groups, Sessions};
+use mufasa_model::offloading::requester::EventKind::{
+    Area, Confirm, Data, Lost, Offer, Reject, Tick, Verdict, Withdraw,
+};
+use mufasa_model::offloading::requester::{Event, Groups, Sessions};
 use mufasa_model::services::orchestrator::Task;
-use mufasa_records::{self as json, Trace};
+use mufasa_model::services::service::Service;
+use mufasa_records::{self as json, Record, Trace, decide};
 use serde_json::Value;
 
-use crate::implementation::{exact, run};
+use crate::vectors::implementation::{exact, run};
 
 /// A requester that gets other events, or none.
 type Ear = fn(&Event) -> Option<Event>;
 /// A requester with other parameters.
 type Setting = fn(&mut Trace);
-
-fn kind(event: &Event, kind: EventKind) -> Event {
-    Event { kind, ..*event }
-}
 
 /// A requester that does not hear events of a kind.
 macro_rules! deaf {
@@ -24,104 +24,53 @@ macro_rules! deaf {
     };
 }
 
+/// A requester that hears other events of some kinds.
+macro_rules! hears {
+    ($name:literal, $($pattern:pat => $kind:expr),+) => {
+        ($name, |event| {
+            Some(match event.kind {
+                $($pattern => Event { kind: $kind, ..*event },)+
+                _ => *event,
+            })
+        })
+    };
+}
+
 const EARS: &[(&str, Ear)] = &[
-    deaf!("offers unheard", EventKind::Offer { .. }),
-    deaf!("withdrawals unheard", EventKind::Withdraw { .. }),
-    deaf!("losses unheard", EventKind::Lost { .. }),
-    deaf!("areas unheard", EventKind::Area { .. }),
-    deaf!("ticks unheard", EventKind::Tick),
-    deaf!("confirmations unheard", EventKind::Confirm { .. }),
-    deaf!("rejections unheard", EventKind::Reject { .. }),
-    deaf!("data unheard", EventKind::Data { .. }),
-    deaf!("safe cycles unheard", EventKind::Verdict { safe: true, .. }),
-    deaf!("unsafe cycles unheard", EventKind::Verdict { safe: false, .. }),
-    ("any offer is of everything", |event| {
-        Some(match event.kind {
-            EventKind::Offer { station, .. } => {
-                kind(event, EventKind::Offer { station, groups: Groups::ALL })
-            }
-            _ => *event,
-        })
-    }),
-    ("everything is safe", |event| {
-        Some(match event.kind {
-            EventKind::Verdict { sessions, .. } => {
-                kind(event, EventKind::Verdict { safe: true, sessions })
-            }
-            _ => *event,
-        })
-    }),
-    ("everything is unsafe", |event| {
-        Some(match event.kind {
-            EventKind::Verdict { sessions, .. } => {
-                kind(event, EventKind::Verdict { safe: false, sessions })
-            }
-            _ => *event,
-        })
-    }),
-    ("every cycle used the first two sessions", |event| {
-        Some(match event.kind {
-            EventKind::Verdict { safe, .. } => {
-                let sessions = Sessions { mot: Some(1), plan: Some(2) };
-                kind(event, EventKind::Verdict { safe, sessions })
-            }
-            _ => *event,
-        })
-    }),
-    ("sessions are all the first", |event| {
-        Some(match event.kind {
-            EventKind::Confirm { station, group, .. } => {
-                kind(event, EventKind::Confirm { station, group, session: 1 })
-            }
-            EventKind::Reject { station, group, .. } => {
-                kind(event, EventKind::Reject { station, group, session: 1 })
-            }
-            EventKind::Data { station, group, generated_ns, .. } => {
-                kind(event, EventKind::Data { station, group, session: 1, generated_ns })
-            }
-            _ => *event,
-        })
-    }),
-    ("stations are all the first", |event| {
-        Some(match event.kind {
-            EventKind::Confirm { group, session, .. } => {
-                kind(event, EventKind::Confirm { station: 1, group, session })
-            }
-            EventKind::Reject { group, session, .. } => {
-                kind(event, EventKind::Reject { station: 1, group, session })
-            }
-            EventKind::Data { group, session, generated_ns, .. } => {
-                kind(event, EventKind::Data { station: 1, group, session, generated_ns })
-            }
-            _ => *event,
-        })
-    }),
+    deaf!("offers unheard", Offer { .. }),
+    deaf!("withdrawals unheard", Withdraw { .. }),
+    deaf!("losses unheard", Lost { .. }),
+    deaf!("areas unheard", Area { .. }),
+    deaf!("ticks unheard", Tick),
+    deaf!("confirmations unheard", Confirm { .. }),
+    deaf!("rejections unheard", Reject { .. }),
+    deaf!("data unheard", Data { .. }),
+    deaf!("safe cycles unheard", Verdict { safe: true, .. }),
+    deaf!("unsafe cycles unheard", Verdict { safe: false, .. }),
+    hears!("any offer is of everything",
+        Offer { station, .. } => Offer { station, groups: Groups::ALL }),
+    hears!("everything is safe", Verdict { sessions, .. } => Verdict { safe: true, sessions }),
+    hears!("everything is unsafe", Verdict { sessions, .. } => Verdict { safe: false, sessions }),
+    hears!("every cycle used the first two sessions",
+        Verdict { safe, .. } => Verdict { safe, sessions: Sessions { mot: Some(1), plan: Some(2) } }),
+    hears!("sessions are all the first",
+        Confirm { station, group, .. } => Confirm { station, group, session: 1 },
+        Reject { station, group, .. } => Reject { station, group, session: 1 },
+        Data { station, group, generated_ns, .. } => Data { station, group, session: 1, generated_ns }),
+    hears!("stations are all the first",
+        Confirm { group, session, .. } => Confirm { station: 1, group, session },
+        Reject { group, session, .. } => Reject { station: 1, group, session },
+        Data { group, session, generated_ns, .. } => Data { station: 1, group, session, generated_ns }),
     ("data are always fresh", |event| {
-        Some(match event.kind {
-            EventKind::Data { station, group, session, .. } => {
-                kind(event, EventKind::Data { station, group, session, generated_ns: event.t_ns })
-            }
-            _ => *event,
-        })
+        let mut fresh = *event;
+        if let Data { generated_ns, .. } = &mut fresh.kind {
+            *generated_ns = event.t_ns;
+        }
+        Some(fresh)
     }),
-    ("a withdrawal is a loss", |event| {
-        Some(match event.kind {
-            EventKind::Withdraw { station } => kind(event, EventKind::Lost { station }),
-            _ => *event,
-        })
-    }),
-    ("a loss is a withdrawal", |event| {
-        Some(match event.kind {
-            EventKind::Lost { station } => kind(event, EventKind::Withdraw { station }),
-            _ => *event,
-        })
-    }),
-    ("a rejection is a withdrawal", |event| {
-        Some(match event.kind {
-            EventKind::Reject { station, .. } => kind(event, EventKind::Withdraw { station }),
-            _ => *event,
-        })
-    }),
+    hears!("a withdrawal is a loss", Withdraw { station } => Lost { station }),
+    hears!("a loss is a withdrawal", Lost { station } => Withdraw { station }),
+    hears!("a rejection is a withdrawal", Reject { station, .. } => Withdraw { station }),
 ];
 
 const SETTINGS: &[(&str, Setting)] = &[
@@ -149,7 +98,7 @@ const SETTINGS: &[(&str, Setting)] = &[
 pub fn names() -> impl Iterator<Item = &'static str> {
     let ears = EARS.iter().map(|(name, _)| *name);
     let settings = SETTINGS.iter().map(|(name, _)| *name);
-    ears.chain(settings).chain(TASKS.iter().map(|(name, _)| *name))
+    ears.chain(settings).chain(EYES.iter().map(|(name, _)| *name))
 }
 
 /// The mutants of the requester that a trace tells apart.
@@ -164,69 +113,53 @@ pub fn of_trace(trace: &Trace) -> Vec<&'static str> {
     ears.chain(settings.map(|(name, _)| *name)).collect()
 }
 
-/// An orchestrator that sees another task.
-type Eye = fn(&Task) -> Task;
+/// A change of the task on its way to the orchestrator.
+type Eye = fn(&mut Task);
 
 /// Orchestrators that see another task.
-pub const TASKS: &[(&str, Eye)] = &[
-    ("same_station ignored", |task| Task { same_station: vec![], ..task.clone() }),
-    ("local_only ignored", |task| Task { local_only: vec![], ..task.clone() }),
-    ("everything on the CAV", |task| {
-        let mut task = task.clone();
-        task.services.iter_mut().for_each(|service| service.station = 0);
-        task
-    }),
-    ("everything remote", |task| {
-        let mut task = task.clone();
-        task.services.iter_mut().for_each(|service| service.station = 1);
-        task
-    }),
-    ("the last service forgotten", |task| {
-        let mut task = task.clone();
-        task.services.pop();
-        task
-    }),
+const EYES: &[(&str, Eye)] = &[
+    ("same_station ignored", |task| task.same_station.clear()),
+    ("local_only ignored", |task| task.local_only.clear()),
+    ("everything on the CAV", |task| task.services.iter_mut().for_each(|it| it.station = 0)),
+    ("everything remote", |task| task.services.iter_mut().for_each(|it| it.station = 1)),
+    ("the last service forgotten", |task| drop(task.services.pop())),
     ("double names removed", |task| {
-        let mut task = task.clone();
         for service in &mut task.services {
             service.requires.dedup();
             service.guarantees.dedup();
         }
-        task
     }),
     ("the second service renamed", |task| {
-        let mut task = task.clone();
         task.services.iter_mut().skip(1).take(1).for_each(|service| service.id.push('2'));
-        task
     }),
     ("the goal is the first service", |task| {
-        let goal = task.services.first().map_or_else(String::new, |service| service.id.clone());
-        Task { goal, ..task.clone() }
+        task.goal = task.services.first().map_or_else(String::new, |service| service.id.clone());
     }),
-    ("at most forty services", |task| {
-        let mut task = task.clone();
-        task.services.truncate(40);
-        task
-    }),
+    ("at most forty services", |task| task.services.truncate(40)),
     ("every service requires something", |task| {
-        let mut task = task.clone();
         for service in task.services.iter_mut().filter(|service| service.requires.is_empty()) {
             service.requires.push(String::from("x"));
         }
-        task
     }),
     ("an empty set has a service", |task| {
-        let mut task = task.clone();
         if task.services.is_empty() {
-            let (id, station) = (task.goal.clone(), 0);
-            let (requires, guarantees) = (vec![], vec![]);
-            let service =
-                mufasa_model::services::service::Service { id, requires, guarantees, station };
-            task.services.push(service);
+            let (id, requires, guarantees) = (task.goal.clone(), vec![], vec![]);
+            task.services.push(Service { id, requires, guarantees, station: 0 });
         }
-        task
     }),
 ];
+
+/// The mutants of the orchestrator that a task tells apart.
+pub fn of_task(task: &Task) -> Vec<&'static str> {
+    let of = |task| decide(Record::Composition { id: String::new(), task });
+    let right = of(task.clone());
+    let is_told = |(_, eye): &&(&str, Eye)| {
+        let mut seen = task.clone();
+        eye(&mut seen);
+        of(seen) != right
+    };
+    EYES.iter().filter(is_told).map(|(name, _)| *name).collect()
+}
 
 /// The mutants of readers that a line which is refused tells apart: they answer it otherwise, or
 /// with another place of what is wrong.

@@ -6,6 +6,7 @@ mod norm;
 mod published;
 mod schemas;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -18,11 +19,14 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vectors")
 }
 
-/// All vectors, made anew.
-static ALL: LazyLock<Vec<Vector>> = LazyLock::new(|| {
-    let files = mufasa_conform::vectors::all().expect("author and model agree");
-    files.into_values().flatten().collect()
-});
+/// All vectors by file, made anew.
+static FILES: LazyLock<BTreeMap<&str, Vec<Vector>>> =
+    LazyLock::new(|| mufasa_conform::vectors::all().expect("author and model agree"));
+
+/// All of them.
+fn all() -> impl Iterator<Item = &'static Vector> {
+    FILES.values().flatten()
+}
 
 /// The record of a vector; `None` when its line is to be refused by the reader.
 fn record(vector: &Vector) -> Option<Record> {

@@ -6,5 +6,4 @@ mod noise;
 mod protocol;
 mod round_trip;
 mod schema;
-mod schema_cycle;
 mod verdicts;

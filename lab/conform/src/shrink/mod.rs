@@ -1,6 +1,10 @@
 //! The end of a campaign: one record of each class is made small, as far as there is time. First one class of
 //! each rule, in the order in which to mend them; then others; then further cases of those that are not small.
 
+mod cycle;
+mod program;
+mod record;
+
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -11,17 +15,15 @@ use serde_json::value::RawValue;
 
 use crate::cases::case::Case;
 use crate::cases::order::Order;
-use crate::cases::source::Source;
 use crate::error::ConformError;
 use crate::judge::class::{AFTERWARDS, Class, Kind};
+use crate::judge::examine::Examined;
 use crate::judge::explain::{Told, in_words};
-use crate::reproduce::{Again, Reproduction};
 use crate::results::advice;
 use crate::results::found::{Found, NotShrunk, best};
 use crate::settings::Settings;
-use crate::shrink::Limits;
-use crate::sighting::{Sighting, Sightings};
 use crate::subject::Subject;
+use program::{Again, Hunt, Limits};
 
 /// So many classes of a rule are shrunk; of a program at its beginning, whose classes are many and alike, one.
 const CLASSES_OF_A_RULE: usize = 6;
@@ -34,6 +36,30 @@ const PARTS: u32 = 4;
 
 /// What was kept in bytes of the lines that were asked before a case.
 const KEPT_BYTES: usize = 64 << 20;
+
+/// A disagreement: where it was seen, and what came.
+#[derive(Debug)]
+pub struct Sighting {
+    /// Its position in the order of the campaign.
+    pub position: u64,
+    /// The position of the first line that the same process was asked.
+    pub begin: u64,
+    /// What was answered, and what is right.
+    pub examined: Examined,
+}
+
+/// The disagreements of a class.
+#[derive(Debug, Default)]
+pub struct Sightings {
+    /// How many.
+    pub count: u64,
+    /// The vectors among them.
+    pub vectors: Vec<String>,
+    /// Number of the first case among them.
+    pub first: Option<u64>,
+    /// The first of them, at least one.
+    pub earliest: Vec<Sighting>,
+}
 
 /// Classes, and the program under test.
 #[derive(Debug)]
@@ -107,25 +133,11 @@ impl Shrinking<'_> {
         let case = self.order.case(sighting.position);
         let (order, given_up) = (self.order, self.given_up);
         let before = || if is_first { before(order, given_up, sighting) } else { Vec::new() };
-        let mut own = limits.part(PARTS);
-        let restarts = own.restarts;
-        let mut reproduction = Reproduction {
-            subject: self.subject,
-            class,
-            name: &case.name,
-            question: &case.question,
-            tolerance: self.settings.tolerance,
-            limits: &mut own,
-        };
-        let again = match (self.order.source, case.number) {
-            (Source::Generated(generator), Some(number)) => {
-                let kind = case.question.kind();
-                let read = |tape: &[u32]| generator.read(kind, tape);
-                reproduction.run(Some(&(generator.tape(number), &read)), &before)?
-            }
-            (Source::Generated(_) | Source::Drives(_), _) => reproduction.run(None, &before)?,
-        };
-        limits.restarts = limits.restarts.saturating_sub(restarts - own.restarts);
+        let own = limits.part(PARTS);
+        let mut hunt = Hunt::new(self.subject, class, self.settings.tolerance, own);
+        let again = hunt.run(&case.question, before)?;
+        let taken = own.restarts - hunt.limits.restarts;
+        limits.restarts = limits.restarts.saturating_sub(taken);
         // What the program did after an answer while a case was made smaller is no case of its own.
         let _ = self.subject.take_afterwards();
         Ok(match again {

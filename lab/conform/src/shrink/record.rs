@@ -3,21 +3,19 @@
 //! Works on the JSON value of a record: what may be left out, and what is a list or a number, is
 //! what reads as a record without it.
 
-mod cycle;
-mod pair;
-
-use crate::cases::question::{Damaged, Question};
 use serde_json::{Value, json};
 
+use crate::cases::question::{Damaged, Question};
+use crate::shrink::cycle;
+
 /// The smallest record found; `shows` says whether one still shows the class.
-pub fn question(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
+pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
     if let Question::Line(Damaged { record, damage, at }) = question {
         let damaged = |record: Question| {
             let record = Box::new(record);
             Question::Line(Damaged { record, damage: *damage, at: *at })
         };
-        let smallest = self::question(record, &mut |it| shows(&damaged(it.clone())));
-        return damaged(smallest);
+        return damaged(smallest(record, &mut |it| shows(&damaged(it.clone()))));
     }
     let Some(value) = question.record() else { return question.clone() };
     let mut case = Case { value, question: question.clone(), shows };
@@ -33,9 +31,11 @@ pub fn question(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -
 }
 
 /// A record that shows the class.
-struct Case<'a> {
-    value: Value,
-    question: Question,
+pub struct Case<'a> {
+    /// As JSON.
+    pub value: Value,
+    /// As what it asks.
+    pub question: Question,
     shows: &'a mut dyn FnMut(&Question) -> bool,
 }
 
@@ -51,7 +51,7 @@ impl Case<'_> {
     }
 
     /// Makes a change if it leaves a record that still shows the class.
-    fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
+    pub fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
         let mut changed = self.value.clone();
         change(&mut changed);
         if changed == self.value {
@@ -66,7 +66,7 @@ impl Case<'_> {
     }
 
     /// Changes the values at these places, all at once.
-    fn change_at(&mut self, places: &[String], new: impl Fn(&Value) -> Option<Value>) -> bool {
+    pub fn change_at(&mut self, places: &[String], new: impl Fn(&Value) -> Option<Value>) -> bool {
         self.change(|record| {
             for place in places {
                 if let Some(old) = record.pointer_mut(place)
@@ -79,7 +79,11 @@ impl Case<'_> {
     }
 
     /// Puts the first of these values that will do at a place.
-    fn put<T: Into<Value>>(&mut self, place: &str, values: impl IntoIterator<Item = T>) -> bool {
+    pub fn put<T: Into<Value>>(
+        &mut self,
+        place: &str,
+        values: impl IntoIterator<Item = T>,
+    ) -> bool {
         let places = [place.to_owned()];
         values.into_iter().map(T::into).any(|it| self.change_at(&places, |_| Some(it.clone())))
     }
@@ -120,24 +124,13 @@ impl Case<'_> {
         }
     }
 
-    /// Removes as many items of a list as possible, in chunks, from the end.
+    /// Removes as many items of a list as possible.
     fn thin(&mut self, pointer: &str) {
-        let length =
-            |record: &Value| record.pointer(pointer).and_then(Value::as_array).map_or(0, Vec::len);
-        let mut size = length(&self.value);
-        while size > 0 {
-            let mut end = length(&self.value);
-            while end > 0 {
-                let start = end.saturating_sub(size);
-                self.change(|record| {
-                    if let Some(Value::Array(items)) = record.pointer_mut(pointer) {
-                        items.drain(start..end.min(items.len()));
-                    }
-                });
-                end = start;
-            }
-            size /= 2;
-        }
+        let Some(items) = self.value.pointer(pointer).and_then(Value::as_array).cloned() else {
+            return;
+        };
+        let place = [pointer.to_owned()];
+        thinned(items, &mut |fewer| self.change_at(&place, |_| Some(fewer.into())));
     }
 
     /// Stations and ids become 0 or 1; the times of events 0, or the time of the event before;
@@ -164,8 +157,26 @@ impl Case<'_> {
     }
 }
 
+/// Leaves out all, halves, quarters, and so on to single items, from the end, while what stays still shows.
+pub fn thinned<T: Clone>(mut items: Vec<T>, shows: &mut dyn FnMut(&[T]) -> bool) -> Vec<T> {
+    let mut size = items.len();
+    while size > 0 {
+        let mut end = items.len();
+        while end > 0 {
+            let start = end.saturating_sub(size);
+            let fewer = [&items[..start], &items[end..]].concat();
+            if shows(&fewer) {
+                items = fewer;
+            }
+            end = start;
+        }
+        size /= 2;
+    }
+    items
+}
+
 /// The places, as JSON pointers, of the values that are no list and no object, and wanted.
-fn leaves(record: &Value, wanted: impl Fn(&str, &Value) -> bool) -> Vec<String> {
+pub fn leaves(record: &Value, wanted: impl Fn(&str, &Value) -> bool) -> Vec<String> {
     let (mut found, mut open) = (Vec::new(), vec![(String::new(), record)]);
     while let Some((pointer, value)) = open.pop() {
         match value {
@@ -206,7 +217,7 @@ mod tests {
             let seen = cycle.detections.as_ref().map_or(0, |list| list.items.len());
             tracks >= 2 && seen >= 1
         }
-        let found = question(&first(Kind::Cycle, has_pair), &mut |it| has_pair(it));
+        let found = smallest(&first(Kind::Cycle, has_pair), &mut |it| has_pair(it));
         assert!(has_pair(&found));
         assert_eq!(found.objects(), 3);
         let Question::Cycle(cycle) = &found else { panic!() };
@@ -220,7 +231,7 @@ mod tests {
             let Question::Cycle(cycle) = question else { return false };
             cycle.grid.as_ref().is_some_and(|grid| grid.occupied.iter().any(|byte| *byte != 0))
         }
-        let found = question(&first(Kind::Cycle, marked), &mut |it| marked(it));
+        let found = smallest(&first(Kind::Cycle, marked), &mut |it| marked(it));
         let Question::Cycle(cycle) = &found else { panic!() };
         let grid = cycle.grid.as_ref().expect("a grid");
         assert_eq!((grid.width, grid.height, grid.occupied.as_slice()), (1, 1, &[1][..]));
@@ -229,10 +240,10 @@ mod tests {
     #[test]
     fn of_a_trace_and_a_task_only_what_is_needed_stays() {
         let confirms = |it: &Question| it.line("x").contains("\"confirm\"");
-        let found = question(&first(Kind::Offloading, confirms), &mut |it| confirms(it));
+        let found = smallest(&first(Kind::Offloading, confirms), &mut |it| confirms(it));
         assert_eq!(found.objects(), 1);
         let tracks = |it: &Question| it.line("x").contains("\"tracks\"");
-        let found = question(&first(Kind::Composition, tracks), &mut |it| tracks(it));
+        let found = smallest(&first(Kind::Composition, tracks), &mut |it| tracks(it));
         assert_eq!(found.objects(), 1);
     }
 }

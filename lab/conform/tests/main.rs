@@ -1,0 +1,4 @@
+//! The oracle and the vectors, in one program.
+
+mod oracle;
+mod vectors;
