@@ -107,7 +107,7 @@ pub fn failing_alone(cycle: &Cycle) -> Vec<Stage> {
 }
 
 /// Runs a job on the cycle in the types of the implementation, with scratch of the size it asks for.
-fn with_impl<T>(cycle: &Cycle, job: impl FnOnce(&ImplCycle<'_>, &mut Scratch<'_>) -> T) -> T {
+pub fn with_impl<T>(cycle: &Cycle, job: impl FnOnce(&ImplCycle<'_>, &mut Scratch<'_>) -> T) -> T {
     let owned = to_impl(cycle);
     let history = owned.history();
     let borrowed = owned.borrow(&history);

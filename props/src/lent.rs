@@ -10,13 +10,20 @@ use mufasa::offloading::requester::StationRecord;
 /// What a monitor is lent.
 #[derive(Debug)]
 pub struct Lent {
-    stations: Vec<StationRecord>,
-    rows: Vec<Row>,
-    columns: Vec<Column>,
-    detections: Vec<Detection>,
-    slots: Vec<Slot>,
-    cross_sections: Vec<CrossSection>,
-    blocks: Vec<Block>,
+    /// Of the requester.
+    pub stations: Vec<StationRecord>,
+    /// Of the scratch.
+    pub rows: Vec<Row>,
+    /// Of the scratch.
+    pub columns: Vec<Column>,
+    /// The lists of the history.
+    pub detections: Vec<Detection>,
+    /// Their indexes.
+    pub slots: Vec<Slot>,
+    /// The route.
+    pub cross_sections: Vec<CrossSection>,
+    /// Its index.
+    pub blocks: Vec<Block>,
 }
 
 impl Lent {

@@ -100,7 +100,7 @@ fn a_message_of_a_starved_group_says_so() {
 fn a_list_too_long_for_the_lent_memory_is_no_arrival() {
     let cross_sections = road();
     let mut buffers = Buffers::new(16, 40);
-    buffers.rows.truncate(4);
+    buffers.0.rows.truncate(4);
     let mut monitor = buffers.on(&cross_sections);
     let mut station = driven(&mut monitor, 3);
     let session = station.sessions[0].expect("MOT is remote");

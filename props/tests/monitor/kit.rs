@@ -1,13 +1,11 @@
 //! Memory for a monitor, and a road for it: the CAV, a car ahead, one beside the road, and a station.
 
 use mufasa::input::cycle::{CrossSection, Detection, Ego, Route, Track, TrajectoryPoint};
-use mufasa::input::detection_index::Slot;
-use mufasa::input::route_index::Block;
-use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::monitor::{
-    Accepted, Arrival, Decision, Inputs, Memory, Message, Monitor, MonitorError, Settings, Time,
+    Accepted, Arrival, Decision, Inputs, Message, Monitor, MonitorError, Settings, Time,
 };
-use mufasa::offloading::requester::{Action, Actions, Group, Groups, StationRecord};
+use mufasa::offloading::requester::{Action, Actions, Group, Groups};
+use mufasa_props::lent::Lent;
 
 pub const MS: i64 = 1_000_000;
 
@@ -17,34 +15,16 @@ pub type Tracks = Option<Accepted<Vec<Track>>>;
 pub type Points = Option<Accepted<Vec<TrajectoryPoint>>>;
 
 /// What a monitor is lent.
-pub struct Buffers {
-    pub stations: Vec<StationRecord>,
-    pub rows: Vec<Row>,
-    pub columns: Vec<Column>,
-    pub detections: Vec<Detection>,
-    pub slots: Vec<Slot>,
-    pub cross_sections: Vec<CrossSection>,
-    pub blocks: Vec<Block>,
-}
+pub struct Buffers(pub Lent);
 
 impl Buffers {
     /// For lists of so many detections and routes of so many cross sections.
     pub fn new(detections: usize, cross_sections: usize) -> Self {
-        Self {
-            stations: vec![StationRecord::FREE; 8],
-            rows: vec![Row::default(); Sizes::MAX.rows],
-            columns: vec![Column::default(); Sizes::MAX.columns],
-            detections: vec![Detection::default(); Memory::detections_for(detections)],
-            slots: vec![Slot::default(); Memory::slots_for(detections)],
-            cross_sections: vec![CrossSection::default(); cross_sections],
-            blocks: vec![Block::default(); Block::needed(cross_sections)],
-        }
+        Self(Lent::new(8, detections, cross_sections))
     }
 
     pub fn monitor(&mut self, settings: Settings) -> Result<Monitor<'_>, MonitorError> {
-        let Self { stations, rows, columns, detections, slots, cross_sections, blocks } = self;
-        let memory = Memory { stations, rows, columns, detections, slots, cross_sections, blocks };
-        Monitor::new(settings, memory)
+        Monitor::new(settings, self.0.memory())
     }
 
     /// A monitor with the settings of this kit that has just been started on this road.

@@ -146,21 +146,21 @@ fn too_little_memory_is_refused_by_name() {
             other => panic!("{other}"),
         })
     };
-    let stations = without(|it| it.stations.clear(), Profile::PAPER);
+    let stations = without(|it| it.0.stations.clear(), Profile::PAPER);
     assert_eq!(stations, Some(("stations", 1, 0)));
-    let few = without(|it| it.detections.truncate(11), Profile::HARDENED);
+    let few = without(|it| it.0.detections.truncate(11), Profile::HARDENED);
     assert_eq!(few, Some(("detections", 12, 11)));
-    let slots = without(|it| it.slots.truncate(207), Profile::HARDENED);
+    let slots = without(|it| it.0.slots.truncate(207), Profile::HARDENED);
     assert_eq!(slots, Some(("slots", 208, 207)));
-    let rows = without(|it| it.rows.clear(), Profile::PAPER);
+    let rows = without(|it| it.0.rows.clear(), Profile::PAPER);
     assert_eq!(rows, Some(("rows", 1, 0)));
-    let columns = without(|it| it.columns.truncate(9), Profile::PAPER);
+    let columns = without(|it| it.0.columns.truncate(9), Profile::PAPER);
     assert!(matches!(columns, Some(("columns", needed, 9)) if needed > 9), "{columns:?}");
     let mut few = Buffers::new(16, 40);
-    few.columns.truncate(9);
+    few.0.columns.truncate(9);
     let words = few.monitor(settings()).expect_err("too few").to_string();
     assert!(words.contains("scratch::Sizes::for_cycle"), "{words}");
-    let nothing = |it: &mut Buffers| (it.detections.clear(), it.slots.clear()).1;
+    let nothing = |it: &mut Buffers| (it.0.detections.clear(), it.0.slots.clear()).1;
     assert_eq!(without(nothing, Profile::PAPER), None, "nothing is kept in this profile");
 }
 

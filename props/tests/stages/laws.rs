@@ -4,7 +4,6 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::offloading::requester::{Requester, StationRecord};
 use mufasa::report::{FailedStage, Report, Stage};
 use mufasa_model::input::cycle::{Cycle, Profile};
@@ -20,23 +19,16 @@ use proptest::test_runner::TestCaseError;
 
 /// Judges the report of the implementation by every law of one report; none for invalid input.
 fn judged(cycle: &Cycle) -> Result<Option<Report>, String> {
-    let owned = bridge::to_impl(cycle);
-    let history = owned.history();
-    let cycle = owned.borrow(&history);
-    let sizes = Sizes::for_cycle(&cycle);
-    let (mut rows, mut columns) =
-        (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);
-    let Ok(report) = mufasa::cycle::check(&cycle, &mut Scratch::new(&mut rows, &mut columns))
-    else {
-        return Ok(None);
-    };
-    if report.failed_stage == Some(FailedStage::Input) {
-        return Ok(None);
-    }
-    match SCHEDULE.iter().find(|(_, law)| !law(&cycle, &report)) {
-        Some((name, _)) => Err(format!("{name}: {report:?}")),
-        None => Ok(Some(report)),
-    }
+    bridge::with_impl(cycle, |cycle, scratch| {
+        let Ok(report) = mufasa::cycle::check(cycle, scratch) else { return Ok(None) };
+        if report.failed_stage == Some(FailedStage::Input) {
+            return Ok(None);
+        }
+        match SCHEDULE.iter().find(|(_, law)| !law(cycle, &report)) {
+            Some((name, _)) => Err(format!("{name}: {report:?}")),
+            None => Ok(Some(report)),
+        }
+    })
 }
 
 #[test]
