@@ -8,10 +8,9 @@ use mufasa::cycle::{check, check_indexed, check_with};
 use mufasa::input::detection_index::{DetectionIndex, Slot};
 use mufasa::input::indexes::Indexes;
 use mufasa::input::route_index::{Block, RouteIndex};
-use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
 use mufasa::report::{FailedStage, Outcome, Rule, Stage, Witness};
 use mufasa_model::input::cycle::{CrossSection, Cycle, Detection, Profile};
-use mufasa_props::bridge::to_impl;
+use mufasa_props::bridge::with_impl;
 use mufasa_props::differential::runner;
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{map_validation, whole};
@@ -49,27 +48,23 @@ fn an_index_changes_no_answer() {
         let cycles = tape().prop_map(|tape| long_route(&mut Draw::new(&tape), profile));
         let failed = std::cell::Cell::new(0);
         let result = runner().run(&cycles, |cycle| {
-            let owned = to_impl(&cycle);
-            let history = owned.history();
-            let cycle = owned.borrow(&history);
-            let sizes = Sizes::for_cycle(&cycle);
-            let mut rows = vec![Row::default(); sizes.rows];
-            let mut columns = vec![Column::default(); sizes.columns];
-            let mut blocks =
-                vec![Block::default(); Block::needed(cycle.route.cross_sections.len())];
-            let mut scratch = Scratch::new(&mut rows, &mut columns);
-            let plain = check(&cycle, &mut scratch);
-            if let Ok(index) = RouteIndex::new(cycle.route, &mut blocks) {
-                let indexed = check_indexed(&cycle, &index, &mut scratch);
-                let parts = |report: mufasa::report::Report| {
-                    (report.failed_stage, report.input, report.stages.map(without_segment))
-                };
-                assert_eq!(plain.map(parts), indexed.map(parts));
-            } else {
-                assert!(plain.is_err());
-            }
-            let at_ii = Some(FailedStage::Stage(Stage::Ii));
-            failed.set(failed.get() + u32::from(plain.is_ok_and(|it| it.failed_stage == at_ii)));
+            with_impl(&cycle, |cycle, scratch| {
+                let stations = cycle.route.cross_sections.len();
+                let mut blocks = vec![Block::default(); Block::needed(stations)];
+                let plain = check(cycle, scratch);
+                if let Ok(index) = RouteIndex::new(cycle.route, &mut blocks) {
+                    let indexed = check_indexed(cycle, &index, scratch);
+                    let parts = |report: mufasa::report::Report| {
+                        (report.failed_stage, report.input, report.stages.map(without_segment))
+                    };
+                    assert_eq!(plain.map(parts), indexed.map(parts));
+                } else {
+                    assert!(plain.is_err());
+                }
+                let at_ii = Some(FailedStage::Stage(Stage::Ii));
+                let fails = plain.is_ok_and(|it| it.failed_stage == at_ii);
+                failed.set(failed.get() + u32::from(fails));
+            });
             Ok(())
         });
         assert_eq!(result, Ok(()), "{profile:?}");
@@ -101,41 +96,35 @@ fn indexes_of_detections_change_no_answer() {
     let cycles = tape().prop_map(|tape| crowded(&mut Draw::new(&tape)));
     let rules = std::cell::RefCell::new(BTreeMap::new());
     let result = runner().run(&cycles, |cycle| {
-        let owned = to_impl(&cycle);
-        let history = owned.history();
-        let cycle = owned.borrow(&history);
-        let Sizes { rows, columns } = Sizes::for_cycle(&cycle);
-        let (mut rows, mut columns) =
-            (vec![Row::default(); rows], vec![Column::default(); columns]);
-        let mut scratch = Scratch::new(&mut rows, &mut columns);
-        let plain = check(&cycle, &mut scratch);
-        let lists: Vec<_> = cycle.detections.iter().chain(cycle.detection_history).collect();
-        let mut memory: Vec<_> =
-            lists.iter().map(|list| vec![Slot::default(); list.items.len()]).collect();
-        let indexes = lists
-            .iter()
-            .zip(&mut memory)
-            .map(|(list, slots)| DetectionIndex::new(list, slots).map_err(|problem| problem.field));
-        let indexes: Result<Vec<_>, _> = indexes.collect();
-        let Ok(all) = indexes else {
-            assert!(plain.is_err());
-            return Ok(());
-        };
-        // All lists, and all but one.
-        for detections in [&all[..], all.get(1..).unwrap_or(&[])] {
-            let indexes = Indexes { route: None, detections };
-            assert_eq!(check_with(&cycle, &indexes, &mut scratch), plain);
-        }
-        let rule = plain.ok().and_then(|report| {
-            report.stages.iter().find_map(|outcome| match outcome {
-                Outcome::Failed(witness) => Some(witness.rule),
-                Outcome::Passed
-                | Outcome::Skipped(_)
-                | Outcome::NotApplicable(_)
-                | Outcome::NotScheduled => None,
-            })
+        with_impl(&cycle, |cycle, scratch| {
+            let plain = check(cycle, scratch);
+            let lists: Vec<_> = cycle.detections.iter().chain(cycle.detection_history).collect();
+            let mut memory: Vec<_> =
+                lists.iter().map(|list| vec![Slot::default(); list.items.len()]).collect();
+            let indexes = lists.iter().zip(&mut memory).map(|(list, slots)| {
+                DetectionIndex::new(list, slots).map_err(|problem| problem.field)
+            });
+            let indexes: Result<Vec<_>, _> = indexes.collect();
+            let Ok(all) = indexes else {
+                assert!(plain.is_err());
+                return;
+            };
+            // All lists, and all but one.
+            for detections in [&all[..], all.get(1..).unwrap_or(&[])] {
+                let indexes = Indexes { route: None, detections };
+                assert_eq!(check_with(cycle, &indexes, scratch), plain);
+            }
+            let rule = plain.ok().and_then(|report| {
+                report.stages.iter().find_map(|outcome| match outcome {
+                    Outcome::Failed(witness) => Some(witness.rule),
+                    Outcome::Passed
+                    | Outcome::Skipped(_)
+                    | Outcome::NotApplicable(_)
+                    | Outcome::NotScheduled => None,
+                })
+            });
+            *rules.borrow_mut().entry(rule).or_insert(0_u32) += 1;
         });
-        *rules.borrow_mut().entry(rule).or_insert(0_u32) += 1;
         Ok(())
     });
     assert_eq!(result, Ok(()));

@@ -4,13 +4,13 @@
 use std::cell::RefCell;
 
 use mufasa::input::cycle::{self as twin, Ego};
-use mufasa::input::scratch::{Column, Row, Scratch, Sizes};
+use mufasa::input::scratch::{Column, Row, Sizes};
 use mufasa::provider::{Failure, Precheck};
 use mufasa::report::{FailedStage, InvalidInput, Problem, Stage};
 use mufasa_model::cycle::check;
 use mufasa_model::input::cycle::{Cycle, Profile, TrajectoryPoint};
 use mufasa_model::report::Reading;
-use mufasa_props::bridge::{check_impl, from_impl, to_impl};
+use mufasa_props::bridge::{check_impl, from_impl, to_impl, with_impl};
 use mufasa_props::differential::{Generator, runner};
 use mufasa_props::strategy::draw::{Draw, tape};
 use mufasa_props::strategy::{detections, track_validation, tracks};
@@ -33,12 +33,10 @@ fn ask<T>(
 }
 
 /// What the implementation says of a cycle.
-fn failure(cycle: &twin::Cycle<'_>) -> Option<Failure> {
-    let sizes = Sizes::MAX;
-    let (mut rows, mut columns) =
-        (vec![Row::default(); sizes.rows], vec![Column::default(); sizes.columns]);
-    let report = mufasa::cycle::check(cycle, &mut Scratch::new(&mut rows, &mut columns));
-    Failure::of(&report.expect("valid local input"))
+fn failure(cycle: &Cycle) -> Option<Failure> {
+    with_impl(cycle, |cycle, scratch| {
+        Failure::of(&mufasa::cycle::check(cycle, scratch).expect("valid local input"))
+    })
 }
 
 /// Whether a cycle is safe, to the exact model and to the implementation.
@@ -185,12 +183,7 @@ fn chosen(cycle: &Cycle, draw: &mut Draw<'_>) -> Result<[bool; 4], String> {
         return Err(said(&format!("{first:?} fails"), cycle));
     }
     let before = &cycles[..first.unwrap_or(cycles.len())];
-    let said_by_stages = before.iter().map(|cycle| {
-        let owned = to_impl(cycle);
-        let history = owned.history();
-        failure(&owned.borrow(&history))
-    });
-    if told != said_by_stages.collect::<Vec<_>>() {
+    if told != before.iter().map(failure).collect::<Vec<_>>() {
         return Err(said(&format!("told {told:?}"), cycle));
     }
     let mut reversed = cycles.clone();
