@@ -18,6 +18,7 @@ mod lock;
 mod tree;
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use citations::{Citations, citations, strangers};
 use ids::{PREFIXES, Requirement, prefix, prefixes, requirements, rule};
@@ -86,6 +87,22 @@ fn every_citation_is_of_a_requirement() {
     let tree = Tree::here();
     let wrong = strangers(&tree, &requirements(&tree).0, &Lock::parse(lock_of(&tree)).retired);
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn what_cites_a_requirement_was_confirmed_since_it_changed() {
+    let tree = Tree::here();
+    let (found, _) = requirements(&tree);
+    let cited = citations(&tree);
+    let mut lock = Lock::parse(lock_of(&tree));
+    if let Ok(names) = std::env::var("CONFIRM") {
+        let names = names.split([',', ' ']).filter(|it| !it.is_empty());
+        lock.confirm(&names.collect::<Vec<_>>(), &found, &cited);
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(LOCK);
+        std::fs::write(file, lock.to_string()).expect("the lock can be written");
+    }
+    let wrong = lock.suspects(&found, &cited);
+    assert!(wrong.is_empty(), "\n{}\n\nsee CONTRIBUTING.md, Requirements", wrong.join("\n"));
 }
 
 fn lock_of(tree: &Tree) -> &str {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use super::citations::Citations;
-use super::ids::Requirement;
+use super::ids::{Requirement, rule};
 
 /// Hashes of a requirement and of what its citations were confirmed for.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -69,6 +69,13 @@ impl Lock {
                 .map(String::as_str)
                 .collect();
             if entry.hash != now || !suspect.is_empty() {
+                // What cites a rule as a whole is about each of its requirements.
+                let whole = cited.get(rule(id)).filter(|_| entry.hash != now && rule(id) != id);
+                let suspect: BTreeSet<&str> = suspect
+                    .into_iter()
+                    .chain(whole.into_iter().flatten().map(String::as_str))
+                    .collect();
+                let suspect: Vec<&str> = suspect.into_iter().collect();
                 let what = match entry.hash.as_str() {
                     "" => "is new",
                     hash if hash == now => "is cited anew",
@@ -153,6 +160,16 @@ mod tests {
         let wrong = lock.suspects(&new, &cited(&["one", "three"])).join("\n");
         assert!(wrong.starts_with("A-01 is cited anew") && wrong.contains(": three\n"), "{wrong}");
         assert!(wrong.contains("no longer cited by two"), "{wrong}");
+    }
+
+    #[test]
+    fn what_cites_a_rule_as_a_whole_is_suspect_with_each_of_its_requirements() {
+        let of = |text: &str| [requirement("H-04.1", text)];
+        let by = Citations::from([("H-04".to_owned(), BTreeSet::from(["a_test".to_owned()]))]);
+        let mut lock = Lock::default();
+        lock.confirm(&["H-04.1"], &of("It MUST."), &by);
+        assert_eq!(lock.suspects(&of("It MUST."), &by), [""; 0]);
+        assert!(lock.suspects(&of("It MUST NOT."), &by)[0].ends_with("(CONFIRM=H-04.1): a_test"));
     }
 
     #[test]
