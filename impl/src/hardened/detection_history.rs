@@ -129,14 +129,16 @@ impl<'c, 'a> DetectionHistory<'c, 'a> {
             let then_ns = since_ns.saturating_sub(list.age_ns);
             let list_of = (list.items, list.index);
             let search = Search::new(list_of, list.reach(cycle), then_ns, scratch.columns);
-            if let Some(witness) = search.mark_own(own_origin(place), tracks.items, scratch) {
+            if let Some(witness) =
+                search.mark_own((own_origin(place), false), tracks.items, scratch)
+            {
                 return Seen::Unclear(witness);
             }
         }
         let limit = cycle.parameters.theta_track_max;
         let list_of = (detections.items, self.index);
         let search = Search::new(list_of, limit, since_ns, scratch.columns);
-        if let Some(witness) = search.mark_own(OWN_DETECTION, tracks.items, scratch) {
+        if let Some(witness) = search.mark_own((OWN_DETECTION, true), tracks.items, scratch) {
             return Seen::Unclear(witness);
         }
         let mut pairs = tracks.items.iter().zip(scratch.rows.iter_mut());
@@ -216,7 +218,7 @@ impl Row {
 
     /// Its detection, when that is the detection of no other track.
     const fn own_detection(&self) -> Option<u16> {
-        if self.seen & OWN_DETECTION != 0 { Some(self.item) } else { None }
+        if self.seen & OWN_DETECTION != 0 { Some(self.detection) } else { None }
     }
 
     /// Whether the track with the index of this row is backed.
@@ -226,7 +228,7 @@ impl Row {
 
     /// The detection of the track with the index of this row, if it is confirmed.
     pub(crate) const fn confirmed_by(&self) -> Option<u16> {
-        if self.seen & CONFIRMED != 0 { Some(self.item) } else { None }
+        if self.seen & CONFIRMED != 0 { Some(self.detection) } else { None }
     }
 }
 
@@ -248,7 +250,8 @@ impl<'a> Judge<'a> {
         Self { parameters, detections, slow: slow * slow, straight }
     }
 
-    /// Whether a track is backed and confirmed; the witness when that is too close to call.
+    /// Whether a track is backed and confirmed; the witness when that is too close to call. With
+    /// `judge_closely` alone stage i of W1 takes 6 % more instructions.
     #[inline]
     fn judge(&self, track: &Track, row: &mut Row) -> Option<Witness> {
         let squared = track.vx * track.vx + track.vy * track.vy;
@@ -300,7 +303,8 @@ fn across(track: &Track, detection: &Detection) -> f64 {
 }
 
 /// Whether stage i certainly passes with the pairs of tracks and their own detections: as
-/// `certainly_pass`, but the pairs are known.
+/// `certainly_pass`, but the pairs are known. Without it stage i of W1 takes 30 % more instructions, of W2
+/// 24 %.
 fn own_detections_pass(
     cycle: &Cycle<'_>,
     tracks: &TrackList<'_>,

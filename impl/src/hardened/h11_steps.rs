@@ -43,7 +43,8 @@ fn steps(points: &[TrajectoryPoint]) -> impl Iterator<Item = (&TrajectoryPoint, 
 /// those that are compared below 2^19 m.
 const STEP_ERROR: f64 = 1e-9;
 
-/// Whether the step keeps all rules by more than plain doubles err.
+/// Whether the step keeps all rules by more than plain doubles err. Without it stage ii of W1 and W2 takes
+/// six times as many instructions, without `Slide::is_fine` nearly four times.
 #[inline]
 fn step_is_fine(cycle: &Cycle<'_>, from: &TrajectoryPoint, to: &TrajectoryPoint) -> bool {
     let dt_ns = elapsed_ns(from.t_ns, to.t_ns);

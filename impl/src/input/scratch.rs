@@ -15,16 +15,16 @@ pub struct Row {
     pub(crate) track: u16,
     /// Column assigned to this row, or `NONE`.
     pub(crate) column: u16,
-    /// Of the track with the index of this row, see `detection_history`: an item of a list.
-    pub(crate) item: u16,
-    /// Of the track with the index of this row, see `detection_history`: what the CAV saw of it.
+    /// Of the track with the index of this row: its detection, where `seen` says that there is one.
+    pub(crate) detection: u16,
+    /// Of the track with the index of this row: what the CAV saw of it, see `detection_history`.
     pub(crate) seen: u16,
 }
 
 impl Row {
     /// A place to be lent; a constant, so that it needs no heap. Source:
     /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
-    pub const EMPTY: Self = Self { potential: 0, track: 0, column: 0, item: 0, seen: 0 };
+    pub const EMPTY: Self = Self { potential: 0, track: 0, column: 0, detection: 0, seen: 0 };
 }
 
 /// Working memory for one column of the assignment; its content between cycles means nothing.
@@ -39,14 +39,26 @@ pub struct Column {
     pub(crate) row: u16,
     /// Row before this column on the shortest path.
     pub(crate) before: u16,
-    /// The first column of a list, see `pairing` and `cells`; `NONE` for an empty one.
-    pub(crate) head: u16,
-    /// The next column of the list that this one is in.
-    pub(crate) next: u16,
     /// A column that a path reaches, see `assignment::Paths`.
     pub(crate) reached: u16,
-    /// For more lists of items than one, see `detection_history::squares`.
-    pub(crate) links: [u16; 3],
+    /// Stage i's lists of columns by their places.
+    pub(crate) near: Link,
+    /// Whether a track of stage i has taken the detection with the index of this column, see `pairing`.
+    pub(crate) is_taken: bool,
+    /// Which track has the item with the index of this column, see `detection_history::own`.
+    pub(crate) owner: u16,
+    /// Which track may explain the detection with the index of this column, see `explained`.
+    pub(crate) explained_by: u16,
+    /// The items of earlier lists by squares, see `detection_history::squares`.
+    pub(crate) squares: [Link; 4],
+}
+
+/// Lists in an array: of the list with the index of its element the head, and of the item with that index
+/// the next one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Link {
+    pub(crate) head: u16,
+    pub(crate) next: u16,
 }
 
 impl Column {
@@ -57,11 +69,17 @@ impl Column {
         distance: 0,
         row: 0,
         before: 0,
-        head: 0,
-        next: 0,
         reached: 0,
-        links: [0; 3],
+        near: Link::EMPTY,
+        is_taken: false,
+        owner: 0,
+        explained_by: 0,
+        squares: [Link::EMPTY; 4],
     };
+}
+
+impl Link {
+    const EMPTY: Self = Self { head: 0, next: 0 };
 }
 
 /// No row, column or detection: there are at most 2112.
@@ -88,8 +106,8 @@ impl Sizes {
     /// What any cycle within the domain needs.
     pub const MAX: Self = Self { rows: 1024, columns: 2112 };
 
-    /// How many bytes that is: 16 for a row and 32 for a column where 64-bit integers are aligned
-    /// to 8 bytes, at most 83,968 in all. Nothing else is needed, however large the grid. Source:
+    /// How many bytes that is: 16 for a row and 48 for a column where 64-bit integers are aligned
+    /// to 8 bytes, at most 117,760 in all. Nothing else is needed, however large the grid. Source:
     /// `spec/4-arithmetic.md#conformance-of-an-implementation`.
     pub const fn bytes(self) -> usize {
         let rows = self.rows.saturating_mul(size_of::<Row>());
@@ -141,7 +159,7 @@ mod tests {
     #[test]
     fn the_bytes_are_as_documented() {
         assert_eq!(Sizes { rows: 1, columns: 0 }.bytes(), 16);
-        assert_eq!(Sizes { rows: 0, columns: 1 }.bytes(), 32);
-        assert_eq!(Sizes::MAX.bytes(), 83_968);
+        assert_eq!(Sizes { rows: 0, columns: 1 }.bytes(), 48);
+        assert_eq!(Sizes::MAX.bytes(), 117_760);
     }
 }

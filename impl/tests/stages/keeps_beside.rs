@@ -3,13 +3,46 @@
 //! it, or both. What meets it would not, if it went along the route as it goes now.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::{Add, Mul, Sub};
 
 use crate::fail_safe::{AGE, moving, with};
-use crate::naive::V;
 use crate::scene::Scene;
 use mufasa::input::cycle::{CrossSection, Track};
 use mufasa::report::Rule;
 use mufasa::services::configuration::Configuration::PlanRemote;
+
+#[derive(Clone, Copy, Debug)]
+struct V(f64, f64);
+
+impl V {
+    fn dot(self, other: Self) -> f64 {
+        self.0 * other.0 + self.1 * other.1
+    }
+}
+
+impl Add for V {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl Sub for V {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl Mul<f64> for V {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0 * factor, self.1 * factor)
+    }
+}
 
 /// Corners of the CAV to its left: in front at the last place, and in the rear at the first one.
 const FRONT: V = V(1.4 + 2.25 + 2.270_625, 0.95);

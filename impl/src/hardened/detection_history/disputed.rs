@@ -23,46 +23,18 @@ pub(crate) struct Disputes<'m, 'c, 'a> {
     index: Option<&'c DetectionIndex<'a>>,
     tracks: Option<&'c TrackList<'a>>,
     explained: &'m Explained,
-    /// Where the unexplained ones are, if they are few.
-    unexplained: Option<[[f64; 2]; FEW]>,
     /// Whether the detection of one track is disputed, the last one asked for.
     last: Option<(usize, bool)>,
 }
 
-/// So many unexplained detections are compared with each past before anything else is done.
-const FEW: usize = 8;
-
 impl<'m, 'c, 'a> Disputes<'m, 'c, 'a> {
-    pub(crate) fn new(
+    pub(crate) const fn new(
         detections: &'c [Detection],
         index: Option<&'c DetectionIndex<'a>>,
         tracks: Option<&'c TrackList<'a>>,
         explained: &'m Explained,
-        scratch: &Scratch<'_>,
     ) -> Self {
-        let unexplained = few_unexplained(detections, explained, scratch);
-        Self { detections, index, tracks, explained, unexplained, last: None }
-    }
-
-    /// Whether the detection of a confirmed track may be disputed: whether any unexplained one is as
-    /// near to its past as that takes, or there are many.
-    pub(crate) fn may_be_disputed(
-        &self,
-        track: usize,
-        lists: &Lists<'_, '_, '_>,
-        scratch: &Scratch<'_>,
-    ) -> bool {
-        let Some(unexplained) = &self.unexplained else { return true };
-        if self.explained.count == self.detections.len() {
-            return false;
-        }
-        let row_of = |list: &'c TrackList<'a>| list.items.get(track).zip(scratch.rows.get(track));
-        let Some((track, row)) = self.tracks.and_then(row_of) else { return true };
-        let Some(past) = lists.past_of(row) else { return true };
-        let (dx, dy) = past.moved(track);
-        let reach = lists.v_object() * past.usable.age + past.reach + MARGIN;
-        let is_near = |at: f64, place: f64| (at - place).abs() <= reach;
-        unexplained.iter().any(|&[x, y]| is_near(x, track.x + dx) && is_near(y, track.y + dy))
+        Self { detections, index, tracks, explained, last: None }
     }
 
     /// Whether the detection of a confirmed track is disputed. The lists are listed by squares.
@@ -141,23 +113,4 @@ fn nearest_to_past(
         }
     });
     origin
-}
-
-/// `None` for more than a few; what is left of the few is nowhere.
-fn few_unexplained(
-    items: &[Detection],
-    explained: &Explained,
-    scratch: &Scratch<'_>,
-) -> Option<[[f64; 2]; FEW]> {
-    let count = items.len().saturating_sub(explained.count);
-    let mut places = [[f64::INFINITY; 2]; FEW];
-    if count > FEW {
-        return None;
-    }
-    let is_unexplained = |&(detection, _): &(usize, &Detection)| {
-        explained.by(detection, scratch.rows, scratch.columns).is_none()
-    };
-    let found = items.iter().enumerate().filter(is_unexplained).take(count);
-    places.iter_mut().zip(found).for_each(|(place, (_, item))| *place = [item.x, item.y]);
-    Some(places)
 }

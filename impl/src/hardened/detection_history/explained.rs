@@ -14,9 +14,8 @@ pub(crate) struct Explained {
 }
 
 impl Explained {
-    /// Without a usable list there is none. `tracks`: the current ones. In `Column::potential`, which
-    /// stage i does not use any more, stands which track may explain the detection with the index of the
-    /// column; whether it does, its row says.
+    /// Without a usable list there is none. `tracks`: the current ones. Columns say which track may explain
+    /// a detection; whether it does, its row says.
     pub(crate) fn new(
         history: &DetectionHistory<'_, '_>,
         tracks: Option<&TrackList<'_>>,
@@ -27,11 +26,11 @@ impl Explained {
             (_, _) => 0,
         };
         let mut found = Self { count: 0, tracks };
-        for (row, index) in scratch.rows.iter().take(tracks).zip(0_i64..) {
+        for (row, index) in scratch.rows.iter().take(tracks).zip(0_u16..) {
             let Some(item) = row.confirmed_by() else { continue };
             if let Some(column) = scratch.columns.get_mut(usize::from(item)) {
                 // A detection confirms one track at most.
-                column.potential = index;
+                column.explained_by = index;
                 found.count = found.count.saturating_add(1);
             }
         }
@@ -41,7 +40,7 @@ impl Explained {
     /// The track that explains a detection.
     #[inline]
     pub(crate) fn by(&self, detection: usize, rows: &[Row], columns: &[Column]) -> Option<usize> {
-        let track = usize::try_from(columns.get(detection)?.potential).ok()?;
+        let track = usize::from(columns.get(detection)?.explained_by);
         let row = rows.get(track).filter(|_| track < self.tracks)?;
         (usize::from(row.confirmed_by()?) == detection).then_some(track)
     }

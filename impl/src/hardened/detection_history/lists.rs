@@ -1,6 +1,6 @@
 //! The usable lists, as H-14 looks into them (SEEN-01, SEEN-02).
 
-use crate::hardened::detection_history::squares::{CLOSE, Links, MARGIN, Squares};
+use crate::hardened::detection_history::squares::{CLOSE, MARGIN, Squares};
 use crate::hardened::detection_history::{DetectionHistory, UsableList};
 use crate::input::cycle::{Cycle, Detection, Track, TrackList};
 use crate::input::scratch::{Column, Row};
@@ -15,8 +15,6 @@ pub(crate) struct Past<'c> {
     pub(crate) usable: UsableList<'c>,
     /// How far from the past an item may be, m.
     pub(crate) reach: f64,
-    /// How much the mean velocity may differ from that of the track, m/s.
-    pub(crate) off: f64,
     /// From the stamp of the tracks to that of the list, s.
     since: f64,
 }
@@ -57,19 +55,12 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             for (past, list) in pasts.iter_mut().zip(history.by_reference_age()) {
                 *past = history.usable.get(list).copied().flatten().map(|usable| {
                     let reach = usable.reach(cycle) + CLOSE;
-                    let off = (cycle.parameters.theta_track_max + reach) / usable.age;
                     let since = seconds(since_ns.saturating_sub(usable.age_ns));
-                    Past { list, usable, reach, off, since }
+                    Past { list, usable, reach, since }
                 });
             }
         }
         Self { cycle, history, pasts, squares: [None; 4] }
-    }
-
-    /// By how much the mean velocity of a confirmed track's detection may differ from that of the
-    /// track at most, m/s.
-    pub(crate) fn greatest_off(&self) -> f64 {
-        self.pasts.iter().flatten().map(|past| past.off).fold(0.0, larger)
     }
 
     pub(crate) const fn v_object(&self) -> f64 {
@@ -90,10 +81,10 @@ impl<'m, 'c, 'a> Lists<'m, 'c, 'a> {
             // Of a few squares for what comes from anywhere, and of a few things in a square.
             let parameters = &self.cycle.parameters;
             let side = larger(4.0 * parameters.theta_track_max, 0.25 * parameters.v_object);
-            let usable = self.history.usable.iter().zip(Links::ALL);
-            for (squares, (list, links)) in self.squares.iter_mut().zip(usable) {
+            let usable = self.history.usable.iter().zip(0..);
+            for (squares, (list, number)) in self.squares.iter_mut().zip(usable) {
                 *squares =
-                    list.map(|list| Squares::of((list.items, list.index), side, links, columns));
+                    list.map(|list| Squares::of((list.items, list.index), side, number, columns));
             }
         }
         self.listed(list)

@@ -1,7 +1,7 @@
 //! The items of a list that are one track's own: nearest to where it was at the time of the list,
 //! and of no other track (SEEN-07).
 
-use crate::hardened::detection_history::squares::{CLOSE, Links, Listed, MARGIN, Squares};
+use crate::hardened::detection_history::squares::{CLOSE, Listed, MARGIN, Squares};
 use crate::input::cycle::{Detection, Track};
 use crate::input::scratch::{Column, NONE, Row, Scratch, short};
 use crate::numbers::plane::same_point;
@@ -55,56 +55,59 @@ impl Nearest {
     }
 }
 
-/// In `Column::row`: more than one track has the item with the index of the column; else which one.
+/// In `Column::owner`: more than one track has the item.
 const SHARED: u16 = NONE - 1;
 
 /// The item is nobody's own.
 #[cold]
 fn share(column: &mut Column, mark: u16, rows: &mut [Row]) {
-    let owner = rows.get_mut(usize::from(column.row));
+    let owner = rows.get_mut(usize::from(column.owner));
     owner.into_iter().for_each(|row| row.seen &= !mark);
-    column.row = SHARED;
+    column.owner = SHARED;
 }
 
 impl<'a> Search<'a> {
     pub(super) fn new(list: Listed<'a>, reach: f64, since_ns: i64, columns: &mut [Column]) -> Self {
-        let squares = Squares::of(list, 4.0 * (reach + MARGIN), Links::First, columns);
+        let squares = Squares::of(list, 4.0 * (reach + MARGIN), 0, columns);
         let square = |reach: f64| reach * reach;
         let (near, far) = (square(reach - 2.0 * CLOSE), square(reach + 2.0 * CLOSE));
         Self { squares, reach, near, far, wide: square(reach + 1.0), since: seconds(since_ns) }
     }
 
-    /// Writes the item and the mark into the rows of the tracks whose item is that of no other track;
-    /// fails when it is too close to call.
+    /// Writes the mark into the rows of the tracks whose item is that of no other track, and which it is where
+    /// it is a current detection; fails when it is too close to call.
     pub(super) fn mark_own(
         &self,
-        mark: u16,
+        (mark, is_detection): (u16, bool),
         tracks: &[Track],
         scratch: &mut Scratch<'_>,
     ) -> Option<Witness> {
         let (rows, columns) = (&mut *scratch.rows, &mut *scratch.columns);
         let items = self.squares.items().len();
-        columns.iter_mut().take(items).for_each(|column| column.row = NONE);
+        columns.iter_mut().take(items).for_each(|column| column.owner = NONE);
         for (index, track) in tracks.iter().enumerate() {
             let item = match self.item_of(track, columns) {
                 Ok(item) => item,
                 Err(away) => return Some(too_close(track, [away, self.reach])),
             };
             let Some(column) = columns.get_mut(usize::from(item)) else { continue };
-            if column.row != NONE {
+            if column.owner != NONE {
                 share(column, mark, rows);
                 continue;
             }
-            column.row = short(index);
+            column.owner = short(index);
             if let Some(row) = rows.get_mut(index) {
-                row.item = item;
+                if is_detection {
+                    row.detection = item;
+                }
                 row.seen |= mark;
             }
         }
         None
     }
 
-    /// The item of a track, or `NONE`; when it is too close to call, how far the nearest one is, m.
+    /// The item of a track, or `NONE`; when it is too close to call, how far the nearest one is, m. Without
+    /// `clearly_nearest` stage i of W1 and W2 takes 80 to 90 % more instructions.
     #[inline]
     fn item_of(&self, track: &Track, columns: &[Column]) -> Result<u16, f64> {
         let moved = [track.vx * self.since, track.vy * self.since];
@@ -126,6 +129,7 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// By the square of the place, where that tells; in a crowd it is most of what is not looked at.
     #[inline]
     fn nearest(&self, track: &Track, columns: &[Column]) -> Nearest {
         let (dx, dy) = (track.vx * self.since, track.vy * self.since);

@@ -6,7 +6,7 @@
 
 use crate::input::cycle::Detection;
 use crate::input::detection_index::DetectionIndex;
-use crate::input::scratch::{Column, NONE, short};
+use crate::input::scratch::{Column, Link, NONE, short};
 use crate::numbers::range::smaller;
 
 /// m
@@ -14,62 +14,6 @@ pub(crate) const MARGIN: f64 = 1e-6;
 
 /// What is closer than this to a bound is too close to call, m or m/s.
 pub(crate) const CLOSE: f64 = 1e-9;
-
-/// Which fields of the columns hold the lists: four can be there at once while stage i does not
-/// use the columns; while it does, or items are marked in `Column::row`, only the first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Links {
-    First,
-    Second,
-    Third,
-    Fourth,
-}
-
-impl Links {
-    pub(crate) const ALL: [Self; 4] = [Self::First, Self::Second, Self::Third, Self::Fourth];
-
-    /// The last item of all squares with this hash.
-    const fn head(self, column: &Column) -> u16 {
-        let [third, fourth, _] = column.links;
-        match self {
-            Self::First => column.head,
-            Self::Second => column.row,
-            Self::Third => third,
-            Self::Fourth => fourth,
-        }
-    }
-
-    /// The item before the one with this index.
-    const fn next(self, column: &Column) -> u16 {
-        let [.., fourth] = column.links;
-        match self {
-            Self::First => column.next,
-            Self::Second => column.before,
-            Self::Third => column.reached,
-            Self::Fourth => fourth,
-        }
-    }
-
-    const fn set_head(self, column: &mut Column, item: u16) {
-        let [third, fourth, _] = &mut column.links;
-        match self {
-            Self::First => column.head = item,
-            Self::Second => column.row = item,
-            Self::Third => *third = item,
-            Self::Fourth => *fourth = item,
-        }
-    }
-
-    const fn set_next(self, column: &mut Column, item: u16) {
-        let [.., fourth] = &mut column.links;
-        match self {
-            Self::First => column.next = item,
-            Self::Second => column.before = item,
-            Self::Third => column.reached = item,
-            Self::Fourth => *fourth = item,
-        }
-    }
-}
 
 /// Added to a number below 2^51, this leaves the nearest integer in its low bits.
 const INTEGER: f64 = 6_755_399_441_055_744.0;
@@ -83,7 +27,8 @@ pub(crate) struct Squares<'a> {
     items: &'a [Detection],
     /// When the caller keeps an index, it is used, and nothing else here.
     index: Option<&'a DetectionIndex<'a>>,
-    links: Links,
+    /// Which of the lists of `Column::squares`.
+    list: usize,
     mask: u64,
     /// Of a square, m, and squares per m.
     side: f64,
@@ -98,12 +43,12 @@ impl<'a> Squares<'a> {
     pub(crate) fn of(
         (items, index): Listed<'a>,
         side: f64,
-        links: Links,
+        list: usize,
         columns: &mut [Column],
     ) -> Self {
         match index {
-            Some(_) => Self { items, index, links, mask: 0, side, scale: 1.0 },
-            None => Self::new(items, side, links, columns),
+            Some(_) => Self { items, index, list, mask: 0, side, scale: 1.0 },
+            None => Self::new(items, side, list, columns),
         }
     }
 
@@ -112,22 +57,23 @@ impl<'a> Squares<'a> {
     pub(crate) fn new(
         items: &'a [Detection],
         side: f64,
-        links: Links,
+        list: usize,
         columns: &mut [Column],
     ) -> Self {
         let mask = match items.len().checked_ilog2() {
             Some(log) => (1_u64 << log).wrapping_sub(1),
             None => 0,
         };
-        let squares = Self { items, index: None, links, mask, side, scale: 1.0 / side };
-        columns.iter_mut().take(items.len()).for_each(|column| links.set_head(column, NONE));
+        let squares = Self { items, index: None, list, mask, side, scale: 1.0 / side };
+        for link in columns.iter_mut().take(items.len()).filter_map(|it| it.squares.get_mut(list)) {
+            link.head = NONE;
+        }
         for (index, item) in items.iter().enumerate() {
             let hash = squares.hash(squares.square([item.x, item.y]));
-            let Some(column) = columns.get_mut(hash) else { continue };
-            let before = links.head(column);
-            links.set_head(column, short(index));
-            if let Some(column) = columns.get_mut(index) {
-                links.set_next(column, before);
+            let Some(first) = link_of(columns, hash, list) else { continue };
+            let before = core::mem::replace(&mut first.head, short(index));
+            if let Some(item) = link_of(columns, index, list) {
+                item.next = before;
             }
         }
         squares
@@ -151,6 +97,12 @@ impl<'a> Squares<'a> {
         usize::try_from((mixed >> 32) & self.mask).unwrap_or(0)
     }
 
+    /// Of a list, or an item, with this index; there is none beyond the columns.
+    fn link(&self, columns: &[Column], index: usize) -> Link {
+        let link = columns.get(index).and_then(|column| column.squares.get(self.list));
+        link.copied().unwrap_or(Link { head: NONE, next: NONE })
+    }
+
     /// Calls `look` for some items, at least those within `away` of the place, when these are
     /// all in the square of the place; returns `away`, 0 at the border.
     #[inline]
@@ -167,13 +119,10 @@ impl<'a> Squares<'a> {
             let scaled = value * self.scale;
             0.5 - (scaled - ((scaled + INTEGER) - INTEGER)).abs()
         });
-        let head = columns.get(self.hash(self.square(place)));
-        let mut next = head.map_or(NONE, |column| self.links.head(column));
-        while let (Some(item), Some(column)) =
-            (self.items.get(usize::from(next)), columns.get(usize::from(next)))
-        {
+        let mut next = self.link(columns, self.hash(self.square(place))).head;
+        while let Some(item) = self.items.get(usize::from(next)) {
             look(usize::from(next), [item.x, item.y]);
-            next = self.links.next(column);
+            next = self.link(columns, usize::from(next)).next;
         }
         smaller(left, up) * self.side - MARGIN
     }
@@ -204,19 +153,20 @@ impl<'a> Squares<'a> {
         }
         for k in (0..up).map(|step| k0.wrapping_add(step)) {
             for i in (0..across).map(|step| i0.wrapping_add(step)) {
-                let head = columns.get(self.hash([i, k]));
-                let mut next = head.map_or(NONE, |column| self.links.head(column));
-                while let (Some(item), Some(column)) =
-                    (self.items.get(usize::from(next)), columns.get(usize::from(next)))
-                {
+                let mut next = self.link(columns, self.hash([i, k])).head;
+                while let Some(item) = self.items.get(usize::from(next)) {
                     if squares == 1 || self.square([item.x, item.y]) == [i, k] {
                         look(usize::from(next), [item.x, item.y]);
                     }
-                    next = self.links.next(column);
+                    next = self.link(columns, usize::from(next)).next;
                 }
             }
         }
     }
+}
+
+fn link_of(columns: &mut [Column], index: usize, list: usize) -> Option<&mut Link> {
+    columns.get_mut(index)?.squares.get_mut(list)
 }
 
 #[cfg(test)]

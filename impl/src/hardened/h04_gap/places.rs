@@ -60,7 +60,8 @@ impl DiskSearch<'_, '_> {
         })
     }
 
-    /// Whether nothing along the path can hit, by one band.
+    /// Whether nothing along the path can hit, by one band. Without it stage v of W1 takes three times as many
+    /// instructions, of W2 four times.
     fn lines_are_free(&self, nodes: Nodes<'_, '_>, is_free: impl Fn(&Band) -> bool) -> bool {
         let &Ego { x: p_x, y: p_y, .. } = &self.cycle.ego;
         let ends = nodes.lines().flat_map(|line| {

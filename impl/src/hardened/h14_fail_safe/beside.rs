@@ -122,7 +122,8 @@ impl<'c, 'a> Beside<'c, 'a> {
     }
 }
 
-/// How far places reach to the sides of the reference path.
+/// How far places reach to the sides of the reference path. Asked of each place instead, stage iv of W3 takes
+/// a quarter more instructions.
 #[derive(Clone, Copy, Debug)]
 struct Lane {
     /// The least `D_k` - `E_k` and the greatest `D_k` + `E_k`: with the most and with the least `E_k` that may

@@ -62,8 +62,6 @@ pub(super) struct Object {
     /// The centre from the CAV's reference point, at the time of its list.
     pub(super) at: MovingRectangle,
     pub(super) speed: f64,
-    /// By how much the velocity may be another one, m/s.
-    pub(super) off: f64,
     /// Age of its list, s.
     pub(super) age: f64,
 }
@@ -73,7 +71,7 @@ impl Object {
     pub(super) fn standing(&self, from: Vector) -> Self {
         let centre = [from.x, from.y].map(Real::value);
         let at = MovingRectangle { centre, velocity: [0.0; 2], ..self.at };
-        Self { at, speed: 0.0, off: 0.0, age: 0.0 }
+        Self { at, speed: 0.0, age: 0.0 }
     }
 }
 
@@ -128,13 +126,13 @@ impl Cover {
     /// Whether the object certainly sweeps over no point of the box in this time.
     #[inline]
     pub(super) fn misses(&self, object: &Object, clock: &Clock) -> bool {
-        let &Object { at, speed, off, age } = object;
+        let &Object { at, speed, age } = object;
         let until = match self.end {
             Some(end) => age + end,
-            None => clock.longest(speed + off, age),
+            None => clock.longest(speed, age),
         };
         let mut seen = self.seen_from(&at);
-        seen.half = seen.half.map(|it| it + (off + ROUGH * speed) * until);
+        seen.half = seen.half.map(|it| it + ROUGH * speed * until);
         if seen.is_passed(at.velocity) {
             return true;
         }
@@ -142,7 +140,7 @@ impl Cover {
         let [half_a, half_b] = half;
         let (along, across, [length, width]) = (along.abs(), across.abs(), seen.size);
         let [va, vb] = split(self.axis, at.velocity);
-        let from = if off > 0.0 { 0.0 } else { clock.braked(speed, age + self.start) };
+        let from = clock.braked(speed, age + self.start);
         let apart = |middle: f64, rate: f64, half: f64| {
             let (one, other) = (middle + rate * from, middle + rate * until);
             smaller(one, other) > half || larger(one, other) < -half
@@ -169,7 +167,8 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Whether the strip that it sweeps over with this velocity certainly misses the box.
+    /// Whether the strip that it sweeps over with this velocity certainly misses the box. Without it stage
+    /// iv of W2 takes half as many instructions more.
     #[inline]
     pub(super) fn is_passed(&self, velocity: [f64; 2]) -> bool {
         let ([a, b], [half_a, half_b]) = (self.from, self.half);
@@ -191,7 +190,8 @@ fn rectangle(ego: &Ego, [cos, sin]: [f64; 2]) -> MovingRectangle {
     }
 }
 
-/// Some places that follow each other.
+/// Some places that follow each other. Without them, by the box around all alone, stage iv of W2 takes a
+/// third more instructions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
     pub(super) cover: Cover,

@@ -63,7 +63,7 @@ impl FailSafe<'_, '_> {
             history,
             lists: Lists::new(cycle, history, tracks),
             explained: &explained,
-            disputes: Disputes::new(items, history.index, tracks, &explained, scratch),
+            disputes: Disputes::new(items, history.index, tracks, &explained),
             first: None,
         };
         let age = |stamp_ns: i64| elapsed_ns(stamp_ns, cycle.now_ns);

@@ -58,11 +58,8 @@ impl Motions<'_, '_, '_> {
     pub(super) fn tracks(&mut self, list: &TrackList<'_>, age_ns: i64) {
         for (index, track) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::track(track), age_ns);
-            if !self.meeting.is_missed(&motion, 0.0) {
-                let order = [TRACK, index, 0];
-                let witness = |it: Witness| Witness { track: Some(track.id), ..it };
-                self.keep(&motion, order, witness, |_| true);
-            }
+            let witness = |it: Witness| Witness { track: Some(track.id), ..it };
+            self.keep(&motion, [TRACK, index, 0], witness, |_| true);
         }
     }
 
@@ -74,20 +71,19 @@ impl Motions<'_, '_, '_> {
         scratch: &mut Scratch<'_>,
     ) {
         if let Some(tracks) = tracks.filter(|_| self.explained.count > 0) {
-            let off = self.lists.greatest_off();
             for (order, track) in tracks.items.iter().enumerate() {
                 let item = scratch.rows.get(order).and_then(Row::confirmed_by);
                 let Some(detection) = item.map(usize::from) else { continue };
                 let Some(now) = list.items.get(detection) else { continue };
                 let now = Motion::new(MovingRectangle::detection(now), age_ns);
-                self.confirmed((order, track), (detection, &now), off, scratch);
+                self.confirmed((order, track), (detection, &now), scratch);
             }
         }
         for (detection, now) in list.items.iter().enumerate() {
             let motion = Motion::new(MovingRectangle::detection(now), age_ns);
             let by = self.explained.by(detection, scratch.rows, scratch.columns);
             self.anywhere((detection, now), &motion, by, scratch);
-            if by.is_none() && !self.meeting.is_missed(&motion, 0.0) {
+            if by.is_none() {
                 let witness = |it: Witness| Witness { detection: Some(detection), ..it };
                 self.keep(&motion, [STANDING, detection, 0], witness, |_| true);
             }
@@ -131,13 +127,8 @@ impl Motions<'_, '_, '_> {
         &mut self,
         (order, track): (usize, &Track),
         (detection, now): (usize, &Motion),
-        off: f64,
         scratch: &mut Scratch<'_>,
     ) {
-        let at = MovingRectangle { velocity: [track.vx, track.vy], ..now.now };
-        if self.meeting.is_missed(&Motion { now: at, ..*now }, off) {
-            return;
-        }
         let past = scratch.rows.get(order).and_then(|row| self.lists.past_of(row));
         let Some(Past { list, usable, reach, .. }) = past else { return };
         let Some(squares) = self.lists.by_squares(list, scratch.columns) else { return };
@@ -148,7 +139,7 @@ impl Motions<'_, '_, '_> {
         squares.for_each_in(scratch.columns, around, |item, before| {
             let (x, y) = ((track.x - before[0]) + dx, (track.y - before[1]) + dy);
             let motion = now.coming_from(before, usable.age_ns, rate);
-            if x * x + y * y <= reach * reach && !self.meeting.is_missed(&motion, 0.0) {
+            if x * x + y * y <= reach * reach {
                 let order = [CONFIRMED, order];
                 let pair = Pair { order, detection, item, dt_ns: usable.age_ns };
                 self.keep_pair(&motion, &pair, |_| true);
@@ -168,13 +159,7 @@ impl Motions<'_, '_, '_> {
         let Some(reference) = self.history.reference() else { return };
         let Some(list) = self.lists.usable(reference) else { return };
         let (stood, rate) = (self.lists.stands_within(), 1.0 / list.age);
-        let is_open =
-            track.is_none_or(|it| self.disputes.may_be_disputed(it, &self.lists, scratch));
-        if !is_open && self.meeting.is_missed(motion, stood * rate) {
-            return;
-        }
-        let anywhere = if is_open { self.lists.v_object() * list.age + CLOSE } else { 0.0 };
-        let farthest = larger(anywhere, stood);
+        let farthest = larger(self.lists.v_object() * list.age + CLOSE, stood);
         let area = self.meeting.comes_from(motion, farthest * rate, list.age + MARGIN);
         if is_empty(area) {
             return;
@@ -193,7 +178,7 @@ impl Motions<'_, '_, '_> {
             let is_pair = || {
                 stands || self.lists.is_supported(now, before, (reference, &list), scratch.columns)
             };
-            if !self.meeting.is_missed(&motion, 0.0) && is_pair() {
+            if is_pair() {
                 self.keep_pair(&motion, &pair, |it| {
                     let is_disputed = |track| it.disputes.is_disputed(track, &it.lists, scratch);
                     stands || track.is_none_or(is_disputed)

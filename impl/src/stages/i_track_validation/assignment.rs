@@ -22,7 +22,7 @@ pub(crate) trait Costs {
     /// The cost of a row and a column, at least 0; `None` where the two must not be paired.
     fn cost(&self, rows: &[Row], row: Self::Place, column: usize) -> Option<i64>;
 
-    /// The lists of columns (`Column::head`, `Column::next`) that a row may be paired with, some
+    /// The lists of columns (`Column::near`) that a row may be paired with, some
     /// at a time, with a bound: no column of these lists or of later ones costs less.
     fn lists(&self, row: Self::Place) -> impl Iterator<Item = (i64, Range<usize>)>;
 }
@@ -129,9 +129,9 @@ impl Paths {
                 return;
             }
             for list in lists {
-                let mut next = columns.get(list).map_or(NONE, |column| column.head);
+                let mut next = columns.get(list).map_or(NONE, |column| column.near.head);
                 while let Some(column) = columns.get_mut(usize::from(next)) {
-                    let index = usize::from(core::mem::replace(&mut next, column.next));
+                    let index = usize::from(core::mem::replace(&mut next, column.near.next));
                     // Paths that are that short are final.
                     if column.distance <= length {
                         continue;

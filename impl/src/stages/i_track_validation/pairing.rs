@@ -100,8 +100,7 @@ impl PairSum {
 /// Detections by the square that they are in.
 struct Squares<'d, 's> {
     detections: &'d [Detection],
-    /// `head` of a column: the last detection inserted of all squares with this hash; `next` of a
-    /// column: the detection inserted before the one with its index; `row`: it is taken.
+    /// `near`: the last detection inserted of all squares with this hash, and the one inserted before.
     columns: &'s mut [Column],
     mask: u64,
     reach: f64,
@@ -112,8 +111,8 @@ struct Squares<'d, 's> {
 impl<'d, 's> Squares<'d, 's> {
     fn new(detections: &'d [Detection], reach: f64, columns: &'s mut [Column]) -> Self {
         for column in columns.iter_mut() {
-            column.head = NONE;
-            column.row = NONE;
+            column.near.head = NONE;
+            column.is_taken = false;
         }
         let mask = match columns.len().checked_ilog2() {
             Some(log) => (1_u64 << log).wrapping_sub(1),
@@ -137,12 +136,12 @@ impl<'d, 's> Squares<'d, 's> {
         let Some(before) = self
             .columns
             .get_mut(hash)
-            .map(|column| core::mem::replace(&mut column.head, short(index)))
+            .map(|column| core::mem::replace(&mut column.near.head, short(index)))
         else {
             return;
         };
         if let Some(column) = self.columns.get_mut(index) {
-            column.next = before;
+            column.near.next = before;
         }
     }
 
@@ -167,18 +166,18 @@ impl<'d, 's> Squares<'d, 's> {
     fn take_from(&mut self, hash: usize, place: [f64; 2]) -> Option<f64> {
         let mut nearest = self.reach * self.reach;
         let mut found = None;
-        let mut next = self.columns.get(hash)?.head;
+        let mut next = self.columns.get(hash)?.near.head;
         while let (Some(detection), Some(column)) =
             (self.detections.get(usize::from(next)), self.columns.get(usize::from(next)))
         {
             let squared = apart_squared(place, [detection.x, detection.y]);
-            if squared < nearest && column.row == NONE {
+            if squared < nearest && !column.is_taken {
                 nearest = squared;
                 found = Some(next);
             }
-            next = column.next;
+            next = column.near.next;
         }
-        self.columns.get_mut(usize::from(found?))?.row = 0;
+        self.columns.get_mut(usize::from(found?))?.is_taken = true;
         Some(nearest)
     }
 }

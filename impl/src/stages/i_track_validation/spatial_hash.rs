@@ -38,13 +38,13 @@ impl ColumnsByCell {
         let count = |length: f64| index(length / side).saturating_add(1);
         let counts = if more >= 0.0 { [count(width), count(height)] } else { [0, 0] };
         let cells = Self { corner, side, counts };
-        columns.iter_mut().for_each(|column| column.head = NONE);
+        columns.iter_mut().for_each(|column| column.near.head = NONE);
         for index in 0..columns.len() {
             let list = place(index).map_or(0, |at| cells.list(cells.cell(at)));
             let Some(first) = columns.get_mut(list) else { continue };
-            let next = core::mem::replace(&mut first.head, short(index));
+            let next = core::mem::replace(&mut first.near.head, short(index));
             if let Some(column) = columns.get_mut(index) {
-                column.next = next;
+                column.near.next = next;
             }
         }
         cells

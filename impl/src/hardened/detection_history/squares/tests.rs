@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Links, Squares};
+use super::Squares;
 use crate::input::cycle::{Detection, DetectionList};
 use crate::input::detection_index::{DetectionIndex, Slot};
 use crate::input::scratch::Column;
@@ -26,8 +26,7 @@ fn what_is_in_a_box_is_found_once() {
             .collect();
         let sides = [1e-3, 4.0, 12.0, 1000.0];
         let mut columns = vec![Column::default(); count];
-        let lists = Links::ALL
-            .map(|links| Squares::new(&items, sides[links as usize], links, &mut columns));
+        let lists = [0, 1, 2, 3].map(|list| Squares::new(&items, sides[list], list, &mut columns));
         let (size, x, y) = (number(20.0), far + number(60.0), -far + number(60.0));
         let area = [[x - size, x + size], [y - size, y + size]];
         let inside = |item: &Detection| {
@@ -37,7 +36,7 @@ fn what_is_in_a_box_is_found_once() {
         let mut slots = vec![Slot::default(); count];
         let list = DetectionList { stamp_ns: 0, items: &items };
         let index = DetectionIndex::new(&list, &mut slots).expect("valid");
-        let kept = Squares::of((&items, Some(&index)), 1.0, Links::First, &mut columns);
+        let kept = Squares::of((&items, Some(&index)), 1.0, 0, &mut columns);
         for squares in lists.iter().chain([&kept]) {
             let mut met = Vec::new();
             squares.for_each_in(&columns, area, |index, item| {

@@ -5,7 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::assign;
-use crate::input::scratch::{Column, NONE, Row, short};
+use crate::input::scratch::{Column, Link, NONE, Row, short};
 use crate::random::Random;
 
 type Costs = Vec<Vec<Option<i64>>>;
@@ -39,8 +39,10 @@ impl super::Costs for Matrix<'_> {
 
 fn table(columns: usize, sorted: bool) -> Vec<Column> {
     let chain = |at: usize| Column {
-        head: if sorted { short(at) } else { 0 },
-        next: if sorted || at + 1 == columns { NONE } else { short(at + 1) },
+        near: Link {
+            head: if sorted { short(at) } else { 0 },
+            next: if sorted || at + 1 == columns { NONE } else { short(at + 1) },
+        },
         ..Column::default()
     };
     (0..columns).map(chain).collect()

@@ -7,7 +7,8 @@ use crate::random::Random;
 
 fn members(columns: &[Column], list: usize) -> Vec<usize> {
     let index = |at: u16| (at != NONE).then(|| usize::from(at));
-    core::iter::successors(index(columns[list].head), |&at| index(columns[at].next)).collect()
+    core::iter::successors(index(columns[list].near.head), |&at| index(columns[at].near.next))
+        .collect()
 }
 
 /// Every column is met once, and none nearer than the bounds said until then.
