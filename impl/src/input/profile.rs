@@ -2,62 +2,53 @@
 
 use crate::report::Stage;
 
-/// A rule of the hardened profile. Source: `spec/hardened/README.md`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum HardenedRule {
+macro_rules! rules {
+    ($($(#[doc = $what:literal])* $name:ident = $id:literal;)*) => {
+        /// A rule of the hardened profile. Source: `spec/hardened/README.md`.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum HardenedRule {
+            $($(#[doc = $what])* $name,)*
+        }
+
+        impl HardenedRule {
+            /// All rules in their order. Source: `spec/hardened/README.md`.
+            pub const ALL: [Self; [$($id),*].len()] = [$(Self::$name,)*];
+
+            /// As the text names it. Source: `spec/hardened/README.md`.
+            pub const fn id(self) -> &'static str {
+                match self {
+                    $(Self::$name => $id,)*
+                }
+            }
+        }
+    };
+}
+
+// The list: nothing else names all rules.
+rules! {
     /// Stage i pairs each gated track but a few backed ones, and closely.
-    H01,
+    H01 = "H-01";
     /// Tracks that stage i could not check are no obstacle check.
-    H02,
+    H02 = "H-02";
     /// Look as far as the CAV needs to stop.
-    H04,
+    H04 = "H-04";
     /// No trajectory without an obstacle check.
-    H05,
+    H05 = "H-05";
     /// Closed cells, unknown ones, the border of the grid.
-    H06,
+    H06 = "H-06";
     /// Start, corridor and direction of a trajectory.
-    H07,
+    H07 = "H-07";
     /// Make before break.
-    H08,
+    H08 = "H-08";
     /// Stage v whatever else ran.
-    H10,
+    H10 = "H-10";
     /// Steps and turns that can be driven.
-    H11,
+    H11 = "H-11";
     /// The fail-safe rule.
-    H14,
+    H14 = "H-14";
 }
 
 impl HardenedRule {
-    /// All rules in their order. Source: `spec/hardened/README.md`.
-    pub const ALL: [Self; 10] = [
-        Self::H01,
-        Self::H02,
-        Self::H04,
-        Self::H05,
-        Self::H06,
-        Self::H07,
-        Self::H08,
-        Self::H10,
-        Self::H11,
-        Self::H14,
-    ];
-
-    /// As the text names it. Source: `spec/hardened/README.md`.
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::H01 => "H-01",
-            Self::H02 => "H-02",
-            Self::H04 => "H-04",
-            Self::H05 => "H-05",
-            Self::H06 => "H-06",
-            Self::H07 => "H-07",
-            Self::H08 => "H-08",
-            Self::H10 => "H-10",
-            Self::H11 => "H-11",
-            Self::H14 => "H-14",
-        }
-    }
-
     /// Of a set, the bit of this rule.
     const fn bit(self) -> u16 {
         1_u16.wrapping_shl(self as u32)
@@ -111,7 +102,8 @@ impl Profile {
 }
 
 /// How many rules there are: the first bit of the stages.
-const RULES: u32 = HardenedRule::H14 as u32 + 1;
+#[allow(clippy::cast_possible_truncation, reason = "a dozen")]
+const RULES: u32 = HardenedRule::ALL.len() as u32;
 
 /// The bit of a stage that is left out.
 const fn bit_of(stage: Stage) -> u16 {
