@@ -2,6 +2,7 @@
 //! each rule, in the order in which to mend them; then others; then further cases of those that are not small.
 
 mod cycle;
+mod passes;
 mod program;
 mod record;
 

@@ -8,7 +8,8 @@ use crate::error::ConformError;
 use crate::judge::class::Class;
 use crate::judge::examine::{Examined, Expected, ask_and_compare, expect};
 use crate::results::found::NotShrunk;
-use crate::shrink::record::{smallest, thinned};
+use crate::shrink::passes::smallest;
+use crate::shrink::record::thinned;
 use crate::subject::Subject;
 
 /// Records tried.

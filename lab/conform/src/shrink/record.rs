@@ -5,30 +5,7 @@
 
 use serde_json::{Value, json};
 
-use crate::cases::question::{Damaged, Question};
-use crate::shrink::cycle;
-
-/// The smallest record found; `shows` says whether one still shows the class.
-pub fn smallest(question: &Question, shows: &mut dyn FnMut(&Question) -> bool) -> Question {
-    if let Question::Line(Damaged { record, damage, at }) = question {
-        let damaged = |record: Question| {
-            let record = Box::new(record);
-            Question::Line(Damaged { record, damage: *damage, at: *at })
-        };
-        return damaged(smallest(record, &mut |it| shows(&damaged(it.clone()))));
-    }
-    let Some(value) = question.record() else { return question.clone() };
-    let mut case = Case { value, question: question.clone(), shows };
-    // At most a few times, until nothing changes any more.
-    for _ in 0..4 {
-        let before = case.value.clone();
-        case.smaller();
-        if case.value == before {
-            break;
-        }
-    }
-    case.question
-}
+use crate::cases::question::Question;
 
 /// A record that shows the class.
 pub struct Case<'a> {
@@ -36,20 +13,11 @@ pub struct Case<'a> {
     pub value: Value,
     /// As what it asks.
     pub question: Question,
-    shows: &'a mut dyn FnMut(&Question) -> bool,
+    /// Whether a record still shows the class.
+    pub shows: &'a mut dyn FnMut(&Question) -> bool,
 }
 
 impl Case<'_> {
-    /// One pass over everything.
-    fn smaller(&mut self) {
-        self.keys();
-        self.lists();
-        if matches!(self.question, Question::Cycle(_)) {
-            cycle::smaller(self);
-        }
-        self.simple();
-    }
-
     /// Makes a change if it leaves a record that still shows the class.
     pub fn change(&mut self, change: impl FnOnce(&mut Value)) -> bool {
         let mut changed = self.value.clone();
@@ -89,7 +57,7 @@ impl Case<'_> {
     }
 
     /// Leaves out what may be absent, the longest first; the profile stays what it was.
-    fn keys(&mut self) {
+    pub fn keys(&mut self) {
         let mut places = Vec::new();
         for (name, field) in self.value.as_object().into_iter().flatten() {
             places.push((field.to_string().len(), String::new(), name.clone()));
@@ -108,7 +76,7 @@ impl Case<'_> {
     }
 
     /// Thins every list, the outer ones first.
-    fn lists(&mut self) {
+    pub fn lists(&mut self) {
         let mut open = vec![String::new()];
         while let Some(pointer) = open.pop() {
             self.thin(&pointer);
@@ -135,7 +103,7 @@ impl Case<'_> {
 
     /// Stations and ids become 0 or 1; the times of events 0, or the time of the event before;
     /// what is true becomes false.
-    fn simple(&mut self) {
+    pub fn simple(&mut self) {
         let times = leaves(&self.value, |place, _| {
             place.starts_with("/events/") && place.ends_with("/t_ns")
         });
@@ -193,57 +161,4 @@ pub fn leaves(record: &Value, wanted: impl Fn(&str, &Value) -> bool) -> Vec<Stri
         }
     }
     found
-}
-
-#[cfg(test)]
-mod tests {
-    use mufasa_model::input::cycle::Profile;
-
-    use super::*;
-    use crate::cases::generate::Generator;
-    use crate::judge::class::Kind;
-
-    fn first(kind: Kind, wanted: impl Fn(&Question) -> bool) -> Question {
-        let generator = Generator { seed: 5, profile: Profile::PAPER, kinds: vec![kind] };
-        let mut cases = (0..2000).map(|case| generator.question(case));
-        cases.find(|it| wanted(it)).expect("a case among 2000")
-    }
-
-    #[test]
-    fn of_a_cycle_only_what_is_needed_stays() {
-        fn has_pair(question: &Question) -> bool {
-            let Question::Cycle(cycle) = question else { return false };
-            let tracks = cycle.tracks.as_ref().map_or(0, |list| list.items.len());
-            let seen = cycle.detections.as_ref().map_or(0, |list| list.items.len());
-            tracks >= 2 && seen >= 1
-        }
-        let found = smallest(&first(Kind::Cycle, has_pair), &mut |it| has_pair(it));
-        assert!(has_pair(&found));
-        assert_eq!(found.objects(), 3);
-        let Question::Cycle(cycle) = &found else { panic!() };
-        assert!(cycle.trajectory.is_none() && cycle.grid.is_none() && cycle.lead.is_none());
-        assert_eq!((cycle.ego.x.to_bits(), cycle.ego.cos.to_bits()), (0, 1.0_f64.to_bits()));
-    }
-
-    #[test]
-    fn of_a_grid_one_cell_stays() {
-        fn marked(question: &Question) -> bool {
-            let Question::Cycle(cycle) = question else { return false };
-            cycle.grid.as_ref().is_some_and(|grid| grid.occupied.iter().any(|byte| *byte != 0))
-        }
-        let found = smallest(&first(Kind::Cycle, marked), &mut |it| marked(it));
-        let Question::Cycle(cycle) = &found else { panic!() };
-        let grid = cycle.grid.as_ref().expect("a grid");
-        assert_eq!((grid.width, grid.height, grid.occupied.as_slice()), (1, 1, &[1][..]));
-    }
-
-    #[test]
-    fn of_a_trace_and_a_task_only_what_is_needed_stays() {
-        let confirms = |it: &Question| it.line("x").contains("\"confirm\"");
-        let found = smallest(&first(Kind::Offloading, confirms), &mut |it| confirms(it));
-        assert_eq!(found.objects(), 1);
-        let tracks = |it: &Question| it.line("x").contains("\"tracks\"");
-        let found = smallest(&first(Kind::Composition, tracks), &mut |it| tracks(it));
-        assert_eq!(found.objects(), 1);
-    }
 }

@@ -2,6 +2,7 @@
 
 mod common;
 mod examples;
+mod fields;
 mod noise;
 mod protocol;
 mod round_trip;
