@@ -114,14 +114,14 @@ pub struct Pen<'a> {
 }
 
 impl Pen<'_> {
-    fn at(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [right, up] = [(x - self.low[0]) * self.scale[0], (y - self.low[1]) * self.scale[1]];
-        Some([right, self.height - up])
+        [right, self.height - up]
     }
 
     /// A closed polygon.
     pub fn area(&mut self, corners: &[[f64; 2]], class: &str) {
-        let corners: Vec<_> = corners.iter().map(|corner| self.at(*corner)).collect();
+        let corners: Vec<_> = corners.iter().map(|corner| Some(self.at(*corner))).collect();
         self.canvas.polygon(&corners, class);
     }
 
@@ -132,13 +132,13 @@ impl Pen<'_> {
 
     /// A line through points.
     pub fn line(&mut self, points: &[[f64; 2]], class: &str) {
-        let points: Vec<_> = points.iter().map(|point| self.at(*point)).collect();
+        let points: Vec<_> = points.iter().map(|point| Some(self.at(*point))).collect();
         self.canvas.polyline(&points, class);
     }
 
     /// An arrow.
     pub fn arrow(&mut self, from: [f64; 2], to: [f64; 2]) {
-        let (Some(a), Some(b)) = (self.at(from), self.at(to)) else { return };
+        let (a, b) = (self.at(from), self.at(to));
         let [x, y] = [b[0] - a[0], b[1] - a[1]];
         let far = x.hypot(y).max(1e-9);
         let [x, y] = [x / far * 7.0, y / far * 7.0];
@@ -149,18 +149,18 @@ impl Pen<'_> {
 
     /// A dot of a radius in px.
     pub fn dot(&mut self, at: [f64; 2], radius: f64, class: &str) {
-        self.canvas.circle(self.at(at), radius, class);
+        self.canvas.circle(Some(self.at(at)), radius, class);
     }
 
     /// A circle of a radius in m.
     pub fn circle(&mut self, at: [f64; 2], radius: f64, class: &str) {
-        self.canvas.circle(self.at(at), radius * self.scale[0], class);
+        self.canvas.circle(Some(self.at(at)), radius * self.scale[0], class);
     }
 
     /// Words at a place, moved by px to the right and down.
     pub fn words(&mut self, at: [f64; 2], by: [f64; 2], class: &str, words: &str) {
-        let at = self.at(at).map(|[x, y]| [x + by[0], y + by[1]]);
-        self.canvas.text(at, class, words);
+        let [x, y] = self.at(at);
+        self.canvas.text(Some([x + by[0], y + by[1]]), class, words);
     }
 }
 
