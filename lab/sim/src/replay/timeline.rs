@@ -96,7 +96,7 @@ fn curve(
 
 fn event_line(event: f64, height: f64) -> DashedPathElement<std::vec::IntoIter<(f64, f64)>, u32> {
     let ends = vec![(event, 0.0), (event, height)];
-    DashedPathElement::new(ends.into_iter(), 4, 3, BLACK.stroke_width(1))
+    DashedPathElement::new(ends, 4, 3, BLACK.stroke_width(1))
 }
 
 /// A row for the configurations, one for attacks, and one for each that can fail.
@@ -153,7 +153,7 @@ fn key(area: &Area<'_>) -> Drawn {
         left += 120;
     }
     left += 40;
-    area.draw(&DashedPathElement::new([(left, 12), (left + 24, 12)].into_iter(), 4, 3, BLACK))?;
+    area.draw(&DashedPathElement::new([(left, 12), (left + 24, 12)], 4, 3, BLACK))?;
     area.draw(&Text::new("what the frames are around", (left + 30, 12), font(HPos::Left)))?;
     Ok(())
 }
