@@ -2,6 +2,7 @@
 
 use mufasa_model::numbers::real::Real;
 use mufasa_model::stages::distances::{s_b, s_cav, s_follow, s_valid};
+use mufasa_model::stages::v_grid_map::disk_radius;
 
 fn r(value: f64) -> Real {
     Real::from_double(value)
@@ -24,4 +25,13 @@ fn distances_are_the_formulas() {
 fn s_b_is_the_known_braking_distance() {
     let v = Real::from_integer(100) / r(3.6);
     assert!((s_b(&v, &r(6.0)) - r(64.3)).abs() < r(0.01));
+}
+
+/// S5-02: each of the n disks covers its part of the footprint, L/n by W.
+#[test]
+fn disk_radius_is_half_the_diagonal_of_a_part() {
+    // Parts of 3 m by 4 m, and one of 1 m by 1 m whose radius is no rational.
+    assert_eq!(disk_radius(&r(9.0), &r(4.0), &r(3.0)), r(2.5));
+    assert_eq!(disk_radius(&r(3.0), &r(4.0), &r(1.0)), r(2.5));
+    assert_eq!(disk_radius(&r(2.0), &r(1.0), &r(2.0)).square(), r(0.5));
 }
