@@ -141,7 +141,8 @@ fn without_detections_the_disks_collide() {
     }
 }
 
-/// What is unknown or outside counts only where no list of detections is current; an empty one is.
+/// Cells that are unknown, and places outside, however far, count only where no list of detections is
+/// current; an empty one is.
 #[test]
 fn without_detections_only_occupied_cells_collide() {
     const UNKNOWN: &[u8] = &[255; 5000];
@@ -152,6 +153,11 @@ fn without_detections_only_occupied_cells_collide() {
         ),
         (
             (|cycle| cycle.grid.iter_mut().for_each(|grid| grid.x = cycle.ego.x)) as Change,
+            Rule::Outside,
+        ),
+        // Farther from the border than any disk reaches (H-06.6).
+        (
+            (|cycle| cycle.grid.iter_mut().for_each(|grid| grid.x = cycle.ego.x + 60.0)) as Change,
             Rule::Outside,
         ),
     ] {
