@@ -130,7 +130,7 @@ def test_a_verdict_is_true_when_the_cycle_is_safe_and_only_then() -> None:
 
 def test_the_profile_can_be_another_one() -> None:
     found = next(
-        it["input"] for it in vectors() if it["requirement"] == "H-07" and not isinstance(it["input"], str)
+        it["input"] for it in vectors() if it["requirement"].startswith("H-07.") and not isinstance(it["input"], str)
     )
     verdicts = {"paper": mufasa.check(found, "paper"), "hardened": mufasa.check(found, "hardened")}
     assert verdicts["paper"] != verdicts["hardened"]
