@@ -235,6 +235,8 @@ fn people_cross_and_pictures_show_them() {
     let text = frame(&town, 0, &snapshot, &Overlay::default(), View::of_ego(&snapshot));
     assert!(town.routes.iter().any(|route| route.kind == RouteKind::Foot));
     assert!(
-        text.starts_with("<svg") && text.trim_end().ends_with("</svg>") && text.contains("#b5541c")
+        text.starts_with("<svg")
+            && text.trim_end().ends_with("</svg>")
+            && text.contains("class=\"person\"")
     );
 }

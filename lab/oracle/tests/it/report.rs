@@ -1,16 +1,11 @@
 //! What `mufasa evaluate` leaves for people: charts, the report, replays and logs.
 
-#[path = "kit/folders.rs"]
-mod folders;
-#[path = "kit/program.rs"]
-mod program;
-
 use std::fs;
 use std::path::Path;
 
-use folders::folder;
+use crate::kit::folder;
+use crate::kit::run;
 use mcap::{MessageStream, Schema};
-use program::run;
 use roxmltree::Document;
 use serde_json::Value;
 

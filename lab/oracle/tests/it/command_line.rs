@@ -1,9 +1,6 @@
 //! The built program's command line: what is refused says what was meant, and the shell is helped.
 
-#[path = "kit/folders.rs"]
-mod folders;
-
-use folders::folder;
+use crate::kit::folder;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader};

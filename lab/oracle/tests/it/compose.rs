@@ -3,7 +3,7 @@
 use mufasa_oracle::compose::{Composed, composed};
 use mufasa_records::{Answer, answer};
 
-const FIG_2: &str = include_str!("../../../examples/fig2.json");
+const FIG_2: &str = include_str!("../../../../examples/fig2.json");
 
 fn fig_2() -> Composed {
     composed(FIG_2).expect("the example composes")
@@ -100,7 +100,7 @@ fn the_graph_of_fig_2_has_exactly_the_arrows_of_the_figure() {
 /// The vectors say what the answer must be, `model/tests/services/figure_2.rs` why.
 #[test]
 fn the_example_composes_as_the_vector_of_fig_2() {
-    let vectors = include_str!("../../../vectors/services/composition.jsonl");
+    let vectors = include_str!("../../../../vectors/services/composition.jsonl");
     let vectors = vectors.lines().map(|line| serde_json::from_str(line).expect("a vector"));
     let of_fig_2 = |it: &serde_json::Value| it["id"] == "composition-figure-2";
     let vector = vectors.into_iter().find(of_fig_2).expect("there is one");

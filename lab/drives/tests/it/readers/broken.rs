@@ -159,7 +159,7 @@ fn a_document_type_is_refused_as_such_with_what_to_do() {
 
 /// Files of a few megabytes that a parser would ponder for minutes.
 #[test]
-fn attributes_and_namespaces_without_end_are_refused_by_their_limit() {
+fn attributes_without_end_are_refused_by_their_limit() {
     let folder = Scratch::new();
     let head = "<commonRoad commonRoadVersion='2020a' benchmarkID='A' timeStepSize='0.1'";
     let many = |count: u32, one: &str| -> String {
@@ -168,7 +168,6 @@ fn attributes_and_namespaces_without_end_are_refused_by_their_limit() {
     for (content, limit) in [
         (many(300_000, " aN=''"), "more than 256 attributes"),
         (many(50_000, " xmlns:aN='uN'"), "more than 256 attributes"),
-        (format!("><x{}/>", many(250, " xmlns:aN='uN'")).repeat(200), "256 name"),
     ] {
         let path = folder.write("s.xml", format!("{head}{content}/>"));
         let begin = std::time::Instant::now();

@@ -1,7 +1,5 @@
 //! Fallbacks over a drive, and what is said about disagreements.
 
-mod common;
-
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -23,7 +21,7 @@ use serde_json::Value;
 fn drive(count: u32, blocked: impl Fn(u32) -> bool) -> Drive {
     let cycle = |index| DriveCycle {
         id: format!("straight#{index}"),
-        cycle: common::cycle(index, blocked(index)),
+        cycle: crate::common::cycle(index, blocked(index)),
     };
     Drive {
         name: "straight".to_owned(),
@@ -305,7 +303,7 @@ fn cycles_are_made_one_at_a_time_and_judged_before_the_next() {
     let make = move |index: usize| {
         let before = counted.fetch_add(1, Ordering::SeqCst);
         assert_eq!((before, seen.load(Ordering::SeqCst)), (index, index), "cycles are kept");
-        let cycle = common::cycle(u32::try_from(index).unwrap(), index == 5);
+        let cycle = crate::common::cycle(u32::try_from(index).unwrap(), index == 5);
         DriveCycle { id: format!("straight#{index}"), cycle }
     };
     let stream = Stream::new("straight".to_owned(), "test".to_owned(), 30, make);
@@ -359,7 +357,7 @@ fn a_drive_with_long_steps_says_which_parameter_ends_offloading() {
 fn a_drive_whose_cycles_are_lost_is_refused_as_a_whole() {
     let whole = drive(9, |_| false);
     let lost = Stream::fallible("gone".to_owned(), "l.jsonl".to_owned(), 9, |index| {
-        let made = DriveCycle { id: format!("l#{index}"), cycle: common::cycle(0, false) };
+        let made = DriveCycle { id: format!("l#{index}"), cycle: crate::common::cycle(0, false) };
         let error = || ReadError::file(Path::new("l.jsonl"), "the disk fails");
         if index < 7 { Ok(made) } else { Err(error()) }
     });

@@ -1,18 +1,11 @@
 //! Experiments on the map of Ulm-Lehr, where it lies; says so when it does not (`mufasa evaluate --map`).
 
-#[path = "kit/folders.rs"]
-mod folders;
-#[path = "../../sim/tests/common/maps.rs"]
-mod maps;
-#[path = "kit/program.rs"]
-mod program;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use folders::folder;
-use maps::maps;
-use program::run;
+use crate::kit::folder;
+use crate::kit::run;
+use crate::maps::maps;
 use serde_json::Value;
 
 const SIZE: [&str; 5] = ["failures", "--scenarios", "1", "--vehicles", "4"];

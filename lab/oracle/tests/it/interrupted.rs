@@ -1,18 +1,13 @@
 //! A search that is ended before its end leaves what it found, and does not look complete.
 #![cfg(unix)]
 
-#[path = "kit/folders.rs"]
-mod folders;
-#[path = "kit/program.rs"]
-mod program;
-
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use folders::folder;
-use program::run;
+use crate::kit::folder;
+use crate::kit::run;
 use serde_json::Value;
 
 /// A search in which nothing is checked, so that it finds much; sent a signal once it has. What it said.

@@ -1,13 +1,10 @@
 //! `mufasa prove`: what is not here is not run, what is refuted is no success.
 
-#[path = "kit/folders.rs"]
-mod folders;
-
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use folders::folder;
+use crate::kit::folder;
 use mufasa_oracle::document;
 use mufasa_oracle::prove::{SOURCES, TABLE_NAME, sources, tables};
 use mufasa_theorems::{gappa, theorem};

@@ -1,16 +1,11 @@
 //! The built program: exit codes, bad input, outputs.
 
-#[path = "../../drives/tests/common/mod.rs"]
-mod common;
-#[path = "kit/folders.rs"]
-mod folders;
-
 use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use folders::folder;
+use crate::kit::folder;
 use mufasa_records::cycle_to_line;
 use roxmltree::Document;
 use serde_json::Value;
@@ -40,7 +35,10 @@ fn stderr(output: &Output) -> String {
 /// A drive of `count` cycles as JSON Lines; those in `blocked` are unsafe.
 fn lines(folder: &Path, name: &str, count: u32, blocked: &[u32]) -> String {
     let line = |index| {
-        cycle_to_line(&format!("{name}-{index}"), &common::cycle(index, blocked.contains(&index)))
+        cycle_to_line(
+            &format!("{name}-{index}"),
+            &crate::common::cycle(index, blocked.contains(&index)),
+        )
     };
     let text: Vec<_> = (0..count).map(line).collect();
     write(folder, &format!("{name}.jsonl"), text.join("\n"))
@@ -102,7 +100,7 @@ fn exit_code_2_for_every_kind_of_bad_file_and_the_others_are_still_checked() {
 #[test]
 fn invalid_local_input_is_an_error_with_cycle_field_and_index() {
     let folder = folder("invalid");
-    let mut cycle = common::cycle(0, false);
+    let mut cycle = crate::common::cycle(0, false);
     cycle.detections.as_mut().unwrap().items[0].x = f64::NAN;
     let file = write(&folder, "invalid.jsonl", cycle_to_line("the id", &cycle));
     let output = mufasa(["check", &file]);
@@ -267,7 +265,7 @@ fn an_attack_is_injected_and_caught() {
 fn an_attack_that_changes_nothing_is_bad_input() {
     let folder = folder("inject_nothing");
     let file = lines(&folder, "a", 6, &[]);
-    let mut local = common::cycle(0, false);
+    let mut local = crate::common::cycle(0, false);
     local.configuration = mufasa_model::services::configuration::Configuration::PlanRemote;
     let local = write(&folder, "local.jsonl", cycle_to_line("local", &local));
     for (file, attack, problem) in [

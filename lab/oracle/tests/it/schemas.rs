@@ -1,14 +1,11 @@
 //! What the program writes as JSON is what its schemas say.
 
-#[path = "kit/folders.rs"]
-mod folders;
-
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use folders::folder;
+use crate::kit::folder;
 use jsonschema::Validator;
 use mufasa_oracle::schemas;
 use serde_json::Value;
@@ -56,7 +53,7 @@ fn some_cycles(folder: &Path) {
 
 #[test]
 fn the_answers_that_the_text_shows_are_what_their_schemas_say() {
-    let text = include_str!("../../../spec/5-interfaces.md");
+    let text = include_str!("../../../../spec/5-interfaces.md");
     let (_, behind) = text.split_once("Answer:\n\n").expect("an answer to a cycle");
     let (example, _) = behind.split_once("\n\n").expect("an end");
     assert_valid(&validators()["cycle-answer"], &parsed(example));

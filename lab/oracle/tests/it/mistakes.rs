@@ -1,10 +1,7 @@
 //! Mistakes on the command line and what is said of them: outputs that nobody reads, inputs named twice, units
 //! forgotten, help that was looked for.
 
-#[path = "kit/folders.rs"]
-mod folders;
-
-use folders::folder;
+use crate::kit::folder;
 use serde_json::Value;
 use std::fs::{self, File, OpenOptions};
 use std::process::{Command, Output, Stdio};
@@ -131,7 +128,7 @@ fn a_tau_that_the_vehicle_raises_is_told() {
 #[test]
 fn parameters_that_recorded_cycles_ignore_are_told() {
     let folder = folder("ignored");
-    let vectors = include_str!("../../../vectors/findings/F-30.jsonl");
+    let vectors = include_str!("../../../../vectors/findings/F-30.jsonl");
     let mut vector: Value =
         serde_json::from_str(vectors.lines().next().expect("one")).expect("JSON");
     let cycle = &mut vector["input"];
@@ -195,7 +192,8 @@ fn a_limit_of_file_sizes_is_told() {
 #[test]
 fn hints_are_about_what_was_asked() {
     let mixed = folder("mixed").join("mixed.jsonl");
-    let vector = include_str!("../../../vectors/findings/F-30.jsonl").lines().next().expect("one");
+    let vector =
+        include_str!("../../../../vectors/findings/F-30.jsonl").lines().next().expect("one");
     let vector: Value = serde_json::from_str(vector).expect("JSON");
     fs::write(&mixed, format!("{}\n{{\"kind\": 3}}\n", vector["input"])).expect("written");
     let told = refusal(&["vehicle", mixed.to_str().expect("plain")], Stdio::null());

@@ -1,10 +1,5 @@
 //! How much memory the program takes for large files, as the system says: see `NOT RUN` where it does not.
 
-#[path = "../../drives/tests/common/mod.rs"]
-mod common;
-#[path = "kit/folders.rs"]
-mod folders;
-
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::Write;
@@ -13,9 +8,9 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
+use crate::kit::folder;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use folders::folder;
 use mufasa_model::input::cycle::Profile;
 use mufasa_records::cycle_to_line;
 
@@ -55,7 +50,7 @@ fn peak(arguments: &[&OsStr], input: Stdio) -> Option<u64> {
 /// Cycles as JSON Lines.
 fn lines(count: u32) -> Vec<u8> {
     let line = |index| {
-        let line = cycle_to_line(&format!("c-{index}"), &common::cycle(index % 100, false));
+        let line = cycle_to_line(&format!("c-{index}"), &crate::common::cycle(index % 100, false));
         format!("{line}{}\n", " ".repeat(LINE - line.len()))
     };
     (0..count).map(line).collect::<String>().into_bytes()
@@ -87,9 +82,9 @@ fn ten_times_as_many_cycles_take_no_more_memory() {
     }
 }
 
-/// As [`common::cycle`], later and later, and quick to judge: every third is unsafe.
+/// As [`crate::common::cycle`], later and later, and quick to judge: every third is unsafe.
 fn small(index: u32) -> String {
-    let mut cycle = common::cycle(index, index.is_multiple_of(3));
+    let mut cycle = crate::common::cycle(index, index.is_multiple_of(3));
     cycle.profile = Profile::PAPER;
     cycle.route.cross_sections.truncate(6);
     cycle.trajectory.iter_mut().for_each(|it| it.points.truncate(8));

@@ -1,16 +1,11 @@
 //! Parts of an experiment that are put together are the experiment (`mufasa merge`).
 
-#[path = "kit/folders.rs"]
-mod folders;
-#[path = "kit/program.rs"]
-mod program;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use folders::folder;
-use program::run;
+use crate::kit::folder;
+use crate::kit::run;
 use serde_json::{Value, json};
 
 const REPORT: &str = "report.html";
@@ -63,7 +58,7 @@ fn same(folder: &Path, one: &str, other: &str) {
 fn every_index_of_the_job_in_the_documents_makes_a_part() {
     use std::process::Command;
 
-    let docs = include_str!("../../../docs/experiments.md");
+    let docs = include_str!("../../../../docs/experiments.md");
     let behind = docs.split_once("command: [sh, -c, '").expect("a job").1;
     let command = behind.split_once("']").expect("its end").0;
     let ours = format!("exec \"$MUFASA\" evaluate failures {}", SIZE.join(" "));
