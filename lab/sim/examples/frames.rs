@@ -1,7 +1,7 @@
 //! Draws a moment of the town to a file, and a strip of three: `cargo run --example frames -- FOLDER`.
 
 use mufasa_sim::map::streets;
-use mufasa_sim::pictures::{Overlay, View, frame, strip};
+use mufasa_sim::pictures::{Overlay, View, frame, sheet};
 use mufasa_sim::pose::Point;
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::vehicle::Command;
@@ -41,5 +41,5 @@ fn main() -> std::io::Result<()> {
         .collect();
     let frames: Vec<_> =
         snapshots.iter().zip(&overlays).map(|(s, o)| (s, o, View::of_ego(s))).collect();
-    std::fs::write(format!("{folder}/strip.svg"), strip(&town, 0, &frames))
+    std::fs::write(format!("{folder}/strip.svg"), sheet(&town, 0, &[&frames]))
 }

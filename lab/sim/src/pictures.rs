@@ -1,8 +1,8 @@
-//! Pictures of a moment, from above, as SVG text: 1 m is one unit, north is up.
+//! Pictures of a moment, from above, as SVG text: north is up.
 
-use core::fmt::Write;
+use mufasa_drives::pictures::frame::{self as drawn, Frame};
+use mufasa_drives::pictures::scene::Scene;
 
-use crate::map::route::corners;
 use crate::map::{Light, Town};
 use crate::path::Path;
 use crate::pose::{Point, Rectangle};
@@ -11,6 +11,9 @@ use crate::traffic::agent::Kind;
 
 /// Resolution of a frame, pixels for each metre.
 const SCALE: f64 = 4.0;
+/// Above a frame, and between two beside each other, px.
+const ABOVE: f64 = 18.0;
+const APART: f64 = 8.0;
 /// Colours of tracks: those that came over the link, and the CAV's own.
 pub const REMOTE: &str = "#c2185b";
 /// See `REMOTE`.
@@ -73,177 +76,149 @@ pub fn frame(
     overlay: &Overlay,
     view: View,
 ) -> String {
-    strip(town, route, &[(snapshot, overlay, view)])
+    sheet(town, route, &[&[(snapshot, overlay, view)]])
 }
 
 /// A moment, what is drawn over it, and what is seen of it.
 pub type Shot<'a> = (&'a Snapshot, &'a Overlay, View);
 
-/// Several frames beside each other, as a whole file; all as high as the highest.
-pub fn strip(town: &Town, route: usize, frames: &[Shot<'_>]) -> String {
-    sheet(town, route, &[frames])
-}
-
 /// Rows of frames, as a whole file; all as high as the highest.
 pub fn sheet(town: &Town, route: usize, rows: &[&[Shot<'_>]]) -> String {
-    let wide = |row: &&[Shot<'_>]| row.iter().map(|(_, _, view)| view.width + 2.0).sum();
+    let wide = |row: &&[Shot<'_>]| row.iter().map(|(_, _, it)| it.width * SCALE + APART).sum();
     let width = rows.iter().map(wide).fold(0.0, f64::max);
-    let frames = rows.iter().copied().flatten();
-    let height = 5.0 + frames.fold(0.0_f64, |most, (_, _, view)| most.max(view.height));
-    let all: f64 = rows.iter().map(|_| height).sum();
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0}\" height=\"{:.0}\" viewBox=\"0 0 {width:.2} {all:.2}\" \
-         font-family=\"sans-serif\" font-size=\"2.6\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
-        width * SCALE,
-        all * SCALE,
-    );
+    let highest = rows.iter().copied().flatten().map(|(_, _, view)| view.height);
+    let height = ABOVE + highest.fold(0.0, f64::max) * SCALE + 2.0;
+    let mut scene = Scene::new(Frame::north_up([0.0; 2], [0.0; 2], SCALE, [0.0; 2]));
     let (mut top, mut index) = (0.0, 0);
     for row in rows {
-        let mut left = 1.0;
-        for shot in *row {
-            one(&mut text, (town, route), *shot, ([left, top], index));
-            left += shot.2.width + 2.0;
+        let mut left = APART / 2.0;
+        for (snapshot, overlay, view) in *row {
+            let size = [view.width, view.height];
+            scene.frame = Frame::north_up(at(view.middle), size, SCALE, [left, top + ABOVE]);
+            one(&mut scene, (town, route), (snapshot, overlay, *view), index);
+            left += view.width * SCALE + APART;
             index += 1;
         }
         top += height;
     }
-    text.push_str("</svg>\n");
-    text
+    scene.canvas.document([width, top], "a drive from above", &style())
+}
+
+/// What the looks are.
+fn style() -> String {
+    format!(
+        ".caption,.id{{font-family:sans-serif;font-size:10.4px;fill:#333}}.id{{font-size:6.4px}}.ground{{fill:#f4f6f1}}\
+         .lane{{fill:none;stroke:#dfe3e6}}.crossing{{fill:none;stroke:#fff}}\
+         .route{{fill:none;stroke:#9db8d6;stroke-width:1}}.target{{fill:#2e9e4f22;stroke:#2e9e4f;stroke-width:1.2}}\
+         .Green,.Yellow,.Red{{fill:none;stroke:#2e9e4f;stroke-width:2.4}}.Yellow{{stroke:#e8b400}}\
+         .Red{{stroke:{REJECTED}}}.cell{{fill:#7a5195;opacity:.35}}.car{{fill:#5b6770}}.truck{{fill:#3d464d}}\
+         .person{{fill:#b5541c}}.cav{{fill:#1f6fd1;stroke:#0d3b75;stroke-width:1.2}}\
+         .way-line{{fill:none;stroke:#111;stroke-width:.9;opacity:.8}}.way-tip{{fill:#111}}\
+         .trajectory,.rejected{{fill:none;stroke:{TRAJECTORY};stroke-width:2;opacity:.9}}\
+         .rejected{{stroke:{REJECTED}}}.remote,.local,.rejected-track{{fill:none;stroke:{REMOTE};stroke-width:1.2}}\
+         .local{{stroke:{LOCAL}}}.rejected-track{{stroke:{REJECTED}}}\
+         .rejected,.rejected-track{{stroke-dasharray:5.6 2.8}}.detection{{fill:{DETECTION}}}"
+    )
+}
+
+const fn at(point: Point) -> [f64; 2] {
+    [point.x, point.y]
+}
+
+fn drawn(rectangle: &Rectangle) -> drawn::Rectangle {
+    let &Rectangle { pose, length, width } = rectangle;
+    drawn::Rectangle { centre: at(pose.at), direction: [pose.cos, pose.sin], size: [length, width] }
+}
+
+fn line(scene: &mut Scene, points: &[Point], look: &str) {
+    if points.len() > 1 {
+        scene.line(&points.iter().copied().map(at).collect::<Vec<_>>(), look);
+    }
 }
 
 fn one(
-    text: &mut String,
+    scene: &mut Scene,
     (town, route): (&Town, usize),
     (snapshot, overlay, view): Shot<'_>,
-    ([left, top], index): ([f64; 2], usize),
+    index: usize,
 ) {
-    let View { middle, width, height } = view;
     #[allow(clippy::cast_precision_loss, reason = "seconds for a reader")]
     let seconds = snapshot.time_ns as f64 * 1e-9;
-    let caption = escape(&overlay.caption);
-    put(
-        text,
-        format_args!(
-            "<text x=\"{left:.2}\" y=\"{:.2}\" fill=\"#333\">t = {seconds:.2} s {caption}</text>\n",
-            top + 3.4
-        ),
-    );
-    put(
-        text,
-        format_args!(
-            "<clipPath id=\"f{index}\"><rect x=\"{left:.2}\" y=\"{0:.2}\" width=\"{width:.2}\" height=\"{height:.2}\"/>\
-             </clipPath>\n<g clip-path=\"url(#f{index})\"><rect x=\"{left:.2}\" y=\"{0:.2}\" width=\"{width:.2}\" \
-             height=\"{height:.2}\" fill=\"#f4f6f1\"/>\n<g transform=\"translate({1:.3} {2:.3}) scale(1 -1)\">\n",
-            top + 4.5,
-            left + width / 2.0 - middle.x,
-            top + 4.5 + height / 2.0 + middle.y
-        ),
-    );
-    map(text, (town, route), snapshot, view);
-    for &cell in &overlay.cells {
-        let half = overlay.cell_size / 2.0;
-        put(
-            text,
-            format_args!(
-                "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{2:.2}\" height=\"{2:.2}\" fill=\"#7a5195\" opacity=\"0.35\"/>\n",
-                cell.x - half,
-                cell.y - half,
-                overlay.cell_size
-            ),
-        );
+    let (place, size) = (scene.frame.place, scene.frame.size);
+    let caption = format!("t = {seconds:.2} s {}", overlay.caption);
+    scene.canvas.text(Some([place[0], place[1] - 4.4]), "caption", &caption);
+    scene.canvas.clip(&format!("f{index}"), place, size);
+    scene.canvas.rect(place, size, "ground");
+    map(scene, (town, route), snapshot, view);
+    for cell in &overlay.cells {
+        let size = [overlay.cell_size; 2];
+        let cell = drawn::Rectangle { centre: at(*cell), direction: [1.0, 0.0], size };
+        scene.rectangle(&cell, "cell");
     }
-    things(text, snapshot, view);
-    if overlay.trajectory.len() > 1 {
-        polyline(text, &overlay.trajectory, TRAJECTORY, 0.5, 0.9);
-    }
-    text.push_str("<g stroke-dasharray=\"1.4 0.7\">\n");
-    if overlay.rejected.len() > 1 {
-        polyline(text, &overlay.rejected, REJECTED, 0.5, 0.9);
-    }
+    things(scene, snapshot, view);
+    line(scene, &overlay.trajectory, "trajectory");
+    line(scene, &overlay.rejected, "rejected");
     for track in &overlay.rejected_tracks {
-        polygon(text, &corners(track), "none", REJECTED);
+        scene.rectangle(&drawn(track), "rejected-track");
     }
-    text.push_str("</g>\n");
     for track in &overlay.tracks {
-        polygon(text, &corners(track), "none", if overlay.is_remote { REMOTE } else { LOCAL });
+        scene.rectangle(&drawn(track), if overlay.is_remote { "remote" } else { "local" });
     }
     for dot in &overlay.detections {
-        put(
-            text,
-            format_args!(
-                "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"0.45\" fill=\"{DETECTION}\"/>\n",
-                dot.x, dot.y
-            ),
-        );
+        scene.dot(at(*dot), 1.8, "detection");
     }
-    text.push_str("</g></g>\n");
+    scene.canvas.close();
 }
 
-fn map(text: &mut String, (town, route): (&Town, usize), snapshot: &Snapshot, view: View) {
+fn map(scene: &mut Scene, (town, route): (&Town, usize), snapshot: &Snapshot, view: View) {
     for lane in &town.lanes {
-        polyline(text, &near(&lane.path, view), "#dfe3e6", lane.width, 1.0);
+        scene.band(&near(&lane.path, view), lane.width, "lane");
     }
     let route = &town.routes[route];
     for crossing in &town.crossings {
-        let across = &town.routes[crossing.route];
-        let points =
-            [across.path.pose_at(4.0).at, across.path.pose_at(across.path.length() - 4.0).at];
-        polyline(text, &points, "#ffffff", crossing.width / 2.0, 1.0);
+        let across = &town.routes[crossing.route].path;
+        let ends = [across.pose_at(4.0).at, across.pose_at(across.length() - 4.0).at];
+        scene.band(&ends.map(at), crossing.width / 2.0, "crossing");
     }
-    polyline(text, &near(&route.path, view), "#9db8d6", 0.25, 1.0);
+    scene.line(&near(&route.path, view), "route");
     for signal in &route.signals {
-        let color = match snapshot.lights[signal.group] {
-            Light::Green => "#2e9e4f",
-            Light::Yellow => "#e8b400",
-            Light::Red => "#d62828",
+        let look = match snapshot.lights[signal.group] {
+            Light::Green => "Green",
+            Light::Yellow => "Yellow",
+            Light::Red => "Red",
         };
         let pose = route.path.pose_at(signal.s);
-        polyline(text, &[pose.ahead(0.0, 1.7), pose.ahead(0.0, -1.7)], color, 0.6, 1.0);
+        scene.line(&[pose.ahead(0.0, 1.7), pose.ahead(0.0, -1.7)].map(at), look);
     }
     if let Some(task) = route.task {
-        polygon(text, &corners(&task.target), "#2e9e4f22", "#2e9e4f");
+        scene.rectangle(&drawn(&task.target), "target");
     }
 }
 
-fn things(text: &mut String, snapshot: &Snapshot, view: View) {
-    for object in &snapshot.objects {
-        let at = object.rectangle.pose.at;
-        if !sees(view, at) {
-            continue;
-        }
-        let color = match object.kind {
-            Kind::Ego | Kind::Car => "#5b6770",
-            Kind::Truck => "#3d464d",
-            Kind::Pedestrian | Kind::Bicycle => "#b5541c",
+fn things(scene: &mut Scene, snapshot: &Snapshot, view: View) {
+    for object in snapshot.objects.iter().filter(|it| sees(view, it.rectangle.pose.at)) {
+        let middle = object.rectangle.pose.at;
+        let look = match object.kind {
+            Kind::Ego | Kind::Car => "car",
+            Kind::Truck => "truck",
+            Kind::Pedestrian | Kind::Bicycle => "person",
         };
-        polygon(text, &corners(&object.rectangle), color, "none");
-        arrow(text, at, object.velocity);
-        put(
-            text,
-            format_args!(
-                "<text transform=\"translate({:.2} {:.2}) scale(1 -1)\" font-size=\"1.6\" fill=\"#333\">{}</text>\n",
-                at.x + 1.2,
-                at.y + 1.2,
-                object.id
-            ),
-        );
+        scene.rectangle(&drawn(&object.rectangle), look);
+        way(scene, middle, object.velocity);
+        scene.text(at(middle), [4.8, -4.8], "id", &object.id.to_string());
     }
     let ego = &snapshot.ego;
-    polygon(text, &corners(&ego.rectangle), "#1f6fd1", "#0d3b75");
+    scene.rectangle(&drawn(&ego.rectangle), "cav");
     let pose = ego.rectangle.pose;
-    arrow(text, pose.at, Point::new(ego.speed * pose.cos, ego.speed * pose.sin));
+    way(scene, pose.at, Point::new(ego.speed * pose.cos, ego.speed * pose.sin));
 }
 
-fn arrow(text: &mut String, from: Point, velocity: Point) {
-    let length = velocity.distance(Point::default());
-    if length < 0.3 {
-        return;
+/// The way of the next second.
+fn way(scene: &mut Scene, from: Point, velocity: Point) {
+    if velocity.distance(Point::default()) > 0.3 {
+        let tip = [from.x + velocity.x * ARROW, from.y + velocity.y * ARROW];
+        scene.arrow([at(from), tip], 4.0, "way");
     }
-    let (x, y) = (velocity.x / length, velocity.y / length);
-    let tip = Point::new(from.x + velocity.x * ARROW, from.y + velocity.y * ARROW);
-    polyline(text, &[from, tip], "#111111", 0.22, 0.8);
-    let barb = |side: f64| Point::new(tip.x - x + side * 0.5 * y, tip.y - y - side * 0.5 * x);
-    polygon(text, &[tip, barb(1.0), barb(-1.0)], "#111111", "none");
 }
 
 fn sees(view: View, place: Point) -> bool {
@@ -252,39 +227,10 @@ fn sees(view: View, place: Point) -> bool {
 }
 
 /// The points of a path that a view may need: from the first to the last that it sees.
-fn near(path: &Path, view: View) -> Vec<Point> {
+fn near(path: &Path, view: View) -> Vec<[f64; 2]> {
     let points = path.points();
     let wide = View { width: view.width + 400.0, height: view.height + 400.0, ..view };
     let first = points.iter().position(|p| sees(wide, *p)).unwrap_or(0);
     let last = points.iter().rposition(|p| sees(wide, *p)).unwrap_or(0);
-    points[first..=last].to_vec()
-}
-
-fn polyline(text: &mut String, points: &[Point], color: &str, width: f64, opacity: f64) {
-    text.push_str("<polyline points=\"");
-    for point in points {
-        put(text, format_args!("{:.2},{:.2} ", point.x, point.y));
-    }
-    put(
-        text,
-        format_args!(
-            "\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width:.2}\" opacity=\"{opacity}\"/>\n"
-        ),
-    );
-}
-
-fn polygon(text: &mut String, points: &[Point], fill: &str, stroke: &str) {
-    text.push_str("<polygon points=\"");
-    for point in points {
-        put(text, format_args!("{:.2},{:.2} ", point.x, point.y));
-    }
-    put(text, format_args!("\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"0.3\"/>\n"));
-}
-
-pub(crate) fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
-}
-
-fn put(text: &mut String, arguments: core::fmt::Arguments<'_>) {
-    text.write_fmt(arguments).unwrap_or_else(|_| unreachable!("a string takes everything"));
+    points[first..=last].iter().copied().map(at).collect()
 }

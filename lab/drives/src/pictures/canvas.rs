@@ -9,9 +9,25 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// The elements written so far.
-    pub fn into_body(self) -> String {
-        self.body
+    /// The whole file of a size, px, on white: a title, which is no part of the picture, and what classes look like.
+    pub fn document(self, [width, height]: [f64; 2], title: &str, style: &str) -> String {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
+             viewBox=\"0 0 {width:.0} {height:.0}\">\n<title>{}</title>\n<style>{style}</style>\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}</svg>\n",
+            escape(title),
+            self.body
+        )
+    }
+
+    /// Opens a group of which nothing is seen outside of a rectangle; `id`: a name that no other has.
+    pub fn clip(&mut self, id: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+        let _ = writeln!(
+            self.body,
+            "<clipPath id=\"{id}\"><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"/>\
+             </clipPath>"
+        );
+        self.open(&format!("clip-path=\"url(#{id})\""));
     }
 
     /// Opens a group; `attributes` are written as they are.
@@ -35,6 +51,29 @@ impl Canvas {
     pub fn polyline(&mut self, line: &[Option<[f64; 2]>], class: &str) {
         if let Some(points) = points(line) {
             let _ = writeln!(self.body, "<polyline class=\"{class}\" points=\"{points}\"/>");
+        }
+    }
+
+    /// The same, so wide.
+    pub fn band(&mut self, line: &[Option<[f64; 2]>], width: f64, class: &str) {
+        self.polyline(line, &format!("{class}\" stroke-width=\"{width:.1}"));
+    }
+
+    /// The head of an arrow, so long; none where the arrow is shorter.
+    pub fn tip(&mut self, from: [f64; 2], to: [f64; 2], long: f64, class: &str) {
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = way[0].hypot(way[1]);
+        if length > long {
+            let [x, y] = way.map(|it| it / length * long);
+            let side = |k: f64| Some([to[0] - x - k * y, to[1] - y + k * x]);
+            self.polygon(&[Some(to), side(0.42), side(-0.42)], class);
+        }
+    }
+
+    /// Two crossed lines of a class, from their middle so far to each side.
+    pub fn cross(&mut self, [x, y]: [f64; 2], half: f64, class: &str) {
+        for side in [half, -half] {
+            self.polyline(&[Some([x - half, y - side]), Some([x + half, y + side])], class);
         }
     }
 
@@ -111,6 +150,6 @@ mod tests {
         let mut canvas = Canvas::default();
         canvas.polygon(&[Some([0.0, 0.0]), None], "c");
         canvas.polygon(&[], "c");
-        assert_eq!(canvas.into_body(), "");
+        assert_eq!(canvas.body, "");
     }
 }

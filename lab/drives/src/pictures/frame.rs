@@ -1,4 +1,4 @@
-//! From metres on the map to px on the page: the CAV drives to the right.
+//! From metres on the map to px on the page.
 
 use mufasa_model::input::cycle::{Cycle, Ego};
 
@@ -57,17 +57,27 @@ impl Rectangle {
 pub struct Frame {
     origin: [f64; 2],
     direction: [f64; 2],
-    /// Upper left corner of the window in the CAV's frame: along, to the left; m.
+    /// Upper left corner of the window: along the direction, to the left of it; m.
     corner: [f64; 2],
     /// px per m.
     pub scale: f64,
-    /// Height of the map, px.
-    pub height: f64,
+    /// The window on the page: its upper left corner and its size, px.
+    pub place: [f64; 2],
+    /// See `place`.
+    pub size: [f64; 2],
 }
 
 impl Frame {
-    /// The smallest sensible window around the CAV that holds the `musts`, and of the `wishes`
-    /// those that are near.
+    /// A window of the map as maps are drawn, north up: its middle and its size, m, px per m, and its upper left
+    /// corner on the page, px.
+    pub fn north_up(middle: [f64; 2], size: [f64; 2], scale: f64, place: [f64; 2]) -> Self {
+        let corner = [-size[0] / 2.0, size[1] / 2.0];
+        let size = size.map(|it| it * scale);
+        Self { origin: middle, direction: [1.0, 0.0], corner, scale, place, size }
+    }
+
+    /// The smallest sensible window around the CAV, which drives to the right, that holds the `musts`, and of the
+    /// `wishes` those that are near.
     pub fn new(cycle: &Cycle, musts: &[[f64; 2]], wishes: &[[f64; 2]]) -> Self {
         let (origin, direction) = pose(cycle);
         let mut low: [f64; 2] = [-6.0, -5.0];
@@ -106,33 +116,32 @@ impl Frame {
         let height = (size[1] * scale).max(MAP_HEIGHT[0]);
         let middle = [f64::midpoint(low[0], high[0]), f64::midpoint(low[1], high[1])];
         let corner = [middle[0] - width / scale / 2.0, middle[1] + height / scale / 2.0];
-        Self { origin, direction, corner, scale, height }
+        let (place, size) = ([MARGIN, TITLE_HEIGHT], [width, height]);
+        Self { origin, direction, corner, scale, place, size }
     }
 
     /// Where a place of the map is on the page, px; `None` when it is too far to be drawn.
     pub fn at(&self, place: [f64; 2]) -> Option<[f64; 2]> {
         let [along, left] = turn(place, self.origin, self.direction)?;
-        let x = MARGIN + (along - self.corner[0]) * self.scale;
-        let y = TITLE_HEIGHT + (self.corner[1] - left) * self.scale;
+        let x = self.place[0] + (along - self.corner[0]) * self.scale;
+        let y = self.place[1] + (self.corner[1] - left) * self.scale;
         (x.abs() < 1e5 && y.abs() < 1e5).then_some([x, y])
     }
 
     /// The place of the map at a point of the page.
-    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let along = (x - MARGIN) / self.scale + self.corner[0];
-        let left = self.corner[1] - (y - TITLE_HEIGHT) / self.scale;
+    pub fn place_at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let along = (x - self.place[0]) / self.scale + self.corner[0];
+        let left = self.corner[1] - (y - self.place[1]) / self.scale;
         let [cos, sin] = self.direction;
         [self.origin[0] + along * cos - left * sin, self.origin[1] + along * sin + left * cos]
     }
 
-    /// Whether a place is inside the window.
-    pub fn sees(&self, place: [f64; 2]) -> bool {
-        self.at(place).is_some_and(|[x, y]| {
-            x > MARGIN
-                && x < PAGE_WIDTH - MARGIN
-                && y > TITLE_HEIGHT
-                && y < TITLE_HEIGHT + self.height
-        })
+    /// Where a place is on the page, if it is inside the window.
+    pub fn seen(&self, place: [f64; 2]) -> Option<[f64; 2]> {
+        let inside = |at: [f64; 2], axis: usize| {
+            (self.place[axis]..=self.place[axis] + self.size[axis]).contains(&at[axis])
+        };
+        self.at(place).filter(|at| inside(*at, 0) && inside(*at, 1))
     }
 
     /// Corners of a rectangle on the page.
@@ -142,9 +151,9 @@ impl Frame {
 
     /// Corners of the window on the map.
     pub fn window(&self) -> [[f64; 2]; 4] {
-        let (right, bottom) = (PAGE_WIDTH - MARGIN, TITLE_HEIGHT + self.height);
-        [[MARGIN, TITLE_HEIGHT], [right, TITLE_HEIGHT], [right, bottom], [MARGIN, bottom]]
-            .map(|corner| self.place(corner))
+        let ([left, top], [width, height]) = (self.place, self.size);
+        [[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]]
+            .map(|[x, y]| self.place_at([left + x, top + y]))
     }
 
     /// Direction of the map's y axis on the page (right, down).
@@ -190,7 +199,7 @@ mod tests {
     #[test]
     fn a_place_comes_back_from_the_page() {
         let frame = frame();
-        let [x, y] = frame.place(frame.at([103.0, 207.0]).unwrap());
+        let [x, y] = frame.place_at(frame.at([103.0, 207.0]).unwrap());
         assert!((x - 103.0).abs() < 1e-6 && (y - 207.0).abs() < 1e-6);
     }
 

@@ -4,8 +4,8 @@ use mufasa_model::input::cycle::{
     Cycle, Detection, Grid, Route, Track, TrackList, TrajectoryPoint,
 };
 
-use super::canvas::Canvas;
-use super::frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
+use super::frame::{Frame, Rectangle};
+use super::scene::Scene;
 
 /// A kind of thing in a picture, for the legend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,48 +36,49 @@ const PREDICTIONS: usize = 8;
 const FOOTPRINTS: usize = 14;
 
 /// Draws all layers, lowest first; returns those that are there.
-pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) -> Vec<Layer> {
+pub fn draw(scene: &mut Scene, cycle: &Cycle) -> Vec<Layer> {
     let mut drawn = vec![Layer::Route];
-    route(canvas, frame, &cycle.route);
+    route(scene, &cycle.route);
     if let Some(grid) = &cycle.grid {
         if let Some(unknown) = &grid.unknown
-            && cells(canvas, frame, grid, unknown, "unknown")
+            && cells(scene, grid, unknown, "unknown")
         {
             drawn.push(Layer::Unknown);
         }
-        if cells(canvas, frame, grid, &grid.occupied, "occupied") {
+        if cells(scene, grid, &grid.occupied, "occupied") {
             drawn.push(Layer::Occupied);
         }
     }
     let points = cycle.trajectory.as_ref().map_or(&[][..], |it| &it.points);
     if let Some(tracks) = cycle.tracks.as_ref().filter(|it| !it.items.is_empty()) {
         drawn.push(Layer::Tracks);
-        if predictions(canvas, frame, tracks, points) {
+        if predictions(scene, tracks, points) {
             drawn.push(Layer::Predictions);
         }
         for item in &tracks.items {
-            canvas.polygon(&frame.corners(&track(item, 0.0)), "track");
+            scene.rectangle(&track(item, 0.0), "track");
         }
     }
     let past = || cycle.detection_history.iter().flat_map(|list| &list.items);
     if past().next().is_some() {
         drawn.push(Layer::History);
         for item in past() {
-            canvas.polygon(&frame.corners(&detection(item)), "history");
+            scene.rectangle(&detection(item), "history");
         }
     }
     if let Some(detections) = cycle.detections.as_ref().filter(|it| !it.items.is_empty()) {
         drawn.push(Layer::Detections);
         for item in &detections.items {
-            canvas.polygon(&frame.corners(&detection(item)), "detection");
+            scene.rectangle(&detection(item), "detection");
         }
     }
     if !points.is_empty() {
         drawn.push(Layer::Trajectory);
-        trajectory(canvas, frame, cycle, points);
+        trajectory(scene, cycle, points);
     }
     drawn.push(Layer::Ego);
-    ego(canvas, frame, cycle);
+    let ego = &cycle.ego;
+    scene.cav(&Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]));
     drawn
 }
 
@@ -121,7 +122,7 @@ pub fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..count).rev().step_by(step)
 }
 
-fn route(canvas: &mut Canvas, frame: &Frame, route: &Route) {
+fn route(scene: &mut Scene, route: &Route) {
     let sections = &route.cross_sections;
     let mut pairs: Vec<_> = sections.windows(2).map(|pair| (&pair[0], &pair[1])).collect();
     if let (true, Some(first), Some(last)) = (route.closed, sections.first(), sections.last()) {
@@ -129,21 +130,21 @@ fn route(canvas: &mut Canvas, frame: &Frame, route: &Route) {
     }
     for (from, to) in &pairs {
         for corners in [[from.left, from.right, to.right], [from.left, to.right, to.left]] {
-            canvas.polygon(&corners.map(|corner| frame.at(corner)), "corridor");
+            scene.polygon(&corners, "corridor");
         }
     }
     for (from, to) in &pairs {
-        canvas.polyline(&[from.left, to.left].map(|p| frame.at(p)), "boundary");
-        canvas.polyline(&[from.right, to.right].map(|p| frame.at(p)), "boundary");
-        canvas.polyline(&[[from.x, from.y], [to.x, to.y]].map(|p| frame.at(p)), "reference");
+        scene.line(&[from.left, to.left], "boundary");
+        scene.line(&[from.right, to.right], "boundary");
+        scene.line(&[[from.x, from.y], [to.x, to.y]], "reference");
     }
 }
 
 /// Draws marked cells of the window as runs along the rows; tells whether there were any.
-fn cells(canvas: &mut Canvas, frame: &Frame, grid: &Grid, bitmap: &[u8], class: &str) -> bool {
-    let Some([columns, rows]) = visible(frame, grid) else { return false };
+fn cells(scene: &mut Scene, grid: &Grid, bitmap: &[u8], class: &str) -> bool {
+    let Some([columns, rows]) = visible(&scene.frame, grid) else { return false };
     // Rows thinner than 1.5 px are drawn several at a time.
-    let rows_at_once = whole(1.5 / (grid.resolution * frame.scale)).max(1);
+    let rows_at_once = whole(1.5 / (grid.resolution * scene.frame.scale)).max(1);
     let mut any = false;
     let mut row = rows[0];
     while row < rows[1] {
@@ -158,7 +159,7 @@ fn cells(canvas: &mut Canvas, frame: &Frame, grid: &Grid, bitmap: &[u8], class: 
             if column > start {
                 any = true;
                 let run = block(grid, [start, row], [column - start, end - row]);
-                canvas.polygon(&frame.corners(&run), class);
+                scene.rectangle(&run, class);
             }
             column += 1;
         }
@@ -208,18 +209,13 @@ fn whole(number: f64) -> i64 {
 }
 
 /// Draws the tracks at some of the trajectory's times; tells whether there were any.
-fn predictions(
-    canvas: &mut Canvas,
-    frame: &Frame,
-    tracks: &TrackList,
-    points: &[TrajectoryPoint],
-) -> bool {
+fn predictions(scene: &mut Scene, tracks: &TrackList, points: &[TrajectoryPoint]) -> bool {
     let moving = |item: &&Track| item.vx.hypot(item.vy) > 0.3;
     let mut any = false;
     for item in tracks.items.iter().filter(moving) {
         for index in spread(points.len(), PREDICTIONS) {
             let later = seconds(tracks.stamp_ns, points[index].t_ns);
-            canvas.polygon(&frame.corners(&track(item, later)), "prediction");
+            scene.rectangle(&track(item, later), "prediction");
             any = true;
         }
     }
@@ -227,41 +223,31 @@ fn predictions(
 }
 
 /// Draws the ids of the tracks, above everything else.
-pub fn ids(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) {
+pub fn ids(scene: &mut Scene, cycle: &Cycle) {
     for item in cycle.tracks.iter().flat_map(|list| &list.items) {
-        id(canvas, frame, item);
+        id(scene, item);
     }
 }
 
 /// The id of a track, where the window can show all of it.
-fn id(canvas: &mut Canvas, frame: &Frame, item: &Track) {
-    let Some([x, y]) = frame.at([item.x, item.y]).filter(|_| frame.sees([item.x, item.y])) else {
-        return;
-    };
-    let room = MARGIN + 12.0..PAGE_WIDTH - MARGIN - 12.0;
-    if room.contains(&x) && y > TITLE_HEIGHT + 8.0 {
-        canvas.text(Some([x, y + 4.0]), "id", &item.id.to_string());
+fn id(scene: &mut Scene, item: &Track) {
+    let frame = &scene.frame;
+    let Some([x, y]) = frame.seen([item.x, item.y]) else { return };
+    let room = frame.place[0] + 12.0..frame.place[0] + frame.size[0] - 12.0;
+    if room.contains(&x) && y > frame.place[1] + 8.0 {
+        scene.canvas.text(Some([x, y + 4.0]), "id", &item.id.to_string());
     }
 }
 
-fn trajectory(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, points: &[TrajectoryPoint]) {
+fn trajectory(scene: &mut Scene, cycle: &Cycle, points: &[TrajectoryPoint]) {
     for index in spread(points.len(), FOOTPRINTS) {
-        canvas.polygon(&frame.corners(&footprint(cycle, &points[index])), "footprint");
+        scene.rectangle(&footprint(cycle, &points[index]), "footprint");
     }
-    let line: Vec<_> = points.iter().map(|point| frame.at([point.x, point.y])).collect();
-    canvas.polyline(&line, "trajectory");
+    let line: Vec<_> = points.iter().map(|point| [point.x, point.y]).collect();
+    scene.line(&line, "trajectory");
     for at in line {
-        canvas.circle(at, 2.0, "point");
+        scene.dot(at, 2.0, "point");
     }
-}
-
-fn ego(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle) {
-    let ego = &cycle.ego;
-    let rectangle = Rectangle::of_ego(ego, [ego.x, ego.y], [ego.cos, ego.sin]);
-    canvas.polygon(&frame.corners(&rectangle), "ego");
-    let nose = [(0.5, 0.0), (0.25, 0.35), (0.25, -0.35)]
-        .map(|(a, b)| frame.at(rectangle.point([a * ego.length, b * ego.width])));
-    canvas.polygon(&nose, "nose");
 }
 
 #[cfg(test)]

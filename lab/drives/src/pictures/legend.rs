@@ -1,8 +1,9 @@
 //! Title, legend, scale bar and the direction of the map.
 
 use super::canvas::Canvas;
-use super::frame::{Frame, MARGIN, PAGE_WIDTH, TITLE_HEIGHT};
+use super::frame::{Frame, MARGIN, PAGE_WIDTH};
 use super::layers::Layer;
+use super::scene::Scene;
 
 /// Height of the strip below the map, px.
 pub const LEGEND_HEIGHT: f64 = 76.0;
@@ -18,8 +19,8 @@ pub fn title(canvas: &mut Canvas, first: &str, second: &str) {
 }
 
 /// Legend of the layers drawn, scale bar, and the direction of the map's y axis.
-pub fn draw(canvas: &mut Canvas, frame: &Frame, layers: &[Layer]) {
-    let top = TITLE_HEIGHT + frame.height;
+pub fn draw(Scene { canvas, frame }: &mut Scene, layers: &[Layer]) {
+    let top = frame.place[1] + frame.size[1];
     entries(canvas, layers, top);
     scale_bar(canvas, frame, top);
     north(canvas, frame, top);

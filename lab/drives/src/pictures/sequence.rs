@@ -1,8 +1,6 @@
 //! Message sequence charts, as SVG: who sends what to whom, and in which state each is.
 
-use std::fmt::Write as _;
-
-use super::canvas::{self, Canvas};
+use super::canvas::Canvas;
 
 /// What happens between some partners, row by row from above.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -149,6 +147,8 @@ const LEGEND: f64 = 46.0;
 pub fn draw(chart: &Chart) -> String {
     let page = Page { chart };
     let mut canvas = Canvas::default();
+    canvas.text(Some([20.0, 28.0]), "title", &chart.title);
+    canvas.text(Some([20.0, 50.0]), "subtitle", &chart.subtitle);
     page.heads(&mut canvas);
     for (row, words) in &chart.times {
         let y = y(*row) - ROW / 2.0;
@@ -166,7 +166,7 @@ pub fn draw(chart: &Chart) -> String {
         canvas.text(Some([x, y(note.row) + 15.0]), "note", &note.text);
     }
     page.legend(&mut canvas);
-    page.document(canvas)
+    canvas.document([page.width(), page.height()], &chart.title, STYLE)
 }
 
 struct Page<'a> {
@@ -236,9 +236,9 @@ impl Page<'_> {
         };
         canvas.polyline(&[Some(start), Some(end)], line);
         match arrow.fate {
-            Fate::Arrives => tip(canvas, start, end, "tip"),
-            Fate::Forged => tip(canvas, start, end, "forged-tip"),
-            Fate::Lost => cross(canvas, end),
+            Fate::Arrives => canvas.tip(start, end, 9.0, "tip"),
+            Fate::Forged => canvas.tip(start, end, 9.0, "forged-tip"),
+            Fate::Lost => canvas.cross(end, 5.0, "cross"),
         }
         canvas.text(Some([middle[0], middle[1] - 6.0]), "on", &arrow.text);
     }
@@ -254,25 +254,6 @@ impl Page<'_> {
             }
         }
     }
-
-    fn document(&self, body: Canvas) -> String {
-        let (width, height) = (self.width(), self.height());
-        let [title, subtitle] =
-            [&self.chart.title, &self.chart.subtitle].map(|it| canvas::escape(it));
-        let mut out = String::new();
-        let _ = write!(
-            out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" \
-             viewBox=\"0 0 {width:.0} {height:.0}\">\n<title>{title}</title>\n\
-             <style>{STYLE}</style>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
-             <text class=\"title\" x=\"20\" y=\"28\">{title}</text>\n\
-             <text class=\"subtitle\" x=\"20\" y=\"50\">{subtitle}</text>\n"
-        );
-        out.push_str(&body.into_body());
-        out.push_str("</svg>\n");
-        out
-    }
 }
 
 fn x(partner: usize) -> f64 {
@@ -281,20 +262,6 @@ fn x(partner: usize) -> f64 {
 
 fn y(row: usize) -> f64 {
     TOP + ROW * (count(row) + 0.7)
-}
-
-/// The head of an arrow.
-fn tip(canvas: &mut Canvas, start: [f64; 2], end: [f64; 2], class: &str) {
-    let (dx, dy) = (end[0] - start[0], end[1] - start[1]);
-    let length = dx.hypot(dy).max(1.0);
-    let (ux, uy) = (dx / length * 9.0, dy / length * 9.0);
-    let corner = |side: f64| Some([end[0] - ux - side * uy * 0.45, end[1] - uy + side * ux * 0.45]);
-    canvas.polygon(&[Some(end), corner(1.0), corner(-1.0)], class);
-}
-
-fn cross(canvas: &mut Canvas, [x, y]: [f64; 2]) {
-    canvas.polyline(&[Some([x - 5.0, y - 5.0]), Some([x + 5.0, y + 5.0])], "cross");
-    canvas.polyline(&[Some([x - 5.0, y + 5.0]), Some([x + 5.0, y - 5.0])], "cross");
 }
 
 /// A small count as a coordinate.

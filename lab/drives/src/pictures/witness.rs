@@ -3,12 +3,12 @@
 use mufasa_model::hardened::h14_fail_safe::path;
 use mufasa_model::input::cycle::{Cycle, TrajectoryPoint};
 use mufasa_model::input::domain::first_problem;
-use mufasa_model::input::scene::Scene;
+use mufasa_model::input::scene;
 use mufasa_model::report::{FailedStage, Reading, Report, Rule, Witness};
 
-use super::canvas::Canvas;
-use super::frame::{Frame, MARGIN, PAGE_WIDTH, Rectangle, TITLE_HEIGHT};
+use super::frame::{Frame, Rectangle};
 use super::layers;
+use super::scene::Scene;
 use crate::check::words;
 use mufasa_records::names;
 
@@ -16,9 +16,8 @@ use mufasa_records::names;
 const CHARACTER: f64 = 7.1;
 /// Height of a label, px.
 const LABEL_HEIGHT: f64 = 24.0;
-
 /// Length of the head of an arrow, px.
-const HEAD: f64 = 11.0;
+const TIP: f64 = 11.0;
 
 /// What a witness points at.
 struct Marks {
@@ -47,44 +46,31 @@ pub fn places(cycle: &Cycle, report: &Report) -> Vec<[f64; 2]> {
 }
 
 /// Draws the witness and its label, clear of the other objects where possible.
-pub fn draw(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, report: &Report) {
+pub fn draw(scene: &mut Scene, cycle: &Cycle, report: &Report) {
     let marks = marks(cycle, report);
     let stage = mufasa_props::conformance::name(report.failed_stage);
     let rule = words::failed_witness(report).map_or("", |witness| names::rule(witness.rule));
-    canvas.open(&format!("id=\"witness\" data-stage=\"{stage}\" data-rule=\"{rule}\""));
+    scene.canvas.open(&format!("id=\"witness\" data-stage=\"{stage}\" data-rule=\"{rule}\""));
     for shape in &marks.shapes {
-        canvas.polygon(&frame.corners(shape), "witness");
+        scene.rectangle(shape, "witness");
     }
     for (centre, radius, strong) in &marks.circles {
-        let class = if *strong { "witness" } else { "disk" };
-        canvas.circle(frame.at(*centre), radius * frame.scale, class);
+        scene.circle(*centre, *radius, if *strong { "witness" } else { "disk" });
     }
     for outline in &marks.outlines {
-        canvas.polygon(&frame.corners(outline), "disk");
+        scene.rectangle(outline, "disk");
     }
-    for line in marks.lines.iter().chain(&marks.arrows) {
-        canvas.polyline(&line.map(|place| frame.at(place)), "witness-line");
+    for line in &marks.lines {
+        scene.line(line, "witness-line");
     }
     for arrow in &marks.arrows {
-        head(canvas, arrow.map(|place| frame.at(place)));
+        scene.arrow(*arrow, TIP, "witness");
     }
     if marks.shapes.is_empty() && marks.circles.is_empty() && marks.lines.is_empty() {
-        canvas.circle(frame.at(marks.anchor), 16.0, "witness");
+        scene.dot(marks.anchor, 16.0, "witness");
     }
-    label(canvas, frame, cycle, &marks, &label_text(report));
-    canvas.close();
-}
-
-/// The head of an arrow on the page; none when it is too short for one.
-fn head(canvas: &mut Canvas, arrow: [Option<[f64; 2]>; 2]) {
-    let [Some(from), Some(to)] = arrow else { return };
-    let way = [to[0] - from[0], to[1] - from[1]];
-    let length = way[0].hypot(way[1]);
-    if length > HEAD {
-        let [x, y] = way.map(|it| it / length * HEAD);
-        let side = |k: f64| Some([to[0] - x - k * y, to[1] - y + k * x]);
-        canvas.polygon(&[Some(to), side(0.4), side(-0.4)], "witness-tip");
-    }
+    label(scene, cycle, &marks, &label_text(report));
+    scene.canvas.close();
 }
 
 fn label_text(report: &Report) -> String {
@@ -149,7 +135,7 @@ fn point_or_place(cycle: &Cycle, index: usize) -> Option<TrajectoryPoint> {
     if first_problem(cycle).is_some() {
         return None;
     }
-    let scene = Scene::new(cycle, Reading::Exact);
+    let scene = scene::Scene::new(cycle, Reading::Exact);
     let place = path::places(&scene, scene.trajectory.as_ref()?).nth(index - points.len())?;
     let (origin, direction) = (place.pose.origin, place.pose.direction);
     let [x, y, cos, sin] = [origin.x, origin.y, direction.x, direction.y].map(|it| it.to_f64());
@@ -268,14 +254,14 @@ fn gap(cycle: &Cycle, marks: &mut Marks) {
 }
 
 /// A label with a line to the anchor, at the place that covers the fewest objects.
-fn label(canvas: &mut Canvas, frame: &Frame, cycle: &Cycle, marks: &Marks, text: &str) {
+fn label(Scene { canvas, frame }: &mut Scene, cycle: &Cycle, marks: &Marks, text: &str) {
     let Some(anchor) = frame.at(marks.anchor) else { return };
     #[expect(clippy::cast_precision_loss)] // of a picture
     let width = text.chars().count() as f64 * CHARACTER + 16.0;
     let covered = covered(frame, cycle, marks);
-    let low = [MARGIN + 6.0, TITLE_HEIGHT + 6.0];
+    let low = frame.place.map(|it| it + 6.0);
     let high =
-        [PAGE_WIDTH - MARGIN - 6.0 - width, TITLE_HEIGHT + frame.height - 6.0 - LABEL_HEIGHT];
+        [0, 1].map(|axis| frame.place[axis] + frame.size[axis] - 6.0 - [width, LABEL_HEIGHT][axis]);
     let cost = |corner: &[f64; 2]| {
         let hits = covered.iter().filter(|[from, to]| {
             corner[0] < to[0] + 4.0

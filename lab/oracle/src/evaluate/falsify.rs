@@ -30,8 +30,8 @@ use super::codes::{BAD_INPUT, FAILED, INTERRUPTED};
 use super::maps;
 use super::merge::MergeArguments;
 use super::parts::{self, shard};
+use super::plots::figures;
 use super::plots::figures::Figure;
-use super::plots::search;
 use super::replay::{kind, variant};
 use super::report::{self, FailedRun, Section};
 use super::tables::{self, Rows};
@@ -325,7 +325,7 @@ fn write_files(
             let page = replay.page(town, &job.id, job.route, &outcome);
             write(folder.join(file_of(found, "html")), &page)?;
         }
-        let figures = search::falsified(made);
+        let figures = figures::falsified(made);
         for figure in &figures {
             write(folder.join(&figure.file), &figure.svg)?;
         }

@@ -6,13 +6,12 @@ mod timeline;
 use core::fmt::Write;
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
+use mufasa_drives::pictures::escape;
 
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
 use crate::map::Town;
-use crate::pictures::{
-    DETECTION, LOCAL, Overlay, REJECTED, REMOTE, Shot, TRAJECTORY, View, escape, sheet,
-};
+use crate::pictures::{DETECTION, LOCAL, Overlay, REJECTED, REMOTE, Shot, TRAJECTORY, View, sheet};
 use crate::pose::{Point, Pose, Rectangle};
 use crate::run::{Cycle, End, Outcome, Watcher};
 use crate::snapshot::Snapshot;
