@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::readers::error::{ReadError, quoted};
 use crate::readers::source::Unpacked;
-use crate::readers::xml_parts::Parts;
+use crate::readers::xml::Document;
 use crate::readers::{formats, mcap, npy};
 
 /// A file by what it holds.
@@ -45,7 +45,9 @@ impl Content {
             let message = format!("neither XML nor JSON Lines; {}", formats::READ);
             return Err(ReadError::file(path, message));
         }
-        match Parts::of(path, &text)?.root(|root| Ok(root.name().to_owned()))?.as_str() {
+        let mut document = Document::of(path, &text)?;
+        document.each_child(|_| Ok(()))?;
+        match document.root().name() {
             "commonRoad" => Ok(Self::Scenario(text)),
             "CommonRoadSolution" => Ok(Self::Solution(text)),
             other => {

@@ -23,9 +23,6 @@ mod strip;
 mod surface;
 mod vehicle;
 mod xml;
-mod xml_limits;
-mod xml_marks;
-mod xml_parts;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

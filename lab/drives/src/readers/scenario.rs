@@ -12,8 +12,7 @@ use crate::readers::error::{ReadError, quoted};
 use crate::readers::lanes::{Lanelet, Network};
 use crate::readers::left_out::{self, LeftOut};
 use crate::readers::sides;
-use crate::readers::xml::Element;
-use crate::readers::xml_parts::Parts;
+use crate::readers::xml::{Document, Element};
 use crate::recording::object::{Footprint, Motion, Object, State};
 
 /// A scenario as far as drives need it.
@@ -33,26 +32,25 @@ pub(crate) struct Scenario {
 
 /// Reads a scenario from the text of a file.
 pub(crate) fn read(file: &Path, text: &str) -> Result<Scenario, ReadError> {
-    let parts = Parts::of(file, text)?;
-    let (name, version, dt_ns) = parts.root(|root| {
-        let version = root.attribute("commonRoadVersion")?;
-        if !matches!(version, "2018b" | "2020a") {
-            let message = format!(
-                "version {} is not read; 2018b and 2020a are: write it as one of them",
-                quoted(version)
-            );
-            return Err(root.error("commonRoadVersion", message));
-        }
-        Ok((root.attribute("benchmarkID")?.to_owned(), version.to_owned(), time_step(root)?))
-    })?;
+    let mut document = Document::of(file, text)?;
+    let root = document.root();
+    let version = root.attribute("commonRoadVersion")?.to_owned();
+    if !matches!(version.as_str(), "2018b" | "2020a") {
+        let message = format!(
+            "version {} is not read; 2018b and 2020a are: write it as one of them",
+            quoted(&version)
+        );
+        return Err(root.error("commonRoadVersion", message));
+    }
+    let (name, dt_ns) = (root.attribute("benchmarkID")?.to_owned(), time_step(root)?);
     let mut reader = Reader::default();
-    parts.each_child(|child| reader.child(child))?;
+    document.each_child(|child| reader.child(child))?;
     let Reader { lanelets, left_out, objects, .. } = &reader;
     // Where there is no other, the file has its bounds the wrong way round.
     if let (true, Some(first)) = (lanelets.is_empty(), left_out.first()) {
         return Err(first.error.clone());
     }
-    parts.root(|root| distinct_ids(root, objects))?;
+    distinct_ids(document.root(), objects)?;
     let notes = left_out::note(left_out).into_iter().chain(reader.dangling()).chain(reader.notes());
     let notes = notes.collect();
     let Reader { lanelets, left_out, objects, .. } = reader;

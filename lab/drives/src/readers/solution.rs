@@ -9,7 +9,7 @@ use std::path::Path;
 
 use crate::geometry::distance;
 use crate::readers::error::{ReadError, quoted};
-use crate::readers::xml::{Element, with_root};
+use crate::readers::xml::{Document, Element};
 use crate::recording::object::State;
 
 /// A solution of one planning problem.
@@ -36,29 +36,28 @@ const LEAST_M: f64 = 5.0;
 
 /// Reads a solution from the text of a file.
 pub(crate) fn read(file: &Path, text: &str) -> Result<Solution, ReadError> {
-    with_root(file, text, |root| {
-        let id = root.attribute("benchmark_id")?;
-        let parts: Vec<&str> = id.split(':').collect();
-        let [model, cost, scenario, version] = parts[..] else {
-            let message = format!("{} is not of the form model:cost:scenario:version", quoted(id));
-            return Err(root.error("benchmark_id", message));
-        };
-        let size = size(model).ok_or_else(|| {
-            let message =
-                format!("{} names no KS, ST or MB model of vehicle 1, 2 or 3", quoted(model));
-            root.error("benchmark_id", message)
-        })?;
-        let mut trajectories = root.children();
-        let (Some(trajectory), None) = (trajectories.next(), trajectories.next()) else {
-            return Err(root.error("", "exactly one trajectory is needed"));
-        };
-        Ok(Solution {
-            scenario: scenario.to_owned(),
-            version: version.to_owned(),
-            model: format!("{model}:{cost}"),
-            size,
-            states: states(trajectory)?,
-        })
+    let document = Document::whole(file, text)?;
+    let root = document.root();
+    let id = root.attribute("benchmark_id")?;
+    let parts: Vec<&str> = id.split(':').collect();
+    let [model, cost, scenario, version] = parts[..] else {
+        let message = format!("{} is not of the form model:cost:scenario:version", quoted(id));
+        return Err(root.error("benchmark_id", message));
+    };
+    let size = size(model).ok_or_else(|| {
+        let message = format!("{} names no KS, ST or MB model of vehicle 1, 2 or 3", quoted(model));
+        root.error("benchmark_id", message)
+    })?;
+    let mut trajectories = root.children();
+    let (Some(trajectory), None) = (trajectories.next(), trajectories.next()) else {
+        return Err(root.error("", "exactly one trajectory is needed"));
+    };
+    Ok(Solution {
+        scenario: scenario.to_owned(),
+        version: version.to_owned(),
+        model: format!("{model}:{cost}"),
+        size,
+        states: states(trajectory)?,
     })
 }
 

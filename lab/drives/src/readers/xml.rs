@@ -1,101 +1,262 @@
-//! XML with the place of every complaint.
+//! XML with the place of every complaint. A document is read from its start to its end, and of the children of its
+//! root one is kept at a time: the whole tree would take many times the bytes of the text.
 
 use std::path::Path;
+use std::ptr;
 
-use roxmltree::{Document, Error, Node};
+use quick_xml::escape::resolve_predefined_entity;
+use quick_xml::events::{BytesRef, BytesStart, Event};
+use quick_xml::{Error, Reader, XmlVersion};
 
 use crate::geometry::Point;
 use crate::readers::error::{ReadError, quoted};
-use crate::readers::xml_limits::exceeded;
-use crate::readers::xml_marks::{Kind, Marks};
 
 const CUT_OFF: &str = "cut off: it ends here, within its root element; get the file again";
 const NO_TYPE: &str = "a document type (`<!DOCTYPE`) is not read, because its entities can make a small \
                        file endless; no CommonRoad file needs one: remove it";
+/// Limits of a document; files of `CommonRoad` nest less than 10 deep and have less than 10 attributes on an
+/// element. Each attribute is held against all others, and elements are freed from the outside inwards.
+const DEPTH_MAX: usize = 64;
+const ATTRIBUTES_MAX: usize = 256;
+const LIMIT: &str = "the most that is read; no CommonRoad file needs so many";
 /// Positions of `spec/4-arithmetic.md#domain`, m.
 const POSITION_MAX: f64 = 16_777_216.0;
 
-/// Parses a document and gives its root element to `read`.
-pub(crate) fn with_root<T>(
-    file: &Path,
-    text: &str,
-    read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
-) -> Result<T, ReadError> {
-    if let Some(limit) = exceeded(text) {
-        return Err(ReadError::file(file, limit.to_string()));
+/// An element with all that is in it.
+#[derive(Default)]
+struct Node {
+    name: String,
+    attributes: Vec<(String, String)>,
+    text: String,
+    /// Where it begins, in bytes of the text.
+    at: usize,
+    children: Vec<Self>,
+}
+
+/// A document, read up to its root's tag, or up to behind some child of it.
+pub(crate) struct Document<'t> {
+    file: &'t Path,
+    text: &'t str,
+    reader: Reader<&'t [u8]>,
+    root: Node,
+    /// Whether the end of the root is still to come.
+    is_open: bool,
+}
+
+impl<'t> Document<'t> {
+    /// Reads up to the root.
+    ///
+    /// Errors: it is no XML up to there.
+    pub(crate) fn of(file: &'t Path, text: &'t str) -> Result<Self, ReadError> {
+        let (root, is_open) = (Node::default(), false);
+        let mut document = Self { file, text, reader: Reader::from_str(text), root, is_open };
+        let (root, is_open) = document.first()?;
+        Ok(Self { root, is_open, ..document })
     }
-    with_part(file, text, 0, read)
-}
 
-/// Parses a part of a file that is a document of its own and gives its root element to `read`; `before`:
-/// lines of the file that are before it.
-pub(crate) fn with_part<T>(
-    file: &Path,
-    text: &str,
-    before: i64,
-    read: impl FnOnce(Element<'_>) -> Result<T, ReadError>,
-) -> Result<T, ReadError> {
-    let document = Document::parse(text).map_err(|e| {
-        let (row, message) = match e {
-            Error::UnclosedRootNode => (text.lines().count(), String::from(CUT_OFF)),
-            Error::DtdDetected => (row_of_type(text), String::from(NO_TYPE)),
-            _ => (e.pos().row as usize, format!("not well-formed XML: {e}")),
+    /// Reads a document as a whole.
+    pub(crate) fn whole(file: &'t Path, text: &'t str) -> Result<Self, ReadError> {
+        let mut document = Self::of(file, text)?;
+        while let Some(child) = document.next()? {
+            document.root.children.push(child);
+        }
+        Ok(document)
+    }
+
+    /// The root, with no other child than the last one where it was not read as a whole.
+    pub(crate) fn root(&self) -> Element<'_> {
+        Element { file: self.file, text: self.text, above: &self.root, node: &self.root }
+    }
+
+    /// Gives the children of the root to `read` in their order.
+    pub(crate) fn each_child(
+        &mut self,
+        mut read: impl FnMut(Element<'_>) -> Result<(), ReadError>,
+    ) -> Result<(), ReadError> {
+        while let Some(child) = self.next()? {
+            // A path goes from the root down to one child.
+            self.root.children = vec![child];
+            read(Element { node: &self.root.children[0], ..self.root() })?;
+        }
+        Ok(())
+    }
+
+    /// The root's tag, and whether it is not its end, too.
+    fn first(&mut self) -> Result<(Node, bool), ReadError> {
+        loop {
+            let at = self.position();
+            match self.event()? {
+                Event::Start(tag) => return Ok((self.node(&tag, at)?, true)),
+                Event::Empty(tag) => return Ok((self.node(&tag, at)?, false)),
+                event => self.outside(&event, at)?,
+            }
+        }
+    }
+
+    /// The next child of the root; none behind the last one, where the document has to end.
+    fn next(&mut self) -> Result<Option<Node>, ReadError> {
+        let mut open: Vec<Node> = Vec::new();
+        loop {
+            let at = self.position();
+            let event = self.event()?;
+            let whole = match event {
+                Event::Eof if !self.is_open => return Ok(None),
+                event if !self.is_open => {
+                    self.outside(&event, at)?;
+                    continue;
+                }
+                Event::Eof => return Err(self.cut_off()),
+                Event::Start(tag) => {
+                    let node = self.node(&tag, at)?;
+                    open.push(node);
+                    // With the root.
+                    if open.len() >= DEPTH_MAX {
+                        let message = format!("elements nest deeper than {DEPTH_MAX}, {LIMIT}");
+                        return Err(self.wrong(at, message));
+                    }
+                    continue;
+                }
+                Event::Empty(tag) => Some(self.node(&tag, at)?),
+                Event::End(_) => {
+                    let whole = open.pop();
+                    self.is_open = whole.is_some();
+                    whole
+                }
+                event => {
+                    let words = self.words(&event, at)?;
+                    if let Some(node) = open.last_mut()
+                        && !(node.text.is_empty() && words.trim().is_empty())
+                    {
+                        node.text.push_str(&words);
+                    }
+                    continue;
+                }
+            };
+            match (whole, open.last_mut()) {
+                (Some(node), Some(parent)) => parent.children.push(node),
+                (Some(node), None) => return Ok(Some(node)),
+                (None, _) => {}
+            }
+        }
+    }
+
+    fn event(&mut self) -> Result<Event<'t>, ReadError> {
+        self.reader.read_event().map_err(|error| match error {
+            // Whatever has no end.
+            Error::Syntax(_) => self.cut_off(),
+            error => {
+                let at = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
+                self.broken(at, &error.to_string())
+            }
+        })
+    }
+
+    /// What an event is outside of the root: nothing, or an error.
+    fn outside(&self, event: &Event<'_>, at: usize) -> Result<(), ReadError> {
+        match event {
+            Event::Eof => Err(self.broken(at, "there is no element")),
+            Event::Start(_) | Event::Empty(_) | Event::End(_) => {
+                Err(self.broken(at, "there is a second root element"))
+            }
+            event if !self.words(event, at)?.trim().is_empty() => {
+                Err(self.broken(at, "there is text outside of the root element"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The text of an event that is no tag.
+    fn words(&self, event: &Event<'_>, at: usize) -> Result<String, ReadError> {
+        let words = match event {
+            Event::Text(text) => text.decode().map(String::from),
+            Event::CData(text) => text.decode().map(String::from),
+            Event::GeneralRef(reference) => return self.character(reference, at),
+            Event::DocType(_) => return Err(self.wrong(at, NO_TYPE.to_owned())),
+            _ => Ok(String::new()),
         };
-        let row = u32::try_from(row).unwrap_or(u32::MAX);
-        ReadError::file(file, message).line(line(before, row))
-    })?;
-    read(Element { file, before, node: document.root_element() })
+        words.map_err(|error| self.broken(at, &error.to_string()))
+    }
+
+    fn character(&self, reference: &BytesRef<'_>, at: usize) -> Result<String, ReadError> {
+        let failed = |error: String| self.broken(at, &error);
+        let number = reference.resolve_char_ref().map_err(|error| failed(error.to_string()))?;
+        let name = reference.decode().map_err(|error| failed(error.to_string()))?;
+        let known = || resolve_predefined_entity(&name).map(str::to_owned);
+        let unknown = || failed(format!("there is no entity {}", quoted(&name)));
+        number.map(String::from).or_else(known).ok_or_else(unknown)
+    }
+
+    fn node(&self, tag: &BytesStart<'_>, at: usize) -> Result<Node, ReadError> {
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let mut attributes = Vec::new();
+        for attribute in tag.attributes() {
+            if attributes.len() == ATTRIBUTES_MAX {
+                let message =
+                    format!("an element has more than {ATTRIBUTES_MAX} attributes, {LIMIT}");
+                return Err(self.wrong(at, message));
+            }
+            let attribute = attribute.map_err(|error| self.broken(at, &error.to_string()))?;
+            let value = attribute.normalized_value(XmlVersion::Implicit1_0);
+            let value = value.map_err(|error| self.broken(at, &error.to_string()))?;
+            attributes.push((text(attribute.key.as_ref()), value.into_owned()));
+        }
+        let name = text(tag.name().as_ref());
+        Ok(Node { name, attributes, at, ..Node::default() })
+    }
+
+    fn position(&self) -> usize {
+        usize::try_from(self.reader.buffer_position()).unwrap_or(usize::MAX)
+    }
+
+    fn cut_off(&self) -> ReadError {
+        let rows = u32::try_from(self.text.lines().count()).unwrap_or(u32::MAX);
+        ReadError::file(self.file, CUT_OFF).line(rows)
+    }
+
+    fn broken(&self, at: usize, why: &str) -> ReadError {
+        self.wrong(at, format!("not well-formed XML: {why}"))
+    }
+
+    fn wrong(&self, at: usize, message: String) -> ReadError {
+        ReadError::file(self.file, message).line(row(self.text, at))
+    }
 }
 
-/// The row of a document type, from 1: it is the first mark that is none.
-fn row_of_type(text: &str) -> usize {
-    let broken = Marks::of(text).find(|mark| mark.kind == Kind::Broken);
-    let start = broken.map_or(0, |mark| mark.range.start);
-    1 + text[..start].matches('\n').count()
-}
-
-/// The line of a file of a row of a part.
-fn line(before: i64, row: u32) -> u32 {
-    u32::try_from(before + i64::from(row)).unwrap_or(u32::MAX)
+/// The row of a byte, from 1.
+fn row(text: &str, at: usize) -> u32 {
+    let before = text.bytes().take(at).filter(|byte| *byte == b'\n').count();
+    u32::try_from(before).unwrap_or(u32::MAX).saturating_add(1)
 }
 
 /// An element of a document.
 #[derive(Clone, Copy)]
 pub(crate) struct Element<'a> {
     file: &'a Path,
-    before: i64,
-    node: Node<'a, 'a>,
+    text: &'a str,
+    /// The root.
+    above: &'a Node,
+    node: &'a Node,
 }
 
 impl<'a> Element<'a> {
     pub(crate) fn name(self) -> &'a str {
-        self.node.tag_name().name()
+        &self.node.name
     }
 
     /// An error at this element.
     pub(crate) fn error(self, field: &str, message: impl Into<String>) -> ReadError {
-        let position = self.node.document().text_pos_at(self.node.range().start);
-        let row = line(self.before, position.row);
+        let row = row(self.text, self.node.at);
         ReadError::file(self.file, message).line(row).at(self.path(), field)
     }
 
     fn path(self) -> String {
-        let mut names: Vec<String> = self
-            .node
-            .ancestors()
-            .filter(Node::is_element)
-            .map(|n| match n.attribute("id") {
-                Some(id) => format!("{}[{id}]", n.tag_name().name()),
-                None => n.tag_name().name().to_owned(),
-            })
-            .collect();
-        names.reverse();
+        let mut names = Vec::new();
+        trail(self.above, self.node, &mut names);
         names.join("/")
     }
 
     pub(crate) fn children(self) -> impl Iterator<Item = Element<'a>> {
-        let nodes = self.node.children().filter(Node::is_element);
-        nodes.map(move |node| Element { node, ..self })
+        self.node.children.iter().map(move |node| Element { node, ..self })
     }
 
     pub(crate) fn all(self, name: &'static str) -> impl Iterator<Item = Element<'a>> {
@@ -111,7 +272,7 @@ impl<'a> Element<'a> {
     }
 
     pub(crate) fn text(self) -> &'a str {
-        self.node.text().unwrap_or("").trim()
+        self.node.text.trim()
     }
 
     pub(crate) fn attribute(self, name: &str) -> Result<&'a str, ReadError> {
@@ -183,18 +344,102 @@ impl<'a> Element<'a> {
     }
 }
 
+impl Node {
+    fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
+    }
+}
+
+/// The names from one element down to another, with ids; whether it is there.
+fn trail(from: &Node, to: &Node, names: &mut Vec<String>) -> bool {
+    names.push(match from.attribute("id") {
+        Some(id) => format!("{}[{id}]", from.name),
+        None => from.name.clone(),
+    });
+    let is_there = ptr::eq(from, to) || from.children.iter().any(|child| trail(child, to, names));
+    if !is_there {
+        names.pop();
+    }
+    is_there
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Names and lines of the children of the root, read one by one.
+    fn read(text: &str) -> Result<Vec<(String, Option<u32>)>, ReadError> {
+        let mut places = Vec::new();
+        Document::of(Path::new("f.xml"), text)?.each_child(|child| {
+            places.push((child.name().to_owned(), child.error("", "").line));
+            Ok(())
+        })?;
+        Ok(places)
+    }
+
     #[test]
     fn an_error_names_line_element_and_value() {
         let text = "<r>\n <lanelet id=\"7\">\n  <x>1e999</x></lanelet></r>";
-        let error = with_root(Path::new("f.xml"), text, |root| {
-            root.get("lanelet")?.number_in("x", 0.0, 1.0).map(drop)
-        });
-        let error = error.unwrap_err();
+        let document = Document::whole(Path::new("f.xml"), text).unwrap();
+        let lanelet = document.root().get("lanelet").unwrap();
+        let error = lanelet.number_in("x", 0.0, 1.0).unwrap_err();
         assert_eq!((error.line, error.element.as_str()), (Some(3), "r/lanelet[7]/x"));
         assert!(error.message.contains("1e999"), "{error}");
+    }
+
+    #[test]
+    fn children_are_read_one_by_one_at_their_lines() {
+        let text = "<?xml version='1.0'?>\n<r n='&lt;>'\n b='1'><!-- > --><a b='/>'>&#52;<x/>\n</a>\n<![CDATA[</r>]]>\
+                    <e/></r>\n<!-- end -->\n";
+        let places = [("a", 3), ("e", 5)].map(|(name, line)| (name.to_owned(), Some(line)));
+        assert_eq!(read(text).unwrap(), places);
+        let document = Document::whole(Path::new("f.xml"), text).unwrap();
+        assert_eq!(document.root().attribute("n").unwrap(), "<>");
+        assert_eq!(document.root().get("a").unwrap().text(), "4");
+    }
+
+    #[test]
+    fn what_is_no_xml_is_refused() {
+        let good = "<r n='1'><x>10</x><last/></r><!-- end -->";
+        assert!(read(good).is_ok());
+        for (from, to) in [
+            ("<x>10</x>", "<x>10</y>"),
+            ("<x>10</x>", "<x>10"),
+            ("<x>10</x>", "10</x>"),
+            ("<last/></r>", "<last/></s>"),
+            ("<last/></r>", "<last/>"),
+            ("<last/>", "</r><r>"),
+            ("<last/>", "<!DOCTYPE r>"),
+            ("<last/>", "&nothing;"),
+            ("<last/>", "&lt"),
+            ("<!-- end -->", "<end/>"),
+            ("<!-- end -->", "end"),
+            ("<!-- end -->", "<!-- end"),
+            ("<r n=", "<r r n="),
+            ("n='1'", "n='1' n='1'"),
+        ] {
+            assert!(read(&good.replacen(from, to, 1)).is_err(), "{to}");
+        }
+        for text in ["", " ", "text", "<r>", "</r>", "<r/><r/>", "<r"] {
+            assert!(read(text).is_err(), "{text}");
+        }
+        assert_eq!((read("<r/>"), read("<r></r>")), (Ok(vec![]), Ok(vec![])));
+    }
+
+    #[test]
+    fn depth_and_attributes_have_limits() {
+        for text in
+            ["<a>".repeat(1_000_000), "<a b='/>'><!--</a>--><![CDATA[</a>]]>/>".repeat(100_000)]
+        {
+            let error = read(&text).unwrap_err();
+            assert!(error.message.contains("deeper than 64"), "{error}");
+        }
+        assert!(read(&format!("<r>{}</r>", "<a b='&gt;'/><c></c>".repeat(1000))).is_ok());
+        let many = |count: usize| (0..count).map(|i| format!(" a{i}='>'")).collect::<String>();
+        let of = |count| read(&format!("<r {}/>", many(count)));
+        assert!(of(256).is_ok());
+        for error in [of(257), of(300_000)].map(Result::unwrap_err) {
+            assert!(error.message.contains("more than 256 attributes"), "{error}");
+        }
     }
 }
