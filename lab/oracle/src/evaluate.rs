@@ -46,9 +46,9 @@ use self::codes::{BAD_INPUT, DISAGREES, FAILED};
 use self::plots::figures::Figure;
 use self::report::{FailedRun, REPLAYS, Section};
 use self::shown::{Failed, Shown};
-use self::tables::Rows;
 use self::text::{csv, json, said};
 use crate::document;
+use crate::rows::Rows;
 
 /// One cycle of so many is checked by the model if not all are.
 const CHECKED_EVERY: u64 = 100;

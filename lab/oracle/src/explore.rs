@@ -5,7 +5,6 @@ pub mod chart;
 pub mod evidence;
 pub mod findings;
 pub mod report;
-pub mod tables;
 pub mod vector;
 
 use std::io::{self, Write};
@@ -28,6 +27,9 @@ use crate::document;
 use mufasa_drives::check::complain;
 use mufasa_records::files;
 use mufasa_records::names;
+
+/// Width of a table, characters.
+const WIDTH: u16 = 118;
 
 /// Name of the tables in a document.
 pub fn table_name(bounds: Bounds) -> String {
@@ -101,13 +103,14 @@ pub fn run(settings: &Settings, out: &mut impl Write, err: &mut impl Write) -> i
             }
         }
         writeln!(out, "{}, {} bounds", names::profile(*profile), settings.bounds.name())?;
-        writeln!(out, "{}", tables::worlds(&outcomes))?;
-        writeln!(out, "{}", tables::properties(*profile, &outcomes))?;
+        let report = ExplorationReport::new(*profile, settings.bounds, &outcomes);
+        writeln!(out, "{}", report.worlds().text())?;
+        writeln!(out, "{}", report.properties().text_within(WIDTH))?;
         end = end.max(judge(*profile, &outcomes, err));
         if settings.world.is_none() {
             end = end.max(look_for_unseen(*profile, &outcomes, err));
         }
-        reports.push(ExplorationReport::new(*profile, settings.bounds, &outcomes));
+        reports.push(report);
         match findings::stories(*profile, &outcomes) {
             Ok(stories) => {
                 let written = findings::write(&settings.folder, &stories);

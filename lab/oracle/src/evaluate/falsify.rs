@@ -34,10 +34,11 @@ use super::plots::figures;
 use super::plots::figures::Figure;
 use super::replay::{kind, variant};
 use super::report::{self, FailedRun, Section};
-use super::tables::{self, Rows};
+use super::tables;
 use super::text::{csv, json, said};
 use crate::document;
 use crate::limits::whole;
+use crate::rows::Rows;
 
 /// Runs if nothing is said.
 const RUNS: u64 = 400;

@@ -12,7 +12,7 @@ use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::run::End;
 
 use super::plots::figures::Figure;
-use super::tables::Rows;
+use crate::rows::Rows;
 
 /// The name of the page.
 pub(super) const FILE: &str = "report.html";

@@ -14,7 +14,8 @@ use mufasa_sim::run::End;
 use serde::Serialize;
 
 use super::plots::figures::{self, Figure};
-use super::tables::{self, Rows};
+use super::tables;
+use crate::rows::Rows;
 
 /// A run that failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
