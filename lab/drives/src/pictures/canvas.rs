@@ -9,6 +9,11 @@ pub struct Canvas {
 }
 
 impl Canvas {
+    /// The elements written so far, for a document of another kind.
+    pub fn into_body(self) -> String {
+        self.body
+    }
+
     /// The whole file of a size, px, on white: a title, which is no part of the picture, and what classes look like.
     pub fn document(self, [width, height]: [f64; 2], title: &str, style: &str) -> String {
         format!(
