@@ -3,18 +3,25 @@
 use std::str::FromStr;
 
 use mufasa_drives::{Attack, Drive, InjectError, Injection, Options, ParseInjectionError, Sensor};
-use mufasa_model::input::cycle::Profile;
-use mufasa_model::report::{FailedStage, Rule, Stage};
+use mufasa_model::input::cycle::{Cycle, Profile};
+use mufasa_model::numbers::reading::Reading;
+use mufasa_model::report::{FailedStage, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
+use mufasa_model::stages;
 
-use super::files::{crossed, demo, inject, judged};
+use super::files::{crossed, demo, inject};
 
-/// What failed first, and at which cycle.
+/// What failed first, and at which cycle; behind it nothing is judged.
 fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
-    judged(drive.clone()).1.iter().enumerate().find_map(|(i, judged)| {
-        let report = judged.model.as_ref().expect("local input is valid");
-        report.failed_stage.map(|stage| (i, stage))
-    })
+    drive
+        .cycles
+        .iter()
+        .enumerate()
+        .find_map(|(i, made)| report(&made.cycle).failed_stage.map(|stage| (i, stage)))
+}
+
+fn report(cycle: &Cycle) -> Report {
+    stages::check(cycle, Reading::Exact).expect("local input is valid")
 }
 
 fn options(profile: Profile) -> Options {
@@ -123,9 +130,7 @@ fn empty_tracks_end_in_a_collision_unless_they_are_found() {
     let attacked = inject(&demo(&options(Profile::HARDENED)), &injection).unwrap();
     let gap = |i: usize| attacked.cycles[i].cycle.lead.as_ref().map(|l| l.gap);
     let (found, _) = first_failure(&attacked).unwrap();
-    let (_, all) = judged(attacked.clone());
-    let report = all[found].model.as_ref().unwrap();
-    let rules: Vec<Rule> = report
+    let rules: Vec<Rule> = report(&attacked.cycles[found].cycle)
         .stages
         .iter()
         .filter_map(|s| match s {
