@@ -71,7 +71,7 @@ impl Canvas {
         if length > long {
             let [x, y] = way.map(|it| it / length * long);
             let side = |k: f64| Some([to[0] - x - k * y, to[1] - y + k * x]);
-            self.polygon(&[Some(to), side(0.42), side(-0.42)], class);
+            self.polygon(&[Some(to), side(0.45), side(-0.45)], class);
         }
     }
 

@@ -75,7 +75,7 @@ fn the_documents_show_it(hardened: &str, paper: &str, picture: &str) {
         document::write(&page, "mufasa demo", &table).unwrap();
         fs::write(&kept, picture).unwrap();
     }
-    let why = "UPDATE_DOCS=1 cargo test -p mufasa-oracle --test demo";
+    let why = "UPDATE_DOCS=1 cargo test -p mufasa-oracle --test it demo";
     assert_eq!(document::read(&page, "mufasa demo").unwrap().trim(), table.trim(), "{why}");
     assert_eq!(fs::read_to_string(kept).unwrap(), picture, "{why}");
 }
