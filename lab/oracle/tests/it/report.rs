@@ -112,7 +112,8 @@ fn every_experiment_has_charts_that_are_svg() {
     let chart = text(&folder, "results/attacks.svg");
     let chart = Document::parse(&chart).expect("SVG");
     let at = |word: &str| {
-        let node = chart.descendants().find(|it| it.text() == Some(word)).expect(word);
+        let node =
+            chart.descendants().find(|it| it.text().map(str::trim) == Some(word)).expect(word);
         node.attribute("y").and_then(|it| it.parse::<f64>().ok()).expect("a place")
     };
     assert!(at("cycles until it is detected") - at("missed") > 14.0);

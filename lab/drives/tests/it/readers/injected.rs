@@ -7,7 +7,6 @@ use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::numbers::reading::Reading;
 use mufasa_model::report::{FailedStage, Report, Rule, Stage};
 use mufasa_model::services::configuration::Configuration;
-use mufasa_model::stages;
 
 use super::files::{crossed, demo, inject};
 
@@ -21,7 +20,7 @@ fn first_failure(drive: &Drive) -> Option<(usize, FailedStage)> {
 }
 
 fn report(cycle: &Cycle) -> Report {
-    stages::check(cycle, Reading::Exact).expect("local input is valid")
+    mufasa_model::cycle::check(cycle, Reading::Exact).expect("local input is valid")
 }
 
 fn options(profile: Profile) -> Options {

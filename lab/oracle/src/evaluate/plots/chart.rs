@@ -206,11 +206,11 @@ pub(super) fn bars(
     page(head, key, BARS, |area| {
         area.draw(&Text::new(unit, (20, 6), font(16, HPos::Left, VPos::Top)))?;
         let mut builder = ChartBuilder::on(area);
-        builder.margin_top(52).margin_right(20).margin_bottom(46);
+        builder.margin_top(52).margin_right(20).margin_bottom(50);
         builder.set_label_area_size(LabelAreaPosition::Left, LEFT);
         let mut chart = meshed!(builder, 0.0..nth(groups.len()), 0.0..most, lines + 1, &whole);
         for (index, group) in groups.iter().enumerate() {
-            let each = (0.86 / nth(group.bars.len().max(1))).min(0.2);
+            let each = (0.86 / nth(group.bars.len().max(1))).min(0.3);
             let middle = nth(index) + 0.5;
             let first = middle - each * nth(group.bars.len()) / 2.0;
             for (index, bar) in group.bars.iter().enumerate() {
@@ -234,7 +234,7 @@ pub(super) fn bars(
             }
             let below = |y, size| ((0, y), font(size, HPos::Center, VPos::Top));
             for (text, (moved, style)) in
-                [(&group.name, below(6, 16)), (&group.note, below(25, 14))]
+                [(&group.name, below(10, 16)), (&group.note, below(29, 14))]
             {
                 chart.draw_series([words((middle, 0.0), moved, text.clone(), style)])?;
             }
@@ -339,44 +339,43 @@ pub(super) struct Row {
 pub(super) fn lines(head: [&str; 2], key: &[Series], rows: &[Row]) -> String {
     let height = u32::try_from(rows.len()).unwrap_or(0) * SMALL;
     page(head, key, height, |area| {
-        let numbers =
-            |chart: usize| move |value: &f64| if chart == 0 { whole(value) } else { String::new() };
         for (row, part) in rows.iter().zip(area.split_evenly((rows.len().max(1), 1))) {
             part.draw(&Text::new(row.unit, (20, 8), font(16, HPos::Left, VPos::Top)))?;
-            let part = part.margin(28, 0, 12, 0);
-            for (index, (chart, part)) in
-                row.charts.iter().zip(part.split_evenly((1, row.charts.len().max(1)))).enumerate()
-            {
-                let mut builder = ChartBuilder::on(&part);
-                builder.margin_top(26).margin_right(6).margin_bottom(28);
-                builder.set_label_area_size(LabelAreaPosition::Left, 34);
-                let format = numbers(index);
-                let across = 0.0..nth(chart.names.len());
-                let mut drawn = meshed!(builder, across, 0.0..row.most, 5, &format);
-                let middle = nth(chart.names.len()) / 2.0;
-                let above = font(16, HPos::Center, VPos::Bottom);
-                drawn.draw_series([words(
-                    (middle, row.most),
-                    (0, -4),
-                    chart.name.clone(),
-                    above,
-                )])?;
-                for (index, name) in chart.names.iter().enumerate() {
-                    let below = font(14, HPos::Center, VPos::Top);
-                    let place = (nth(index) + 0.5, 0.0);
-                    drawn.draw_series([words(place, (0, 6), name.clone(), below)])?;
-                }
-                for (series, values) in &chart.lines {
-                    let places = values.iter().enumerate().map(|(at, it)| (nth(at) + 0.5, *it));
-                    let places: Vec<_> = places.collect();
-                    let line = PathElement::new(places.clone(), series.color.stroke_width(2));
-                    drawn.draw_series([line])?;
-                    drawn.draw_series(places.iter().map(|place| series.at(*place, 0, false)))?;
-                }
+            let part = part.margin(28, 0, 40, 0);
+            let places = part.split_evenly((1, row.charts.len().max(1)));
+            for (index, (small, place)) in row.charts.iter().zip(&places).enumerate() {
+                one_small(small, place, row.most, index == 0)?;
             }
         }
         Ok(())
     })
+}
+
+fn one_small(small: &Small, place: &Area<'_>, most: f64, is_first: bool) -> Drawn {
+    let mut builder = ChartBuilder::on(place);
+    builder.margin_top(26).margin_right(6).margin_bottom(28);
+    builder.set_label_area_size(LabelAreaPosition::Left, 12);
+    let across = 0.0..nth(small.names.len());
+    let mut chart = meshed!(builder, across, 0.0..most, 5, &|_: &f64| String::new());
+    // The numbers of a row stand left of its first chart.
+    for value in [0.0, 0.5, 1.0].map(|share| share * most).into_iter().filter(|_| is_first) {
+        let side = font(16, HPos::Right, VPos::Center);
+        chart.draw_series([words((0.0, value), (-9, 0), whole(&value), side)])?;
+    }
+    let middle = nth(small.names.len()) / 2.0;
+    let above = font(16, HPos::Center, VPos::Bottom);
+    chart.draw_series([words((middle, most), (0, -4), small.name.clone(), above)])?;
+    for (index, name) in small.names.iter().enumerate() {
+        let below = font(13, HPos::Center, VPos::Top);
+        chart.draw_series([words((nth(index) + 0.5, 0.0), (0, 6), name.clone(), below)])?;
+    }
+    for (series, values) in &small.lines {
+        let places = values.iter().enumerate().map(|(at, it)| (nth(at) + 0.5, *it));
+        let places: Vec<_> = places.collect();
+        chart.draw_series([PathElement::new(places.clone(), series.color.stroke_width(2))])?;
+        chart.draw_series(places.iter().map(|place| series.at(*place, 0, false)))?;
+    }
+    Ok(())
 }
 
 /// Every run of a search in its order, where a collision has no value, and the least value up to each; `rounds`: runs
@@ -397,7 +396,11 @@ pub(super) fn search(
         let low = -0.14 * most;
         let mut chart = builder.build_cartesian_2d(0.0..nth(tried.len().max(1)), low..most)?;
         let mut mesh = chart.configure_mesh();
-        mesh.disable_x_mesh().x_labels(10).x_label_formatter(&whole).y_label_formatter(&whole);
+        mesh.disable_x_mesh()
+            .x_labels(10)
+            .y_labels(6)
+            .x_label_formatter(&whole)
+            .y_label_formatter(&whole);
         mesh.light_line_style(TRANSPARENT).bold_line_style(GRID).axis_style(AXIS);
         mesh.label_style(("sans-serif", 15)).x_desc("runs with attacks").draw()?;
         let side = font(16, HPos::Right, VPos::Center);

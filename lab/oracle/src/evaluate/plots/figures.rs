@@ -229,7 +229,7 @@ pub fn availability(of: &Availability) -> Vec<Figure> {
     let one =
         |factor: Factor| format!("{}: {}", words_of(factor), said(factor, factor.of_default()));
     let about = format!(
-        "No attack. One setting at a time differs from its default: {}.\nThe paper gives no such figures.",
+        "No attack. One setting at a time differs from its default:\n{}.\nThe paper gives no such figures.",
         Factor::ALL.map(one).join("; ")
     );
     let head = ["What the checks cost without an attack", about.as_str()];
