@@ -167,6 +167,7 @@ macro_rules! meshed {
 }
 
 /// Whole numbers; of what is below the scale nothing.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "as plotters calls it")]
 fn whole(value: &f64) -> String {
     if *value < 0.0 { String::new() } else { format!("{value:.0}") }
 }
