@@ -3,6 +3,7 @@
 use super::brake_by::brake_by_ns;
 use super::elements::{Element, is_current, of_session};
 use super::messages::{Brake, Decision, Measured, Verified};
+use super::settings::fits;
 use super::{Done, Monitor, history, supervision, ticks};
 use crate::cycle::check;
 use crate::input::cycle::{Cycle, TrackList, Trajectory};
@@ -96,11 +97,10 @@ impl Monitor {
 
     /// [MON-19]
     fn misfit(&self, cycle: &Cycle) -> Option<InvalidInput> {
-        let (found, places) =
-            (cycle.detections.as_ref()?.items.len(), self.settings.memory.detections);
-        let message = format!("{found} detections, where the memory has {places} places");
-        let field = "detections.items".into();
-        (found > places).then_some(InvalidInput { field, index: None, message })
+        let (items, places) = (&cycle.detections.as_ref()?.items, self.settings.memory.detections);
+        let message = format!("{} items, where the memory has {places} places", items.len());
+        let problem = InvalidInput { field: "detections.items".into(), index: None, message };
+        (!fits(items, places)).then_some(problem)
     }
 
     /// What a cycle with valid local input leaves behind. [MON-12] [MON-17] [MON-55]

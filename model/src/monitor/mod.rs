@@ -38,7 +38,7 @@ use crate::services::configuration::{Group, Groups};
 use elements::{Arrival, Element};
 use history::History;
 use messages::{Answer, Brake, Dropped, Event, EventKind};
-use settings::Settings;
+use settings::{Settings, fits};
 use stall::Progress;
 use ticks::Ticks;
 use wait::Use;
@@ -135,8 +135,8 @@ impl Monitor {
 
     /// Results of MOT arrive.
     fn tracks(&mut self, arrival: Arrival, list: TrackList) -> Done {
-        let fits = list.items.len() <= self.settings.memory.tracks;
-        let done = self.data(Group::Mot, arrival, list.stamp_ns, fits);
+        let has_places = fits(&list.items, self.settings.memory.tracks);
+        let done = self.data(Group::Mot, arrival, list.stamp_ns, has_places);
         if done.dropped.is_none() {
             self.tracks = Some(arrival.element(list));
         }

@@ -45,16 +45,21 @@ pub struct Stall {
 /// Places of the memory that is lent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// Tracks of a list.
-    pub tracks: usize,
-    /// Detections of a list.
-    pub detections: usize,
-    /// Cross sections of the route.
-    pub cross_sections: usize,
+    /// For the tracks of a list.
+    pub tracks: i64,
+    /// For the detections of a list.
+    pub detections: i64,
+    /// For the cross sections of the route.
+    pub cross_sections: i64,
+}
+
+/// Whether there is a place for each item.
+pub fn fits<T>(items: &[T], places: i64) -> bool {
+    i64::try_from(items.len()).is_ok_and(|count| count <= places)
 }
 
 impl Settings {
-    /// The first setting that is refused. [MON-18] [MON-21] to [MON-27], [MON-29], [MON-60] to [MON-62]
+    /// The first setting that is refused. [MON-18] [MON-21] to [MON-27], [MON-29], [MON-60]
     pub fn check(&self, route: &Route) -> Result<(), InvalidInput> {
         self.check_parameters()?;
         self.check_times()?;
@@ -69,8 +74,8 @@ impl Settings {
             asked(time_ns >= SECOND, "stall.time_ns", "must be 1 s or more")?;
         }
         asked(memory.tracks > 0, "memory.tracks", "must have a place for a track")?;
-        let fits = route.cross_sections.len() <= memory.cross_sections;
-        asked(fits, "route.stations", "are more than the memory has places for")
+        let has_places = fits(&route.cross_sections, memory.cross_sections);
+        asked(has_places, "route.stations", "are more than the memory has places for")
     }
 
     /// [MON-23]
@@ -84,7 +89,6 @@ impl Settings {
 
     fn check_times(&self) -> Result<(), InvalidInput> {
         let Self { parameters, requester, period_ns, .. } = self;
-        // [MON-61]
         asked(*period_ns >= 0, "period_ns", "must be 0 ns or more")?;
         // [MON-24]
         let times = [

@@ -4,7 +4,7 @@ use super::elements::is_current;
 use super::messages::Brake;
 use crate::cycle::check;
 use crate::input::cycle::Cycle;
-use crate::report::{InvalidInput, Outcome, Reading, Report};
+use crate::report::{InvalidInput, Reading, Report};
 use crate::services::configuration::Configuration;
 
 /// Examines the CAV's own trajectory as in `PlanRemote`: the cycle with its own tracks and trajectory, and
@@ -16,25 +16,17 @@ pub fn examine(own: &Cycle, misfit: Option<&InvalidInput>, reading: Reading) -> 
     match (check(&as_remote, reading), misfit) {
         (Err(problem), _) => Some(Brake::Invalid(problem)),
         (Ok(_), Some(problem)) => Some(Brake::Invalid(problem.clone())),
-        (Ok(report), None) => {
-            failed(report).or_else(|| (!has_current_trajectory(own)).then_some(Brake::NoTrajectory))
-        }
+        (Ok(report), None) => failed(&report)
+            .or_else(|| (!has_current_trajectory(own)).then_some(Brake::NoTrajectory)),
     }
 }
 
-fn failed(report: Report) -> Option<Brake> {
+fn failed(report: &Report) -> Option<Brake> {
     let stage = report.failed_stage?;
-    if let Some(problem) = report.input {
-        return Some(Brake::Invalid(problem));
+    if let Some(problem) = &report.input {
+        return Some(Brake::Invalid(problem.clone()));
     }
-    let witness = report.stages.into_iter().find_map(|outcome| match outcome {
-        Outcome::Failed(witness) => Some(witness),
-        Outcome::Passed
-        | Outcome::Skipped(_)
-        | Outcome::NotApplicable(_)
-        | Outcome::NotScheduled => None,
-    });
-    Some(Brake::Failed(stage, witness))
+    Some(Brake::Failed(stage, report.witness().cloned()))
 }
 
 fn has_current_trajectory(own: &Cycle) -> bool {
