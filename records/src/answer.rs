@@ -10,7 +10,6 @@ use serde::Serialize;
 
 use crate::composition_answer::CompositionAnswer;
 use crate::error::LineError;
-use crate::monitor_answer::MonitorAnswer;
 use crate::offloading_answer::OffloadingAnswer;
 use crate::record::value::Word;
 
@@ -24,8 +23,6 @@ pub enum Answer {
     Offloading(OffloadingAnswer),
     /// To a composition.
     Composition(CompositionAnswer),
-    /// To a sequence of the monitor.
-    Monitor(MonitorAnswer),
     /// To a line that is no record, or to a record with invalid local input.
     Error(ErrorAnswer),
 }
@@ -204,8 +201,7 @@ impl StageAnswer {
 }
 
 impl WitnessAnswer {
-    /// The witness that the model gives.
-    pub fn new(witness: &Witness) -> Self {
+    fn new(witness: &Witness) -> Self {
         Self {
             rule: Word(witness.rule),
             point: witness.point,

@@ -5,13 +5,12 @@
 //! at T. It is decided up to 30 ms after T, so that whatever the station answers within l_max is there:
 //! until then the CAV drives straight on, and nothing else is changed.
 
-use std::fmt;
-
 use mufasa::input::cycle::{Ego, Trajectory, TrajectoryPoint};
 use mufasa_drives::Drive;
 use mufasa_model::input::cycle::{Cycle, Profile};
 use mufasa_model::input::parameters::Parameters;
 use mufasa_props::bridge;
+use thiserror::Error;
 
 use crate::message::{EncodeError, Frame};
 
@@ -44,47 +43,30 @@ pub struct Played {
 }
 
 /// A drive that cannot be played.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum PlayError {
     /// It has fewer than two cycles, and so no period.
+    #[error("{cycles} cycles are too few: at least two have a period")]
     Short {
         /// How many it has.
         cycles: usize,
     },
     /// A cycle is not at least 40 ms and at most 10 s later than the one before.
+    #[error(
+        "cycle {index}: now_ns is not 40 ms to 10 s later than in the cycle before; give the cycles of one drive in \
+         their order"
+    )]
     Order {
         /// Which one.
         index: usize,
     },
     /// A cycle has another profile or other parameters than the first.
+    #[error("cycle {index}: another profile or other parameters than the first cycle has")]
     Settings {
         /// Which one.
         index: usize,
     },
 }
-
-impl fmt::Display for PlayError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Short { cycles } => {
-                write!(f, "{cycles} cycles are too few: at least two have a period")
-            }
-            Self::Order { index } => write!(
-                f,
-                "cycle {index}: now_ns is not 40 ms to 10 s later than in the cycle before; give the cycles \
-                 of one drive in their order"
-            ),
-            Self::Settings { index } => {
-                write!(
-                    f,
-                    "cycle {index}: another profile or other parameters than the first cycle has"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for PlayError {}
 
 impl Played {
     /// Errors: a drive that cannot be played in real time.

@@ -10,6 +10,5 @@ mod limits;
 mod link;
 pub mod parameters_file;
 pub mod prove;
-mod rows;
 pub mod schemas;
 mod spelling;

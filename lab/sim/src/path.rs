@@ -1,31 +1,22 @@
 //! A polyline that is travelled along: arc length, poses, projections and curvature.
 
+use thiserror::Error;
+
 use crate::pose::{Point, Pose};
 
 /// Why points are no path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum PathError {
-    /// A path needs two points (three if it is closed); this many were given.
+    /// A path needs two points; this many were given.
+    #[error("a path needs two points; given: {0}")]
     TooFew(usize),
     /// The coordinates of the point with this index are not finite.
+    #[error("point {0} is not finite")]
     NotFinite(usize),
-    /// The point with this index lies on the one before it (the first of a closed path: on the last): drop it.
+    /// The point with this index lies on the one before it: drop it.
+    #[error("point {0} repeats the one before it: drop it")]
     Repeated(usize),
 }
-
-impl core::fmt::Display for PathError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::TooFew(count) => {
-                write!(f, "a path needs two points, or three if it is closed; given: {count}")
-            }
-            Self::NotFinite(index) => write!(f, "point {index} is not finite"),
-            Self::Repeated(index) => write!(f, "point {index} repeats the one before it: drop it"),
-        }
-    }
-}
-
-impl std::error::Error for PathError {}
 
 /// A polyline with its arc length from the first point, m.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +28,6 @@ pub struct Path {
     pieces: Vec<(f64, f64)>,
     /// Direction at every point, the middle of those of its two pieces.
     headings: Vec<(f64, f64)>,
-    closed: bool,
 }
 
 /// Where a place lies beside a path.
@@ -45,26 +35,32 @@ pub struct Path {
 pub struct Projection {
     /// Arc length of the nearest point of the path, m.
     pub s: f64,
-    /// Signed distance of the place, left positive, m; before and behind the ends of an open path, that to
-    /// the end's tangent.
+    /// Signed distance of the place, left positive, m; before and behind the ends, that to the end's tangent.
     pub left: f64,
 }
 
 impl Path {
-    /// An open path through these points, m.
+    /// A path through these points, m.
     ///
     /// # Errors
     /// Fewer than two points, one that is not finite, or one that repeats the point before it.
     pub fn new(points: Vec<Point>) -> Result<Self, PathError> {
-        Self::build(points, false)
-    }
-
-    /// A path that returns from its last point to its first, m.
-    ///
-    /// # Errors
-    /// Fewer than three points, one that is not finite, or one that repeats the point before it.
-    pub fn closed(points: Vec<Point>) -> Result<Self, PathError> {
-        Self::build(points, true)
+        let count = points.len();
+        if count < 2 {
+            return Err(PathError::TooFew(count));
+        }
+        if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+            return Err(PathError::NotFinite(index));
+        }
+        let mut lengths = vec![0.0];
+        let mut pieces = Vec::new();
+        for (index, pair) in points.windows(2).enumerate() {
+            let direction = unit(pair[1].x - pair[0].x, pair[1].y - pair[0].y);
+            pieces.push(direction.ok_or(PathError::Repeated(index + 1))?);
+            lengths.push(lengths[index] + pair[0].distance(pair[1]));
+        }
+        let headings = (0..count).map(|index| heading(&pieces, index)).collect();
+        Ok(Self { points, lengths, pieces, headings })
     }
 
     /// The same line with points evenly at about `spacing`, m.
@@ -79,9 +75,9 @@ impl Path {
             clippy::cast_sign_loss,
             reason = "at most a million"
         )]
-        let count = pieces as u32 + u32::from(!self.closed);
-        let points = (0..count).map(|i| self.pose_at(length * f64::from(i) / pieces).at).collect();
-        Self::build(points, self.closed)
+        let count = pieces as u32;
+        let at = |i| self.pose_at(length * f64::from(i) / pieces).at;
+        Self::new((0..=count).map(at).collect())
     }
 
     /// Arc length of the whole path, m.
@@ -89,25 +85,19 @@ impl Path {
         self.lengths[self.lengths.len() - 1]
     }
 
-    /// Whether the path returns to its first point.
-    pub const fn is_closed(&self) -> bool {
-        self.closed
-    }
-
     /// The points in order, m.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Arc lengths of the points in order, m; a closed path has one more, its whole length.
+    /// Arc lengths of the points in order, m.
     pub fn arc_lengths(&self) -> &[f64] {
         &self.lengths
     }
 
-    /// The arc length that `s` stands for, m: taken round on a closed path, held at the ends of an open one.
+    /// The arc length held at the ends, m.
     pub fn wrap(&self, s: f64) -> f64 {
-        let length = self.length();
-        if self.closed { s - (s / length).floor() * length } else { s.clamp(0.0, length) }
+        s.clamp(0.0, self.length())
     }
 
     /// The piece on which an arc length lies, and the share of the piece before it, in [0, 1].
@@ -122,8 +112,8 @@ impl Path {
     /// Place and direction at an arc length, m; the direction turns evenly between the points.
     pub fn pose_at(&self, s: f64) -> Pose {
         let (piece, share) = self.locate(s);
-        let (from, to) = (self.points[piece], self.points[self.next(piece)]);
-        let (a, b) = (self.headings[piece], self.headings[self.next(piece)]);
+        let (from, to) = (self.points[piece], self.points[piece + 1]);
+        let (a, b) = (self.headings[piece], self.headings[piece + 1]);
         let (cos, sin) = unit(a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share)
             .unwrap_or(self.pieces[piece]);
         Pose {
@@ -139,7 +129,7 @@ impl Path {
     }
 
     /// The nearest point of the pieces that reach into [from, to], m: for a path that crosses or covers
-    /// itself, and for speed. A closed path takes a window over its seam.
+    /// itself, and for speed.
     pub fn project_within(&self, place: Point, from: f64, to: f64) -> Projection {
         let (first, count) = self.window(from, to);
         Self::found(self.nearest(place, first, count, f64::INFINITY))
@@ -154,49 +144,20 @@ impl Path {
     /// Curvature at an arc length, left positive, 1/m: the turn of the direction over the piece, by its length.
     pub fn curvature_at(&self, s: f64) -> f64 {
         let (piece, _) = self.locate(s);
-        let (a, b) = (self.headings[piece], self.headings[self.next(piece)]);
+        let (a, b) = (self.headings[piece], self.headings[piece + 1]);
         let turn = libm::atan2(a.0 * b.1 - a.1 * b.0, a.0 * b.0 + a.1 * b.1);
         turn / (self.lengths[piece + 1] - self.lengths[piece])
     }
 
     /// The first piece and the number of pieces of a stretch, m.
     fn window(&self, from: f64, to: f64) -> (usize, usize) {
-        if self.closed && to - from >= self.length() {
-            return (0, self.pieces.len());
-        }
         let (first, last) = (self.locate(from).0, self.locate(to).0);
-        (first, if last < first { last + self.pieces.len() - first } else { last - first } + 1)
+        (first, last.saturating_sub(first) + 1)
     }
 
     /// With no bound something is nearest, but to a place that is not a number: the path's start then.
     fn found(nearest: Option<Projection>) -> Projection {
         nearest.unwrap_or(Projection { s: 0.0, left: f64::NAN })
-    }
-
-    fn build(points: Vec<Point>, closed: bool) -> Result<Self, PathError> {
-        let count = points.len();
-        if count < if closed { 3 } else { 2 } {
-            return Err(PathError::TooFew(count));
-        }
-        if let Some(index) = points.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
-            return Err(PathError::NotFinite(index));
-        }
-        let mut lengths = vec![0.0];
-        let mut pieces = Vec::new();
-        for index in 0..if closed { count } else { count - 1 } {
-            let (from, to) = (points[index], points[(index + 1) % count]);
-            let direction = unit(to.x - from.x, to.y - from.y)
-                .ok_or(PathError::Repeated((index + 1) % count))?;
-            pieces.push(direction);
-            lengths.push(lengths[index] + from.distance(to));
-        }
-        let headings = (0..count).map(|index| heading(&pieces, index, closed)).collect();
-        Ok(Self { points, lengths, pieces, headings, closed })
-    }
-
-    /// The point behind a piece.
-    const fn next(&self, piece: usize) -> usize {
-        if piece + 1 == self.points.len() { 0 } else { piece + 1 }
     }
 
     /// The nearest point of `count` pieces from one on, if it is nearer than `bound`, m.
@@ -206,11 +167,7 @@ impl Path {
         // No point within this way of the last one can be nearer: a path comes no faster than its length.
         let mut way = 0.0;
         for offset in 0..count {
-            let piece = if first + offset < self.pieces.len() {
-                first + offset
-            } else {
-                first + offset - self.pieces.len()
-            };
+            let piece = first + offset;
             let length = self.lengths[piece + 1] - self.lengths[piece];
             if length < way {
                 way -= length;
@@ -223,9 +180,8 @@ impl Path {
             let square = dx * dx + dy * dy;
             if square < best.0 {
                 let left = y * cos - x * sin;
-                let is_end = !self.closed
-                    && (piece == 0 && ahead <= 0.0
-                        || piece + 1 == self.pieces.len() && ahead >= length);
+                let is_end =
+                    piece == 0 && ahead <= 0.0 || piece + 1 == self.pieces.len() && ahead >= length;
                 // Outside of a bend the nearest point is a corner, and the distance to it is more than `left`.
                 let left = if is_end { left } else { square.sqrt().copysign(left) };
                 best = (square, Some(Projection { s: self.lengths[piece] + ahead, left }));
@@ -241,14 +197,8 @@ impl Path {
 }
 
 /// The direction at a point: the middle of those of the pieces before and behind it.
-fn heading(pieces: &[(f64, f64)], index: usize, closed: bool) -> (f64, f64) {
-    let last = pieces.len() - 1;
-    let behind = if index > last { pieces[last] } else { pieces[index] };
-    let before = match index {
-        0 if closed => pieces[last],
-        0 => pieces[0],
-        _ => pieces[index - 1],
-    };
+fn heading(pieces: &[(f64, f64)], index: usize) -> (f64, f64) {
+    let (before, behind) = (pieces[index.saturating_sub(1)], pieces[index.min(pieces.len() - 1)]);
     unit(before.0 + behind.0, before.1 + behind.1).unwrap_or(behind)
 }
 

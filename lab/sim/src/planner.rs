@@ -8,7 +8,7 @@ use crate::pose::Point;
 use crate::services::env::give_way::{Own, closed_lines};
 use crate::services::env::{Situation, environment};
 use crate::services::tpl;
-use crate::services::way::seconds;
+use crate::time::seconds;
 
 /// What the planner knows of the road.
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +67,5 @@ fn below(
     }
     let situation = Situation { now_ns, ego: *ego, path, near_s, stops: &stops };
     let model = environment(&situation, tracks);
-    let settings = tpl::settings::Settings::default();
-    tpl::trajectory(now_ns, ego, path, &model, &|s| route.limit_at(s).min(speed), &settings)
+    tpl::trajectory(now_ns, ego, path, &model, &|s| route.limit_at(s).min(speed))
 }

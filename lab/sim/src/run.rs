@@ -1,121 +1,30 @@
 //! One run: a scenario, a variant, attacks, and how it ended.
 
-use std::time::Duration;
-
 use mufasa::input::cycle::Route;
-use mufasa::input::parameters::Parameters as StageParameters;
-use mufasa::input::profile::Profile;
-use mufasa::monitor::{self, MonitorError};
-use mufasa::offloading::requester::{Parameters as RequesterParameters, StationRecord};
+use mufasa::monitor::MonitorError;
+use mufasa::offloading::requester::StationRecord;
 use mufasa::report::Outcome as StageOutcome;
-use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa::services::configuration::{Configuration, Group};
 use mufasa_link::message::{self, EncodeError, Frame};
 use mufasa_props::lent::Lent;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-use crate::attack::{Attack, Attacker};
-use crate::cav::asking::Asking;
-use crate::cav::guard::{Decided, Guard, Variant};
-use crate::cav::recorder::{Recorder, Share};
-use crate::cav::withheld::Withheld;
-use crate::cav::{Areas, Cav, DECIDES_NS};
+use crate::attack::Attacker;
+use crate::cav::guard::{Decided, Guard};
+use crate::cav::{Cav, DECIDES_NS};
 use crate::map::Town;
-use crate::radio::{self, Radio, To};
+use crate::radio::{Radio, To};
 use crate::scenario::Scenario;
-use crate::services::detectors::Errors;
-use crate::services::way::seconds;
+pub use crate::settings::{PERIOD_NS, Settings};
 use crate::snapshot::Snapshot;
 use crate::station::Station;
-use crate::vehicle::TAU_S;
+use crate::time::seconds;
 use crate::world::World;
 
-/// Time between two cycles, ns.
-pub const PERIOD_NS: i64 = 100_000_000;
 /// Most detections of a list, and cross sections of a route.
 const MOST: (usize, usize) = (128, 2048);
-
-/// What a run is made of, beside town and scenario.
-#[derive(Clone, Debug)]
-pub struct Settings {
-    /// What is checked of remote data.
-    pub variant: Variant,
-    /// By which rules: those of the variant, or a set of a study. None in `Sofof`.
-    pub profile: Option<Profile>,
-    /// Whether control drives on along what was verified however long nothing newer comes (F-47).
-    pub drives_on: bool,
-    /// Whether nothing measures the gap to the leading vehicle: the stages take a missing lead.
-    pub has_no_lead: bool,
-    /// What the stages do not get.
-    pub withheld: Option<Withheld>,
-    /// From when on the CAV brakes where its monitor, which is told to look (`supervise_local`), says so of its own
-    /// plans, s (F-48). Not in `Sofof`.
-    pub supervise_local: Option<f64>,
-    /// Whether the station, and the CAV's own planner in `MotRemote`, ask the stages before they send. Not in `Sofof`.
-    pub prechecks: bool,
-    /// What the station offers.
-    pub offers: Groups,
-    /// Where along the route each group may be offloaded, m.
-    pub areas: Areas,
-    /// What goes wrong on purpose.
-    pub attacks: Vec<Attack>,
-    /// Parameters of the stages.
-    pub stages: StageParameters,
-    /// Parameters of the requester.
-    pub requester: RequesterParameters,
-    /// The link.
-    pub radio: radio::Settings,
-    /// What all detectors get wrong.
-    pub errors: Errors,
-    /// Seed of noise and link.
-    pub seed: u64,
-    /// Which of the cycles that the monitor decides are recorded.
-    pub recorded: Share,
-}
-
-impl Settings {
-    /// Without attacks: the paper's parameters, but `dt_max` of 150 ms, because at 10 Hz its 100 ms end
-    /// every session at the first jitter; and `TAU_S`, of the hardened profile.
-    pub fn new(variant: Variant, offers: Groups, seed: u64) -> Self {
-        let requester =
-            RequesterParameters { dt_max_ns: 150_000_000, ..RequesterParameters::default() };
-        Self {
-            variant,
-            profile: variant.profile(),
-            drives_on: false,
-            has_no_lead: false,
-            withheld: None,
-            supervise_local: None,
-            prechecks: true,
-            offers,
-            areas: [(0.0, f64::INFINITY); 2],
-            attacks: Vec::new(),
-            stages: StageParameters { tau: TAU_S, ..StageParameters::default() },
-            requester,
-            radio: radio::Settings::default(),
-            errors: Errors::default(),
-            seed,
-            recorded: Share::default(),
-        }
-    }
-
-    /// What the CAV's monitor is made with.
-    fn monitor(&self) -> monitor::Settings {
-        let period = Duration::from_nanos(nominal_ns(self.stages.tau));
-        monitor::Settings {
-            stages: self.stages,
-            requester: self.requester,
-            supervise_local: self.supervise_local.is_some(),
-            ..monitor::Settings::new(period)
-        }
-    }
-
-    /// What asks before something is sent on this route.
-    fn asking(&self, route: &Route<'_>) -> Option<Asking> {
-        let profile = self.profile.filter(|_| self.prechecks)?;
-        Some(Asking::new(profile, self.stages, route).withholding(self.withheld))
-    }
-}
 
 /// How a run ended.
 #[derive(
@@ -185,7 +94,8 @@ pub struct Outcome {
 }
 
 /// Why a run cannot be made.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error(transparent)]
 pub enum RunError {
     /// Settings that no monitor can keep.
     Monitor(MonitorError),
@@ -194,18 +104,6 @@ pub enum RunError {
     /// A town too far from its origin for the messages.
     Frame(EncodeError),
 }
-
-impl core::fmt::Display for RunError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Monitor(error) => error.fmt(f),
-            Self::Route(error) => error.fmt(f),
-            Self::Frame(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for RunError {}
 
 /// Who looks at a run.
 pub trait Watcher {
@@ -219,14 +117,6 @@ pub trait Watcher {
 /// Nobody looks.
 impl Watcher for () {
     fn cycle(&mut self, _: &Snapshot, _: &Cav<'_>, _: &Decided, _: &Cycle) {}
-}
-
-/// The period that the monitor is told. It refuses a `tau` that is not above it; a run that was kept from before that
-/// is made again with one that is just below.
-fn nominal_ns(tau: f64) -> u64 {
-    let period_ns = PERIOD_NS.unsigned_abs();
-    let is_above = tau > Duration::from_nanos(period_ns).as_secs_f64();
-    if is_above { period_ns } else { period_ns.saturating_sub(1) }
 }
 
 /// Makes a run. The same arguments give the same outcome on any machine.
@@ -243,22 +133,14 @@ pub fn simulate(
     let at = route.path.pose_at(0.0).at;
     let frame = Frame::new(484_000_000, 99_500_000, [at.x, at.y]).map_err(RunError::Frame)?;
     let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, MOST.0, MOST.1));
-    let recorder = |profile| Recorder::new(settings.recorded, profile, settings.stages);
-    let mut guard = Guard::new(settings.profile, settings.monitor(), &mut table, lent.memory())
-        .map_err(RunError::Monitor)?
-        .recording(settings.profile.map_or_else(Recorder::default, recorder))
-        .withholding(settings.withheld);
     let cross_sections = route.cross_sections(0.0, f64::INFINITY);
-    let corridor = Route { closed: route.path.is_closed(), cross_sections: &cross_sections };
+    let corridor = Route { closed: false, cross_sections: &cross_sections };
+    let mut guard =
+        Guard::new(settings, &mut table, lent.memory(), &corridor).map_err(RunError::Monitor)?;
     guard.set_route(&corridor).map_err(RunError::Route)?;
-    let noise = (settings.seed, settings.errors);
-    let mut cav = Cav::new((town, route), *world.body(), frame, noise, settings.areas, guard)
-        .driving_on(settings.drives_on)
-        .without_lead(settings.has_no_lead)
-        .asking(settings.asking(&corridor))
-        .supervised(settings.supervise_local);
-    let mut station = Station::new((town, route), frame, settings.offers, noise)
-        .asking(settings.asking(&corridor));
+    let place = (town, route);
+    let mut cav = Cav::new(place, *world.body(), frame, settings, &cross_sections, guard);
+    let mut station = Station::new(place, frame, settings, &cross_sections);
     let mut radio = Radio::new(settings.radio, settings.seed);
     let elsewhere = elsewhere(town, scenario.ego_route, scenario.ego_s);
     let mut attacker = Attacker::new(settings.attacks.clone(), elsewhere);

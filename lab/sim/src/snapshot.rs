@@ -2,7 +2,7 @@
 
 use crate::map::Light;
 use crate::pose::{Point, Pose, Rectangle};
-use crate::services::detectors::scene::Seen;
+use crate::services::detectors::seen::Seen;
 use crate::traffic::agent::Kind;
 
 /// Everything that moves, at one moment.
@@ -44,12 +44,6 @@ pub struct EgoState {
     pub rear: Pose,
     /// m/s.
     pub speed: f64,
-    /// m/s^2.
-    pub acceleration: f64,
-    /// Left positive, rad/s.
-    pub yaw_rate: f64,
-    /// Angle of the front wheels, rad.
-    pub steering: f64,
     /// Place of the middle on its route, m; looked for near the last one.
     pub s: f64,
     /// Distance of the middle from its route, left positive, m.

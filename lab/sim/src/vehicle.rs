@@ -18,7 +18,7 @@ pub struct Command {
 }
 
 /// Size and limits of the ego. The default is the car of the institute's simulation
-/// (uulm-mrm/tpl, `SimEgo`), without lags.
+/// (uulm-mrm/tpl, `SimEgo`), without its lags.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// m.
@@ -37,10 +37,6 @@ pub struct Body {
     pub steering_max: f64,
     /// Either way, rad/s.
     pub steering_rate: f64,
-    /// Time constant of the acceleration, s; 0 for none.
-    pub acceleration_lag: f64,
-    /// Time constant of the steering, s; 0 for none.
-    pub steering_lag: f64,
 }
 
 impl Default for Body {
@@ -54,8 +50,6 @@ impl Default for Body {
             acceleration_max: 3.0,
             steering_max: 0.71,
             steering_rate: 0.6,
-            acceleration_lag: 0.0,
-            steering_lag: 0.0,
         }
     }
 }
@@ -99,11 +93,9 @@ impl Body {
         } else {
             command.acceleration
         };
-        let wanted = wanted.clamp(self.acceleration_min, self.acceleration_max);
-        let acceleration = lagged(motion.acceleration, wanted, self.acceleration_lag, time);
+        let acceleration = wanted.clamp(self.acceleration_min, self.acceleration_max);
         let wanted = if command.steering.is_nan() { motion.steering } else { command.steering };
         let wanted = wanted.clamp(-self.steering_max, self.steering_max);
-        let wanted = lagged(motion.steering, wanted, self.steering_lag, time);
         let most = self.steering_rate * time;
         let steering = wanted.clamp(motion.steering - most, motion.steering + most);
         let speed = motion.speed + acceleration * time;
@@ -129,9 +121,4 @@ impl Body {
             steering,
         }
     }
-}
-
-/// First-order lag over one step.
-fn lagged(now: f64, wanted: f64, constant: f64, time: f64) -> f64 {
-    if constant <= 0.0 { wanted } else { wanted + (now - wanted) * libm::exp(-time / constant) }
 }

@@ -49,11 +49,7 @@ pub struct World<'a> {
 impl<'a> World<'a> {
     /// A world at the start of a scenario, with the ego of `Body::default`.
     pub fn new(town: &'a Town, scenario: &Scenario, seed: u64) -> Self {
-        Self::with_body(town, scenario, seed, Body::default())
-    }
-
-    /// The same with another ego.
-    pub fn with_body(town: &'a Town, scenario: &Scenario, seed: u64, body: Body) -> Self {
+        let body = Body::default();
         let route = &town.routes[scenario.ego_route];
         let motion = body.at(route.path.pose_at(scenario.ego_s), scenario.ego_speed);
         let size = (body.length, body.width);
@@ -126,9 +122,6 @@ impl<'a> World<'a> {
             rectangle: ego.rectangle,
             rear: self.motion.rear,
             speed: self.motion.speed,
-            acceleration: self.motion.acceleration,
-            yaw_rate: self.body.yaw_rate(&self.motion),
-            steering: self.motion.steering,
             s: ego.s,
             left: self.left,
         };

@@ -1,16 +1,13 @@
-//! The driver model against its formula, and platoons behind somebody who stops.
+//! The driver model against its formula.
 
-use mufasa_sim::collision::overlap;
 use mufasa_sim::map::route::{Route, RouteKind};
 use mufasa_sim::map::{Lane, Town};
 use mufasa_sim::path::Path;
 use mufasa_sim::pose::Point;
-use mufasa_sim::scenario::{Halt, Scenario, Start};
+use mufasa_sim::scenario::{Scenario, Start};
 use mufasa_sim::traffic::idm::Idm;
 use mufasa_sim::vehicle::Command;
 use mufasa_sim::world::World;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// One straight street of 3 km, and one far from it for an ego that stands.
 fn street() -> Town {
@@ -65,45 +62,6 @@ fn the_gap_settles_where_the_formula_says() {
             "{} {wanted}",
             lead.rear() - back.front()
         );
-        assert!((follower.equilibrium_gap(speed) - wanted).abs() < 1e-12);
         assert!(follower.behind(speed, wanted, speed).abs() < 1e-12);
     }
-}
-
-#[test]
-fn a_platoon_behind_one_who_stops_never_collides() {
-    let town = street();
-    let mut stood = 0;
-    for seed in 0..100 {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut actors = Vec::new();
-        let mut s = 300.0;
-        for _ in 0..8 {
-            let idm = Idm {
-                v0: random.random_range(8.0..20.0),
-                headway: random.random_range(1.0..2.0),
-                b: random.random_range(2.0..3.0),
-                ..Idm::default()
-            };
-            let speed = random.random_range(0.0..14.0);
-            actors.push(car(s, speed, idm));
-            // At least what the one behind, at 14 m/s, needs to stop at 8 m/s^2 behind a wall.
-            s -= 5.0 + 14.0 * 14.0 / 16.0 + random.random_range(2.0..20.0);
-        }
-        actors[0].halts.push(Halt { s: 300.0 + random.random_range(60.0..400.0), seconds: 20.0 });
-        let mut world = World::new(&town, &scenario(actors), seed);
-        for step in 0..6000 {
-            world.step(STAY);
-            let agents = &world.agents()[1..];
-            for pair in agents.windows(2) {
-                assert!(
-                    !overlap(&pair[0].rectangle, &pair[1].rectangle),
-                    "seed {seed} step {step}"
-                );
-                assert!(pair[0].rear() > pair[1].front(), "seed {seed} step {step}");
-            }
-            stood += u32::from(agents.iter().all(|agent| agent.speed < 0.1));
-        }
-    }
-    assert!(stood > 0, "no platoon ever stood");
 }

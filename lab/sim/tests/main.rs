@@ -9,6 +9,7 @@ mod falsify;
 mod in_the_loop;
 mod own_plans;
 mod path;
+mod pinned;
 mod services;
 mod town;
 mod traffic;

@@ -16,12 +16,11 @@ fn circle(radius: f64, degrees: i32) -> Vec<Point> {
 
 #[test]
 fn a_circle_has_its_length_and_its_curvature() {
-    let path = Path::closed(circle(20.0, 360)).unwrap();
+    let path = Path::new(circle(20.0, 361)).unwrap();
     assert!((path.length() - 40.0 * core::f64::consts::PI).abs() < 0.01);
-    for s in [0.1, 30.0, 125.0, 300.0, -7.0] {
+    for s in [2.0, 30.0, 120.0] {
         assert!((path.curvature_at(s) - 0.05).abs() < 1e-4, "{s}");
-        let (ahead, around) = (path.pose_at(s), path.pose_at(s + path.length()));
-        assert!(ahead.at.distance(around.at) < 1e-9);
+        let ahead = path.pose_at(s);
         assert!((ahead.at.distance(Point::default()) - 20.0).abs() < 0.01);
         // The tangent of a circle stands across the way to its middle.
         assert!((ahead.at.x * ahead.cos + ahead.at.y * ahead.sin).abs() < 0.01);
@@ -73,7 +72,6 @@ fn an_open_path_is_held_at_its_ends() {
 fn points_that_are_no_path_are_named() {
     let point = Point::new(1.0, 1.0);
     assert_eq!(Path::new(vec![point]), Err(PathError::TooFew(1)));
-    assert_eq!(Path::closed(vec![point, Point::default()]), Err(PathError::TooFew(2)));
     assert_eq!(Path::new(vec![Point::default(), point, point]), Err(PathError::Repeated(2)));
     assert_eq!(Path::new(vec![point, Point::new(f64::NAN, 0.0)]), Err(PathError::NotFinite(1)));
 }
@@ -89,16 +87,13 @@ fn a_place_outside_of_a_corner_is_as_far_as_the_corner() {
 /// The nearest of all pieces, each looked at: slow and plain.
 fn nearest(path: &Path, place: Point) -> f64 {
     let points = path.points();
-    let next = |i: usize| points.get(i + 1).copied().or(path.is_closed().then_some(points[0]));
     let distance = |from: Point, to: Point| {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let share = ((place.x - from.x) * dx + (place.y - from.y) * dy) / (dx * dx + dy * dy);
         let share = share.clamp(0.0, 1.0);
         place.distance(Point::new(from.x + share * dx, from.y + share * dy))
     };
-    (0..points.len())
-        .filter_map(|i| Some(distance(points[i], next(i)?)))
-        .fold(f64::INFINITY, f64::min)
+    points.windows(2).map(|it| distance(it[0], it[1])).fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -111,18 +106,17 @@ fn what_is_skipped_was_not_the_nearest() {
             Point::new(reach * libm::cos(angle), reach * libm::sin(angle))
         })
         .collect();
-    for path in [Path::new(rose.clone()).unwrap(), Path::closed(rose).unwrap()] {
-        for step in 0..2000 {
-            let place = Point::new(
-                f64::from(step * 37 % 1001) * 0.1 - 50.0,
-                f64::from(step * 91 % 997) * 0.1 - 50.0,
-            );
-            let least = nearest(&path, place);
-            let seen = path.project(place);
-            let found = path.pose_at(seen.s).at.distance(place);
-            assert!((found - least).abs() < 1e-6, "{place:?} {found} {least}");
-            let near = path.project_near(place, 0.0, path.length(), 5.0);
-            assert_eq!(near, (least < 5.0).then_some(seen), "{place:?} {least}");
-        }
+    let path = Path::new(rose).unwrap();
+    for step in 0..2000 {
+        let place = Point::new(
+            f64::from(step * 37 % 1001) * 0.1 - 50.0,
+            f64::from(step * 91 % 997) * 0.1 - 50.0,
+        );
+        let least = nearest(&path, place);
+        let seen = path.project(place);
+        let found = path.pose_at(seen.s).at.distance(place);
+        assert!((found - least).abs() < 1e-6, "{place:?} {found} {least}");
+        let near = path.project_near(place, 0.0, path.length(), 5.0);
+        assert_eq!(near, (least < 5.0).then_some(seen), "{place:?} {least}");
     }
 }

@@ -18,6 +18,7 @@ pub mod injection;
 mod meeting;
 mod objects;
 mod planner;
+mod time;
 
 use crate::attacks::change::apply;
 use crate::attacks::course::Course;

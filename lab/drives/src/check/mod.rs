@@ -8,6 +8,7 @@ pub mod pictures;
 pub mod records;
 pub mod report;
 mod requesters;
+mod sheet;
 pub mod sides;
 pub mod steps;
 pub mod table;

@@ -5,6 +5,7 @@ pub mod frame;
 mod layers;
 mod legend;
 pub mod scene;
+pub mod sequence;
 mod witness;
 
 use mufasa_model::input::cycle::Cycle;

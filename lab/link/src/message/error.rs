@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use thiserror::Error;
+
 /// Where a value stands: `tracks[3].x`. Source: `spec/6-link.md#limits`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Place {
@@ -35,11 +37,13 @@ impl fmt::Display for Place {
 }
 
 /// What is wrong with a value. Source: `spec/6-link.md#limits`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum Problem {
     /// NaN or infinite.
+    #[error(" is not finite; give a number")]
     NotFinite,
     /// Outside what the format holds, in the unit of the value.
+    #[error(" does not fit; it can be {least} to {most}")]
     OutOfRange {
         /// The least value.
         least: f64,
@@ -47,18 +51,22 @@ pub enum Problem {
         most: f64,
     },
     /// (cos, sin) of no angle.
+    #[error(" is no direction; give cos and sin of an angle")]
     NoDirection,
     /// More items than the format holds.
+    #[error(" has too many items; at most {most} fit, send the nearest")]
     TooMany {
         /// How many it holds.
         most: usize,
     },
     /// The encoder refuses what has passed all checks: a fault of this crate.
+    #[error(": the encoder refuses this message")]
     Refused,
 }
 
 /// A value that cannot be written. Source: `spec/6-link.md#limits`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("{place}{problem}")]
 pub struct EncodeError {
     /// Which value.
     pub place: Place,
@@ -77,27 +85,6 @@ impl EncodeError {
         self
     }
 }
-
-impl fmt::Display for EncodeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { place, problem } = self;
-        match problem {
-            Problem::NotFinite => write!(f, "{place} is not finite; give a number"),
-            Problem::OutOfRange { least, most } => {
-                write!(f, "{place} does not fit; it can be {least} to {most}")
-            }
-            Problem::NoDirection => {
-                write!(f, "{place} is no direction; give cos and sin of an angle")
-            }
-            Problem::Refused => write!(f, "{place}: the encoder refuses this message"),
-            Problem::TooMany { most } => {
-                write!(f, "{place} has too many items; at most {most} fit, send the nearest")
-            }
-        }
-    }
-}
-
-impl std::error::Error for EncodeError {}
 
 /// What bytes are, or hold. Source: `spec/6-link.md#our-module`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -122,14 +109,16 @@ impl fmt::Display for Pdu {
 
 /// Bytes that are no message: whoever made them follows another text, or means harm. Nothing of them is to
 /// be used. Source: `spec/6-link.md#limits`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum DecodeError {
     /// More bytes than any message has; they were not looked at.
+    #[error("{bytes} bytes are more than any message has")]
     TooLong {
         /// How many there are.
         bytes: usize,
     },
     /// Not the encoding of any value.
+    #[error("not the encoding of a {pdu}: {reason}")]
     Malformed {
         /// Of what.
         pdu: Pdu,
@@ -137,6 +126,7 @@ pub enum DecodeError {
         reason: String,
     },
     /// Bytes after its end.
+    #[error("{bytes} bytes after the end of the {pdu}")]
     Trailing {
         /// After what.
         pdu: Pdu,
@@ -144,11 +134,15 @@ pub enum DecodeError {
         bytes: usize,
     },
     /// A version of the link that is not known here.
+    #[error("version {version} of the link is not known")]
     Version {
         /// The version it names.
         version: u8,
     },
     /// The header of a CAM or CPM is of another kind of message.
+    #[error(
+        "the header is not that of a {pdu}: protocol version {protocol_version}, message id {message_id}"
+    )]
     Header {
         /// Of what.
         pdu: Pdu,
@@ -158,6 +152,7 @@ pub enum DecodeError {
         message_id: u8,
     },
     /// A CAM or CPM of a station that is not the sender.
+    #[error("the {pdu} is of station {station_id}, which is not the sender")]
     Sender {
         /// Of what.
         pdu: Pdu,
@@ -165,11 +160,16 @@ pub enum DecodeError {
         station_id: u32,
     },
     /// The generation delta time of a CPM is not that of the message.
+    #[error("generation delta time {generation_delta_time} is not that of the message")]
     Clock {
         /// What it says, ms modulo 65536.
         generation_delta_time: u16,
     },
     /// A reference position that is not that of the frame: the two sides have different maps.
+    #[error(
+        "the reference position ({latitude}, {longitude}) in 0.1 microdegree is not that of the frame; both sides need \
+         the same one"
+    )]
     OtherFrame {
         /// Its latitude, 0.1 microdegree.
         latitude: i32,
@@ -177,12 +177,16 @@ pub enum DecodeError {
         longitude: i32,
     },
     /// An optional value that is needed is not there, or said to be unavailable.
+    #[error("{0} is missing")]
     Missing(Place),
     /// A value that is none of this field.
+    #[error("{0} is out of range")]
     OutOfRange(Place),
     /// A value that is allowed, but means what is not understood here.
+    #[error("{0} has a meaning that is not supported")]
     Unsupported(Place),
     /// The list is not all there: of several segments, or with another number of objects than it says.
+    #[error("the list has {given} objects where it names {named}")]
     Incomplete {
         /// How many objects it names.
         named: usize,
@@ -202,39 +206,3 @@ impl DecodeError {
         }
     }
 }
-
-impl fmt::Display for DecodeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooLong { bytes } => write!(f, "{bytes} bytes are more than any message has"),
-            Self::Malformed { pdu, reason } => write!(f, "not the encoding of a {pdu}: {reason}"),
-            Self::Trailing { pdu, bytes } => write!(f, "{bytes} bytes after the end of the {pdu}"),
-            Self::Version { version } => write!(f, "version {version} of the link is not known"),
-            Self::Header { pdu, protocol_version, message_id } => write!(
-                f,
-                "the header is not that of a {pdu}: protocol version {protocol_version}, message id \
-                 {message_id}"
-            ),
-            Self::Sender { pdu, station_id } => {
-                write!(f, "the {pdu} is of station {station_id}, which is not the sender")
-            }
-            Self::Clock { generation_delta_time } => write!(
-                f,
-                "generation delta time {generation_delta_time} is not that of the message"
-            ),
-            Self::OtherFrame { latitude, longitude } => write!(
-                f,
-                "the reference position ({latitude}, {longitude}) in 0.1 microdegree is not that of \
-                 the frame; both sides need the same one"
-            ),
-            Self::Missing(place) => write!(f, "{place} is missing"),
-            Self::OutOfRange(place) => write!(f, "{place} is out of range"),
-            Self::Unsupported(place) => write!(f, "{place} has a meaning that is not supported"),
-            Self::Incomplete { named, given } => {
-                write!(f, "the list has {given} objects where it names {named}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for DecodeError {}

@@ -133,17 +133,10 @@ impl<'a, T: Transport> Station<'a, T> {
         }
         self.summary.traffic.received(&payload);
         match payload {
-            Payload::Request { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Request { requester, group, session });
-            }
-            Payload::Release { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Release { requester, group, session });
-            }
-            Payload::Alive { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Heard { requester, group, session });
+            Payload::Request { .. } | Payload::Release { .. } | Payload::Alive { .. } => {
+                if let Some(kind) = asked(requester, &payload) {
+                    self.happens(now_ns, kind);
+                }
             }
             Payload::State { stamp_ns, ego } => {
                 if !self.has_session(requester) {
@@ -193,12 +186,10 @@ impl<'a, T: Transport> Station<'a, T> {
         let mut tracks = replay.tracks(self.played, stamp_ns).filter(|_| mot.is_some());
         let mut trajectory = None;
         if let Some(asking) = &mut self.asking {
-            let configuration = match (mot, plan) {
-                (Some(_), Some(_)) => Configuration::AllRemote,
-                (Some(_), None) => Configuration::MotRemote,
-                (None, Some(_)) => Configuration::PlanRemote,
-                (None, None) => return,
-            };
+            let configuration = configuration([mot, plan]);
+            if configuration == Configuration::Local {
+                return;
+            }
             let Some(cycle) = replay.cycle(asking.clean, stamp_ns) else { return };
             let told = Told { cycle, configuration, ego, stamp_ns, detections };
             if tracks.is_some() && tracks == replay.tracks(asking.clean, stamp_ns) {
@@ -220,17 +211,9 @@ impl<'a, T: Transport> Station<'a, T> {
 
     /// Tells the provider, and the requester what it says.
     fn happens(&mut self, t_ns: i64, kind: ProviderEventKind) {
-        let reply = self.provider.step(&ProviderEvent { t_ns, kind });
-        match reply {
-            Some(Reply::Confirm { requester, group, session }) => {
-                let group = bridge::group_to_impl(group);
-                self.send(t_ns, requester, Payload::Confirm { group, session });
-            }
-            Some(Reply::Reject { requester, group, session }) => {
-                let group = bridge::group_to_impl(group);
-                self.send(t_ns, requester, Payload::Reject { group, session });
-            }
-            None => {}
+        if let Some(reply) = self.provider.step(&ProviderEvent { t_ns, kind }) {
+            let (requester, payload) = replied(reply);
+            self.send(t_ns, requester, payload);
         }
         self.summary.sessions = self.summary.sessions.max(self.provider.load());
         // Of who has no session nothing is remembered.
@@ -256,6 +239,45 @@ impl<'a, T: Transport> Station<'a, T> {
             }
             Err(error) => self.summary.traffic.unsent(&message.payload, &error),
         }
+    }
+}
+
+/// What a vehicle asks of a provider, if it does.
+pub fn asked(requester: i64, payload: &Payload) -> Option<ProviderEventKind> {
+    let of = bridge::group_from_impl;
+    Some(match *payload {
+        Payload::Request { group, session } => {
+            ProviderEventKind::Request { requester, group: of(group), session }
+        }
+        Payload::Release { group, session } => {
+            ProviderEventKind::Release { requester, group: of(group), session }
+        }
+        Payload::Alive { group, session } => {
+            ProviderEventKind::Heard { requester, group: of(group), session }
+        }
+        _ => return None,
+    })
+}
+
+/// What a provider says, and to whom.
+pub fn replied(reply: Reply) -> (i64, Payload) {
+    match reply {
+        Reply::Confirm { requester, group, session } => {
+            (requester, Payload::Confirm { group: bridge::group_to_impl(group), session })
+        }
+        Reply::Reject { requester, group, session } => {
+            (requester, Payload::Reject { group: bridge::group_to_impl(group), session })
+        }
+    }
+}
+
+/// In which a vehicle will use what it gets in these sessions, by group.
+pub const fn configuration(sessions: [Option<i64>; 2]) -> Configuration {
+    match sessions {
+        [Some(_), Some(_)] => Configuration::AllRemote,
+        [Some(_), None] => Configuration::MotRemote,
+        [None, Some(_)] => Configuration::PlanRemote,
+        [None, None] => Configuration::Local,
     }
 }
 

@@ -7,7 +7,6 @@
 //! is late is worth nothing.
 
 use std::error::Error;
-use std::fmt;
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
@@ -60,29 +59,18 @@ pub struct Amqp {
 }
 
 /// Why there is no connection to be had at all.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum AmqpError {
     /// The address is none of a broker.
+    #[error("{url:?} is no address of a broker; write amqp://USER:PASSWORD@HOST:PORT")]
     Url {
         /// What was given.
         url: String,
     },
     /// The system gives no thread or no sockets.
+    #[error("no thread for the connection: {0}")]
     System(std::io::Error),
 }
-
-impl fmt::Display for AmqpError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Url { url } => {
-                write!(f, "{url:?} is no address of a broker; write amqp://USER:PASSWORD@HOST:PORT")
-            }
-            Self::System(error) => write!(f, "no thread for the connection: {error}"),
-        }
-    }
-}
-
-impl Error for AmqpError {}
 
 impl Amqp {
     /// Talks over the broker at `url` from now on, as soon as it is there, and whenever it is there

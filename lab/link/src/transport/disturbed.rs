@@ -1,9 +1,10 @@
 //! A transport that delays, repeats, turns round or loses what arrives, for a while and on purpose.
 
 use std::collections::VecDeque;
-use std::fmt;
 use std::str::FromStr;
 use std::time::Duration;
+
+use thiserror::Error;
 
 use super::{Address, Health, Transport};
 
@@ -35,23 +36,13 @@ pub struct Disturbance {
 }
 
 /// A disturbance that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error(
+    "{text:?} is no disturbance; write delay=MS, duplicate, reorder or cut, and when, in seconds: delay=60@4..6"
+)]
 pub struct ParseDisturbanceError {
     text: String,
 }
-
-impl fmt::Display for ParseDisturbanceError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { text } = self;
-        write!(
-            f,
-            "{text:?} is no disturbance; write delay=MS, duplicate, reorder or cut, and when, "
-        )?;
-        f.write_str("in seconds: delay=60@4..6")
-    }
-}
-
-impl std::error::Error for ParseDisturbanceError {}
 
 impl FromStr for Disturbance {
     type Err = ParseDisturbanceError;

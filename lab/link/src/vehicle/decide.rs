@@ -2,14 +2,15 @@
 
 use std::time::Instant;
 
-use mufasa::input::cycle::{Grid, Trajectory};
-use mufasa::monitor::{Decision, Gap, GridMap, Inputs, Verified};
+use mufasa::input::cycle::Trajectory;
+use mufasa::monitor::{Decision, Inputs, Verified};
 use mufasa::offloading::requester::Source;
 use mufasa::services::configuration::Group;
 use mufasa_model::input::cycle::Cycle;
 use mufasa_props::bridge;
 
 use super::log::{What, digest};
+use super::tell::Given;
 use super::{Vehicle, VehicleError, time, word};
 use crate::play::moved;
 use crate::transport::Transport;
@@ -22,7 +23,6 @@ impl<T: Transport> Vehicle<'_, T> {
         cycle: &Cycle,
         later_ns: i64,
     ) -> Result<(), VehicleError> {
-        let later = |stamp_ns: i64| time(stamp_ns.saturating_add(later_ns));
         let owned = bridge::to_impl(cycle);
         let known = owned.borrow(&[]);
         if self.route.as_ref() != Some(&cycle.route) {
@@ -30,22 +30,16 @@ impl<T: Transport> Vehicle<'_, T> {
             self.route = Some(cycle.route.clone());
         }
         let points = known.trajectory.map(|it| moved(it, later_ns));
-        let mut inputs = Inputs::new(time(now_ns), self.played.decided(cycle));
-        if let Some(list) = known.detections {
-            inputs = inputs.detections(later(list.stamp_ns), list.items);
-        }
-        if let Some(lead) = known.lead {
-            inputs = inputs.lead(later(lead.stamp_ns), Gap::between_bumpers(lead.gap), lead.speed);
-        }
-        if let Some(grid) = known.grid {
-            inputs = inputs.grid(later(grid.stamp_ns), grid_map(&grid));
-        }
-        if let Some(list) = known.tracks {
-            inputs = inputs.local_tracks(later(list.stamp_ns), list.items);
-        }
-        if let (Some(trajectory), Some(points)) = (known.trajectory, &points) {
-            inputs = inputs.local_trajectory(later(trajectory.stamp_ns), points);
-        }
+        let trajectory = known.trajectory.zip(points.as_deref());
+        let given = Given {
+            detections: known.detections,
+            lead: known.lead,
+            grid: known.grid,
+            tracks: known.tracks,
+            trajectory: trajectory.map(|(it, points)| Trajectory { points, ..it }),
+        };
+        let inputs = Inputs::new(time(now_ns), self.played.decided(cycle));
+        let mut inputs = given.inputs(inputs, later_ns);
         if let Some(tracks) = &self.tracks {
             inputs = inputs.remote_tracks(tracks);
         }
@@ -81,9 +75,4 @@ impl<T: Transport> Vehicle<'_, T> {
         self.answered(now_ns, before, Ok(actions), "unsafe");
         Ok(())
     }
-}
-
-fn grid_map<'c>(grid: &Grid<'c>) -> GridMap<'c> {
-    let Grid { stamp_ns: _, x, y, cos, sin, resolution, width, height, occupied, unknown } = *grid;
-    GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown }
 }

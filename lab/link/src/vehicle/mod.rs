@@ -24,6 +24,7 @@ use mufasa_model::input::cycle::{Cycle, Route};
 use mufasa_props::bridge;
 use mufasa_props::lent::Lent;
 use mufasa_records::names;
+use thiserror::Error;
 
 use self::log::What;
 use self::summary::Tally;
@@ -46,7 +47,8 @@ const LOST_AFTER_NS: i64 = 3_000_000_000;
 const AT_ONCE: usize = 64;
 
 /// Why a vehicle cannot drive.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error(transparent)]
 pub enum VehicleError {
     /// The settings of the monitor.
     Monitor(MonitorError),
@@ -55,18 +57,6 @@ pub enum VehicleError {
     /// The drive is too far from the origin of its frame.
     Frame(EncodeError),
 }
-
-impl std::fmt::Display for VehicleError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Monitor(error) => error.fmt(f),
-            Self::Route(error) => error.fmt(f),
-            Self::Frame(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for VehicleError {}
 
 /// A vehicle on a drive, from its start to its end.
 #[derive(Debug)]

@@ -1,6 +1,9 @@
-//! What a vehicle says when it has measured, whatever drives it.
+//! What a vehicle says when it has measured, and gives its monitor, whatever drives it.
 
-use mufasa::input::cycle::{Detection, Ego, Track};
+use mufasa::input::cycle::{
+    Detection, DetectionList, Ego, Grid, Lead, Track, TrackList, Trajectory,
+};
+use mufasa::monitor::{Gap, GridMap, Inputs, Time};
 use mufasa::offloading::requester::GroupState;
 use mufasa::services::configuration::Group;
 
@@ -48,5 +51,46 @@ impl Measured {
             }
         }
         said
+    }
+}
+
+/// What a vehicle knows of a cycle; tracks and trajectory are its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Given<'c> {
+    /// What its detectors saw.
+    pub detections: Option<DetectionList<'c>>,
+    /// The leading vehicle.
+    pub lead: Option<Lead>,
+    /// The occupancy grid.
+    pub grid: Option<Grid<'c>>,
+    /// The result of its MOT.
+    pub tracks: Option<TrackList<'c>>,
+    /// The result of its PLAN.
+    pub trajectory: Option<Trajectory<'c>>,
+}
+
+impl<'c> Given<'c> {
+    /// The inputs with it, all stamps so much later, ns.
+    pub fn inputs(self, mut inputs: Inputs<'c>, later_ns: i64) -> Inputs<'c> {
+        let later = |ns: i64| Time::from_nanoseconds(ns.saturating_add(later_ns));
+        if let Some(list) = self.detections {
+            inputs = inputs.detections(later(list.stamp_ns), list.items);
+        }
+        if let Some(lead) = self.lead {
+            inputs = inputs.lead(later(lead.stamp_ns), Gap::between_bumpers(lead.gap), lead.speed);
+        }
+        if let Some(grid) = self.grid {
+            let Grid { stamp_ns, x, y, cos, sin, resolution, width, height, occupied, unknown } =
+                grid;
+            let map = GridMap { x, y, cos, sin, resolution, width, height, occupied, unknown };
+            inputs = inputs.grid(later(stamp_ns), map);
+        }
+        if let Some(list) = self.tracks {
+            inputs = inputs.local_tracks(later(list.stamp_ns), list.items);
+        }
+        if let Some(trajectory) = self.trajectory {
+            inputs = inputs.local_trajectory(later(trajectory.stamp_ns), trajectory.points);
+        }
+        inputs
     }
 }

@@ -46,7 +46,7 @@ impl Attack {
 
     /// Whether it goes on.
     pub fn is_on(&self, t_ns: i64) -> bool {
-        let t = crate::services::way::seconds(t_ns);
+        let t = crate::time::seconds(t_ns);
         self.from <= t && t < self.until
     }
 }

@@ -6,8 +6,8 @@ use super::means::Means;
 use super::{Attack, Kind};
 use crate::pose::{Point, Pose};
 use crate::services::detectors::random::Draws;
-use crate::services::way::seconds;
 use crate::snapshot::{Object, Snapshot};
+use crate::time::seconds;
 
 /// Most tracks of a message.
 const MOST_TRACKS: usize = 128;

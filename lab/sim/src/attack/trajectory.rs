@@ -4,7 +4,7 @@ use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use super::{Attack, Kind, later, nanoseconds};
 use crate::services::tpl::STEP_NS;
-use crate::services::way::seconds;
+use crate::time::seconds;
 use crate::vehicle::{A_B, TAU_S};
 
 /// Most points of a message.

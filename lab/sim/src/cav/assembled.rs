@@ -1,89 +1,133 @@
-//! The cycle that the stages are asked about, put together from what is there when it is decided.
+//! The cycle that the stages are asked about, put together from what is there: before something is sent, or when it is
+//! decided, for the monitor lets nobody look at its own.
+
+use std::collections::VecDeque;
+use std::ops::RangeInclusive;
 
 use mufasa::input::cycle::{
-    CrossSection, Cycle, DetectionList, Ego, Lead, Route, Track, TrackList, Trajectory,
-    TrajectoryPoint,
+    CrossSection, Cycle, Detection, DetectionList, Ego, Grid, Lead, Route, TrackList, Trajectory,
 };
-use mufasa::input::parameters::Parameters;
 use mufasa::input::profile::Profile;
-use mufasa::monitor::Message;
-use mufasa::offloading::requester::{Requester, Running};
-use mufasa::services::configuration::{Configuration, Group};
+use mufasa::services::configuration::Configuration;
 
-use super::decided::Local;
 use super::sensing::Sensed;
-use super::withheld::Withheld;
+use crate::settings::Settings;
 
-/// What does not change from cycle to cycle.
-#[derive(Clone, Debug)]
-pub(super) struct Fixed {
-    pub(super) profile: Profile,
-    pub(super) parameters: Parameters,
-    /// Whether the route is closed, and its cross sections.
-    pub(super) route: (bool, Vec<CrossSection>),
-    pub(super) withheld: Option<Withheld>,
-}
+/// Ages of earlier detections that are looked for, of those that can be used at all, and between two lists
+/// that are kept, ns (`spec/hardened/what-the-cav-saw.md`).
+const WANTED_NS: [i64; 3] = [300_000_000, 500_000_000, 800_000_000];
+const USABLE_NS: RangeInclusive<i64> = 200_000_000..=1_000_000_000;
+const SPACING_NS: i64 = 83_333_334;
 
-/// The last results of stations that the requester used.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Last {
-    pub(super) tracks: Option<Message<Vec<Track>>>,
-    pub(super) points: Option<Message<Vec<TrajectoryPoint>>>,
-}
-
-/// Results with their stamps, ns.
-pub(super) type Stamped<'c, T> = (i64, &'c [T]);
-
-/// The results of a cycle: of a station where a group is remote, the CAV's own where it is not.
+/// What is known of a cycle before it is decided.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chosen<'c> {
-    pub(super) tracks: Option<Stamped<'c, Track>>,
-    pub(super) points: Option<Stamped<'c, TrajectoryPoint>>,
+pub struct Known<'c> {
+    /// In which the results will be used.
+    pub configuration: Configuration,
+    /// When it is decided, ns.
+    pub now_ns: i64,
+    /// The CAV.
+    pub ego: Ego,
+    /// What the CAV detected.
+    pub detections: DetectionList<'c>,
+    /// Its leading vehicle; none: not known.
+    pub lead: Option<Lead>,
+    /// Its grid; none: not known.
+    pub grid: Option<Grid<'c>>,
 }
 
-impl<'c> Chosen<'c> {
-    /// Those of now.
-    pub(super) fn new(requester: &Requester<'_>, last: &'c Last, local: Local<'c>) -> Self {
-        let [mot, plan] = Group::ALL.map(|group| requester.session_of(group));
+impl<'c> Known<'c> {
+    /// All that the CAV measured.
+    pub fn of(configuration: Configuration, (now_ns, ego): (i64, Ego), sensed: &'c Sensed) -> Self {
+        let Sensed { stamp_ns, ref detections, lead, ref grid, .. } = *sensed;
         Self {
-            tracks: mot.map_or(local.tracks, |it| used(&it, last.tracks.as_ref())),
-            points: plan.map_or(local.points, |it| used(&it, last.points.as_ref())),
+            configuration,
+            now_ns,
+            ego,
+            detections: DetectionList { stamp_ns, items: detections },
+            lead: lead.map(|lead| Lead { stamp_ns, gap: lead.gap, speed: lead.speed }),
+            grid: Some(grid.borrow(true)),
         }
     }
 }
 
-/// The message that the requester used last, if it is the one that is kept.
-fn used<'m, T>(running: &Running, kept: Option<&'m Message<Vec<T>>>) -> Option<Stamped<'m, T>> {
-    let is_it = |it: &&Message<Vec<T>>| {
-        (Some(it.generated.as_nanoseconds()), it.session) == (running.last_used_ns, running.session)
-    };
-    kept.filter(is_it).map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice()))
+/// Results of services, as far as there are any.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Results<'c> {
+    /// Those of MOT.
+    pub tracks: Option<TrackList<'c>>,
+    /// Those of PLAN.
+    pub trajectory: Option<Trajectory<'c>>,
 }
 
-/// The cycle of a time, ns.
-pub(super) fn cycle<'c>(
-    fixed: &'c Fixed,
-    configuration: Configuration,
-    (now_ns, ego): (i64, Ego),
-    sensed: &'c Sensed,
-    chosen: Chosen<'c>,
-    detection_history: &'c [DetectionList<'c>],
-) -> Cycle<'c> {
-    let stamp_ns = sensed.stamp_ns;
-    let (closed, cross_sections) = (fixed.route.0, fixed.route.1.as_slice());
-    let cycle = Cycle {
-        profile: fixed.profile,
-        parameters: fixed.parameters,
-        now_ns,
-        configuration,
-        ego,
-        trajectory: chosen.points.map(|(stamp_ns, points)| Trajectory { stamp_ns, points }),
-        tracks: chosen.tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items }),
-        detections: Some(DetectionList { stamp_ns, items: &sensed.detections }),
-        lead: sensed.lead.map(|lead| Lead { stamp_ns, gap: lead.gap, speed: lead.speed }),
-        route: Route { closed, cross_sections },
-        grid: Some(sensed.grid.borrow(true)),
-        detection_history,
-    };
-    fixed.withheld.map_or(cycle, |it| it.taken_from(cycle))
+/// What cycles of a run are put together with: what does not change, and what the CAV saw before.
+#[derive(Clone, Debug)]
+pub(super) struct Cycles<'s> {
+    profile: Profile,
+    settings: &'s Settings,
+    cross_sections: Vec<CrossSection>,
+    /// Lists with their stamps, the oldest first.
+    seen: VecDeque<(i64, Vec<Detection>)>,
+}
+
+impl<'s> Cycles<'s> {
+    /// Nothing seen yet; none where nothing is checked. `cross_sections`: of the whole route.
+    pub(super) fn new(settings: &'s Settings, cross_sections: &[CrossSection]) -> Option<Self> {
+        let (cross_sections, seen) = (cross_sections.to_vec(), VecDeque::new());
+        settings.profile.map(|profile| Self { profile, settings, cross_sections, seen })
+    }
+
+    /// Keeps what the CAV detected at a time, if it has come, ns.
+    pub(super) fn see(&mut self, now_ns: i64, detections: &[Detection]) {
+        let youngest = self.seen.back().map(|(stamp_ns, _)| *stamp_ns);
+        if youngest.is_some_and(|it| now_ns - it < SPACING_NS) {
+            return;
+        }
+        self.seen.push_back((now_ns, detections.to_vec()));
+        while self.seen.front().is_some_and(|it| now_ns - it.0 > *USABLE_NS.end()) {
+            self.seen.pop_front();
+        }
+    }
+
+    /// The lists whose ages are nearest to those wanted, the youngest first.
+    fn history(&self, stamp_ns: i64) -> Vec<DetectionList<'_>> {
+        let usable = || self.seen.iter().rev().filter(|it| USABLE_NS.contains(&(stamp_ns - it.0)));
+        let mut lists: Vec<DetectionList<'_>> = Vec::new();
+        for wanted in WANTED_NS.iter().filter(|_| self.profile.looks_back()) {
+            // Of two that are as near the younger: the first.
+            let nearest = usable().min_by_key(|it| (stamp_ns - it.0 - wanted).abs());
+            if let Some((stamp_ns, items)) = nearest
+                && lists.iter().all(|list| list.stamp_ns != *stamp_ns)
+            {
+                lists.push(DetectionList { stamp_ns: *stamp_ns, items });
+            }
+        }
+        lists
+    }
+
+    /// What somebody makes of a cycle with these results.
+    pub(super) fn with<T>(
+        &self,
+        known: &Known<'_>,
+        Results { tracks, trajectory }: Results<'_>,
+        of: impl FnOnce(&Cycle<'_>) -> T,
+    ) -> T {
+        let Known { configuration, now_ns, ego, detections, lead, grid } = *known;
+        let history = self.history(detections.stamp_ns);
+        let cycle = Cycle {
+            profile: self.profile,
+            parameters: self.settings.stages,
+            now_ns,
+            configuration,
+            ego,
+            trajectory,
+            tracks,
+            detections: Some(detections),
+            lead,
+            route: Route { closed: false, cross_sections: &self.cross_sections },
+            grid,
+            detection_history: &history,
+        };
+        of(&self.settings.withheld.map_or(cycle, |it| it.taken_from(cycle)))
+    }
 }

@@ -1,4 +1,4 @@
-//! What goes into the decision of a cycle beside measurements, and what comes out.
+//! What comes out of a cycle.
 
 use mufasa::input::cycle::{Track, TrajectoryPoint};
 use mufasa::monitor::Brake;
@@ -7,7 +7,7 @@ use mufasa::report::{FailedStage, InvalidInput, Report};
 use mufasa_model::input::cycle::Cycle;
 
 /// What a cycle lets control have.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Decided {
     /// Whether data may be used; always, where nothing is checked.
     pub is_safe: bool,
@@ -49,13 +49,4 @@ impl Decided {
             Some(FailedStage::Input) => 7,
         }
     }
-}
-
-/// Local results of a cycle, if their services run.
-#[derive(Clone, Copy, Debug)]
-pub struct Local<'c> {
-    /// Tracks, with the time that they are of, ns.
-    pub tracks: Option<(i64, &'c [Track])>,
-    /// A trajectory, with the time when it was planned, ns.
-    pub points: Option<(i64, &'c [TrajectoryPoint])>,
 }

@@ -1,48 +1,27 @@
 //! What stands between the link and control: SOFOF's quality of service alone, or the monitor.
 
-use mufasa::input::cycle::{Ego, Route, Track, TrajectoryPoint};
+use mufasa::input::cycle::{Ego, Route, Track, TrackList, Trajectory, TrajectoryPoint};
 use mufasa::input::profile::Profile;
 use mufasa::monitor::{
-    Accepted, Arrival, Decision, Gap, GridMap, Inputs, Message, Monitor, MonitorError, Settings,
-    Time,
+    Accepted, Arrival, Decision, Inputs, Memory, Message, Monitor, MonitorError, Time,
 };
 use mufasa::offloading::requester::{
-    Action, Actions, Event, EventKind, GroupState, Requester, RequesterError, Sessions,
+    Action, Actions, Event, EventKind, GroupState, Requester, RequesterError, Running, Sessions,
     StationRecord,
 };
 use mufasa::report::InvalidInput;
 use mufasa::services::configuration::{Configuration, Group};
+use mufasa_link::vehicle::tell::Given;
 use mufasa_props::call;
 
-use super::assembled::{Chosen, Last, Stamped};
-pub use super::decided::{Decided, Local};
+use super::assembled::Known;
+pub use super::assembled::Results;
+pub use super::decided::Decided;
 use super::recorder::Recorder;
 use super::sensing::Sensed;
-use super::withheld::Withheld;
-use crate::named::named;
-
-named! {
-    /// What is checked of remote data.
-    Variant {
-        /// Quality of service alone: latency and inter-arrival time.
-        Sofof = "sofof",
-        /// And the five stages, as the paper has them.
-        Paper = "paper",
-        /// And the five stages with the hardened rules.
-        Hardened = "hardened",
-    }
-}
-
-impl Variant {
-    /// By which its stages check, if it has any.
-    pub const fn profile(self) -> Option<Profile> {
-        match self {
-            Self::Sofof => None,
-            Self::Paper => Some(Profile::PAPER),
-            Self::Hardened => Some(Profile::HARDENED),
-        }
-    }
-}
+use crate::settings::Settings;
+pub use crate::settings::Variant;
+use crate::withheld::Withheld;
 
 /// One of the variants.
 #[derive(Debug)]
@@ -50,7 +29,7 @@ pub struct Guard<'a> {
     kind: Kind<'a>,
     /// A copy of what was accepted: the monitor lets nobody look at it.
     last: Last,
-    recorder: Recorder,
+    recorder: Recorder<'a>,
     withheld: Option<Withheld>,
 }
 
@@ -65,47 +44,63 @@ enum Kind<'a> {
     },
 }
 
+/// The last results of stations that the requester used.
+#[derive(Clone, Debug, Default)]
+struct Last {
+    tracks: Option<Message<Vec<Track>>>,
+    points: Option<Message<Vec<TrajectoryPoint>>>,
+}
+
+impl Last {
+    /// The results of a cycle: of a station where a group is remote, the CAV's own where it is not.
+    fn or<'c>(&'c self, local: Results<'c>, requester: &Requester<'_>) -> Results<'c> {
+        let [mot, plan] = Group::ALL.map(|group| requester.session_of(group));
+        let tracks = |(stamp_ns, items)| TrackList { stamp_ns, items };
+        let trajectory = |(stamp_ns, points)| Trajectory { stamp_ns, points };
+        Results {
+            tracks: mot.map_or(local.tracks, |it| used(&it, self.tracks.as_ref()).map(tracks)),
+            trajectory: plan
+                .map_or(local.trajectory, |it| used(&it, self.points.as_ref()).map(trajectory)),
+        }
+    }
+}
+
+/// The message that the requester used last, if it is the one that is kept: its stamp, ns, and its items.
+fn used<'m, T>(running: &Running, kept: Option<&'m Message<Vec<T>>>) -> Option<(i64, &'m [T])> {
+    let is_it = |it: &&Message<Vec<T>>| {
+        (Some(it.generated.as_nanoseconds()), it.session) == (running.last_used_ns, running.session)
+    };
+    kept.filter(is_it).map(|it| (it.stamp.as_nanoseconds(), it.items.as_slice()))
+}
+
 impl<'a> Guard<'a> {
-    /// Nothing offered, everything local. The variant says which profile.
+    /// Nothing offered, everything local.
     ///
     /// Errors: settings that no monitor can keep.
     pub fn new(
-        profile: Option<Profile>,
-        settings: Settings,
+        settings: &'a Settings,
         table: &'a mut [StationRecord],
-        memory: mufasa::monitor::Memory<'a>,
+        memory: Memory<'a>,
+        route: &Route<'_>,
     ) -> Result<Self, MonitorError> {
-        let Some(profile) = profile else {
-            let requester = Requester::new(Profile::PAPER, settings.requester, table)
-                .map_err(MonitorError::Requester)?;
-            return Ok(Self::of(Kind::Plain(requester)));
+        let kind = match settings.profile {
+            None => Kind::Plain(
+                Requester::new(Profile::PAPER, settings.requester, table)
+                    .map_err(MonitorError::Requester)?,
+            ),
+            Some(profile) => {
+                let monitor = Monitor::new(settings.monitor(profile), memory)?;
+                Kind::Checked { monitor, tracks: None, points: None }
+            }
         };
-        let monitor = Monitor::new(Settings { profile, ..settings }, memory)?;
-        Ok(Self::of(Kind::Checked { monitor, tracks: None, points: None }))
-    }
-
-    fn of(kind: Kind<'a>) -> Self {
-        Self { kind, last: Last::default(), recorder: Recorder::default(), withheld: None }
-    }
-
-    /// The same; of what the monitor decides this is recorded.
-    pub fn recording(mut self, recorder: Recorder) -> Self {
-        self.recorder = recorder;
-        self
-    }
-
-    /// The same, after [`Self::recording`]; the stages do not get this.
-    pub fn withholding(mut self, withheld: Option<Withheld>) -> Self {
-        self.withheld = withheld;
-        self.recorder.withhold(withheld);
-        self
+        let recorder = Recorder::new(settings, route.cross_sections);
+        Ok(Self { kind, last: Last::default(), recorder, withheld: settings.withheld })
     }
 
     /// The stretch of the route that is followed from now on.
     ///
     /// Errors: a route that the monitor cannot keep.
     pub fn set_route(&mut self, route: &Route<'_>) -> Result<(), InvalidInput> {
-        self.recorder.set_route(route);
         match &mut self.kind {
             Kind::Plain(_) => Ok(()),
             Kind::Checked { monitor, .. } => monitor.set_route(route),
@@ -122,8 +117,7 @@ impl<'a> Guard<'a> {
         self.requester().state(group)
     }
 
-    /// The requester, to look at.
-    pub fn requester(&self) -> &Requester<'a> {
+    fn requester(&self) -> &Requester<'a> {
         match &self.kind {
             Kind::Plain(requester) => requester,
             Kind::Checked { monitor, .. } => monitor.requester(),
@@ -131,9 +125,8 @@ impl<'a> Guard<'a> {
     }
 
     /// The tracks of a station that the next cycle will have.
-    pub(super) fn remote_tracks(&self) -> Option<Stamped<'_, Track>> {
-        let none = Local { tracks: None, points: None };
-        Chosen::new(self.requester(), &self.last, none).tracks
+    pub(super) fn remote_tracks(&self) -> Option<TrackList<'_>> {
+        self.last.or(Results::default(), self.requester()).tracks
     }
 
     /// The last results of stations that were accepted, whatever became of them: for who looks on.
@@ -194,52 +187,50 @@ impl<'a> Guard<'a> {
         }
     }
 
-    /// Decides a cycle.
-    pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Local<'_>) -> Decided {
+    /// Decides a cycle; `local`: the results of the CAV's own services, as far as they run.
+    pub fn decide(&mut self, t_ns: i64, ego: Ego, sensed: &Sensed, local: Results<'_>) -> Decided {
         let (last, recorder, withheld) = (&self.last, &mut self.recorder, self.withheld);
-        match &mut self.kind {
-            Kind::Plain(requester) => unchecked(requester, t_ns, last, local),
-            Kind::Checked { monitor, tracks, points } => {
-                let chosen = Chosen::new(monitor.requester(), last, local);
-                let record = recorder.cycle(monitor.requester(), (t_ns, ego), sensed, chosen);
-                let inputs = inputs(t_ns, ego, (sensed, withheld), local);
-                let configuration = monitor.requester().configuration();
-                let is_list = chosen.tracks.is_none_or(|(_, items)| {
-                    withheld.is_none_or(|it| !it.is_no_list(configuration, items.len()))
-                });
-                let inputs = tracks.iter().filter(|_| is_list).fold(inputs, Inputs::remote_tracks);
-                let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
-                let (decision, actions) = monitor.cycle(&inputs);
-                let decided = match decision {
-                    Decision::Safe { tracks, trajectory, report, brake } => Decided {
-                        is_safe: true,
-                        report: Some(Ok(report)),
-                        brake_by_ns: trajectory
-                            .and_then(|it| it.brake_by())
-                            .map(Time::as_nanoseconds),
-                        brake,
-                        trajectory: trajectory.map(|it| it.points.to_vec()),
-                        tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
-                        actions: actions.to_vec(),
-                        record,
-                    },
-                    Decision::Unsafe { report, brake } => Decided {
-                        is_safe: false,
-                        report: Some(report),
-                        trajectory: None,
-                        brake_by_ns: None,
-                        brake,
-                        tracks: None,
-                        actions: actions.to_vec(),
-                        record,
-                    },
-                };
-                if matches!(decided.report, Some(Ok(_))) {
-                    recorder.see(sensed);
-                }
-                decided
+        let (monitor, tracks, points) = match &mut self.kind {
+            Kind::Plain(requester) => return unchecked(requester, t_ns, last, local),
+            Kind::Checked { monitor, tracks, points } => (monitor, tracks, points),
+        };
+        let results = last.or(local, monitor.requester());
+        let known = Known::of(monitor.configuration(), (t_ns, ego), sensed);
+        let record = recorder.cycle(&known, results);
+        let is_list = results.tracks.is_none_or(|list| {
+            withheld.is_none_or(|it| !it.is_no_list(known.configuration, list.items.len()))
+        });
+        let given = Given {
+            detections: Some(known.detections).filter(|_| withheld != Some(Withheld::Detections)),
+            lead: known.lead,
+            grid: known.grid.filter(|_| withheld != Some(Withheld::Grid)),
+            tracks: local.tracks,
+            trajectory: local.trajectory,
+        };
+        let inputs = given.inputs(Inputs::new(time(t_ns), ego), 0);
+        let inputs = tracks.iter().filter(|_| is_list).fold(inputs, Inputs::remote_tracks);
+        let inputs = points.iter().fold(inputs, Inputs::remote_trajectory);
+        let (decision, actions) = monitor.cycle(&inputs);
+        let actions = actions.to_vec();
+        let decided = match decision {
+            Decision::Safe { tracks, trajectory, report, brake } => Decided {
+                is_safe: true,
+                report: Some(Ok(report)),
+                brake_by_ns: trajectory.and_then(|it| it.brake_by()).map(Time::as_nanoseconds),
+                brake,
+                trajectory: trajectory.map(|it| it.points.to_vec()),
+                tracks: tracks.map(|it| (it.stamp_ns, it.items.to_vec())),
+                actions,
+                record,
+            },
+            Decision::Unsafe { report, brake } => {
+                Decided { report: Some(report), brake, actions, record, ..Decided::default() }
             }
+        };
+        if matches!(decided.report, Some(Ok(_))) {
+            recorder.see(sensed);
         }
+        decided
     }
 }
 
@@ -248,7 +239,7 @@ fn unchecked(
     requester: &mut Requester<'_>,
     t_ns: i64,
     Last { tracks, points }: &Last,
-    local: Local<'_>,
+    local: Results<'_>,
 ) -> Decided {
     let session = |group| requester.session_of(group).map(|it| it.session);
     let [mot, plan] = Group::ALL.map(session);
@@ -260,23 +251,14 @@ fn unchecked(
     let trajectory = match (plan, sessions.plan) {
         (Some(_), Some(_)) => points.as_ref().map(|it| it.items.clone()),
         (Some(_), None) => None,
-        (None, _) => local.points.map(|(_, points)| points.to_vec()),
+        (None, _) => local.trajectory.map(|it| it.points.to_vec()),
     };
     let kind = EventKind::Verdict { safe: true, sessions };
     let tracks = tracks.as_ref().filter(|_| sessions.mot.is_some());
     let tracks = tracks.map(|it| (it.stamp.as_nanoseconds(), it.items.clone()));
     let actions =
         requester.step(&Event { t_ns, kind }).map_or_else(|_| Vec::new(), |it| it.to_vec());
-    Decided {
-        is_safe: true,
-        report: None,
-        trajectory,
-        brake_by_ns: None,
-        brake: None,
-        tracks,
-        actions,
-        record: None,
-    }
+    Decided { is_safe: true, trajectory, tracks, actions, ..Decided::default() }
 }
 
 fn keep<T>(
@@ -307,44 +289,6 @@ fn accept<T>(
         *last = Some(copy);
     }
     actions.to_vec()
-}
-
-fn inputs<'c>(
-    t_ns: i64,
-    ego: Ego,
-    (sensed, withheld): (&'c Sensed, Option<Withheld>),
-    local: Local<'c>,
-) -> Inputs<'c> {
-    let stamp = time(sensed.stamp_ns);
-    let grid = sensed.grid.borrow(true);
-    let map = GridMap {
-        x: grid.x,
-        y: grid.y,
-        cos: grid.cos,
-        sin: grid.sin,
-        resolution: grid.resolution,
-        width: grid.width,
-        height: grid.height,
-        occupied: grid.occupied,
-        unknown: grid.unknown,
-    };
-    let mut inputs = Inputs::new(time(t_ns), ego);
-    if withheld != Some(Withheld::Detections) {
-        inputs = inputs.detections(stamp, &sensed.detections);
-    }
-    if withheld != Some(Withheld::Grid) {
-        inputs = inputs.grid(stamp, map);
-    }
-    if let Some(lead) = sensed.lead {
-        inputs = inputs.lead(stamp, Gap::between_bumpers(lead.gap), lead.speed);
-    }
-    if let Some((stamp_ns, tracks)) = local.tracks {
-        inputs = inputs.local_tracks(time(stamp_ns), tracks);
-    }
-    if let Some((stamp_ns, points)) = local.points {
-        inputs = inputs.local_trajectory(time(stamp_ns), points);
-    }
-    inputs
 }
 
 fn time(ns: i64) -> Time {

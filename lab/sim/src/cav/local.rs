@@ -6,7 +6,7 @@ use mufasa::input::cycle::{Detection, Ego, Track, TrackList, TrajectoryPoint};
 use mufasa::services::configuration::Group;
 
 use crate::planner::{Road, plan};
-use crate::services::mot::{Settings, Tracker};
+use crate::services::mot::Tracker;
 
 /// Lists of detections that a tracker that starts again goes through first.
 const REMEMBERED: usize = 6;
@@ -25,7 +25,7 @@ impl Default for Services {
     fn default() -> Self {
         Self {
             runs: [true; 2],
-            tracker: Tracker::new(Settings::default()),
+            tracker: Tracker::default(),
             remembered: VecDeque::new(),
             executions: [0; 2],
         }

@@ -6,11 +6,11 @@ pub mod decided;
 pub mod guard;
 pub mod local;
 pub mod recorder;
-mod seen;
 pub mod sensing;
-pub mod withheld;
 
-use mufasa::input::cycle::{Detection, Track, TrackList, TrajectoryPoint};
+use mufasa::input::cycle::{
+    CrossSection, Detection, Track, TrackList, Trajectory, TrajectoryPoint,
+};
 use mufasa::monitor::{Message as Received, Time};
 use mufasa::offloading::requester::{Action, EventKind, GroupState, RequesterError};
 use mufasa::services::configuration::{Configuration, Group, Groups};
@@ -18,7 +18,7 @@ use mufasa_link::message::{self, Frame, Message, Payload};
 use mufasa_link::vehicle::tell::Measured;
 
 use self::asking::{Asking, Known};
-use self::guard::{Decided, Guard, Local};
+use self::guard::{Decided, Guard, Results};
 use self::local::Services;
 use self::sensing::{Sensed, Sensors, ego};
 use crate::ids;
@@ -26,17 +26,14 @@ use crate::map::Town;
 use crate::map::route::Route;
 use crate::planner::{Road, slower};
 use crate::radio::{Radio, To};
-use crate::services::control::{self, Controller};
-use crate::services::detectors::Errors;
-use crate::services::way::seconds;
+use crate::services::control::Controller;
+use crate::settings::Settings;
 use crate::snapshot::Snapshot;
+use crate::time::seconds;
 use crate::vehicle::{Body, Command};
 
 /// A cycle is decided so long after its measurements, ns.
 pub const DECIDES_NS: i64 = 40_000_000;
-
-/// Where each group may be offloaded along the route (CODM), m: from, to.
-pub type Areas = [(f64, f64); 2];
 
 /// What the CAV counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,7 +53,7 @@ pub struct Cav<'a> {
     route: &'a Route,
     body: Body,
     frame: Frame,
-    areas: Areas,
+    settings: &'a Settings,
     sensors: Sensors,
     services: Services,
     guard: Guard<'a>,
@@ -72,28 +69,22 @@ pub struct Cav<'a> {
     points: Vec<TrajectoryPoint>,
     /// By when it brakes along it where nothing newer has come, ns (F-47).
     brake_by_ns: Option<i64>,
-    /// Whether it does not.
-    drives_on: bool,
-    /// Whether nothing measures the gap to the leading vehicle.
-    has_no_lead: bool,
-    /// From when on it brakes where the monitor says so of its own plans, s (F-48).
-    brakes_from: f64,
-    /// How many of its own plans were examined since, and how many of them failed.
+    /// How many of its own plans were examined (`Settings::supervise_local`), and how many of them failed.
     examined: [u64; 2],
     /// What its planner asks before it hands a plan over in `MotRemote`, if it asks.
-    asking: Option<Asking>,
+    asking: Option<Asking<'a>>,
     /// What the CAV counts.
     pub counts: Counts,
 }
 
 impl<'a> Cav<'a> {
-    /// At the start of its route, with everything local.
+    /// At the start of its route, whose cross sections are given, with everything local.
     pub fn new(
         (town, route): (&'a Town, &'a Route),
         body: Body,
         frame: Frame,
-        (seed, errors): (u64, Errors),
-        areas: Areas,
+        settings: &'a Settings,
+        cross_sections: &[CrossSection],
         guard: Guard<'a>,
     ) -> Self {
         Self {
@@ -101,48 +92,21 @@ impl<'a> Cav<'a> {
             route,
             body,
             frame,
-            areas,
-            sensors: Sensors::new(seed, &body, errors),
+            settings,
+            sensors: Sensors::new(settings.seed, &body, settings.errors),
             services: Services::default(),
             guard,
-            controller: Controller::new(body, control::Settings::default()),
+            controller: Controller::new(body),
             sensed: None,
             tracks: None,
             own: None,
             tracked: None,
             points: Vec::new(),
             brake_by_ns: None,
-            drives_on: false,
-            has_no_lead: false,
-            brakes_from: f64::INFINITY,
             examined: [0; 2],
-            asking: None,
+            asking: Asking::new(settings, cross_sections),
             counts: Counts::default(),
         }
-    }
-
-    /// The same; whether control drives on along what was verified however long nothing newer comes (F-47).
-    pub fn driving_on(mut self, drives_on: bool) -> Self {
-        self.drives_on = drives_on;
-        self
-    }
-
-    /// The same; whether nothing measures the gap to the leading vehicle.
-    pub fn without_lead(mut self, has_no_lead: bool) -> Self {
-        self.has_no_lead = has_no_lead;
-        self
-    }
-
-    /// The same; from when on it brakes where the monitor says so of its own plans, s, if it does (F-48).
-    pub fn supervised(mut self, from: Option<f64>) -> Self {
-        self.brakes_from = from.unwrap_or(f64::INFINITY);
-        self
-    }
-
-    /// The same; what its planner asks in `MotRemote` before it hands a plan over, if it asks.
-    pub fn asking(mut self, asking: Option<Asking>) -> Self {
-        self.asking = asking;
-        self
     }
 
     /// How many of its own plans were examined, and how many of them failed.
@@ -180,7 +144,7 @@ impl<'a> Cav<'a> {
     /// Measures, and tells the stations that compute for it.
     pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
         let mut sensed = self.sensors.sense(truth, self.route, &self.body, now_ns);
-        sensed.lead = sensed.lead.filter(|_| !self.has_no_lead);
+        sensed.lead = sensed.lead.filter(|_| !self.settings.has_no_lead);
         let states = Group::ALL.map(|group| self.guard.state(group));
         if states.iter().any(|it| matches!(it, GroupState::Remote { .. })) {
             let measured = Measured {
@@ -195,7 +159,8 @@ impl<'a> Cav<'a> {
         }
         self.sensed = Some(sensed);
         let is_in = |(from, to): (f64, f64)| (from..=to).contains(&truth.ego.s);
-        let groups = Group::ALL.into_iter().zip(self.areas).filter(|(_, area)| is_in(*area));
+        let groups =
+            Group::ALL.into_iter().zip(self.settings.areas).filter(|(_, area)| is_in(*area));
         let groups: Vec<Group> = groups.map(|(group, _)| group).collect();
         self.happens(now_ns, EventKind::Area { groups: Groups::of(&groups) }, radio);
     }
@@ -266,10 +231,11 @@ impl<'a> Cav<'a> {
             Some((_, tracks)) => Some(tracks),
             None => services.track(sensed.stamp_ns, &sensed.detections),
         };
-        let own = own.as_deref().map(|tracks| (sensed.stamp_ns, tracks));
-        let remote = self.tracks.as_ref().map(|(stamp_ns, tracks)| (*stamp_ns, tracks.as_slice()));
-        let (stamp_ns, items) = remote.or(own).unwrap_or((now_ns, &[]));
-        let list = TrackList { stamp_ns, items };
+        let stamp_ns = sensed.stamp_ns;
+        let own = own.as_deref().map(|items| TrackList { stamp_ns, items });
+        let remote = self.tracks.as_ref();
+        let remote = remote.map(|(stamp_ns, items)| TrackList { stamp_ns: *stamp_ns, items });
+        let list = remote.or(own).unwrap_or(TrackList { stamp_ns: now_ns, items: &[] });
         let (near_s, signals) = (Some(truth.ego.s), &*truth.closed_signals());
         let road = Road { town: self.town, route: self.route, near_s, signals };
         let services = &mut self.services;
@@ -279,25 +245,26 @@ impl<'a> Cav<'a> {
             Some(asking) if guard.configuration() == Configuration::MotRemote => {
                 let known = Known::of(Configuration::MotRemote, (now_ns, ego), &sensed);
                 let tracks = guard.remote_tracks();
-                let tracks = tracks.map(|(stamp_ns, items)| TrackList { stamp_ns, items });
                 let all = [plan.clone()].into_iter().chain(slower(now_ns, &ego, &road, &list));
                 // Where none passes its own is turned down, and driven once everything is local.
                 asking.first(&known, tracks, now_ns, all).unwrap_or(plan)
             }
             Some(_) | None => plan,
         });
-        let local = Local { tracks: own, points: points.as_deref().map(|points| (now_ns, points)) };
+        let trajectory = points.as_deref().map(|points| Trajectory { stamp_ns: now_ns, points });
+        let local = Results { tracks: own, trajectory };
         let guard = &mut self.guard;
         let mut decided = guard.decide(now_ns, ego, &sensed, local);
         self.tracks = decided.tracks.take();
-        self.own = own.map(|(stamp_ns, tracks)| (stamp_ns, tracks.to_vec()));
+        self.own = own.map(|list| (stamp_ns, list.items.to_vec()));
         self.act(now_ns, &decided.actions, radio);
         // In `Local` nothing is checked, and after an unsafe cycle everything is local.
         let is_own = decided.report.is_some() && decided.trajectory.is_none() && self.is_own();
         // No cycle covers its own plan, which takes the place of whatever it had.
         let brake_by_ns = decided.brake_by_ns.filter(|_| !is_own);
         let new = if is_own { points } else { decided.trajectory.take() };
-        let is_supervised = seconds(now_ns) >= self.brakes_from;
+        let is_supervised =
+            self.settings.supervise_local.is_some_and(|from| seconds(now_ns) >= from);
         let brakes = is_supervised && decided.brake.is_some();
         let examined = [is_supervised && is_own && new.is_some(), brakes];
         self.examined.iter_mut().zip(examined).for_each(|(count, it)| *count += u64::from(it));
@@ -309,7 +276,7 @@ impl<'a> Cav<'a> {
             self.brake_by_ns = brake_by_ns;
         }
         if let Some(asking) = &mut self.asking {
-            asking.see(sensed.stamp_ns, &sensed.detections);
+            asking.see(stamp_ns, &sensed.detections);
         }
         self.sensed = Some(sensed);
         Some(decided)
@@ -318,9 +285,10 @@ impl<'a> Cav<'a> {
     /// What control wants now.
     pub fn command(&mut self, now_ns: i64, truth: &Snapshot) -> Command {
         let ego = ego(truth, &self.body);
-        let has_ended = self.brake_by_ns.is_some_and(|by_ns| by_ns <= now_ns) && !self.drives_on;
+        let has_ended = self.brake_by_ns.is_some_and(|by_ns| by_ns <= now_ns);
         // Without points it brakes along those that it had.
-        self.controller.command(&ego, if has_ended { &[] } else { &self.points }, now_ns)
+        let drives_on = !has_ended || self.settings.drives_on;
+        self.controller.command(&ego, if drives_on { &self.points } else { &[] }, now_ns)
     }
 
     /// Whether the CAV's own planner is the source of its trajectories.

@@ -7,9 +7,8 @@ use crate::pose::Pose;
 use crate::services::detectors::lead::{Front, MeasuredLead, measured_lead};
 use crate::services::detectors::random::Draws;
 use crate::services::detectors::scan::Sweep;
-use crate::services::detectors::scene::Scene;
 use crate::services::detectors::{Detector, Errors, Mount, Observer};
-use crate::services::grid::{OccupancyMap, OwnedGrid, Settings};
+use crate::services::grid::{OccupancyMap, OwnedGrid};
 use crate::snapshot::Snapshot;
 use crate::vehicle::Body;
 
@@ -56,16 +55,15 @@ impl Sensors {
         let radar = detector(body.middle + body.length / 2.0, 100.0, full / 6.0, 90);
         let observer =
             Observer { seed: [seed, 1], detectors: vec![lidar, radar], merge_radius: 1.5 };
-        Self { observer, map: OccupancyMap::new(Settings::default()), seed }
+        Self { observer, map: OccupancyMap::default(), seed }
     }
 
     /// What they measure now.
     pub fn sense(&mut self, truth: &Snapshot, route: &Route, body: &Body, stamp_ns: i64) -> Sensed {
         let ego = ego(truth, body);
         let objects = truth.seen();
-        let scene = Scene { objects: &objects, walls: &[] };
         let cycle = truth.time_ns.unsigned_abs();
-        let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
+        let observation = self.observer.observe(&objects, truth.ego.rear, cycle);
         let near = truth.ego.s;
         let s = route.path.project_within(truth.ego.rear.at, near - 10.0, near + 10.0).s;
         let front = Front {
@@ -75,7 +73,7 @@ impl Sensors {
         };
         let radar = &observation.scans[RADAR];
         let mut draws = Draws::new([self.seed, 2, cycle, 0]);
-        let lead = measured_lead(&scene, radar, &route.path, front, LEAD_SIGMA, &mut draws);
+        let lead = measured_lead(&objects, radar, &route.path, front, LEAD_SIGMA, &mut draws);
         let grid = self.map.update(stamp_ns, &ego, &observation.scans[0]);
         Sensed { stamp_ns, ego, detections: observation.detections, lead, grid }
     }

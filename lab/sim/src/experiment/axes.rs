@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use crate::attack::means::{Comes, Lists};
 use crate::attack::{Attack, Kind};
 use crate::cav::guard::Variant;
-use crate::cav::withheld::Withheld;
 use crate::named::named;
 use crate::run::Settings;
 use crate::services::detectors::Errors;
-use crate::services::way::seconds;
+use crate::time::seconds;
+use crate::withheld::Withheld;
 
 /// When the attack of a run begins that has one, s.
 pub const FROM: f64 = 5.0;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
+use thiserror::Error;
 
 use super::axes::FROM;
 use super::checks::Checks;
@@ -13,10 +14,10 @@ use super::select::{NotKept, Options, Select};
 use super::watch::Watch;
 use crate::cav::Cav;
 use crate::cav::guard::Decided;
-use crate::cav::recorder::Share;
 use crate::map::Town;
 use crate::replay::Replay;
 use crate::run::{Cycle, RunError, Watcher};
+use crate::settings::Share;
 use crate::snapshot::Snapshot;
 
 /// An experiment.
@@ -46,36 +47,14 @@ pub struct Made {
 }
 
 /// Why an experiment could not be made.
-#[derive(Debug)]
+#[derive(Debug, Error)]
+#[error(transparent)]
 pub enum ExperimentError {
     /// Settings, a route or a town that cannot be.
-    Run(RunError),
+    Run(#[from] RunError),
     /// A run that was made before is not there.
-    NotKept(NotKept),
+    NotKept(#[from] NotKept),
 }
-
-impl From<RunError> for ExperimentError {
-    fn from(error: RunError) -> Self {
-        Self::Run(error)
-    }
-}
-
-impl From<NotKept> for ExperimentError {
-    fn from(error: NotKept) -> Self {
-        Self::NotKept(error)
-    }
-}
-
-impl std::fmt::Display for ExperimentError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Run(error) => error.fmt(f),
-            Self::NotKept(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ExperimentError {}
 
 /// An experiment that is to be made.
 pub struct Campaign<'a> {

@@ -10,7 +10,7 @@ use crate::attack::Kind;
 use crate::attack::means::{Comes, Lists};
 use crate::cav::guard::Variant;
 use crate::run::{End, PERIOD_NS};
-use crate::services::way::seconds;
+use crate::time::seconds;
 
 /// Runs that differ in nothing but route and scenario; of `left-out` in the attack and the offer, too, and of `stages`
 /// as often as there are stages. What is special about them is empty where they do not have it in common.

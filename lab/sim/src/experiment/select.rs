@@ -2,13 +2,13 @@
 //! because all were made before.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use thiserror::Error;
 
 use super::checks::Checks;
 use crate::map::id::MapId;
@@ -77,26 +77,20 @@ pub struct Part<O = Options> {
 }
 
 /// A run is missing in the parts, or is not what this program writes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("run {id}{why}")]
 pub struct NotKept {
     /// The run's id.
     pub id: String,
-    /// Why it cannot be read; none: it is not there.
-    pub why: Option<String>,
+    /// What is wrong with it.
+    pub why: String,
 }
 
-impl fmt::Display for NotKept {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.why {
-            None => {
-                write!(f, "run {} is in none of the parts; give all of one experiment", self.id)
-            }
-            Some(why) => write!(f, "run {}: {why}; write the part anew", self.id),
-        }
+impl NotKept {
+    fn unreadable(id: &str, error: &serde_json::Error) -> Self {
+        Self { id: id.to_owned(), why: format!(": {error}; write the part anew") }
     }
 }
-
-impl std::error::Error for NotKept {}
 
 /// Which runs are made, what is looked at in them, and what is kept of them.
 #[derive(Debug, Default)]
@@ -138,9 +132,11 @@ impl<'s> Select<'s> {
     /// Errors: it should be there, and is not.
     pub(super) fn made<R: DeserializeOwned>(&self, id: &str) -> Result<Option<R>, NotKept> {
         let Some(made) = self.made else { return Ok(None) };
-        let not_kept = |why| NotKept { id: id.to_owned(), why };
-        let value = made.get(id).ok_or_else(|| not_kept(None))?;
-        R::deserialize(value).map(Some).map_err(|error| not_kept(Some(error.to_string())))
+        let value = made.get(id).ok_or_else(|| {
+            let why = " is in none of the parts; give all of one experiment".to_owned();
+            NotKept { id: id.to_owned(), why }
+        })?;
+        R::deserialize(value).map(Some).map_err(|error| NotKept::unreadable(id, &error))
     }
 
     /// Keeps what came of a run, if that is asked for.
@@ -148,11 +144,8 @@ impl<'s> Select<'s> {
     /// Errors: what no JSON can hold.
     pub(super) fn keep<R: Serialize>(&self, id: &str, run: &R) -> Result<(), NotKept> {
         if self.shard.is_some() {
-            let not_kept = |error: serde_json::Error| NotKept {
-                id: id.to_owned(),
-                why: Some(error.to_string()),
-            };
-            let value = serde_json::to_value(run).map_err(not_kept)?;
+            let value =
+                serde_json::to_value(run).map_err(|error| NotKept::unreadable(id, &error))?;
             self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(id.to_owned(), value);
         }
         Ok(())

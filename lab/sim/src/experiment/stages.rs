@@ -13,9 +13,9 @@ use super::job::Job;
 use super::made::Experiment;
 use super::select::Options;
 use crate::attack::{Attack, Kind};
-use crate::cav::Areas;
 use crate::cav::guard::Variant;
 use crate::map::Town;
+use crate::settings::Areas;
 
 /// As large as the paper's; a row is a stage in all runs of a variant.
 pub const STAGES: Experiment = Experiment {

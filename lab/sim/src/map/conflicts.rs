@@ -137,14 +137,13 @@ fn relations(first: &Route, second: &Route, reach: f64) -> Vec<(Relation, f64, f
         let distance = near.at.distance(point);
         let pose = first.path.pose_at(s);
         let along = pose.cos * near.cos + pose.sin * near.sin;
-        let relation =
-            if distance >= reach || !(second.path.is_closed() || seen.s > 0.0 && seen.s < length) {
-                Relation::Apart
-            } else if distance < TOGETHER.0 && along > TOGETHER.1 {
-                Relation::Together
-            } else {
-                Relation::Across
-            };
+        let relation = if distance >= reach || !(seen.s > 0.0 && seen.s < length) {
+            Relation::Apart
+        } else if distance < TOGETHER.0 && along > TOGETHER.1 {
+            Relation::Together
+        } else {
+            Relation::Across
+        };
         result.push((relation, s, seen.s));
     }
     result

@@ -150,16 +150,11 @@ impl Route {
     }
 
     /// Cross sections of the corridor from one arc length to another, m, in driving order and evenly at
-    /// about 2 m; on an open route the stretch is cut at its ends. At least two, whose reference points
+    /// about 2 m; the stretch is cut at the ends of the route. At least two, whose reference points
     /// differ, when the stretch has a length. Source: `spec/3-stages.md#stage-ii-trajectory-to-map`.
     pub fn cross_sections(&self, from: f64, to: f64) -> Vec<CrossSection> {
         let length = self.path.length();
-        let (from, to) = if self.path.is_closed() {
-            // The last cross section of a whole round would be the first again.
-            (from, to.min(from + length - 2.0))
-        } else {
-            (from.clamp(0.0, length), to.clamp(0.0, length))
-        };
+        let (from, to) = (from.clamp(0.0, length), to.clamp(0.0, length));
         let pieces = ((to - from) / 2.0).round().max(1.0);
         #[allow(
             clippy::cast_possible_truncation,
@@ -189,15 +184,10 @@ impl Route {
             let bend = self.path.curvature_at(lengths[index]).abs().max(1e-4);
             *pace = self.limits[index].min((A_LATERAL / bend).sqrt());
         }
-        let count = self.pace.len();
-        // Twice round, so that a closed route brakes across its seam, too.
-        for index in (0..count - 1).rev().chain((0..count - 1).rev()) {
+        for index in (0..self.pace.len() - 1).rev() {
             let way = lengths[index + 1] - lengths[index];
             let after = self.pace[index + 1];
             self.pace[index] = self.pace[index].min((after * after + 2.0 * A_COMFORT * way).sqrt());
-            if self.path.is_closed() && index == 0 {
-                self.pace[count - 1] = self.pace[count - 1].min(self.pace[0]);
-            }
         }
     }
 
@@ -209,8 +199,7 @@ impl Route {
 
     fn between(&self, values: &[f64], s: f64) -> f64 {
         let (piece, share) = self.path.locate(s);
-        let next = values[(piece + 1) % values.len()];
-        values[piece] + (next - values[piece]) * share
+        values[piece] + (values[piece + 1] - values[piece]) * share
     }
 }
 

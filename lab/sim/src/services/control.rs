@@ -8,37 +8,26 @@ use core::mem::take;
 use mufasa::input::cycle::{Ego, TrajectoryPoint};
 
 use crate::pose::{Point, Pose};
-use crate::services::way::seconds;
+use crate::time::seconds;
 use crate::vehicle::{Body, Command};
 
-/// How far ahead control steers for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Distance of the pursued place: at least this, m, ...
-    pub pursuit: f64,
-    /// ... and this time at the present speed, s.
-    pub pursuit_time: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { pursuit: 3.5, pursuit_time: 0.6 }
-    }
-}
+/// Distance of the pursued place: at least this, m, ...
+const PURSUIT: f64 = 3.5;
+/// ... and this time at the present speed, s.
+const PURSUIT_TIME: f64 = 0.6;
 
 /// Control of one vehicle.
 #[derive(Clone, Debug)]
 pub struct Controller {
     body: Body,
-    settings: Settings,
     /// The last trajectory that was followed.
     last: Vec<TrajectoryPoint>,
 }
 
 impl Controller {
     /// Control that has followed nothing yet.
-    pub const fn new(body: Body, settings: Settings) -> Self {
-        Self { body, settings, last: Vec::new() }
+    pub const fn new(body: Body) -> Self {
+        Self { body, last: Vec::new() }
     }
 
     /// The command for a time, ns. Without points, or with points that end before it, it brakes as hard as
@@ -61,9 +50,8 @@ impl Controller {
     /// trajectory goes on straight on behind its end.
     fn steering(&self, ego: &Ego) -> f64 {
         let pose = Pose { at: Point::new(ego.x, ego.y), cos: ego.cos, sin: ego.sin };
-        let Settings { pursuit, pursuit_time } = self.settings;
         let Body { wheelbase, steering_max, .. } = self.body;
-        let distance = pursuit.max(pursuit_time * ego.speed);
+        let distance = PURSUIT.max(PURSUIT_TIME * ego.speed);
         let Some(place) = self.place_at_distance(pose, distance) else { return 0.0 };
         let (ahead, left) = pose.local(place);
         let square = ahead * ahead + left * left;

@@ -7,49 +7,29 @@
 use mufasa::input::cycle::{Ego, Grid};
 
 use crate::pose::{Point, Pose};
-use crate::services::detectors::scan::{Met, Return, Scan};
+use crate::services::detectors::scan::{Return, Scan};
 
-/// Size of a grid and how fast it learns. Log-odds are in hundredths.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Side of a cell, m.
-    pub resolution: f64,
-    /// Cells a side.
-    pub cells: usize,
-    /// Every so many rays clear what they cross; all of them mark what they meet.
-    pub clearing: usize,
-    /// Added to a cell that a ray ends in.
-    pub hit: i16,
-    /// Taken from a cell that rays only cross.
-    pub free: i16,
-    /// Greatest log-odds of either sign.
-    pub most: i16,
-    /// Above this a cell is occupied.
-    pub occupied: i16,
-    /// Up to this, of either sign, a cell is unknown.
-    pub unknown: i16,
-}
-
-impl Default for Settings {
-    /// 60 m by 60 m; a cell is occupied after one hit and free two cycles after the last.
-    fn default() -> Self {
-        Self {
-            resolution: 0.5,
-            cells: 120,
-            clearing: 2,
-            hit: 120,
-            free: 80,
-            most: 200,
-            occupied: 50,
-            unknown: 20,
-        }
-    }
-}
+/// Side of a cell, m.
+const RESOLUTION: f64 = 0.5;
+/// Cells a side: 60 m by 60 m.
+const CELLS: usize = 120;
+/// Every so many rays clear what they cross; all of them mark what they meet.
+const CLEARING: usize = 2;
+// Log-odds are in hundredths: a cell is occupied after one hit and free two cycles after the last.
+/// Added to a cell that a ray ends in.
+const HIT: i16 = 120;
+/// Taken from a cell that rays only cross.
+const FREE: i16 = 80;
+/// Greatest log-odds of either sign.
+const MOST: i16 = 200;
+/// Above this a cell is occupied.
+const OCCUPIED: i16 = 50;
+/// Up to this, of either sign, a cell is unknown.
+const UNKNOWN: i16 = 20;
 
 /// A map that moves with its vehicle, aligned with the axes of the plane.
 #[derive(Clone, Debug)]
 pub struct OccupancyMap {
-    settings: Settings,
     /// Column and row of the first cell, counted from the origin of the plane.
     first: [i64; 2],
     /// Row after row.
@@ -70,8 +50,6 @@ enum Observed {
 pub struct OwnedGrid {
     stamp_ns: i64,
     corner: Point,
-    resolution: f64,
-    cells: i64,
     occupied: Vec<u8>,
     unknown: Vec<u8>,
 }
@@ -85,27 +63,24 @@ impl OwnedGrid {
             y: self.corner.y,
             cos: 1.0,
             sin: 0.0,
-            resolution: self.resolution,
-            width: self.cells,
-            height: self.cells,
+            resolution: RESOLUTION,
+            width: index(CELLS),
+            height: index(CELLS),
             occupied: &self.occupied,
             unknown: with_unknown.then_some(&self.unknown),
         }
     }
 }
 
-impl OccupancyMap {
+impl Default for OccupancyMap {
     /// A map that knows nothing.
-    pub fn new(settings: Settings) -> Self {
-        let count = settings.cells * settings.cells;
-        Self {
-            settings,
-            first: [0, 0],
-            log_odds: vec![0; count],
-            observed: vec![Observed::Nothing; count],
-        }
+    fn default() -> Self {
+        let observed = vec![Observed::Nothing; CELLS * CELLS];
+        Self { first: [0, 0], log_odds: vec![0; CELLS * CELLS], observed }
     }
+}
 
+impl OccupancyMap {
     /// Takes in a scan from on top of the vehicle, and gives the map of that time, ns. The vehicle's own
     /// rectangle is free.
     pub fn update(&mut self, stamp_ns: i64, ego: &Ego, scan: &Scan) -> OwnedGrid {
@@ -114,18 +89,18 @@ impl OccupancyMap {
         self.move_to(middle);
         self.observed.fill(Observed::Nothing);
         for (index, ray) in scan.rays.iter().enumerate() {
-            if index % self.settings.clearing == 0 {
+            if index % CLEARING == 0 {
                 self.clear(scan.pose.at, ray);
             }
         }
-        for ray in scan.rays.iter().filter(|ray| ray.met != Met::Nothing) {
+        for ray in scan.rays.iter().filter(|ray| ray.met.is_some()) {
             // A little into what it met, so that noise does not put its edge into the cell before it.
-            let distance = ray.distance + self.settings.resolution / 8.0;
+            let distance = ray.distance + RESOLUTION / 8.0;
             let place = Point::new(
                 scan.pose.at.x + distance * ray.cos,
                 scan.pose.at.y + distance * ray.sin,
             );
-            if let Some(cell) = self.cell(place) {
+            if let Some(cell) = self.at([column(place.x), column(place.y)]) {
                 self.observed[cell] = Observed::Hit;
             }
         }
@@ -136,8 +111,8 @@ impl OccupancyMap {
 
     /// Moves the square so that a place is in its middle; cells keep what they know of their place.
     fn move_to(&mut self, middle: Point) {
-        let (cells, half) = (self.settings.cells, index(self.settings.cells / 2));
-        let first = [self.column(middle.x) - half, self.column(middle.y) - half];
+        let (cells, half) = (CELLS, index(CELLS / 2));
+        let first = [column(middle.x) - half, column(middle.y) - half];
         let moved = [first[0] - self.first[0], first[1] - self.first[1]];
         if moved == [0, 0] {
             return;
@@ -160,27 +135,22 @@ impl OccupancyMap {
 
     /// Marks the cells that a ray crosses as free (Amanatides and Woo 1987).
     fn clear(&mut self, from: Point, ray: &Return) {
-        let resolution = self.settings.resolution;
-        let mut at = [self.column(from.x), self.column(from.y)];
+        let mut at = [column(from.x), column(from.y)];
         let axis = |from: f64, direction: f64, at: i64| {
             // Distance along the ray to the next border of a cell, and between two borders.
             let Some(per_metre) = (direction.abs() > 1e-9).then(|| 1.0 / direction.abs()) else {
                 return (0, f64::INFINITY, f64::INFINITY);
             };
-            let into = from / resolution - real(at);
+            let into = from / RESOLUTION - real(at);
             let rest = if direction > 0.0 { 1.0 - into } else { into };
             let sign = if direction > 0.0 { 1 } else { -1 };
-            (sign, rest * resolution * per_metre, resolution * per_metre)
+            (sign, rest * RESOLUTION * per_metre, RESOLUTION * per_metre)
         };
         let (step_x, mut next_x, between_x) = axis(from.x, ray.cos, at[0]);
         let (step_y, mut next_y, between_y) = axis(from.y, ray.sin, at[1]);
         // By index: this is most of the work of a map.
-        let (cells, Some(mut cell)) = (index(self.settings.cells), self.at(at)) else { return };
-        let row_of = if step_y > 0 {
-            self.settings.cells.cast_signed()
-        } else {
-            -self.settings.cells.cast_signed()
-        };
+        let (cells, Some(mut cell)) = (index(CELLS), self.at(at)) else { return };
+        let row_of = if step_y > 0 { CELLS.cast_signed() } else { -CELLS.cast_signed() };
         (at[0], at[1]) = (at[0] - self.first[0], at[1] - self.first[1]);
         loop {
             self.observed[cell] = Observed::Free;
@@ -202,46 +172,41 @@ impl OccupancyMap {
 
     /// Old knowledge fades, so that what is behind a passing car becomes unknown, and the scan is added.
     fn learn(&mut self) {
-        let Settings { hit, free, most, .. } = self.settings;
         for (log_odds, observed) in self.log_odds.iter_mut().zip(&self.observed) {
             let faded = *log_odds - (*log_odds >> 4);
             let learnt = match observed {
                 Observed::Nothing => faded,
-                Observed::Free => faded - free,
-                Observed::Hit => faded + hit,
+                Observed::Free => faded - FREE,
+                Observed::Hit => faded + HIT,
             };
-            *log_odds = learnt.clamp(-most, most);
+            *log_odds = learnt.clamp(-MOST, MOST);
         }
     }
 
     fn free_footprint(&mut self, middle: Pose, ego: &Ego) {
-        let resolution = self.settings.resolution;
         let radius = 0.5 * Point::default().distance(Point::new(ego.length, ego.width));
-        let low = [middle.at.x - radius, middle.at.y - radius].map(|place| self.column(place));
-        let high = [middle.at.x + radius, middle.at.y + radius].map(|place| self.column(place));
+        let low = [middle.at.x - radius, middle.at.y - radius].map(column);
+        let high = [middle.at.x + radius, middle.at.y + radius].map(column);
         for row in low[1]..=high[1] {
             for column in low[0]..=high[0] {
-                let place =
-                    Point::new((real(column) + 0.5) * resolution, (real(row) + 0.5) * resolution);
+                let [x, y] = [column, row].map(|it| (real(it) + 0.5) * RESOLUTION);
+                let place = Point::new(x, y);
                 let (ahead, left) = middle.local(place);
                 let inside = ahead.abs() <= ego.length / 2.0 && left.abs() <= ego.width / 2.0;
                 if let (true, Some(cell)) = (inside, self.at([column, row])) {
-                    self.log_odds[cell] = -self.settings.most;
+                    self.log_odds[cell] = -MOST;
                 }
             }
         }
     }
 
     fn bitmaps(&self, stamp_ns: i64) -> OwnedGrid {
-        let Settings { resolution, cells, occupied, unknown, .. } = self.settings;
-        let [column, row] = self.first;
+        let [x, y] = self.first.map(|it| real(it) * RESOLUTION);
         OwnedGrid {
             stamp_ns,
-            corner: Point::new(real(column) * resolution, real(row) * resolution),
-            resolution,
-            cells: index(cells),
-            occupied: self.packed(|cell| cell > occupied),
-            unknown: self.packed(|cell| cell.abs() <= unknown),
+            corner: Point::new(x, y),
+            occupied: self.packed(|cell| cell > OCCUPIED),
+            unknown: self.packed(|cell| cell.abs() <= UNKNOWN),
         }
     }
 
@@ -253,22 +218,16 @@ impl OccupancyMap {
         self.log_odds.chunks(8).map(byte).collect()
     }
 
-    /// Column of an x coordinate, or row of a y coordinate.
-    #[allow(clippy::cast_possible_truncation)] // places are within 2^24 m
-    fn column(&self, place: f64) -> i64 {
-        (place / self.settings.resolution).floor() as i64
-    }
-
-    fn cell(&self, place: Point) -> Option<usize> {
-        self.at([self.column(place.x), self.column(place.y)])
-    }
-
     fn at(&self, [column, row]: [i64; 2]) -> Option<usize> {
-        let cells = self.settings.cells;
-        let column = within(column - self.first[0], cells)?;
-        let row = within(row - self.first[1], cells)?;
-        Some(row * cells + column)
+        let column = within(column - self.first[0], CELLS)?;
+        Some(within(row - self.first[1], CELLS)? * CELLS + column)
     }
+}
+
+/// Column of an x coordinate, or row of a y coordinate.
+#[allow(clippy::cast_possible_truncation)] // places are within 2^24 m
+fn column(place: f64) -> i64 {
+    (place / RESOLUTION).floor() as i64
 }
 
 fn within(index: i64, cells: usize) -> Option<usize> {

@@ -7,4 +7,3 @@ pub mod env;
 pub mod grid;
 pub mod mot;
 pub mod tpl;
-pub mod way;

@@ -4,11 +4,14 @@ mod sensors;
 
 use std::collections::BTreeMap;
 
-use mufasa::input::cycle::{Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint};
-use mufasa::services::configuration::{Configuration, Group, Groups};
+use mufasa::input::cycle::{
+    CrossSection, Detection, DetectionList, Ego, Track, TrackList, TrajectoryPoint,
+};
+use mufasa::services::configuration::{Configuration, Group};
 use mufasa_link::message::{self, Frame, Message, Payload};
+use mufasa_link::station::{asked, configuration, replied};
 use mufasa_model::offloading::provider::{
-    DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind, Reply,
+    DEFAULT_LEASE_NS, Provider, ProviderEvent, ProviderEventKind,
 };
 use mufasa_props::bridge;
 
@@ -21,12 +24,12 @@ use crate::map::route::Route;
 use crate::planner::{Road, plan, slower};
 use crate::pose::Point;
 use crate::radio::{Radio, To};
-use crate::services::detectors::scene::Scene;
-use crate::services::detectors::{Errors, Observer};
-use crate::services::mot::{Settings, Tracker};
+use crate::services::detectors::Observer;
+use crate::services::mot::Tracker;
 use crate::services::tpl;
-use crate::services::way::seconds;
+use crate::settings::Settings;
 use crate::snapshot::Snapshot;
+use crate::time::seconds;
 
 /// How long its services compute, ns.
 const COMPUTES_NS: i64 = 4_000_000;
@@ -43,7 +46,7 @@ pub struct Station<'a> {
     town: &'a Town,
     route: &'a Route,
     frame: Frame,
-    offers: Groups,
+    settings: &'a Settings,
     provider: Provider,
     observer: Observer,
     tracker: Tracker,
@@ -54,7 +57,7 @@ pub struct Station<'a> {
     /// Distance of the farthest detection of the CAV, m.
     reach: f64,
     /// What it asks before it sends, if it asks.
-    asking: Option<Asking>,
+    asking: Option<Asking<'a>>,
     /// The CAV's own tracks, which it sends while its MOT is not remote.
     of_cav: Option<(i64, Vec<Track>)>,
     /// Detections that came before the own tracks of their time.
@@ -67,29 +70,29 @@ pub struct Station<'a> {
 }
 
 impl<'a> Station<'a> {
-    /// A station that offers these groups along a route.
+    /// A station along a route, whose cross sections are given.
     pub fn new(
         (town, route): (&'a Town, &'a Route),
         frame: Frame,
-        offers: Groups,
-        (seed, errors): (u64, Errors),
+        settings: &'a Settings,
+        cross_sections: &[CrossSection],
     ) -> Self {
         Self {
             town,
             route,
             frame,
-            offers,
+            settings,
             provider: Provider::new(4, DEFAULT_LEASE_NS),
             observer: Observer {
-                seed: [seed, 3],
-                detectors: sensors::beside(route, errors),
+                seed: [settings.seed, 3],
+                detectors: sensors::beside(route, settings.errors),
                 merge_radius: MERGE_M,
             },
-            tracker: Tracker::new(Settings::default()),
+            tracker: Tracker::default(),
             seen_by_cav: BTreeMap::new(),
             seen: None,
             reach: 0.0,
-            asking: None,
+            asking: Asking::new(settings, cross_sections),
             of_cav: None,
             waiting: None,
             signals: Vec::new(),
@@ -99,25 +102,18 @@ impl<'a> Station<'a> {
         }
     }
 
-    /// The same; what it asks before it sends, if it asks.
-    pub fn asking(mut self, asking: Option<Asking>) -> Self {
-        self.asking = asking;
-        self
-    }
-
     /// Its sensors look, and it says what it offers when that is due.
     pub fn sense(&mut self, now_ns: i64, truth: &Snapshot, radio: &mut Radio) {
         let objects = truth.seen();
-        let scene = Scene { objects: &objects, walls: &[] };
         let cycle = truth.time_ns.unsigned_abs();
-        let observation = self.observer.observe(&scene, truth.ego.rear, None, cycle);
+        let observation = self.observer.observe(&objects, truth.ego.rear, cycle);
         self.seen = Some((now_ns, observation.detections));
         self.signals = truth.closed_signals();
         self.near_s = Some(truth.ego.s);
         self.happens(now_ns, ProviderEventKind::Tick, radio);
         if self.offered_ns.is_none_or(|last_ns| now_ns - last_ns >= OFFERS_NS) {
             self.offered_ns = Some(now_ns);
-            self.send(now_ns, 0, Payload::Offer { groups: self.offers }, radio);
+            self.send(now_ns, 0, Payload::Offer { groups: self.settings.offers }, radio);
         }
     }
 
@@ -129,25 +125,10 @@ impl<'a> Station<'a> {
             return;
         }
         match payload {
-            Payload::Request { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(
-                    now_ns,
-                    ProviderEventKind::Request { requester, group, session },
-                    radio,
-                );
-            }
-            Payload::Release { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(
-                    now_ns,
-                    ProviderEventKind::Release { requester, group, session },
-                    radio,
-                );
-            }
-            Payload::Alive { group, session } => {
-                let group = bridge::group_from_impl(group);
-                self.happens(now_ns, ProviderEventKind::Heard { requester, group, session }, radio);
+            Payload::Request { .. } | Payload::Release { .. } | Payload::Alive { .. } => {
+                if let Some(kind) = asked(requester, &payload) {
+                    self.happens(now_ns, kind, radio);
+                }
             }
             Payload::Detections { stamp_ns, ego, detections } => {
                 if self.waits(requester, stamp_ns) {
@@ -335,16 +316,10 @@ impl<'a> Station<'a> {
     }
 
     fn happens(&mut self, t_ns: i64, kind: ProviderEventKind, radio: &mut Radio) {
-        let payload = match self.provider.step(&ProviderEvent { t_ns, kind }) {
-            Some(Reply::Confirm { requester, group, session }) => {
-                (requester, Payload::Confirm { group: bridge::group_to_impl(group), session })
-            }
-            Some(Reply::Reject { requester, group, session }) => {
-                (requester, Payload::Reject { group: bridge::group_to_impl(group), session })
-            }
-            None => return,
-        };
-        self.send(t_ns, payload.0, payload.1, radio);
+        if let Some(reply) = self.provider.step(&ProviderEvent { t_ns, kind }) {
+            let (requester, payload) = replied(reply);
+            self.send(t_ns, requester, payload, radio);
+        }
     }
 
     fn send(&self, now_ns: i64, vehicle: i64, payload: Payload, radio: &mut Radio) {
@@ -370,20 +345,10 @@ impl<'a> Station<'a> {
 
 /// The CAV so much later, ns, if it speeds up all the time: what it is to pass then is farther.
 fn driven_on(ego: &Ego, later_ns: i64) -> Ego {
-    let (dt, acceleration) = (seconds(later_ns), tpl::settings::Settings::default().acceleration);
+    let (dt, acceleration) = (seconds(later_ns), tpl::settings::ACCELERATION);
     let way = (ego.speed + 0.5 * acceleration * dt) * dt;
     let Ego { x, y, cos, sin, speed, .. } = *ego;
     Ego { x: x + way * cos, y: y + way * sin, speed: speed + acceleration * dt, ..*ego }
-}
-
-/// In which the CAV will use what it gets in these sessions.
-const fn configuration(sessions: [Option<i64>; 2]) -> Configuration {
-    match sessions {
-        [Some(_), Some(_)] => Configuration::AllRemote,
-        [Some(_), None] => Configuration::MotRemote,
-        [None, Some(_)] => Configuration::PlanRemote,
-        [None, None] => Configuration::Local,
-    }
 }
 
 fn distance(ego: &Ego, x: f64, y: f64) -> f64 {

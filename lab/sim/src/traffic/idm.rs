@@ -37,10 +37,4 @@ impl Idm {
         let share = wanted / gap.max(0.1);
         self.free(speed) - self.a * share * share
     }
-
-    /// Gap at which the speed of both stays as it is, m: (s0 + v T) / sqrt(1 - (v/v0)^4).
-    pub fn equilibrium_gap(&self, speed: f64) -> f64 {
-        let share = speed / self.v0;
-        (self.s0 + speed * self.headway) / (1.0 - share * share * share * share).sqrt()
-    }
 }

@@ -1,16 +1,16 @@
 //! What stands between link and control, by hand: nothing of an ended session is used.
 
-use mufasa::input::cycle::{Route, TrajectoryPoint};
-use mufasa::monitor::{Message, Settings, Time};
+use mufasa::input::cycle::{Route, TrackList, TrajectoryPoint};
+use mufasa::monitor::{Message, Time};
 use mufasa::offloading::requester::{Action, EventKind, Parameters, StationRecord};
 use mufasa::services::configuration::{Group, Groups};
 use mufasa_props::lent::Lent;
-use mufasa_sim::cav::guard::{Guard, Local, Variant};
+use mufasa_sim::cav::guard::{Guard, Results, Variant};
 use mufasa_sim::cav::sensing::{Sensors, ego};
 use mufasa_sim::map::streets::town;
+use mufasa_sim::run::Settings;
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::services::detectors::Errors;
-use mufasa_sim::vehicle::TAU_S;
 use mufasa_sim::world::World;
 
 const MS: i64 = 1_000_000;
@@ -52,12 +52,10 @@ fn nothing_of_an_ended_session_is_used() {
         let cross_sections = world.route().cross_sections(0.0, f64::INFINITY);
         let (mut table, mut lent) = (vec![StationRecord::FREE; 4], Lent::new(4, 128, 2048));
         let requester = Parameters { t_wait_ns: 0, dt_max_ns: 150 * MS, ..Parameters::default() };
-        let mut settings = Settings::new(std::time::Duration::from_nanos(PERIOD.unsigned_abs()));
-        (settings.requester, settings.stages.tau) = (requester, TAU_S);
+        let settings = Settings { requester, ..Settings::new(variant, Groups::ALL, 0) };
+        let corridor = Route { closed: false, cross_sections: &cross_sections };
         let mut guard =
-            Guard::new(variant.profile(), settings, &mut table, lent.memory()).expect("settings");
-        let corridor =
-            Route { closed: world.route().path.is_closed(), cross_sections: &cross_sections };
+            Guard::new(&settings, &mut table, lent.memory(), &corridor).expect("settings");
         guard.set_route(&corridor).expect("a route");
         let mut sensors = Sensors::new(0, world.body(), Errors::default());
         let mut sensed = |at: i64| sensors.sense(&truth, world.route(), world.body(), at);
@@ -82,7 +80,8 @@ fn nothing_of_an_ended_session_is_used() {
         };
         let still = mufasa::input::cycle::Ego { speed: 0.0, ..me };
         let mut decide = |guard: &mut Guard<'_>, at: i64| {
-            let local = Local { tracks: Some((at, &[])), points: None };
+            let tracks = Some(TrackList { stamp_ns: at, items: &[] });
+            let local = Results { tracks, trajectory: None };
             guard.decide(at, still, &sensed(at), local)
         };
         // A station is asked when half a second was seen.

@@ -8,7 +8,7 @@ use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{Settings, simulate};
 use mufasa_sim::scenario::Scenario;
 
-use super::digest::FROM;
+use super::drive::FROM;
 
 /// Alarms, and cycles with all that is offered remote, in six drives of 40 s, none of which fails.
 fn drives(

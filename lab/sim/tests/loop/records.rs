@@ -8,14 +8,14 @@ use mufasa_sim::attack::{Attack, Kind};
 use mufasa_sim::cav::Cav;
 use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::cav::recorder::Share;
-use mufasa_sim::cav::withheld::Withheld;
 use mufasa_sim::experiment::checks::Checks;
 use mufasa_sim::map::streets::town;
 use mufasa_sim::run::{Cycle, Settings, Watcher, simulate};
 use mufasa_sim::scenario::Scenario;
 use mufasa_sim::snapshot::Snapshot;
+use mufasa_sim::withheld::Withheld;
 
-use super::digest::FROM;
+use super::drive::FROM;
 
 /// Decides each recorded cycle again, and checks it by the model.
 #[derive(Default)]

@@ -7,7 +7,7 @@ use mufasa_sim::map::streets::town;
 use mufasa_sim::replay::{Event, Replay};
 use mufasa_sim::run::{End, Outcome};
 
-use super::digest::{FROM, drive};
+use super::drive::{FROM, drive};
 
 fn page(variant: Variant, kind: Option<Kind>, seed: u64) -> (Outcome, Replay, String) {
     let town = town();

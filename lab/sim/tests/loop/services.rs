@@ -9,7 +9,7 @@ use mufasa_sim::cav::guard::{Decided, Variant};
 use mufasa_sim::run::{Cycle, Outcome, Watcher};
 use mufasa_sim::snapshot::Snapshot;
 
-use super::digest::drive;
+use super::drive::drive;
 
 /// A cycle, and of each group: whether it was remote until it was decided, whether it is afterwards, whether
 /// its services run afterwards, and how often they ran.

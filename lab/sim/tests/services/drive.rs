@@ -3,10 +3,9 @@
 use mufasa::input::cycle::{Ego, Track, TrackList, TrajectoryPoint};
 use mufasa_sim::path::Path;
 use mufasa_sim::pose::Pose;
-use mufasa_sim::services::control::{Controller, Settings as ControlSettings};
+use mufasa_sim::services::control::Controller;
 use mufasa_sim::services::env::model::Environment;
 use mufasa_sim::services::env::{Situation, environment};
-use mufasa_sim::services::tpl::settings::Settings;
 use mufasa_sim::services::tpl::trajectory;
 use mufasa_sim::vehicle::{Body, Motion};
 
@@ -20,8 +19,7 @@ const STEPS: u32 = 5;
 /// The ego on its path.
 pub struct Drive<'a> {
     pub path: &'a Path,
-    pub stops: Vec<f64>,
-    pub body: Body,
+    body: Body,
     pub motion: Motion,
     pub t_ns: i64,
     controller: Controller,
@@ -34,8 +32,8 @@ impl<'a> Drive<'a> {
         let (length, width) = (reference.length, reference.width);
         let body = Body { length, width, middle: reference.center_offset, ..Body::default() };
         let motion = Motion { rear, speed, acceleration: 0.0, steering: 0.0 };
-        let controller = Controller::new(body, ControlSettings::default());
-        Self { path, stops: Vec::new(), body, motion, t_ns: 0, controller }
+        let controller = Controller::new(body);
+        Self { path, body, motion, t_ns: 0, controller }
     }
 
     pub fn ego(&self) -> Ego {
@@ -48,21 +46,14 @@ impl<'a> Drive<'a> {
             ego: self.ego(),
             path: self.path,
             near_s: None,
-            stops: &self.stops,
+            stops: &[],
         };
         environment(&situation, &TrackList { stamp_ns: self.t_ns, items: tracks })
     }
 
     pub fn plan(&self, tracks: &[Track]) -> Vec<TrajectoryPoint> {
         let environment = self.environment(tracks);
-        trajectory(
-            self.t_ns,
-            &self.ego(),
-            self.path,
-            &environment,
-            &|_| LIMIT,
-            &Settings::default(),
-        )
+        trajectory(self.t_ns, &self.ego(), self.path, &environment, &|_| LIMIT)
     }
 
     /// Follows points for the time between two plans.

@@ -17,8 +17,8 @@ use crate::collision;
 use crate::map::route::Route;
 use crate::pose::{Pose, Rectangle};
 use crate::run::{Cycle, Watcher};
-use crate::services::way::seconds;
 use crate::snapshot::{EgoState, Object, Snapshot};
+use crate::time::seconds;
 use crate::vehicle::{A_B, TAU_S};
 
 /// Cycles that are looked ahead.

@@ -3,9 +3,8 @@
 use crate::path::Path;
 use crate::pose::Point;
 use crate::services::detectors::random::Draws;
-use crate::services::detectors::scan::{Met, Scan};
-use crate::services::detectors::scene::{Scene, Seen};
-use crate::services::way::ahead_of;
+use crate::services::detectors::scan::Scan;
+use crate::services::detectors::seen::Seen;
 
 /// Whose front radar it is.
 #[derive(Clone, Copy, Debug)]
@@ -33,21 +32,14 @@ pub struct MeasuredLead {
 ///
 /// Gap as in `spec/5-interfaces.md#cycle` (`lead.gap`).
 pub fn measured_lead(
-    scene: &Scene<'_>,
+    objects: &[Seen],
     scan: &Scan,
     path: &Path,
     front: Front,
     error: f64,
     draws: &mut Draws,
 ) -> Option<MeasuredLead> {
-    let mut visible = vec![false; scene.objects.len()];
-    for ray in &scan.rays {
-        if let Met::Object(index) = ray.met {
-            visible[index] = true;
-        }
-    }
-    let objects = scene.objects.iter().zip(visible).filter(|(_, visible)| *visible);
-    let leads = objects.filter_map(|(object, _)| lead(object, path, front, scan.range));
+    let leads = scan.visible(objects).filter_map(|it| lead(it, path, front, scan.range));
     let nearest = leads.min_by(|a, b| a.gap.total_cmp(&b.gap))?;
     let [gap, speed] = draws.normal_pair();
     Some(MeasuredLead {
@@ -75,11 +67,11 @@ fn lead(object: &Seen, path: &Path, front: Front, range: f64) -> Option<Measured
     for (ahead, left) in [(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)] {
         let corner = rectangle.pose.ahead(ahead * rectangle.length, left * rectangle.width);
         let corner = path.project_within(corner, middle.s - reach - 5.0, middle.s + reach + 5.0);
-        gap = gap.min(ahead_of(path, front.s, corner.s));
+        gap = gap.min(corner.s - front.s);
         (least, most) = (least.min(corner.left), most.max(corner.left));
     }
     let inside = least <= front.half_width && most >= -front.half_width;
-    let is_ahead = ahead_of(path, front.s, middle.s) > front.ahead;
+    let is_ahead = middle.s - front.s > front.ahead;
     let gap = (gap - front.ahead).max(0.0);
     (inside && is_ahead).then(|| MeasuredLead { gap, speed: speed.max(0.0) })
 }

@@ -8,14 +8,14 @@
 pub mod lead;
 pub mod random;
 pub mod scan;
-pub mod scene;
+pub mod seen;
 
 use mufasa::input::cycle::Detection;
 
 use crate::pose::{Point, Pose};
 use crate::services::detectors::random::Draws;
-use crate::services::detectors::scan::{Met, Scan, Sweep};
-use crate::services::detectors::scene::Scene;
+use crate::services::detectors::scan::{Scan, Sweep};
+use crate::services::detectors::seen::Seen;
 
 /// One detector.
 #[derive(Clone, Debug)]
@@ -105,28 +105,21 @@ pub struct Observation {
 }
 
 impl Observer {
-    /// What is seen from a pose in a cycle. `own` is who observes, or for whom: detectors on a vehicle look
-    /// through it, fixed ones do not, and nobody reports it.
+    /// What of the objects is seen from a pose in a cycle.
     ///
     /// The draws about an object depend on the seed, detector, cycle and its id alone.
-    pub fn observe(
-        &self,
-        scene: &Scene<'_>,
-        pose: Pose,
-        own: Option<u32>,
-        cycle: u64,
-    ) -> Observation {
+    pub fn observe(&self, objects: &[Seen], pose: Pose, cycle: u64) -> Observation {
         let mut merged = Merged { radius: self.merge_radius, items: Vec::new() };
         let mut scans = Vec::with_capacity(self.detectors.len());
         for (index, detector) in (0..).zip(&self.detectors) {
             let key = |about| [self.seed[0], self.seed[1] << 16 | index, cycle, about];
-            let mut scan = detector.scan(scene, pose, own);
+            let mut scan = detector.scan(objects, pose);
             let sees = |id: u32| {
                 let mut draws = Draws::new([self.seed[0], BLIND, 0, id.into()]);
                 detector.errors.blind <= 0.0 || draws.share() >= detector.errors.blind
             };
-            let of = |id: u32| Some(key(id.into())).filter(|_| Some(id) != own && sees(id));
-            detector.report(scene, &scan, &of, &mut |detection| merged.add(index, detection));
+            let of = |id: u32| Some(key(id.into())).filter(|_| sees(id));
+            detector.report(objects, &scan, &of, &mut |detection| merged.add(index, detection));
             detector.invent(&scan, key(CLUTTER), &mut |detection| merged.add(index, detection));
             detector.blur(&mut scan, &mut Draws::new(key(DISTANCES)));
             scans.push(scan);
@@ -143,30 +136,23 @@ const DISTANCES: u64 = 1 << 33;
 const BLIND: u64 = u64::MAX;
 
 impl Detector {
-    fn scan(&self, scene: &Scene<'_>, pose: Pose, own: Option<u32>) -> Scan {
-        match self.mount {
-            Mount::Vehicle(ahead) => {
-                self.sweep.scan(scene, Pose { at: pose.ahead(ahead, 0.0), ..pose }, own)
-            }
-            Mount::Fixed(pose) => self.sweep.scan(scene, pose, None),
-        }
+    fn scan(&self, objects: &[Seen], pose: Pose) -> Scan {
+        let from = match self.mount {
+            Mount::Vehicle(ahead) => Pose { at: pose.ahead(ahead, 0.0), ..pose },
+            Mount::Fixed(pose) => pose,
+        };
+        self.sweep.scan(objects, from)
     }
 
     /// Detections of the objects that a ray met. `of`: with what is drawn about an object; none: it is not reported.
     fn report(
         &self,
-        scene: &Scene<'_>,
+        objects: &[Seen],
         scan: &Scan,
         of: &impl Fn(u32) -> Option<[u64; 4]>,
         add: &mut impl FnMut(Detection),
     ) {
-        let mut visible = vec![false; scene.objects.len()];
-        for ray in &scan.rays {
-            if let Met::Object(index) = ray.met {
-                visible[index] = true;
-            }
-        }
-        for (object, _) in scene.objects.iter().zip(visible).filter(|(_, visible)| *visible) {
+        for object in scan.visible(objects) {
             let Some(mut draws) = of(object.id).map(Draws::new) else { continue };
             if draws.share() >= self.errors.missed {
                 let rectangle = object.rectangle;
@@ -212,7 +198,7 @@ impl Detector {
             return;
         }
         let range = scan.range;
-        for ray in scan.rays.iter_mut().filter(|ray| ray.met != Met::Nothing) {
+        for ray in scan.rays.iter_mut().filter(|ray| ray.met.is_some()) {
             let [error, _] = draws.normal_pair();
             ray.distance = (ray.distance + self.errors.distance * error).clamp(0.0, range);
         }

@@ -7,7 +7,7 @@ use parry2d_f64::query::{Ray, RayCast};
 use parry2d_f64::shape::Cuboid;
 
 use crate::pose::{Point, Pose, Rectangle};
-use crate::services::detectors::scene::Scene;
+use crate::services::detectors::seen::Seen;
 
 /// How a sensor looks around: rays at equal angles.
 #[derive(Clone, Debug)]
@@ -38,19 +38,17 @@ pub struct Return {
     pub sin: f64,
     /// How far the ray went, m; the range if it met nothing.
     pub distance: f64,
-    /// What it met.
-    pub met: Met,
+    /// Index of the object that it met within the range.
+    pub met: Option<usize>,
 }
 
-/// What a ray met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Met {
-    /// Nothing within the range.
-    Nothing,
-    /// The object with this index in the scene.
-    Object(usize),
-    /// A wall.
-    Wall,
+impl Scan {
+    /// Those of the objects that a ray met.
+    pub(super) fn visible<'o>(&self, objects: &'o [Seen]) -> impl Iterator<Item = &'o Seen> {
+        let mut visible = vec![false; objects.len()];
+        self.rays.iter().filter_map(|ray| ray.met).for_each(|index| visible[index] = true);
+        objects.iter().zip(visible).filter_map(|(object, is_visible)| is_visible.then_some(object))
+    }
 }
 
 impl Sweep {
@@ -74,29 +72,24 @@ impl Sweep {
         self.field_of_view
     }
 
-    /// What the rays meet from a pose; `unseen` is the id of an object that they go through.
-    pub fn scan(&self, scene: &Scene<'_>, pose: Pose, unseen: Option<u32>) -> Scan {
+    /// What the rays meet from a pose.
+    pub fn scan(&self, objects: &[Seen], pose: Pose) -> Scan {
         let nothing = |&(cos, sin): &(f64, f64)| Return {
             cos: cos * pose.cos - sin * pose.sin,
             sin: cos * pose.sin + sin * pose.cos,
             distance: self.range,
-            met: Met::Nothing,
+            met: None,
         };
         let rays = self.directions.iter().map(nothing).collect();
         let mut scan = Scan { pose, range: self.range, rays };
-        for (index, object) in scene.objects.iter().enumerate() {
-            if Some(object.id) != unseen {
-                self.cast(&mut scan, &object.rectangle, Met::Object(index));
-            }
-        }
-        for wall in scene.walls {
-            self.cast(&mut scan, wall, Met::Wall);
+        for (index, object) in objects.iter().enumerate() {
+            self.cast(&mut scan, &object.rectangle, index);
         }
         scan
     }
 
     /// Shortens the rays that meet a rectangle.
-    fn cast(&self, scan: &mut Scan, rectangle: &Rectangle, met: Met) {
+    fn cast(&self, scan: &mut Scan, rectangle: &Rectangle, index: usize) {
         let circumradius =
             0.5 * Point::default().distance(Point::new(rectangle.length, rectangle.width));
         let distance = scan.pose.at.distance(rectangle.pose.at);
@@ -115,7 +108,7 @@ impl Sweep {
                 if let Some(distance) = cuboid.cast_local_ray(&cast, ray.distance, true)
                     && distance < ray.distance
                 {
-                    (ray.distance, ray.met) = (distance, met);
+                    (ray.distance, ray.met) = (distance, Some(index));
                 }
             }
         }

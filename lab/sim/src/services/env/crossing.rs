@@ -5,7 +5,6 @@ use mufasa::input::cycle::Track;
 use crate::path::Path;
 use crate::pose::Point;
 use crate::services::env::model::{Crossing, Placed};
-use crate::services::way::ahead_of;
 
 /// Looked ahead so far, s, in steps of ...
 const HORIZON_S: f64 = 5.0;
@@ -29,15 +28,14 @@ pub(super) fn will_cross(
     while t <= HORIZON_S {
         let at = Point::new(track.x + track.vx * t, track.y + track.vy * t);
         let middle = path.project_within(at, at_s - reach, at_s + reach);
-        let moved = ahead_of(path, s, middle.s);
+        let moved = middle.s - s;
         let [half_length, half_across] = half_sizes(path, track, middle.s);
         let ahead = placed.ahead + moved;
         if middle.left.abs() <= half_across + half_width && ahead - half_length <= farthest {
             let [near, far] = [ahead - half_length, ahead + half_length];
-            let before =
-                found.unwrap_or(Crossing { id: track.id, time: [t, t], ways: [near, far] });
+            let before = found.unwrap_or(Crossing { time: [t, t], ways: [near, far] });
             let ways = [before.ways[0].min(near), before.ways[1].max(far)];
-            found = Some(Crossing { time: [before.time[0], t], ways, ..before });
+            found = Some(Crossing { time: [before.time[0], t], ways });
         } else if found.is_some() {
             break;
         }

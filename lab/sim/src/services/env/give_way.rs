@@ -9,7 +9,7 @@ use mufasa::input::cycle::{Ego, Track};
 use crate::map::Town;
 use crate::map::route::{Conflict, Passage, Route, RouteKind};
 use crate::pose::{Point, Pose};
-use crate::services::tpl::settings::Settings;
+use crate::services::tpl::settings::ACCELERATION;
 
 /// Passages are looked at up to this way ahead of the front, m, and their others up to this way before the
 /// place where they meet us, and `ON_ROUTE` more.
@@ -47,8 +47,7 @@ impl Own<'_> {
 
     /// Time until the front has gone a way, accelerating, s.
     fn time_to(&self, way: f64) -> f64 {
-        let settings = Settings::default();
-        let (a, v) = (settings.acceleration, self.ego.speed);
+        let (a, v) = (ACCELERATION, self.ego.speed);
         let top = self.route.pace_at(self.front()).max(v).max(1.0);
         let speeding = (top * top - v * v) / (2.0 * a);
         if way < speeding {

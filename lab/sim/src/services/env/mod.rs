@@ -15,7 +15,7 @@ use crate::path::Path;
 use crate::pose::{Point, Pose};
 use crate::services::env::crossing::{half_sizes, will_cross};
 use crate::services::env::model::{Environment, Leading, Placed};
-use crate::services::way::{ahead_of, seconds};
+use crate::time::seconds;
 
 /// Who drives where, and when.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +38,6 @@ const RANGE_M: f64 = 90.0;
 const LEAD_MARGIN_M: f64 = 0.3;
 /// ... and for those that cross.
 const CROSSING_MARGIN_M: f64 = 0.5;
-/// Near the path: within this on each side, m.
-const NEAR_M: f64 = 6.0;
 /// Slower than this, m/s, an object stands.
 const STANDING_MPS: f64 = 0.5;
 /// Who comes towards us is looked for as far as `s_CAV` (`spec/3-stages.md#distances`), s at the present
@@ -63,7 +61,6 @@ pub fn environment(situation: &Situation<'_>, tracks: &TrackList<'_>) -> Environ
         s: own.s,
         left: own.left,
         aside,
-        objects: Vec::new(),
         lead: None,
         crossings: Vec::new(),
         stops: stops(situation, own.s),
@@ -84,9 +81,6 @@ impl Environment {
         let at = Point::new(track.x, track.y);
         let middle = path.project_within(at, self.s - RANGE_M, self.s + RANGE_M);
         let placed = placed(path, self.s, track, middle.s, middle.left);
-        if placed.left.abs() <= placed.half_width + ego.width / 2.0 + NEAR_M {
-            self.objects.push(placed);
-        }
         let front = ego.center_offset + ego.length / 2.0;
         let in_lane = ego.width / 2.0 + LEAD_MARGIN_M;
         let inside = placed.left.abs() <= placed.half_width + in_lane;
@@ -129,8 +123,7 @@ fn placed(path: &Path, from: f64, track: &Track, s: f64, left: f64) -> Placed {
     let Pose { cos, sin, .. } = path.pose_at(s);
     let [half_length, half_width] = half_sizes(path, track, s);
     Placed {
-        id: track.id,
-        ahead: ahead_of(path, from, s),
+        ahead: s - from,
         left,
         half_length,
         half_width,
@@ -139,15 +132,13 @@ fn placed(path: &Path, from: f64, track: &Track, s: f64, left: f64) -> Placed {
     }
 }
 
-/// Where to stop: what the map says, if it is ahead of the front, and the end of a path that ends.
+/// Where to stop: what the map says, if it is ahead of the front, and the end of the path.
 fn stops(situation: &Situation<'_>, s: f64) -> Vec<f64> {
     let Situation { ego, path, .. } = *situation;
     let front = ego.center_offset + ego.length / 2.0;
-    let ways = situation.stops.iter().map(|&stop| ahead_of(path, s, stop));
+    let ways = situation.stops.iter().map(|&stop| stop - s);
     let mut stops: Vec<f64> = ways.filter(|&way| way > front).collect();
-    if !path.is_closed() {
-        stops.push(path.length() - s);
-    }
+    stops.push(path.length() - s);
     stops.sort_by(f64::total_cmp);
     stops
 }

@@ -9,8 +9,6 @@ pub struct Environment {
     pub left: f64,
     /// Sine and cosine of the angle from the path's direction to its own.
     pub aside: (f64, f64),
-    /// Everything on or near the path.
-    pub objects: Vec<Placed>,
     /// The leading vehicle.
     pub lead: Option<Leading>,
     /// Those that are crossing the path or will be.
@@ -22,8 +20,6 @@ pub struct Environment {
 /// A track in coordinates of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed {
-    /// Id of the track.
-    pub id: i64,
     /// Way to its centre, m.
     pub ahead: f64,
     /// How far left of the path its centre is, m.
@@ -50,8 +46,6 @@ pub struct Leading {
 /// When and where somebody is in our way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Id of the track.
-    pub id: i64,
     /// First and last time that it is in the corridor, s from now; the last one is the horizon when it does
     /// not leave it before.
     pub time: [f64; 2],

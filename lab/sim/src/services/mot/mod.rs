@@ -15,49 +15,29 @@ use mufasa::input::cycle::{Detection, Track};
 use crate::pose::Point;
 use crate::services::mot::assignment::assigned;
 use crate::services::mot::kalman::Filter;
-use crate::services::way::seconds;
+use crate::time::seconds;
 
-/// What the tracker assumes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Standard deviation of a coordinate of a detection, m.
-    pub position_sigma: f64,
-    /// Standard deviation of the acceleration of an object along each axis, m/s^2.
-    pub acceleration_sigma: f64,
-    /// Standard deviation of the velocity of an object that was detected once, along each axis, m/s.
-    pub speed_sigma: f64,
-    /// Greatest square of the Mahalanobis distance between a detection and where it was expected.
-    pub gate: f64,
-    /// Detections that make a track, ...
-    pub birth_hits: u32,
-    /// ... among so many cycles in a row, at most 32.
-    pub birth_cycles: u32,
-    /// Cycles in a row without a detection after which a track ends.
-    pub death_misses: u32,
-    /// Greatest standard deviation of a coordinate, m: a track with more ends.
-    pub death_sigma: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            position_sigma: 0.06,
-            acceleration_sigma: 2.0,
-            speed_sigma: 10.0,
-            // Exceeded by one detection in 1000 (chi-squared, 2 degrees of freedom).
-            gate: 13.8,
-            birth_hits: 3,
-            birth_cycles: 5,
-            death_misses: 5,
-            death_sigma: 2.0,
-        }
-    }
-}
+/// Standard deviation of a coordinate of a detection, m.
+const POSITION_SIGMA: f64 = 0.06;
+/// Standard deviation of the acceleration of an object along each axis, m/s^2.
+const ACCELERATION_SIGMA: f64 = 2.0;
+/// Standard deviation of the velocity of an object that was detected once, along each axis, m/s.
+const SPEED_SIGMA: f64 = 10.0;
+/// Greatest square of the Mahalanobis distance between a detection and where it was expected: exceeded by one
+/// detection in 1000 (chi-squared, 2 degrees of freedom).
+const GATE: f64 = 13.8;
+/// Detections that make a track, ...
+const BIRTH_HITS: u32 = 3;
+/// ... among so many cycles in a row, at most 32.
+const BIRTH_CYCLES: u32 = 5;
+/// Cycles in a row without a detection after which a track ends.
+const DEATH_MISSES: u32 = 5;
+/// Greatest standard deviation of a coordinate, m: a track with more ends.
+const DEATH_SIGMA: f64 = 2.0;
 
 /// A tracker.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Tracker {
-    settings: Settings,
     /// Time of the last update, ns.
     stamp_ns: Option<i64>,
     objects: Vec<Object>,
@@ -84,11 +64,6 @@ struct Object {
 }
 
 impl Tracker {
-    /// A tracker without tracks.
-    pub const fn new(settings: Settings) -> Self {
-        Self { settings, stamp_ns: None, objects: Vec::new(), next_id: 0 }
-    }
-
     /// Forgets all tracks; ids go on.
     pub fn reset(&mut self) {
         self.objects.clear();
@@ -100,7 +75,7 @@ impl Tracker {
         let Some(dt) = self.elapsed(t_ns) else { return };
         self.stamp_ns = Some(t_ns);
         for object in &mut self.objects {
-            object.filter.predict(dt, self.settings.acceleration_sigma);
+            object.filter.predict(dt, ACCELERATION_SIGMA);
             (object.hits, object.age) = (object.hits << 1, object.age.saturating_add(1));
             object.misses = object.misses.saturating_add(1);
         }
@@ -110,11 +85,10 @@ impl Tracker {
         for born in [true, false] {
             self.assign(born, detections, &places, &mut free);
         }
-        let settings = self.settings;
-        self.objects.retain(|object| object.lives(&settings));
+        self.objects.retain(Object::lives);
         for index in free {
             if self.objects.len() < MOST_TRACKS {
-                self.objects.push(Object::new(&detections[index], &settings));
+                self.objects.push(Object::new(&detections[index]));
             }
         }
         self.name();
@@ -139,14 +113,14 @@ impl Tracker {
         places: &[Point],
         free: &mut BTreeSet<usize>,
     ) {
-        let sigma = self.settings.position_sigma;
         let mut chosen: Vec<&mut Object> =
             self.objects.iter_mut().filter(|object| object.id.is_some() == born).collect();
-        let expected: Vec<_> = chosen.iter().map(|object| object.filter.expected(sigma)).collect();
-        let found = assigned(&expected, places, free, self.settings.gate);
+        let expected: Vec<_> =
+            chosen.iter().map(|object| object.filter.expected(POSITION_SIGMA)).collect();
+        let found = assigned(&expected, places, free, GATE);
         for (object, index) in chosen.iter_mut().zip(found) {
             if let Some(index) = index {
-                object.detected(&detections[index], sigma);
+                object.detected(&detections[index]);
             }
         }
     }
@@ -158,7 +132,7 @@ impl Tracker {
             used[usize::from(id)] = true;
         }
         for object in &mut self.objects {
-            if object.id.is_none() && object.is_born(&self.settings) {
+            if object.id.is_none() && object.is_born() {
                 while used[usize::from(self.next_id)] {
                     self.next_id = self.next_id.wrapping_add(1);
                 }
@@ -179,11 +153,11 @@ const FORWARD_MPS: f64 = 3.0;
 const STANDING: f64 = 9.2;
 
 impl Object {
-    fn new(detection: &Detection, settings: &Settings) -> Self {
+    fn new(detection: &Detection) -> Self {
         let place = Point::new(detection.x, detection.y);
         Self {
             id: None,
-            filter: Filter::new(place, settings.position_sigma, settings.speed_sigma),
+            filter: Filter::new(place, POSITION_SIGMA, SPEED_SIGMA),
             heading: (detection.cos, detection.sin),
             size: [detection.length, detection.width],
             hits: 1,
@@ -192,21 +166,20 @@ impl Object {
         }
     }
 
-    fn is_born(&self, settings: &Settings) -> bool {
-        let cycles = 32_u32.saturating_sub(settings.birth_cycles);
-        (self.hits << cycles).count_ones() >= settings.birth_hits
+    fn is_born(&self) -> bool {
+        (self.hits << (32 - BIRTH_CYCLES)).count_ones() >= BIRTH_HITS
     }
 
-    fn lives(&self, settings: &Settings) -> bool {
-        let sharp = self.filter.position_sigma() <= settings.death_sigma;
+    fn lives(&self) -> bool {
+        let sharp = self.filter.position_sigma() <= DEATH_SIGMA;
         if self.id.is_some() {
-            return sharp && self.misses < settings.death_misses;
+            return sharp && self.misses < DEATH_MISSES;
         }
-        self.is_born(settings) || self.age < settings.birth_cycles
+        self.is_born() || self.age < BIRTH_CYCLES
     }
 
-    fn detected(&mut self, detection: &Detection, sigma: f64) {
-        self.filter.update(Point::new(detection.x, detection.y), sigma);
+    fn detected(&mut self, detection: &Detection) {
+        self.filter.update(Point::new(detection.x, detection.y), POSITION_SIGMA);
         (self.hits, self.misses) = (self.hits | 1, 0);
         let mean = |old: f64, new: f64, gain: f64| old + gain * (new - old);
         // The direction comes from detections: a velocity lags, and points aside in turns. But it tells front

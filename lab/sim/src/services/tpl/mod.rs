@@ -14,7 +14,6 @@ use mufasa::input::cycle::{Ego, TrajectoryPoint};
 use crate::path::Path;
 use crate::services::env::model::Environment;
 use crate::services::tpl::profile::speed_profile;
-use crate::services::tpl::settings::Settings;
 
 /// Time between two points, ns.
 pub const STEP_NS: i64 = 100_000_000;
@@ -27,9 +26,8 @@ pub fn trajectory(
     path: &Path,
     environment: &Environment,
     limit: &impl Fn(f64) -> f64,
-    settings: &Settings,
 ) -> Vec<TrajectoryPoint> {
-    let ways = speed_profile(ego, path, environment, limit, settings);
+    let ways = speed_profile(ego, path, environment, limit);
     let back = Return::new(environment, ego.speed);
     let point = |(index, way): (i64, f64)| {
         let t_ns = now_ns + index * STEP_NS;

@@ -1,46 +1,21 @@
 //! Numbers of the planner.
 
-use crate::vehicle::A_B;
-
-/// What the planner wants.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Greatest speed, m/s.
-    pub speed: f64,
-    /// Greatest acceleration across, m/s^2.
-    pub lateral: f64,
-    /// Acceleration, m/s^2.
-    pub acceleration: f64,
-    /// Comfortable deceleration, m/s^2.
-    pub braking: f64,
-    /// Greatest deceleration, m/s^2.
-    pub a_b: f64,
-    /// Distance to a standing leading vehicle, m.
-    pub standing_gap: f64,
-    /// Time gap to the leading vehicle, s, above the 1.8 s of `s_follow`.
-    pub headway: f64,
-    /// Distance between the front and where to stop, m.
-    pub stop_margin: f64,
-    /// Distance kept to who crosses, m, and time before and after it, s.
-    pub crossing: (f64, f64),
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            speed: 13.9,
-            lateral: 2.5,
-            acceleration: 1.5,
-            braking: 2.5,
-            a_b: A_B,
-            standing_gap: 3.0,
-            headway: 2.0,
-            stop_margin: 1.0,
-            crossing: (2.0, 0.7),
-        }
-    }
-}
-
+/// Greatest speed, m/s.
+pub const SPEED: f64 = 13.9;
+/// Greatest acceleration across, m/s^2.
+pub const LATERAL: f64 = 2.5;
+/// Acceleration, m/s^2.
+pub const ACCELERATION: f64 = 1.5;
+/// Comfortable deceleration, m/s^2.
+pub const BRAKING: f64 = 2.5;
+/// Distance to a standing leading vehicle, m.
+pub const STANDING_GAP: f64 = 3.0;
+/// Time gap to the leading vehicle, s, above the 1.8 s of `s_follow`.
+pub const HEADWAY: f64 = 2.0;
+/// Distance between the front and where to stop, m.
+pub const STOP_MARGIN: f64 = 1.0;
+/// Distance kept to who crosses, m, and time before and after it, s.
+pub const CROSSING: (f64, f64) = (2.0, 0.7);
 /// Points of a trajectory: 5 s.
 pub const POINTS: usize = 51;
 /// Seconds between two points.
